@@ -1,0 +1,1 @@
+"""What the energy is. UFL only: no mesh, no solver, no numbers."""

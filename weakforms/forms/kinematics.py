@@ -1,0 +1,46 @@
+"""Axisymmetric membrane kinematics: stretches of a surface of revolution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ufl import sqrt
+from ufl.core.expr import Expr
+
+
+@dataclass(frozen=True)
+class Stretches:
+    """Principal stretches of an axisymmetric membrane and the meridian's slope."""
+
+    lam1: Expr
+    """Meridional stretch."""
+    lam2: Expr
+    """Circumferential stretch."""
+    cos_beta: Expr
+    """Axial component of the unit tangent of the deformed meridian."""
+    sin_beta: Expr
+    """Radial component of the unit tangent of the deformed meridian."""
+
+
+def tube_stretches(rho: Expr, eta: Expr, delta1: Expr) -> Stretches:
+    r"""Stretches of a cylinder stretched axially by ``delta1`` in uniaxial tension, then inflated.
+
+    .. math:: \lambda_1 = \delta_1\sqrt{\rho_{,Z}^2 + \eta_{,Z}^2}, \qquad
+              \lambda_2 = \rho/\sqrt{\delta_1}
+
+    ``Z = delta1 z`` runs over the stretched length, ``z`` over the unstretched one; all lengths are
+    divided by the disk radius ``R_f = R_o/sqrt(delta1)``, hence the reference radius
+    ``r0 = sqrt(delta1)`` (Patil, Nordmark & Eriksson 2014, section 2).
+
+    Args:
+        rho: Deformed radius over ``Z``.
+        eta: Deformed axial position over ``Z``.
+        delta1: Axial pre-stretch.
+    """
+    arc = sqrt(rho.dx(0) ** 2 + eta.dx(0) ** 2)
+    return Stretches(
+        lam1=delta1 * arc,
+        lam2=rho / sqrt(delta1),
+        cos_beta=eta.dx(0) / arc,
+        sin_beta=rho.dx(0) / arc,
+    )

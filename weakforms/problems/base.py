@@ -1,0 +1,138 @@
+"""What every problem offers: parameters with ranges, and a solve that answers requests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+from mpi4py import MPI
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from weakforms.errors import InputError
+from weakforms.results import Result
+
+
+class Parameters(BaseModel):
+    """Parameters of a problem: names, defaults, ranges; nothing unknown, no NaN, immutable."""
+
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True
+    )
+
+
+class Numerics(Parameters):
+    """How a problem is discretised; the defaults are what the accuracy statements were made with."""
+
+    degree: int
+    cells: int
+    levels: int = 3
+
+
+@dataclass(frozen=True)
+class StateRequest:
+    """A state wanted: a column at a value, on which branch, at which crossing, with which profile."""
+
+    name: str
+    value: float
+    crossing: int = 1
+    branch: str = "primary"
+    profile: tuple[float, ...] | None = None
+    """Points at which fields are sampled; ``None`` for none, empty for the problem's own choice."""
+
+
+@dataclass(frozen=True)
+class Requests:
+    """All that is wanted of one solve."""
+
+    states: tuple[StateRequest, ...] = ()
+    branch_uncertainty: bool = True
+    """Whether every point of the trace gets an uncertainty (costs a solve a mesh and point)."""
+
+
+Progress = Callable[[str, int, int], None]
+"""Called with what is being done, how much of it is done, and how much there is."""
+
+
+def silent(_what: str, _done: int, _total: int) -> None:
+    """No progress wanted."""
+
+
+class Problem(Protocol):
+    """A physical problem of the papers."""
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    paper: ClassVar[int]
+    source: ClassVar[str]
+    energy: ClassVar[str]
+    """The functional, as text for people."""
+    scales: ClassVar[dict[str, str]]
+    """Scaling of every column and parameter."""
+    parameters: ClassVar[type[Parameters]]
+    numerics: ClassVar[type[Numerics]]
+    special_points: ClassVar[tuple[str, ...]]
+    columns: ClassVar[tuple[str, ...]]
+
+    def solve(
+        self,
+        parameters: Any,
+        numerics: Any,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Solve and answer the requests."""
+
+
+@dataclass
+class Registry:
+    """Problems by name."""
+
+    problems: dict[str, Problem] = field(default_factory=dict)
+
+    def add(self, problem: Problem) -> Problem:
+        """Register one."""
+        self.problems[problem.name] = problem
+        return problem
+
+    def get(self, name: str) -> Problem:
+        """The problem of that name.
+
+        Raises:
+            InputError: When there is none.
+        """
+        if name not in self.problems:
+            known = ", ".join(self.problems)
+            raise InputError(f"unknown problem {name!r}; the problems are {known}")
+        return self.problems[name]
+
+
+registry = Registry()
+
+
+def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
+    """Parameters from names and values.
+
+    Raises:
+        InputError: One line naming each offending parameter, its value and what is allowed.
+    """
+    unknown = sorted(set(given) - set(model.model_fields))
+    if unknown:
+        known = ", ".join(model.model_fields)
+        raise InputError(f"{what} has no parameter {unknown[0]!r}; it has {known}")
+    try:
+        return model(**given)
+    except ValidationError as error:
+        parts = []
+        for item in error.errors():
+            name = ".".join(str(part) for part in item["loc"]) or "parameters"
+            message = item["msg"][0].lower() + item["msg"][1:]
+            parts.append(f"{name} = {item['input']!r}: {message}")
+        raise InputError(f"{what}: " + "; ".join(parts)) from error
+
+
+def finite_points(points: tuple[float, ...], default: np.ndarray) -> np.ndarray:
+    """Sorted sample points of a request, or the default ones where it leaves the choice."""
+    return np.unique(np.asarray(points, dtype=float)) if points else default

@@ -1,0 +1,176 @@
+"""Paper 2: inflation of a pre-stretched cylindrical membrane held by two rigid disks.
+
+Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282. Lengths are divided by the disk radius
+``R_f = R_o/sqrt(delta1)``, stresses by ``C1 h_o``; ``Z = delta1 z`` in ``[0, l_f/2]`` is measured from the
+mid-plane on the axially stretched tube.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+
+import basix.ufl
+import ufl
+from dolfinx import fem
+
+from weakforms.forms.kinematics import Stretches, tube_stretches
+from weakforms.forms.loads import enclosed_volume, gas_potential
+from weakforms.forms.materials import mooney_rivlin, stress_resultants
+from weakforms.problems.meshes import graded_interval, tag_points
+from weakforms.solvers.branch import EquilibriumBranch, FoldLine
+from weakforms.solvers.constraints import Fold, Held
+from weakforms.solvers.continuation import Continuation, StepControl
+from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.system import Formulation, State, System
+
+MIDPLANE, DISK, FAR_DISK = 1, 2, 3
+
+WALK_FROM = 1.3
+"""Pre-stretch at which the walk to a first state begins. At ``delta1 = 1`` and ``p = 0`` the tube is slack
+(its tangent singular), and a guess of one's own may converge to a folded state."""
+
+FIRST_U = 0.02
+"""Mid-plane displacement of the first state."""
+
+
+@dataclass(frozen=True)
+class TubeMesh:
+    """One mesh of the tube: cells on half the length, polynomial degree, grading towards the disks."""
+
+    cells: int
+    degree: int
+    grading: float
+    full: bool = False
+
+
+def potential(rho: fem.Function, eta: fem.Function, p: object, alpha: object, delta1: object) -> object:
+    r"""Total potential per meridian coordinate ``Z`` and per :math:`2\pi C_1 h_o R_f^2`.
+
+    .. math:: \Pi/2\pi = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
+              - \frac p2 \rho^2 \eta_{,Z} \Big] \mathrm{d}Z
+
+    (equation 8 of the paper without substrate; ``r0 dz = dZ/sqrt(delta1)``).
+    """
+    stretches = tube_stretches(rho, eta, delta1)
+    energy = mooney_rivlin(stretches.lam1, stretches.lam2, alpha)
+    return energy / ufl.sqrt(delta1) + gas_potential(rho, eta, p)
+
+
+def formulation(
+    comm: MPI.Intracomm, alpha: float, delta1: float, lf: float, at: TubeMesh
+) -> Formulation:
+    """Weak form of free inflation, with the pressure and the pre-stretch as loads."""
+    half = lf / 2
+    mesh = graded_interval(comm, at.cells, half, at.grading, mirrored=at.full)
+    space = fem.functionspace(
+        mesh, basix.ufl.element("Lagrange", "interval", at.degree, shape=(2,))
+    )
+    unknown = fem.Function(space, name="tube")
+    unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), x[0]]))
+    rho, eta = unknown
+    constants = {name: fem.Constant(mesh, value) for name, value in
+                 (("p", 0.0), ("delta1", delta1), ("alpha", alpha))}
+    loads = {name: (constants[name], ufl.variable(constants[name])) for name in ("p", "delta1")}
+    p, d1 = (variable for _, variable in loads.values())
+
+    dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 2 * at.degree + 2})
+    energy = potential(rho, eta, p, constants["alpha"], d1) * dx
+    stretches = tube_stretches(rho, eta, d1)
+    t1, t2 = stress_resultants(
+        lambda l1, l2: mooney_rivlin(l1, l2, constants["alpha"]), stretches.lam1, stretches.lam2
+    )
+    middle = _midplane(mesh, at.full)
+    return Formulation(
+        unknown=unknown,
+        residual=ufl.derivative(energy, unknown, ufl.TestFunction(space)),
+        loads=loads,
+        bcs=_clamps(space, half, at.full),
+        mass=ufl.inner(ufl.TrialFunction(space), ufl.TestFunction(space)) * dx,
+        monitors={
+            "u_max": middle(rho - 1),
+            "lam1_mid": middle(stretches.lam1),
+            "t1_mid": middle(t1),
+            "V": enclosed_volume(rho, eta) * dx,
+            "Pi": energy,
+        },
+        profile=_profile(rho, eta, stretches, t1, t2),
+    )
+
+
+def _profile(rho: object, eta: object, stretches: Stretches, t1: object, t2: object) -> dict:
+    return {
+        "rho": rho,
+        "eta": eta,
+        "lam1": stretches.lam1,
+        "lam2": stretches.lam2,
+        "t1": t1,
+        "t2": t2,
+    }
+
+
+def _midplane(mesh: object, full: bool) -> object:
+    """Point evaluation at ``Z = 0`` as a form: every rank gets it by the same reduction as an integral."""
+    tags = tag_points(mesh, {MIDPLANE: 0.0})
+    if full:
+        inner = ufl.Measure("dS", mesh, subdomain_data=tags)
+        return lambda value: ufl.avg(value) * inner(MIDPLANE)
+    outer = ufl.Measure("ds", mesh, subdomain_data=tags)
+    return lambda value: value * outer(MIDPLANE)
+
+
+def _clamps(space: fem.FunctionSpace, half: float, full: bool) -> list[fem.DirichletBC]:
+    """Disks at ``rho = 1, eta = ±l_f/2``; on the half tube ``eta = 0`` at the mid-plane by symmetry."""
+    mesh = space.mesh
+    tags = tag_points(mesh, {MIDPLANE: 0.0, DISK: half, FAR_DISK: -half})
+
+    def fixed(tag: int, axial: float) -> fem.DirichletBC:
+        dofs = fem.locate_dofs_topological(space, 0, tags.find(tag))
+        return fem.dirichletbc(np.array([1.0, axial]), dofs, space)
+
+    if full:
+        return [fixed(DISK, half), fixed(FAR_DISK, -half)]
+    dofs = fem.locate_dofs_topological(space.sub(1), 0, tags.find(MIDPLANE))
+    return [fixed(DISK, half), fem.dirichletbc(np.array(0.0), dofs, space.sub(1))]
+
+
+def first_state(solver: ExtendedNewton, delta1: float) -> State:
+    """A slightly inflated state of the tube, reached by walking down from a taut one."""
+    state = solver.system.state()
+    inflated = Held("u_max", FIRST_U)
+    for stretch in np.linspace(max(delta1, WALK_FROM), delta1, 7 if delta1 < WALK_FROM else 1):
+        state.loads["delta1"] = float(stretch)
+        state, _ = solver.solve(state, [inflated])
+    return state
+
+
+def free_branch(system: System, delta1: float, u_end: float, step: float) -> EquilibriumBranch:
+    """Free inflation at fixed pre-stretch: from ``u_max = 0.02`` by arc-length to ``u_max = u_end``."""
+    solver = ExtendedNewton(system, ["p"])
+    continuation = Continuation(solver, control=StepControl(first=step / 4, largest=step))
+    state = first_state(solver, delta1)
+    start = continuation.start(state, Held("u_max", FIRST_U), towards={"u_max": 1.0})
+    return EquilibriumBranch(
+        continuation, "p", start, stop=lambda point: point.monitors["u_max"] > u_end
+    )
+
+
+def fold_line(branch: EquilibriumBranch, delta1_end: float, step: float) -> FoldLine:
+    """The first limit point of a branch followed in ``delta1``, until it returns or reaches an end."""
+    begin = branch.special()[0].state
+    middle = branch.points[int(branch.turns()[0])]
+    fold = Fold("p", branch.system.mass_times(middle.tangent.u))
+    solver = ExtendedNewton(branch.system, ["p", "delta1"])
+    low = begin.loads["delta1"]
+    continuation = Continuation(
+        solver, [fold], StepControl(first=step / 4, largest=step), shift=1e-6
+    )
+    start = continuation.start(begin, Held("delta1", low), towards={"delta1": 1.0})
+    return FoldLine(
+        continuation,
+        "delta1",
+        start,
+        stop=lambda point: not low < point.state.loads["delta1"] < delta1_end,
+    )

@@ -1,0 +1,26 @@
+"""What came out: branches, special points, states and fields, in and out of JSON and CSV. numpy only."""
+
+from weakforms.results.io import load_result, read_curve, validate, write_atomically
+from weakforms.results.model import (
+    Branch,
+    Failure,
+    Field,
+    Quantity,
+    Result,
+    SpecialPoint,
+    State,
+)
+
+__all__ = [
+    "Branch",
+    "Failure",
+    "Field",
+    "Quantity",
+    "Result",
+    "SpecialPoint",
+    "State",
+    "load_result",
+    "read_curve",
+    "validate",
+    "write_atomically",
+]

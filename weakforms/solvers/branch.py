@@ -1,0 +1,231 @@
+"""A solution curve on one mesh: traced, its special points located, any of its states solved for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from scipy.optimize import brentq
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.solvers.constraints import Fold, Held, MonitorPlane
+from weakforms.solvers.continuation import Continuation, CurvePoint, hermite
+from weakforms.solvers.newton import Constraint
+from weakforms.solvers.system import State
+
+DIAGNOSTICS = ("n_negative", "residual", "iterations")
+"""Columns that describe the solve: they can be read, not prescribed."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A state solved for on a branch: its columns and its degrees of freedom."""
+
+    values: dict[str, float]
+    state: State
+
+
+class SolutionCurve:
+    """A one-dimensional set of solutions from a start to an end.
+
+    Args:
+        continuation: Follows the curve.
+        control: The load the curve is drawn over and turns in.
+        start: First point.
+        stop: True at the last point wanted.
+
+    Attributes:
+        points: The converged points in order.
+        stalled: Why the trace ended early; ``None`` if it did not.
+    """
+
+    def __init__(
+        self,
+        continuation: Continuation,
+        control: str,
+        start: CurvePoint,
+        stop: Callable[[CurvePoint], bool],
+    ) -> None:
+        self.continuation = continuation
+        self.solver, self.system = continuation.solver, continuation.system
+        self.control = control
+        self.loads = continuation.solver.scalars
+        self.points: list[CurvePoint] = []
+        self.stalled: str | None = None
+        try:
+            for point in continuation.trace(start, stop):
+                self.points.append(point)
+        except ConvergenceError as error:
+            self.stalled = str(error)
+
+    # -- columns -----------------------------------------------------------------------------
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """Every column over the points of the trace."""
+        points = self.points
+        out = {name: np.array([p.state.loads[name] for p in points]) for name in self.loads}
+        for name in points[0].monitors:
+            out[name] = np.array([p.monitors[name] for p in points])
+        out["n_negative"] = np.array([p.n_negative for p in points])
+        out["residual"] = np.array([p.record.norms[-1] for p in points])
+        out["iterations"] = np.array([p.record.iterations for p in points])
+        return out
+
+    def _values(self, state: State) -> dict[str, float]:
+        """Columns of a state the system holds."""
+        return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
+
+    # -- states on demand --------------------------------------------------------------------
+
+    def at(self, name: str, value: float, crossing: int = 1) -> Solved:
+        """The state at which a column takes a value, at its ``crossing``-th crossing along the branch.
+
+        Raises:
+            InputError: When the column cannot be prescribed or never takes the value that often.
+            ConvergenceError: When the state was bracketed but not converged to.
+        """
+        columns = self.columns()
+        if name in DIAGNOSTICS or name not in columns:
+            known = ", ".join(key for key in columns if key not in DIAGNOSTICS)
+            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
+        distance = columns[name] - value
+        # A point that has the value exactly counts with the interval before it.
+        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
+        if distance[0] == 0:
+            hits = np.concatenate([[0], hits])
+        if len(hits) < crossing:
+            low, high = columns[name].min(), columns[name].max()
+            raise InputError(
+                f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
+                f"{name} ranges over [{low:.6g}, {high:.6g}]"
+            )
+        i = int(hits[crossing - 1])
+        span = distance[i] - distance[i + 1]
+        solved = self._solve(self._between(i, distance[i] / span), Held(name, value))
+        self._require_within(i, solved, f"state at {name} = {value:g}")
+        return solved
+
+    def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
+        """The state of this mesh that lies across the branch from a point of another mesh.
+
+        Args:
+            like: The other mesh's point.
+            rates: Direction of that branch in some columns; fixes the line across it.
+            near: Its arclength there as a fraction of this branch's.
+        """
+        target = sum(rate * self._column(like, name) for name, rate in rates.items())
+        places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
+        arclengths = np.array([p.arclength for p in self.points])
+        hits = np.flatnonzero((places[:-1] - target) * (places[1:] - target) <= 0)
+        middle = (arclengths[:-1] + arclengths[1:]) / 2
+        if not len(hits):
+            hits = np.array([int(np.argmin(np.abs(places[:-1] - target)))])
+        i = int(hits[np.argmin(np.abs(middle[hits] - near * arclengths[-1]))])
+        span = places[i + 1] - places[i]
+        guess = self._between(i, (target - places[i]) / span if span else 0.5)
+        return self._solve(guess, MonitorPlane(rates, target))
+
+    def _column(self, point: CurvePoint, name: str) -> float:
+        return point.state.loads[name] if name in self.loads else point.monitors[name]
+
+    def _solve(self, guess: State, constraint: Constraint) -> Solved:
+        state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
+        return Solved(self._values(state), state)
+
+    def _between(self, i: int, fraction: float) -> State:
+        """Cubic interpolation between two neighbours of the trace."""
+        a, b = self.points[i], self.points[i + 1]
+        h, (v0, s0, v1, s1) = b.arclength - a.arclength, hermite(fraction)
+        u = v0 * a.state.u + s0 * h * a.tangent.u + v1 * b.state.u + s1 * h * b.tangent.u
+        loads = {
+            name: v0 * a.state.loads[name]
+            + v1 * b.state.loads[name]
+            + h * (s0 * a.tangent.loads[name] + s1 * b.tangent.loads[name])
+            for name in self.loads
+        }
+        return State(u, {**a.state.loads, **loads})
+
+    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+        """Refuse a solution that Newton's method found somewhere else than between its brackets."""
+        a, b = self.points[i], self.points[i + 1]
+        length = b.arclength - a.arclength
+        for end in (a, b):
+            gap = self.continuation.distance(solved.state, end.state)
+            if gap > 1.2 * length:
+                raise ConvergenceError(f"{what}: converged {gap:.2g} away from where it was bracketed")
+
+    def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
+        """Rates of some columns along the branch at a point of the trace."""
+        self.system.set_state(point.state.u, point.state.loads)
+        return {name: self.continuation.rate(name, point.tangent) for name in names}
+
+    def turns(self) -> np.ndarray:
+        """Indices of the points after which the control changes direction."""
+        rates = np.array([p.tangent.loads[self.control] for p in self.points])
+        return np.flatnonzero(rates[:-1] * rates[1:] < 0)
+
+    def _turn_guess(self, i: int) -> State:
+        ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
+        return self._between(i, ra / (ra - rb))
+
+
+class EquilibriumBranch(SolutionCurve):
+    """Solutions of ``R(U; λ) = 0`` in one load ``λ``."""
+
+    kind = "limit_point"
+
+    def special(self) -> list[Solved]:
+        """Limit points in order, each located by the extended system of :class:`Fold`.
+
+        Bracketed where ``dλ/ds`` changes sign, which must also be where the inertia changes.
+
+        Raises:
+            ConvergenceError: When the two disagree, or the extended system does not converge in between.
+        """
+        turns = self.turns()
+        changes = np.flatnonzero(np.diff([p.n_negative for p in self.points]))
+        if not np.array_equal(turns, changes):
+            raise ConvergenceError(
+                f"folds by slope (after points {turns.tolist()}) and by inertia "
+                f"(after points {changes.tolist()}) disagree"
+            )
+        return [self._fold(int(i)) for i in turns]
+
+    def _fold(self, i: int) -> Solved:
+        a, b = self.points[i], self.points[i + 1]
+        border = self.system.mass_times(a.tangent.u + b.tangent.u)
+        solved = self._solve(self._turn_guess(i), Fold(self.control, border))
+        self._require_within(i, solved, f"limit point of {self.control}")
+        return solved
+
+
+class FoldLine(SolutionCurve):
+    """Limit points in one load followed in a second one, the control."""
+
+    kind = "cusp_point"
+
+    def special(self) -> list[Solved]:
+        """Cusps in order: where the two folds that bound an unstable stretch merge.
+
+        Bracketed where the control turns; located as the root of the fold's curvature
+        (:meth:`Fold.curvature`) over planes across the line.
+        """
+        return [self._cusp(int(i)) for i in self.turns()]
+
+    def _cusp(self, i: int) -> Solved:
+        a = self.points[i]
+        (fold,) = self.continuation.fixed
+        last: list[Solved] = []
+
+        def curvature(fraction: float) -> float:
+            guess = self._between(i, fraction)
+            plane = self.continuation.plane(guess, a.tangent)
+            last.append(self._solve(guess, plane))
+            return fold.curvature(self.solver)
+
+        brentq(curvature, 0.0, 1.0, xtol=1e-12, rtol=1e-12)
+        solved = last[-1]
+        self._require_within(i, solved, f"cusp in {self.control}")
+        return solved

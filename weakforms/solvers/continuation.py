@@ -1,0 +1,231 @@
+"""Pseudo-arclength continuation of the solutions of a system with scalar unknowns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.constraints import Plane
+from weakforms.solvers.newton import Constraint, ExtendedNewton, SolveRecord
+from weakforms.solvers.system import State
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """Direction of a curve, of unit length in the mass norm of ``U`` and the absolute value of loads."""
+
+    u: np.ndarray
+    loads: dict[str, float]
+
+
+@dataclass
+class CurvePoint:
+    """A converged point of a curve, with the curve's direction and the inertia of ``K`` there."""
+
+    state: State
+    tangent: Tangent
+    arclength: float
+    n_negative: int
+    record: SolveRecord
+    monitors: dict[str, float]
+
+
+@dataclass(frozen=True)
+class StepControl:
+    """Lengths of arc-length steps, and what makes them change."""
+
+    first: float = 0.05
+    largest: float = 0.1
+    smallest: float = 1e-7
+    predictor_error: float = 2e-3
+    """Distance of predictor and solution aimed at; cubic extrapolation makes it ~ step⁴."""
+    max_turn: float = 0.85
+    """Cosine of the turn within a step below which the step is repeated shorter (a jump of branch)."""
+    max_points: int = 3000
+
+
+class Continuation:
+    """Follows ``R(U, λ) = 0`` plus ``m - 1`` fixed constraints along its one-dimensional solution curve.
+
+    Two factorisations a step: one at the predictor, kept for all Newton iterations of the step, and one at
+    the solution, which gives tangent and inertia.
+
+    Args:
+        solver: Newton solver whose ``m`` scalars are the unknown loads.
+        fixed: Constraints that hold all along (a fold, for a fold line).
+        control: Step lengths.
+        shift: Inertia is counted of ``K + shift M``: on a fold line, where ``K`` is singular by definition,
+            a small shift leaves the critical eigenvalue out of the count.
+    """
+
+    def __init__(
+        self,
+        solver: ExtendedNewton,
+        fixed: Sequence[Constraint] = (),
+        control: StepControl | None = None,
+        shift: float = 0.0,
+    ) -> None:
+        self.solver, self.system = solver, solver.system
+        self.shift = shift
+        self.fixed = tuple(fixed)
+        self.control = control or StepControl()
+
+    # -- geometry in (U, λ) ------------------------------------------------------------------
+
+    def _norm(self, u: np.ndarray, loads: dict[str, float]) -> float:
+        square = self.system.dot(u, self.system.mass_times(u))
+        return float(np.sqrt(square + sum(v * v for v in loads.values())))
+
+    def distance(self, a: State, b: State) -> float:
+        """Length of the chord between two states."""
+        return self._norm(*self._difference(a, b))
+
+    def _difference(self, a: State, b: State) -> tuple[np.ndarray, dict[str, float]]:
+        return a.u - b.u, {name: a.loads[name] - b.loads[name] for name in self.solver.scalars}
+
+    def _inner(self, a: Tangent, b: Tangent) -> float:
+        loads = sum(a.loads[name] * b.loads[name] for name in self.solver.scalars)
+        return self.system.dot(a.u, self.system.mass_times(b.u)) + loads
+
+    def plane(self, through: State, tangent: Tangent, offset: float = 0.0) -> Plane:
+        """Plane across the curve at a distance along its tangent."""
+        row = self.system.mass_times(tangent.u)
+        weights = tangent.loads
+        target = self.system.dot(row, through.u)
+        target += sum(w * through.loads[name] for name, w in weights.items()) + offset
+        return Plane(row, weights, target)
+
+    def _tangent(self, along: Tangent) -> Tangent:
+        """Direction at the state the system holds (factorised), oriented as ``along``."""
+        plane = Plane(self.system.mass_times(along.u), along.loads, 0.0)
+        bordered = self.solver.border([*self.fixed, plane])
+        goal = np.zeros(len(self.solver.scalars))
+        goal[-1] = 1.0
+        u, values = bordered.solve(np.zeros(self.system.size), goal)
+        loads = dict(zip(self.solver.scalars, values.tolist(), strict=True))
+        length = self._norm(u, loads)
+        return Tangent(u / length, {name: v / length for name, v in loads.items()})
+
+    # -- stepping ----------------------------------------------------------------------------
+
+    def point(self, state: State, record: SolveRecord, along: Tangent, s: float) -> CurvePoint:
+        """Complete a converged state: tangent, inertia, functionals."""
+        self.system.set_state(state.u, state.loads)
+        self.solver.factor.update()
+        negative = self._negative_count()
+        tangent = self._tangent(along)
+        return CurvePoint(state, tangent, s, negative, record, self.system.monitors())
+
+    def _negative_count(self) -> int:
+        factor = self.solver.factor
+        if not self.shift:
+            return factor.negative_count()
+        self.system.matrix.axpy(self.shift, self.system.mass)
+        factor.refactor()
+        negative = factor.negative_count()
+        factor.update()
+        return negative
+
+    def start(self, guess: State, constraint: Constraint, towards: dict[str, float]) -> CurvePoint:
+        """First point of a curve: solved with ``constraint`` in place of an arc-length step.
+
+        Args:
+            guess: Initial guess.
+            constraint: What selects the point, such as a functional held.
+            towards: Sign wanted for the change of one functional or load along the curve.
+        """
+        state, record = self.solver.solve(guess, [*self.fixed, constraint])
+        self.system.set_state(state.u, state.loads)
+        self.solver.factor.update()
+        bordered = self.solver.border([*self.fixed, constraint])
+        goal = np.zeros(len(self.solver.scalars))
+        goal[-1] = 1.0
+        u, values = bordered.solve(np.zeros(self.system.size), goal)
+        loads = dict(zip(self.solver.scalars, values.tolist(), strict=True))
+        (name, sign), *_ = towards.items()
+        length = self._norm(u, loads)
+        rate = self.rate(name, Tangent(u, loads))
+        factor = np.sign(rate) * np.sign(sign) / length
+        along = Tangent(u * factor, {key: v * factor for key, v in loads.items()})
+        return self.point(state, record, along, 0.0)
+
+    def rate(self, name: str, tangent: Tangent) -> float:
+        """Derivative of a functional or load along a direction at the state the system holds."""
+        if name in tangent.loads:
+            return tangent.loads[name]
+        row, rates = self.system.monitor_gradient(name)
+        loads = sum(rates.get(key, 0.0) * v for key, v in tangent.loads.items())
+        return self.system.dot(row, tangent.u) + loads
+
+    def predict(self, before: CurvePoint | None, at: CurvePoint, step: float) -> State:
+        """Extrapolate: cubic through two points with their tangents, linear from the first point."""
+        if before is None:
+            return _combine(self.solver.scalars, [(1.0, at.state), (step, at.tangent)])
+        h = at.arclength - before.arclength
+        x = 1.0 + step / h
+        terms = hermite(x)
+        parts = [before.state, before.tangent, at.state, at.tangent]
+        weights = [terms[0], terms[1] * h, terms[2], terms[3] * h]
+        return _combine(self.solver.scalars, list(zip(weights, parts, strict=True)))
+
+    def advance(self, before: CurvePoint | None, at: CurvePoint, step: float) -> CurvePoint:
+        """One step of given length.
+
+        Raises:
+            ConvergenceError: When it does not converge, or turns too sharply to be the same curve.
+        """
+        guess = self.predict(before, at, step)
+        plane = self.plane(at.state, at.tangent, step)
+        state, record = self.solver.solve(guess, [*self.fixed, plane], chord=not self.fixed)
+        chord = self.distance(state, at.state)
+        new = self.point(state, record, at.tangent, at.arclength + chord)
+        if self._inner(new.tangent, at.tangent) < self.control.max_turn:
+            raise ConvergenceError("the curve turns too sharply within a step")
+        self._error = self.distance(state, guess)
+        return new
+
+    def trace(self, start: CurvePoint, stop: Callable[[CurvePoint], bool]) -> Iterator[CurvePoint]:
+        """Yield ``start`` and the points after it, up to the first for which ``stop`` is true.
+
+        Raises:
+            ConvergenceError: When even the smallest step fails; all points up to there were yielded.
+        """
+        control = self.control
+        before, at, step = None, start, control.first
+        yield start
+        for _ in range(control.max_points):
+            try:
+                new = self.advance(before, at, step)
+            except ConvergenceError as error:
+                step /= 2
+                if step < control.smallest:
+                    raise ConvergenceError(f"continuation stalled: {error}") from error
+                continue
+            yield new
+            if stop(new):
+                return
+            order = 2 if before is None else 4
+            grow = (control.predictor_error / max(self._error, 1e-16)) ** (1 / order)
+            before, at = at, new
+            step = min(step * float(np.clip(grow, 0.4, 1.8)), control.largest)
+        raise ConvergenceError(f"continuation did not end within {control.max_points} points")
+
+
+def hermite(x: float) -> tuple[float, float, float, float]:
+    """Cubic Hermite basis on [0, 1]: value and slope at 0, value and slope at 1."""
+    return (
+        (1 + 2 * x) * (1 - x) ** 2,
+        x * (1 - x) ** 2,
+        x * x * (3 - 2 * x),
+        x * x * (x - 1),
+    )
+
+
+def _combine(scalars: Sequence[str], terms: list[tuple[float, State | Tangent]]) -> State:
+    u = sum(weight * part.u for weight, part in terms)
+    loads = {name: float(sum(w * part.loads[name] for w, part in terms)) for name in scalars}
+    first = next(part for _, part in terms if isinstance(part, State))
+    return State(u, {**first.loads, **loads})

@@ -1,0 +1,174 @@
+"""The same branch on a family of meshes: numbers with their uncertainties."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
+from weakforms.solvers.refinement import Estimate, estimate
+from weakforms.solvers.sampling import Sampler
+from weakforms.solvers.stability import Stability
+
+
+class BranchFamily:
+    """A branch traced on meshes from coarse to fine.
+
+    Every number reported is the finest mesh's, with the uncertainty the others give it.
+
+    Args:
+        make: Builds the branch on the mesh of a level.
+        levels: Number of meshes, at least two.
+        cap: Highest order of convergence to reckon with.
+        across: Columns that span the plane in which branches of two meshes are compared.
+        name: Name of the branch.
+    """
+
+    def __init__(
+        self,
+        make: Callable[[int], SolutionCurve],
+        levels: int,
+        cap: float,
+        across: tuple[str, ...],
+        name: str = "primary",
+    ) -> None:
+        self.levels = [make(level) for level in range(levels)]
+        self.fine = self.levels[-1]
+        self.cap, self.across, self.name = cap, across, name
+        self.failures: list[Failure] = []
+        self._samplers: dict[tuple[int, bytes], Sampler] = {}
+        stalled = [level.stalled for level in self.levels if level.stalled]
+        if stalled:
+            self.failures.append(Failure(f"branch {name}", stalled[-1]))
+
+    # -- the branch itself -------------------------------------------------------------------
+
+    def branch(self, progress: Callable[[], None] = lambda: None) -> Branch:
+        """All columns with uncertainties; a point no coarser mesh reaches is left out and reported."""
+        fine = self.fine
+        columns = fine.columns()
+        names = [n for n in columns if n not in DIAGNOSTICS]
+        total = fine.points[-1].arclength or 1.0
+        kept, errors = [], []
+        for i, point in enumerate(fine.points):
+            rates = fine.direction(point, self.across)
+            try:
+                others = [
+                    level.at_position(point, rates, point.arclength / total).values
+                    for level in self.levels[:-1]
+                ]
+            except ConvergenceError as error:
+                self.failures.append(Failure(f"branch {self.name}, point {i}", str(error)))
+                continue
+            own = {name: columns[name][i] for name in names}
+            errors.append([[values[n] for n in names] for values in [*others, own]])
+            kept.append(i)
+            progress()
+        table = np.array(errors)  # (points, levels, columns)
+        found = estimate([table[:, k] for k in range(table.shape[1])], self.cap)
+        wide = _widen(found.uncertainty)
+        return Branch(
+            self.name,
+            fine.control,
+            {name: values[kept] for name, values in columns.items()},
+            {name: wide[:, j] for j, name in enumerate(names)},
+        )
+
+    # -- points ------------------------------------------------------------------------------
+
+    def special_points(self) -> list[SpecialPoint]:
+        """Limit points (cusps of a fold line) located on every mesh, which must agree on their number.
+
+        Raises:
+            ConvergenceError: When it does.
+        """
+        found = [level.special() for level in self.levels]
+        counts = {len(item) for item in found}
+        if len(counts) != 1:
+            raise ConvergenceError(
+                f"number of {self.fine.kind}s depends on the mesh: {[len(item) for item in found]}"
+            )
+        points = []
+        for same in zip(*found, strict=True):
+            values = {k: self._estimate([s.values[k] for s in same]) for k in same[-1].values}
+            points.append(
+                SpecialPoint(
+                    self.fine.kind,
+                    self.name,
+                    self.fine.control,
+                    {k: float(v.value) for k, v in values.items()},
+                    {k: float(v.uncertainty) for k, v in values.items()},
+                    orders=_orders(values),
+                )
+            )
+        return points
+
+    def state(
+        self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None
+    ) -> State:
+        """A state with a column at exactly a value, and its profile if points for it are given."""
+        solved = [level.at(name, value, crossing) for level in self.levels]
+        quantities = {k: self._quantity([s.values[k] for s in solved]) for k in solved[-1].values}
+        quantities |= self._diagnostics(solved)
+        fields = () if profile is None else (self._profile(solved, profile),)
+        return State({name: value}, self.name, quantities, fields, crossing)
+
+    def _diagnostics(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
+        """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia."""
+        spectra = [
+            Stability(level.system).spectrum(s.state)
+            for level, s in zip(self.levels, solved, strict=True)
+        ]
+        counts = {spectrum.n_negative for spectrum in spectra}
+        if len(counts) != 1:
+            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
+        return {
+            "n_negative": Quantity(counts.pop()),
+            "eigenvalue_1": self._quantity([s.eigenvalues[0] for s in spectra]),
+        }
+
+    def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
+        samples = []
+        for k, (level, s) in enumerate(zip(self.levels, solved, strict=True)):
+            level.system.set_state(s.state.u, s.state.loads)
+            samples.append(self._sampler(k, points)())
+        columns: dict[str, np.ndarray] = {"Z": points}
+        uncertainty = {"Z": 0.0}
+        for name in samples[-1]:
+            found = estimate([sample[name] for sample in samples], self.cap)
+            columns[name] = found.value
+            uncertainty[name] = float(found.uncertainty.max())
+        return Field("profile", columns, uncertainty)
+
+    def _sampler(self, k: int, points: np.ndarray) -> Sampler:
+        """Sampler on one mesh, kept: locating points costs more than evaluating there."""
+        key = (k, points.tobytes())
+        if key not in self._samplers:
+            formulation = self.levels[k].system.formulation
+            self._samplers[key] = Sampler(formulation.unknown, formulation.profile, points)
+        return self._samplers[key]
+
+    # -- estimates ---------------------------------------------------------------------------
+
+    def _estimate(self, values: list[float]) -> Estimate:
+        return estimate(values, self.cap)
+
+    def _quantity(self, values: list[float]) -> Quantity:
+        found = self._estimate(values)
+        order = float(found.order)
+        return Quantity(
+            float(found.value), float(found.uncertainty), order if np.isfinite(order) else None
+        )
+
+
+def _orders(values: dict[str, Estimate]) -> dict[str, float]:
+    return {k: float(v.order) for k, v in values.items() if np.isfinite(v.order)}
+
+
+def _widen(uncertainty: np.ndarray) -> np.ndarray:
+    """Largest of each point and its neighbours: a difference that passes through zero is no accuracy."""
+    padded = np.pad(uncertainty, ((1, 1), (0, 0)), mode="edge")
+    return np.maximum.reduce([padded[:-2], padded[1:-1], padded[2:]])

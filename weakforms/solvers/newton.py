@@ -1,0 +1,229 @@
+r"""PETSc SNES for an equilibrium with some scalar unknowns and as many scalar equations.
+
+.. math:: R(U; \lambda_1..\lambda_m) = 0, \qquad g_i(U; \lambda) = 0, \quad i = 1..m
+
+The scalars live in the last entries of SNES's vector (on the last rank, and broadcast from there at every
+evaluation, so every rank knows them); the linear systems are bordered ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from petsc4py import PETSc
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.linear import BorderedMatrix, Factorization
+from weakforms.solvers.system import State, System
+
+_REASONS = {
+    value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)
+}
+
+
+RESIDUAL_LIMIT = 1e-8
+"""Residual norm above which no state is accepted, however small the last step was (forces are of order one)."""
+
+
+class Constraint(Protocol):
+    """One scalar equation ``g(U; λ) = 0``."""
+
+    def value(self, solver: ExtendedNewton) -> float:
+        """``g`` at the state the system holds."""
+
+    def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
+        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state the system holds."""
+
+
+@dataclass(frozen=True)
+class SolveRecord:
+    """How a solve ended."""
+
+    reason: str
+    iterations: int
+    factorizations: int
+    norms: tuple[float, ...]
+    """Residual norm of the whole system at each iteration."""
+
+
+class ExtendedNewton:
+    """SNES over ``(U, λ)``; one object serves all solves of a system with the same scalars.
+
+    Args:
+        system: The discrete equilibrium equations.
+        scalars: Names of the loads that are unknowns; the others stay as the state has them.
+        stol: Newton step, relative to ``U``, at which a state counts as converged: the error left is the
+            step's square (with a kept factorisation, a small fraction of it). A threshold on the residual
+            would have to follow its round-off, which grows like ``cells^1.5``.
+        max_iterations: Newton iterations before a solve is given up.
+        line_search: PETSc's name: ``basic`` takes full steps, ``bt`` backtracks.
+        prefix: PETSc options prefix; ``-{prefix}snes_monitor`` and the like work.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        scalars: Sequence[str] = (),
+        stol: float = 1e-10,
+        max_iterations: int = 25,
+        line_search: str = "basic",
+        prefix: str = "weakforms_",
+    ) -> None:
+        self.system = system
+        self.scalars = tuple(scalars)
+        self.factor = Factorization(system, prefix + "factor_")
+        self.constraints: Sequence[Constraint] = ()
+        self.bordered: BorderedMatrix | None = None
+        self._size = system.size
+        self._chord = False
+        comm = system.comm
+        self._root = comm.size - 1
+        extra = len(self.scalars) if comm.rank == self._root else 0
+        self._x = PETSc.Vec().createMPI((system.size + extra, None), comm=comm)
+        self._norms: list[float] = []
+        self._snes = self._make_snes(prefix, stol, max_iterations, line_search)
+
+    def _make_snes(
+        self, prefix: str, stol: float, max_iterations: int, line_search: str
+    ) -> PETSc.SNES:
+        snes = PETSc.SNES().create(self.system.comm)
+        snes.setOptionsPrefix(prefix)
+        snes.setFunction(self._residual, self._x.duplicate())
+        sizes = (self._x.getSizes(), self._x.getSizes())
+        # SNES wants a matrix; all that is ever asked of it is the bordered solve below.
+        shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
+        shell.setPythonContext(_Opaque())
+        shell.setUp()
+        snes.setJacobian(self._jacobian, shell)
+        ksp = snes.getKSP()
+        ksp.setType("preonly")
+        ksp.getPC().setType("python")
+        ksp.getPC().setPythonContext(_BorderedSolve(self))
+        snes.setTolerances(rtol=0.0, atol=0.0, stol=stol, max_it=max_iterations)
+        snes.setMonitor(lambda _snes, _its, norm: self._norms.append(norm))
+        options = PETSc.Options()
+        key = f"{prefix}snes_linesearch_type"
+        given = options.hasName(key)
+        if not given:
+            options[key] = line_search
+        snes.setFromOptions()
+        if not given:
+            options.delValue(key)  # the option table is global: leave it as it was found
+        return snes
+
+    # -- the extended vector -----------------------------------------------------------------
+
+    def _split(self, x: PETSc.Vec) -> tuple[np.ndarray, np.ndarray]:
+        array = x.array_r
+        scalars = np.array(array[self._size :])
+        comm = self.system.comm
+        if comm.size > 1:
+            scalars = comm.bcast(scalars, root=self._root)
+        return array[: self._size], scalars
+
+    def _join(self, x: PETSc.Vec, u: np.ndarray, scalars: np.ndarray) -> None:
+        array = x.array_w
+        array[: self._size] = u
+        if self.system.comm.rank == self._root:
+            array[self._size :] = scalars
+
+    # -- SNES callbacks ----------------------------------------------------------------------
+
+    def _put(self, x: PETSc.Vec) -> None:
+        u, scalars = self._split(x)
+        self.system.set_state(u, dict(zip(self.scalars, scalars, strict=True)))
+
+    def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
+        self._put(x)
+        values = np.array([c.value(self) for c in self.constraints])
+        self._join(out, self.system.residual(), values)
+
+    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
+        if not (self._chord and snes.getIterationNumber() > 0):
+            self._put(x)
+            self.factor.update()
+            self.bordered = self.border(self.constraints)
+        mat.assemble()
+
+    def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
+        """Bordered tangent at the state the system holds, whose ``K`` is factorised already."""
+        columns = [self.system.load_derivative(name) for name in self.scalars]
+        gradients = [c.gradient(self) for c in constraints]
+        corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
+        rows = [self._free(row) for row, _ in gradients]
+        return BorderedMatrix(self.factor, columns, rows, corner.reshape(len(rows), -1))
+
+    def _free(self, row: np.ndarray) -> np.ndarray:
+        row = row.copy()
+        row[self.system.bc_dofs] = 0.0
+        return row
+
+    # -- solving -----------------------------------------------------------------------------
+
+    def solve(
+        self, guess: State, constraints: Sequence[Constraint] = (), chord: bool = False
+    ) -> tuple[State, SolveRecord]:
+        """Solve from a guess; the system holds the converged state afterwards.
+
+        Args:
+            guess: Start; its loads that are not unknowns are kept.
+            constraints: One a scalar unknown.
+            chord: Keep the first factorisation for all iterations (after a good predictor that converges
+                as fast, at the price of one factorisation).
+
+        Raises:
+            ConvergenceError: On divergence, too many iterations or a number that is not finite.
+        """
+        if len(constraints) != len(self.scalars):
+            raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
+        system, before = self.system, self.factor.count
+        self.constraints = constraints
+        self._norms.clear()
+        system.set_state(guess.u, guess.loads)
+        self._join(self._x, guess.u, np.array([guess.loads[name] for name in self.scalars]))
+        self._chord = chord
+        try:
+            self._snes.solve(None, self._x)
+        except PETSc.Error as error:
+            raise ConvergenceError(f"SNES failed: {_innermost(error)}") from error
+        reason = self._snes.getConvergedReason()
+        record = SolveRecord(
+            _REASONS.get(reason, str(reason)),
+            self._snes.getIterationNumber(),
+            self.factor.count - before,
+            tuple(self._norms),
+        )
+        if reason <= 0 or not record.norms[-1] < RESIDUAL_LIMIT:
+            raise ConvergenceError(
+                f"SNES ended with {record.reason} after {record.iterations} iterations, "
+                f"residual {record.norms[-1] if record.norms else float('nan'):.1e}"
+            )
+        self._put(self._x)
+        return system.state(), record
+
+
+class _Opaque:
+    """Context of a matrix nobody multiplies with."""
+
+
+class _BorderedSolve:
+    """Preconditioner that is the solver: the bordered system of the current Newton step."""
+
+    def __init__(self, newton: ExtendedNewton) -> None:
+        self._newton = newton
+
+    def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
+        """``out = J⁻¹ rhs``."""
+        newton = self._newton
+        f, g = newton._split(rhs)
+        newton._join(out, *newton.bordered.solve(f, g))
+
+
+def _innermost(error: BaseException) -> str:
+    """The reason at the bottom: PETSc wraps what a Python callback raised."""
+    while error.__cause__ is not None:
+        error = error.__cause__
+    return str(error).splitlines()[0] if str(error) else type(error).__name__

@@ -1,0 +1,61 @@
+"""Uncertainty of a number from a sequence of meshes, each twice as fine as the one before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+ALGEBRAIC = 1e-11
+"""Relative error that Newton's stopping rule and round-off may leave; added to every uncertainty."""
+
+SAFETY = 1.25
+"""Factor of the grid convergence index where the meshes converge (Roache 1998) ..."""
+
+SAFETY_UNRESOLVED = 3.0
+"""... and where the observed order is below one."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Finest value, absolute uncertainty and observed order (``nan`` where two meshes cannot tell)."""
+
+    value: np.ndarray
+    uncertainty: np.ndarray
+    order: np.ndarray
+
+
+def estimate(levels: list[np.ndarray | float], cap: float) -> Estimate:
+    r"""Grid convergence estimate from values on meshes of widths ``h``, ``h/2``, ``h/4``...
+
+    With the last differences :math:`d_1, d_2`, the observed order is :math:`q = \log_2 |d_1/d_2|`, kept
+    within ``[1, cap]``, and
+
+    .. math:: u = F \frac{\max(|d_2|, |d_1|/2^{cap})}{2^q - 1} + u_\mathrm{algebraic}
+
+    The maximum keeps an accidentally small ``d_2`` (a change of sign) from passing for accuracy. Two
+    meshes alone are taken to converge at first order.
+
+    Args:
+        levels: Values from coarse to fine, scalars or arrays of one shape; two or more.
+        cap: Highest order the method can have (twice the degree for energies and limit loads).
+
+    Raises:
+        ValueError: With fewer than two meshes: one mesh has no uncertainty.
+    """
+    if len(levels) < 2:
+        raise ValueError("an uncertainty needs at least two meshes")
+    values = [np.asarray(level, dtype=float) for level in levels]
+    fine = values[-1]
+    floor = ALGEBRAIC * np.maximum(np.abs(fine), 1.0)
+    last = np.abs(fine - values[-2])
+    if len(values) == 2:
+        return Estimate(fine, SAFETY_UNRESOLVED * last + floor, np.full_like(fine, np.nan))
+    first = np.abs(values[-2] - values[-3])
+    tiny = np.finfo(float).tiny
+    order = np.log2(np.maximum(first, tiny) / np.maximum(last, tiny))
+    used = np.clip(order, 1.0, cap)
+    safety = np.where(order >= 1.0, SAFETY, SAFETY_UNRESOLVED)
+    left = np.maximum(last, first / 2.0**cap)
+    observed = np.where(last > floor, order, np.nan)
+    return Estimate(fine, safety * left / (2.0**used - 1.0) + floor, observed)

@@ -1,0 +1,243 @@
+"""Discrete equilibrium equations on one mesh: residual, tangent and what one monitors, assembled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import dolfinx.fem.petsc as fem_petsc
+import ufl
+from dolfinx import fem
+from ufl.core.expr import Expr
+
+from weakforms.errors import InputError
+
+
+@dataclass
+class State:
+    """Owned degrees of freedom of this rank and the scalar loads, the same on every rank."""
+
+    u: np.ndarray
+    loads: dict[str, float]
+
+    def copy(self) -> State:
+        """An independent copy."""
+        return State(self.u.copy(), dict(self.loads))
+
+
+@dataclass
+class Formulation:
+    """Weak form of an equilibrium problem, as a problem hands it to the solvers.
+
+    The second variation must be symmetric (the loads have a potential).
+    """
+
+    unknown: fem.Function
+    residual: ufl.Form
+    """First variation; linear in the test function."""
+    loads: Mapping[str, tuple[fem.Constant, Expr]]
+    """Scalars that may become unknowns: the constant, and the ``ufl.variable`` it enters through."""
+    bcs: list[fem.DirichletBC]
+    mass: ufl.Form
+    """Bilinear; norm of the continuation and right-hand side of the eigenproblem."""
+    monitors: Mapping[str, ufl.Form]
+    """Scalar functionals, the columns of a branch."""
+    profile: Mapping[str, Expr] = field(default_factory=dict)
+    """Expressions sampled along the body for fields."""
+    tangent: ufl.Form | None = None
+    """Second variation; by default the derivative of ``residual``."""
+
+
+class System:
+    r"""``R(U; λ) = 0`` with symmetric tangent ``K``, assembled on the state it holds.
+
+    Vectors are numpy arrays of the degrees of freedom this rank owns; :meth:`dot` sums over ranks.
+    Rows of Dirichlet conditions hold the identity in ``K`` and zero in every derivative.
+    """
+
+    def __init__(self, formulation: Formulation) -> None:
+        self.formulation = formulation
+        self.unknown = formulation.unknown
+        space = self.unknown.function_space
+        self.comm: MPI.Intracomm = space.mesh.comm
+        self.test, self.trial = ufl.TestFunction(space), ufl.TrialFunction(space)
+        self._phi, self._psi = fem.Function(space), fem.Function(space)
+        self._rate = fem.Constant(space.mesh, 0.0)
+        self._forms: dict[str, fem.Form] = {}
+        self._ufl = self._ufl_forms()
+
+        self.vec = self.unknown.x.petsc_vec.duplicate()
+        self.size = self.vec.getLocalSize()
+        self.bc_dofs = np.concatenate(
+            [dofs[:owned] for dofs, owned in (bc.dof_indices() for bc in formulation.bcs)]
+        )
+        fem_petsc.set_bc(self.vec, formulation.bcs)
+        self._bc_values = self.vec.array[self.bc_dofs].copy()
+        self.matrix = fem_petsc.create_matrix(self._form("tangent"))
+        self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
+        self.mass = self._mass_matrix()
+
+    def _ufl_forms(self) -> dict[str, ufl.Form]:
+        given = self.formulation
+        tangent = given.tangent or ufl.derivative(given.residual, self.unknown, self.trial)
+        forms = {"residual": given.residual, "tangent": tangent}
+        forms |= {f"d_{name}": ufl.diff(given.residual, v) for name, (_, v) in given.loads.items()}
+        forms |= {f"monitor_{name}": form for name, form in given.monitors.items()}
+        return forms
+
+    def _form(self, name: str) -> fem.Form:
+        """Compile on first use; the compiler's cache makes that cheap for every further mesh."""
+        if name not in self._forms:
+            self._forms[name] = fem.form(self._ufl[name])
+        return self._forms[name]
+
+    def _mass_matrix(self) -> PETSc.Mat:
+        """Mass matrix with *zero* Dirichlet rows: they must add no finite eigenvalue."""
+        matrix = fem_petsc.assemble_matrix(fem.form(self.formulation.mass), self.formulation.bcs, 0.0)
+        matrix.assemble()
+        return matrix
+
+    # -- the state ---------------------------------------------------------------------------
+
+    @property
+    def load_names(self) -> tuple[str, ...]:
+        """Names of the scalars that may become unknowns."""
+        return tuple(self.formulation.loads)
+
+    def set_state(self, u: np.ndarray, loads: Mapping[str, float]) -> None:
+        """Put a state into the forms."""
+        self.unknown.x.array[: self.size] = u
+        self.unknown.x.scatter_forward()
+        self.set_loads(loads)
+
+    def set_loads(self, loads: Mapping[str, float]) -> None:
+        """Put scalars into the forms."""
+        for name, value in loads.items():
+            self.formulation.loads[name][0].value = value
+
+    def state(self) -> State:
+        """Copy of the state the forms hold."""
+        loads = {k: float(constant.value) for k, (constant, _) in self.formulation.loads.items()}
+        return State(self.unknown.x.array[: self.size].copy(), loads)
+
+    def owned(self) -> np.ndarray:
+        """View of the degrees of freedom of the state held that this rank owns."""
+        return self.unknown.x.array[: self.size]
+
+    def load(self, name: str) -> float:
+        """One scalar of the state held."""
+        return float(self.formulation.loads[name][0].value)
+
+    # -- assembly ----------------------------------------------------------------------------
+
+    def _vector(self, name: str) -> np.ndarray:
+        vec = self.vec
+        with vec.localForm() as local:
+            local.set(0.0)
+        fem_petsc.assemble_vector(vec, self._form(name))
+        vec.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
+        out = vec.array.copy()
+        out[self.bc_dofs] = 0.0
+        return out
+
+    def residual(self) -> np.ndarray:
+        """``R(U; λ)``; on Dirichlet rows the distance from the prescribed value, which mends round-off."""
+        out = self._vector("residual")
+        out[self.bc_dofs] = self.owned()[self.bc_dofs] - self._bc_values
+        return out
+
+    def load_derivative(self, name: str) -> np.ndarray:
+        """``∂R/∂λ`` for one scalar."""
+        return self._vector(f"d_{name}")
+
+    def tangent(self) -> PETSc.Mat:
+        """``K = ∂R/∂U``, always the same matrix object."""
+        self.matrix.zeroEntries()
+        fem_petsc.assemble_matrix(self.matrix, self._form("tangent"), self.formulation.bcs)
+        self.matrix.assemble()
+        return self.matrix
+
+    def monitors(self) -> dict[str, float]:
+        """All scalar functionals at the state held, one reduction for all."""
+        names = list(self.formulation.monitors)
+        local = np.array([fem.assemble_scalar(self._form(f"monitor_{n}")) for n in names])
+        return dict(zip(names, self.sum(local).tolist(), strict=True))
+
+    def monitor(self, name: str) -> float:
+        """One scalar functional."""
+        self._require_monitor(name)
+        return float(self.sum(fem.assemble_scalar(self._form(f"monitor_{name}"))))
+
+    def monitor_gradient(self, name: str) -> tuple[np.ndarray, dict[str, float]]:
+        """Derivative of a functional in ``U`` and in each load."""
+        self._require_monitor(name)
+        form = self.formulation.monitors[name]
+        key = f"gradient_{name}"
+        if key not in self._ufl:
+            self._ufl[key] = ufl.derivative(form, self.unknown, self.test)
+        return self._vector(key), self._scalar_derivatives(f"monitor_{name}", form)
+
+    def _scalar_derivatives(self, key: str, form: ufl.Form) -> dict[str, float]:
+        """``∂/∂λ`` of a scalar form for every load (zero where it does not enter)."""
+        out = {}
+        for name, (_, variable) in self.formulation.loads.items():
+            derived = f"{key}_d_{name}"
+            if derived not in self._ufl:
+                self._ufl[derived] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
+            empty = not self._ufl[derived].integrals()
+            out[name] = (
+                0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))
+            )
+        return out
+
+    def third_variation(
+        self, phi: np.ndarray, psi: np.ndarray, load: str, rate: float
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        r"""Gradient of ``T = ψᵀ K φ + rate ψᵀ ∂R/∂λ`` in ``U`` and in each load, ``φ, ψ`` fixed."""
+        key, gradient = f"third_{load}", f"gradient_third_{load}"
+        if key not in self._ufl:
+            scalar = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._psi)
+            scalar += self._rate * ufl.action(self._ufl[f"d_{load}"], self._psi)
+            self._ufl[key] = scalar
+            self._ufl[gradient] = ufl.derivative(scalar, self.unknown, self.test)
+        self._rate.value = rate
+        for function, values in ((self._phi, phi), (self._psi, psi)):
+            function.x.array[: self.size] = values
+            function.x.scatter_forward()
+        return self._vector(gradient), self._scalar_derivatives(key, self._ufl[key])
+
+    # -- algebra over ranks ------------------------------------------------------------------
+
+    def sum(self, local: np.ndarray | float) -> np.ndarray | float:
+        """Sum over ranks."""
+        return local if self.comm.size == 1 else self.comm.allreduce(local, op=MPI.SUM)
+
+    def dot(self, a: np.ndarray, b: np.ndarray) -> float:
+        """Euclidean inner product over all ranks."""
+        return float(self.sum(float(a @ b)))
+
+    def mass_times(self, u: np.ndarray) -> np.ndarray:
+        """``M u``; with it the norm of a field does not depend on the mesh."""
+        return self.multiply(self.mass, u)
+
+    def multiply(self, matrix: PETSc.Mat, u: np.ndarray) -> np.ndarray:
+        """``matrix @ u`` for owned arrays."""
+        x, y = self._work()
+        x.array[:] = u
+        matrix.mult(x, y)
+        return y.array.copy()
+
+    def _work(self) -> tuple[PETSc.Vec, PETSc.Vec]:
+        if not hasattr(self, "_work_vectors"):
+            self._work_vectors = self.matrix.createVecs()
+        return self._work_vectors
+
+    def _require_monitor(self, name: str) -> None:
+        if name not in self.formulation.monitors:
+            known = ", ".join(self.formulation.monitors)
+            raise InputError(f"cannot control {name!r}: the functionals of this problem are {known}")
