@@ -1,0 +1,49 @@
+"""FEniCSx weak-form verification suite for the inflation and instabilities of hyperelastic membranes."""
+
+from weakforms.api import cases, solve
+from weakforms.errors import (
+    ConvergenceError,
+    EnvironmentLackError,
+    InputError,
+    WeakformsError,
+)
+from weakforms.verification.case import (
+    Axis,
+    Case,
+    Claim,
+    Constant,
+    Count,
+    Curve,
+    Order,
+    Panel,
+    Points,
+    Printed,
+)
+from weakforms.verification.compare import compare
+from weakforms.verification.specs import At, Spec, tube, tube_fold
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "At",
+    "Axis",
+    "Case",
+    "Claim",
+    "Constant",
+    "ConvergenceError",
+    "Count",
+    "Curve",
+    "EnvironmentLackError",
+    "InputError",
+    "Order",
+    "Panel",
+    "Points",
+    "Printed",
+    "Spec",
+    "WeakformsError",
+    "cases",
+    "compare",
+    "solve",
+    "tube",
+    "tube_fold",
+]

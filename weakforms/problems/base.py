@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from weakforms.errors import InputError
 from weakforms.results import Result
+from weakforms.solvers.branch import DIAGNOSTICS
 
 
 class Parameters(BaseModel):
@@ -25,17 +26,15 @@ class Parameters(BaseModel):
 class Numerics(Parameters):
     """How a problem is discretised; the defaults are what the accuracy statements were made with."""
 
-    degree: int
-    cells: int
-    levels: int = 3
-
 
 @dataclass(frozen=True)
 class StateRequest:
     """A state wanted: a column at a value, on which branch, at which crossing, with which profile."""
 
     name: str
+    """A column, or a kind of special point."""
     value: float
+    """Of the column; or which special point of that kind, from 1."""
     crossing: int = 1
     branch: str = "primary"
     profile: tuple[float, ...] | None = None
@@ -74,6 +73,10 @@ class Problem(Protocol):
     numerics: ClassVar[type[Numerics]]
     special_points: ClassVar[tuple[str, ...]]
     columns: ClassVar[tuple[str, ...]]
+    branches: ClassVar[tuple[str, ...]]
+
+    def check(self, parameters: Any, requests: Requests) -> None:
+        """Refuse, before anything is solved, what the ranges of single parameters cannot."""
 
     def solve(
         self,
@@ -133,6 +136,47 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
         raise InputError(f"{what}: " + "; ".join(parts)) from error
 
 
-def finite_points(points: tuple[float, ...], default: np.ndarray) -> np.ndarray:
-    """Sorted sample points of a request, or the default ones where it leaves the choice."""
-    return np.unique(np.asarray(points, dtype=float)) if points else default
+def check_requests(problem: Problem, requests: Requests) -> None:
+    """Refuse states that no solution of the problem could answer.
+
+    Raises:
+        InputError: For an unknown column or branch, a crossing below one, a value that is no number.
+    """
+    allowed = [*(c for c in problem.columns if c not in DIAGNOSTICS), *problem.special_points]
+    for wanted in requests.states:
+        if wanted.name not in allowed:
+            raise InputError(
+                f"{problem.name}: cannot ask for a state at {wanted.name!r}; allowed: {', '.join(allowed)}"
+            )
+        if wanted.branch not in problem.branches:
+            raise InputError(
+                f"{problem.name} has no branch {wanted.branch!r}; it has {', '.join(problem.branches)}"
+            )
+        if not np.isfinite(wanted.value):
+            raise InputError(f"{problem.name}: {wanted.name} = {wanted.value} is not a finite number")
+        if wanted.crossing < 1:
+            raise InputError(f"{problem.name}: crossing = {wanted.crossing} must be 1 or more")
+        if wanted.name in problem.special_points and wanted.value not in range(1, 1000):
+            raise InputError(
+                f"{problem.name}: {wanted.name} = {wanted.value:g} must be a whole number from 1: "
+                "which of them along the branch"
+            )
+
+
+def sample_points(
+    wanted: tuple[float, ...] | None, default: np.ndarray
+) -> np.ndarray | None:
+    """Sorted sample points of a request; the default ones where it leaves the choice.
+
+    Raises:
+        InputError: For a point outside the body.
+    """
+    if wanted is None:
+        return None
+    points = np.unique(np.asarray(wanted, dtype=float)) if wanted else default
+    if points[0] < default[0] - 1e-9 or points[-1] > default[-1] + 1e-9:
+        raise InputError(
+            f"profile points must lie in [{default[0]:g}, {default[-1]:g}], "
+            f"not in [{points[0]:g}, {points[-1]:g}]"
+        )
+    return points

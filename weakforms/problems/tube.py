@@ -7,6 +7,7 @@ mid-plane on the axially stretched tube.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,8 @@ from mpi4py import MPI
 import basix.ufl
 import ufl
 from dolfinx import fem
+from dolfinx.mesh import Mesh
+from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Stretches, tube_stretches
 from weakforms.forms.loads import enclosed_volume, gas_potential
@@ -46,7 +49,7 @@ class TubeMesh:
     full: bool = False
 
 
-def potential(rho: fem.Function, eta: fem.Function, p: object, alpha: object, delta1: object) -> object:
+def potential(rho: Expr, eta: Expr, p: Expr, alpha: Expr, delta1: Expr) -> Expr:
     r"""Total potential per meridian coordinate ``Z`` and per :math:`2\pi C_1 h_o R_f^2`.
 
     .. math:: \Pi/2\pi = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
@@ -79,7 +82,7 @@ def formulation(
     dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 2 * at.degree + 2})
     energy = potential(rho, eta, p, constants["alpha"], d1) * dx
     stretches = tube_stretches(rho, eta, d1)
-    t1, t2 = stress_resultants(
+    t1, _ = stress_resultants(
         lambda l1, l2: mooney_rivlin(l1, l2, constants["alpha"]), stretches.lam1, stretches.lam2
     )
     middle = _midplane(mesh, at.full)
@@ -96,22 +99,34 @@ def formulation(
             "V": enclosed_volume(rho, eta) * dx,
             "Pi": energy,
         },
-        profile=_profile(rho, eta, stretches, t1, t2),
+        profile=_profile(unknown, stretches, p, d1, constants["alpha"]),
     )
 
 
-def _profile(rho: object, eta: object, stretches: Stretches, t1: object, t2: object) -> dict:
+def _profile(
+    unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr, alpha: Expr
+) -> dict[str, Expr]:
+    r"""Columns along the meridian, among them the two first integrals of free inflation.
+
+    .. math:: F = r_0 w_{,1}\cos\beta - \tfrac12 p\rho^2, \qquad H = w - \lambda_1 w_{,1}
+    """
+    rho, eta = unknown
+    lam1, lam2 = stretches.lam1, stretches.lam2
+    t1, t2 = stress_resultants(lambda a, b: mooney_rivlin(a, b, alpha), lam1, lam2)
+    w1 = t1 * lam2
     return {
         "rho": rho,
         "eta": eta,
-        "lam1": stretches.lam1,
-        "lam2": stretches.lam2,
+        "lam1": lam1,
+        "lam2": lam2,
         "t1": t1,
         "t2": t2,
+        "F_axial": ufl.sqrt(delta1) * w1 * stretches.cos_beta - p * rho**2 / 2,
+        "H": mooney_rivlin(lam1, lam2, alpha) - lam1 * w1,
     }
 
 
-def _midplane(mesh: object, full: bool) -> object:
+def _midplane(mesh: Mesh, full: bool) -> Callable[[Expr], ufl.Form]:
     """Point evaluation at ``Z = 0`` as a form: every rank gets it by the same reduction as an integral."""
     tags = tag_points(mesh, {MIDPLANE: 0.0})
     if full:

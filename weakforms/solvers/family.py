@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.refinement import Estimate, estimate
@@ -39,6 +39,7 @@ class BranchFamily:
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
         self.failures: list[Failure] = []
+        self._located: list[tuple[Solved, ...]] | None = None
         self._samplers: dict[tuple[int, bytes], Sampler] = {}
         stalled = [level.stalled for level in self.levels if level.stalled]
         if stalled:
@@ -46,10 +47,15 @@ class BranchFamily:
 
     # -- the branch itself -------------------------------------------------------------------
 
-    def branch(self, progress: Callable[[], None] = lambda: None) -> Branch:
-        """All columns with uncertainties; a point no coarser mesh reaches is left out and reported."""
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All columns, each number with its uncertainty if wanted.
+
+        A point the coarser meshes cannot be brought across from is left out and listed as a failure.
+        """
         fine = self.fine
         columns = fine.columns()
+        if not with_uncertainty:
+            return Branch(self.name, fine.control, columns)
         names = [n for n in columns if n not in DIAGNOSTICS]
         total = fine.points[-1].arclength or 1.0
         kept, errors = [], []
@@ -66,7 +72,6 @@ class BranchFamily:
             own = {name: columns[name][i] for name in names}
             errors.append([[values[n] for n in names] for values in [*others, own]])
             kept.append(i)
-            progress()
         table = np.array(errors)  # (points, levels, columns)
         found = estimate([table[:, k] for k in range(table.shape[1])], self.cap)
         wide = _widen(found.uncertainty)
@@ -85,14 +90,8 @@ class BranchFamily:
         Raises:
             ConvergenceError: When it does.
         """
-        found = [level.special() for level in self.levels]
-        counts = {len(item) for item in found}
-        if len(counts) != 1:
-            raise ConvergenceError(
-                f"number of {self.fine.kind}s depends on the mesh: {[len(item) for item in found]}"
-            )
         points = []
-        for same in zip(*found, strict=True):
+        for same in self._special():
             values = {k: self._estimate([s.values[k] for s in same]) for k in same[-1].values}
             points.append(
                 SpecialPoint(
@@ -106,11 +105,38 @@ class BranchFamily:
             )
         return points
 
+    def _special(self) -> list[tuple[Solved, ...]]:
+        """Each special point on all meshes; located once."""
+        if self._located is None:
+            self._located = self._locate()
+        return self._located
+
+    def _locate(self) -> list[tuple[Solved, ...]]:
+        found = [level.special() for level in self.levels]
+        counts = {len(item) for item in found}
+        if len(counts) != 1:
+            raise ConvergenceError(
+                f"number of {self.fine.kind}s depends on the mesh: {[len(item) for item in found]}"
+            )
+        return list(zip(*found, strict=True))
+
     def state(
         self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None
     ) -> State:
-        """A state with a column at exactly a value, and its profile if points for it are given."""
-        solved = [level.at(name, value, crossing) for level in self.levels]
+        """A state with a column at exactly a value, and its profile if points for it are given.
+
+        With the kind of the curve's special points for a name, the state at the ``value``-th of them.
+
+        Raises:
+            InputError: When the branch has no such state.
+        """
+        if name == self.fine.kind:
+            points = self._special()
+            if not 1 <= value <= len(points):
+                raise InputError(f"{name} = {value:g}: this branch has {len(points)} of them")
+            solved = points[int(value) - 1]
+        else:
+            solved = [level.at(name, value, crossing) for level in self.levels]
         quantities = {k: self._quantity([s.values[k] for s in solved]) for k in solved[-1].values}
         quantities |= self._diagnostics(solved)
         fields = () if profile is None else (self._profile(solved, profile),)
@@ -119,7 +145,7 @@ class BranchFamily:
     def _diagnostics(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
         """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia."""
         spectra = [
-            Stability(level.system).spectrum(s.state)
+            Stability(level.system).spectrum(s.state, shift=level.continuation.shift)
             for level, s in zip(self.levels, solved, strict=True)
         ]
         counts = {spectrum.n_negative for spectrum in spectra}

@@ -52,21 +52,29 @@ class Stability:
         eps.setFromOptions()
         return eps
 
-    def spectrum(self, state: State, count: int = 2) -> Spectrum:
+    def spectrum(self, state: State, count: int = 2, shift: float = 0.0) -> Spectrum:
         """The ``count`` lowest eigenvalues and all negative ones.
+
+        Args:
+            state: An equilibrium.
+            count: Eigenvalues wanted at least.
+            shift: Eigenvalues above ``-shift`` count as positive (a fold's own zero, to round-off).
 
         Raises:
             ConvergenceError: When SLEPc's count of negative eigenvalues is not the inertia's, or an
                 eigenvalue is too close to zero for its sign to be known.
         """
         self.system.set_state(state.u, state.loads)
-        self.factor.update()
+        self.system.tangent()
+        if shift:
+            self.system.matrix.axpy(shift, self.system.mass)
+        self.factor.refactor()
         negative = self.factor.negative_count()
         wanted = max(count, negative + 1)
         for extra in (0, wanted, 4 * wanted):
             values = self._eigenvalues(wanted + extra)
             if int(np.sum(values < 0)) == negative:
-                return Spectrum(tuple(values[:wanted].tolist()), negative)
+                return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
         found = int(np.sum(values < 0))
         raise ConvergenceError(
             f"stability: inertia counts {negative} negative eigenvalues, SLEPc finds {found} "

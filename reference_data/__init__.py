@@ -1,0 +1,1 @@
+"""Reference numbers for the thesis's figures and tables, and the codes that produced them."""

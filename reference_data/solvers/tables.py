@@ -1,0 +1,190 @@
+"""Reference tables: agreement of two methods, plain CSV, and the TOML that documents it.
+
+A column is written only after its two independent values agree within their own combined
+uncertainty in every row. The uncertainty stored with it is the refinement uncertainty of the
+written method, plus the largest difference of the two methods, plus half a unit of the last
+printed digit.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+Array = np.ndarray
+DIGITS = 12
+
+
+class Estimate(Protocol):
+    """A value per row and its uncertainty."""
+
+    value: Array
+    uncertainty: Array
+
+
+class DisagreementError(RuntimeError):
+    """Two methods differ by more than their combined uncertainty."""
+
+
+@dataclass
+class Column:
+    """One column: values, one absolute uncertainty, and what they are.
+
+    Attributes:
+        name: Header in the CSV.
+        values: One number per row.
+        uncertainty: Absolute; 0 for prescribed values.
+        scaling: How the number is made non-dimensional.
+        meaning: What it is.
+        extra: Further metadata, such as the difference between the two methods.
+    """
+
+    name: str
+    values: Array
+    uncertainty: float
+    scaling: str
+    meaning: str
+    extra: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass
+class Table:
+    """A table and its documentation."""
+
+    name: str
+    paper: int
+    title: str
+    source: str
+    method: str
+    grid: str
+    tolerance: str
+    parameters: dict[str, object]
+    abscissa: str
+    columns: list[Column]
+    kind: str = "independent"
+    notes: str = ""
+    extra: dict[str, object] = field(default_factory=dict)
+
+
+def round_up(x: float) -> float:
+    """Round up to two significant digits."""
+    if x <= 0:
+        return 0.0
+    scale = 10.0 ** (math.floor(math.log10(x)) - 1)
+    return float(f"{math.ceil(x / scale - 1e-9) * scale:.1e}")
+
+
+def last_digit(values: Array) -> float:
+    """Half a unit of the last of DIGITS significant digits of the largest value."""
+    top = float(np.max(np.abs(values), initial=0.0))
+    return 0.5 * 10.0 ** (math.floor(math.log10(top)) + 1 - DIGITS) if top else 0.0
+
+
+def agreed(
+    table: str,
+    name: str,
+    differences: Estimate,
+    collocation: Estimate,
+    about: tuple[str, str],
+) -> Column:
+    """Column of collocation values, once the finite differences are found to agree.
+
+    Raises:
+        DisagreementError: Naming table, column and worst row.
+    """
+    gap = np.abs(differences.value - collocation.value)
+    room = np.hypot(differences.uncertainty, collocation.uncertainty)
+    if not np.all(gap <= room):
+        row = int(np.nanargmax(np.where(np.isfinite(gap), gap / room, np.inf)))
+        raise DisagreementError(
+            f"table {table}, column {name}, row {row}: finite differences "
+            f"{differences.value[row]:.14g}, collocation {collocation.value[row]:.14g}, "
+            f"difference {gap[row]:.2e}, combined uncertainty {room[row]:.2e}"
+        )
+    own = float(np.max(collocation.uncertainty))
+    total = own + float(gap.max()) + last_digit(collocation.value)
+    extra = {
+        "largest_difference_of_methods": round_up(float(gap.max())),
+        "uncertainty_collocation": round_up(own),
+        "uncertainty_finite_differences": round_up(float(np.max(differences.uncertainty))),
+    }
+    order = getattr(differences, "order", None)
+    if order is not None and np.isfinite(order).any():
+        extra["observed_order_finite_differences"] = round(float(np.nanmedian(order)), 4)
+    return Column(name, collocation.value, round_up(total), *about, extra)
+
+
+def prescribed(name: str, values: Array, about: tuple[str, str]) -> Column:
+    """Column of values that are chosen, not computed."""
+    return Column(name, np.asarray(values, dtype=float), 0.0, *about)
+
+
+def plain(x: float) -> str:
+    """Decimal number with DIGITS significant digits and no exponent."""
+    if x == 0 or abs(x) < 1e-15:
+        return "0"
+    return np.format_float_positional(x, precision=DIGITS, unique=False, fractional=False, trim="-")
+
+
+def csv_text(table: Table) -> str:
+    """Header row and numbers."""
+    lines = [",".join(c.name for c in table.columns)]
+    rows = zip(*(c.values for c in table.columns), strict=True)
+    lines += [",".join(plain(float(x)) for x in row) for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: object) -> str:
+    """A TOML value; JSON's strings, numbers and lists are TOML's too."""
+    if isinstance(value, float):
+        return repr(value)
+    return json.dumps(value, ensure_ascii=False)
+
+
+def toml_text(table: Table, sha256: str) -> str:
+    """Documentation of a table."""
+    head: dict[str, object] = {
+        "title": table.title,
+        "source": table.source,
+        "type": table.kind,
+        "method": table.method,
+        "grid": table.grid,
+        "tolerance": table.tolerance,
+        "abscissa": table.abscissa,
+        "regenerate": f"python -m reference_data.solvers {table.name}",
+        "sha256": sha256,
+    }
+    if table.notes:
+        head["notes"] = table.notes
+    lines = [f"{key} = {_toml(value)}" for key, value in (head | table.extra).items()]
+    lines += ["", "[parameters]"]
+    lines += [f"{key} = {_toml(value)}" for key, value in table.parameters.items()]
+    for c in table.columns:
+        lines += ["", f"[columns.{c.name}]"]
+        about = {"scaling": c.scaling, "meaning": c.meaning, "uncertainty": c.uncertainty}
+        lines += [f"{key} = {_toml(value)}" for key, value in (about | c.extra).items()]
+    return "\n".join(lines) + "\n"
+
+
+def write(table: Table, root: Path) -> Path:
+    """Write NAME.csv and NAME.toml under root/paperN; each appears only when complete."""
+    for c in table.columns:
+        if not np.all(np.isfinite(c.values)):
+            raise ValueError(f"table {table.name}, column {c.name}: not a finite number")
+    folder = root / f"paper{table.paper}"
+    folder.mkdir(parents=True, exist_ok=True)
+    data = csv_text(table).encode()
+    texts = {"csv": data, "toml": toml_text(table, hashlib.sha256(data).hexdigest()).encode()}
+    for suffix, content in texts.items():
+        target = folder / f"{table.name}.{suffix}"
+        partial = target.with_name(target.name + ".part")
+        partial.write_bytes(content)
+        os.replace(partial, target)
+    return folder / f"{table.name}.csv"

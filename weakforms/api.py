@@ -1,0 +1,100 @@
+"""What other programs call: solve a problem, list cases, compare a curve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from weakforms.errors import EnvironmentLackError
+from weakforms.results import Result
+
+
+def _problems() -> Any:
+    """The registry of problems, which needs dolfinx.
+
+    Raises:
+        EnvironmentLackError: Naming what is missing and how to get it.
+    """
+    try:
+        from weakforms.problems import registry
+    except ImportError as error:
+        raise EnvironmentLackError(
+            f"{error.name or error} is not installed here; use ./run, or on Debian trixie: "
+            "apt install python3-dolfinx-real python3-petsc4py-real python3-slepc4py-real"
+        ) from error
+    from weakforms.solvers import compat
+
+    low, high = compat.SUPPORTED
+    if not low <= compat.version() < high:
+        raise EnvironmentLackError(
+            f"dolfinx {'.'.join(map(str, compat.version()))} is installed; supported: "
+            f"{low[0]}.{low[1]} up to before {high[0]}.{high[1]}"
+        )
+    return registry
+
+
+def solve(
+    problem: str,
+    *,
+    at: Mapping[str, float] | Iterable[tuple[str, float]] = (),
+    crossing: int = 1,
+    branch: str = "primary",
+    numerics: Mapping[str, Any] | None = None,
+    progress: Any = None,
+    **parameters: Any,
+) -> Result:
+    """Solve a problem at any parameters.
+
+    Args:
+        problem: Its name, such as ``"tube"``.
+        at: States wanted: columns and the values at which the state is solved for, with its profile. The
+            name of a kind of special point with a number asks for that point's state.
+        crossing: Which crossing of those values along the branch.
+        branch: On which branch.
+        numerics: Meshes and degree, where the defaults will not do.
+        progress: Called with what is being done, how much of it is done, and how much there is.
+        **parameters: Parameters of the problem; the others keep their defaults.
+
+    Returns:
+        Branch, special points and states, every number with its uncertainty.
+
+    Raises:
+        InputError: For an unknown problem or parameter, or a value out of range; nothing was solved.
+        ConvergenceError: When no branch could be started.
+        EnvironmentLackError: When dolfinx is missing.
+    """
+    _problems()
+    from weakforms.problems.base import StateRequest
+
+    wanted = at.items() if isinstance(at, Mapping) else at
+    states = [StateRequest(name, float(v), crossing, branch, profile=()) for name, v in wanted]
+    return solve_requests(problem, parameters, dict(numerics or {}), states, progress=progress)
+
+
+def solve_requests(
+    problem: str,
+    parameters: Mapping[str, Any],
+    numerics: Mapping[str, Any],
+    states: Iterable[Any],
+    branch_uncertainty: bool = True,
+    progress: Any = None,
+) -> Result:
+    """As :func:`solve`, with requests that say for each state which profile points it needs."""
+    registry = _problems()
+    from mpi4py import MPI
+
+    from weakforms.problems.base import Requests, silent, validated
+
+    chosen = registry.get(problem)
+    values = validated(chosen.parameters, dict(parameters), problem)
+    meshes = validated(chosen.numerics, dict(numerics), f"{problem} numerics")
+    requests = Requests(tuple(states), branch_uncertainty)
+    chosen.check(values, requests)
+    return chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
+
+
+def cases() -> list[str]:
+    """Ids of all cases."""
+    from weakforms.verification.discovery import find_cases
+
+    return [found.id for found in find_cases()]

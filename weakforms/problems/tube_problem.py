@@ -1,0 +1,274 @@
+"""Problems ``tube`` and ``tube_fold``: parameters, and solves that answer requests."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import ClassVar, Literal
+
+import numpy as np
+from mpi4py import MPI
+from pydantic import Field, model_validator
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.base import (
+    Numerics,
+    Parameters,
+    Progress,
+    Requests,
+    StateRequest,
+    check_requests,
+    registry,
+    sample_points,
+    silent,
+)
+from weakforms.problems.tube import TubeMesh, fold_line, formulation, free_branch
+from weakforms.results import Failure, Result, State
+from weakforms.solvers.branch import EquilibriumBranch, SolutionCurve
+from weakforms.solvers.family import BranchFamily
+from weakforms.solvers.provenance import provenance
+from weakforms.solvers.system import System
+
+SOURCE = "Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282"
+
+SCALES = {
+    "length": "R_f, radius of the disks (= R_o/sqrt(delta1))",
+    "p": "P R_f/(C1 h_o)",
+    "alpha": "C2/C1",
+    "delta1": "axial pre-stretch, 1",
+    "lf": "L_f/R_f",
+    "k": "K R_f^2/(C1 h_o)",
+    "s": "S/R_f",
+    "u_max": "radial displacement of the mid-plane over R_f",
+    "lam1_mid": "meridional stretch at the mid-plane, 1",
+    "t1_mid": "meridional Cauchy resultant at the mid-plane over C1 h_o",
+    "V": "enclosed volume of the half tube over 2 pi R_f^3",
+    "Pi": "total potential of the half tube over 2 pi C1 h_o R_f^2",
+    "Z": "axial coordinate on the pre-stretched tube from the mid-plane over R_f",
+    "rho": "deformed radius over R_f",
+    "eta": "deformed axial position from the mid-plane over R_f",
+    "lam1": "meridional stretch, 1",
+    "lam2": "circumferential stretch, 1",
+    "t1": "meridional Cauchy resultant over C1 h_o",
+    "t2": "circumferential Cauchy resultant over C1 h_o",
+    "eigenvalue_1": "lowest eigenvalue of the second variation at fixed p against the mass matrix",
+}
+
+ENERGY = (
+    "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z ] dZ,  "
+    "lam1 = delta1 sqrt(rho_Z^2 + eta_Z^2),  lam2 = rho/sqrt(delta1),  "
+    "w = I1 - 3 + alpha (I2 - 3)"
+)
+
+
+class TubeNumerics(Numerics):
+    """Meshes of the tube: ``cells`` on the half length of the finest, halved for each coarser level."""
+
+    degree: int = Field(4, ge=1, le=6, description="polynomial degree of rho and eta")
+    cells: int = Field(96, ge=8, le=20_000, description="cells on half the length, finest mesh")
+    levels: int = Field(3, ge=2, le=4, description="meshes, each twice as fine as the one before")
+    grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
+    step: float = Field(0.08, gt=0, le=0.5, description="largest arc-length step")
+
+    @model_validator(mode="after")
+    def _nested(self) -> TubeNumerics:
+        coarsest = 2 ** (self.levels - 1)
+        if self.cells % coarsest:
+            raise ValueError(f"cells must be a multiple of {coarsest} for {self.levels} levels")
+        return self
+
+    @property
+    def meshes(self) -> list[int]:
+        """Cells of each mesh, coarse to fine."""
+        return [self.cells // 2**k for k in reversed(range(self.levels))]
+
+
+class TubeParameters(Parameters):
+    """The tube and its substrate."""
+
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")
+    lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
+    k: float = Field(20.0, ge=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h_o)")
+    s: float = Field(1.3, gt=1, le=20, description="substrate radius S/R_f")
+    contact: Literal["none", "frictionless", "adhesive"] = Field("none", description="contact law")
+    phase: Literal["inflation", "deflation"] = Field("inflation", description="loading phase")
+    spring: Literal["bilateral", "unilateral"] = Field("bilateral", description="bond in deflation")
+    p_end: float = Field(3.0, gt=0, le=20, description="pressure at which constrained inflation ends")
+    u_end: float = Field(5.0, gt=0.05, le=10, description="u_max at which free inflation ends")
+    extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
+
+
+class Tube:
+    """Inflation of a pre-stretched cylindrical membrane (contact law ``none``)."""
+
+    name: ClassVar[str] = "tube"
+    title: ClassVar[str] = "Inflation of a pre-stretched cylindrical membrane"
+    paper: ClassVar[int] = 2
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = ENERGY
+    scales: ClassVar[dict[str, str]] = SCALES
+    parameters = TubeParameters
+    numerics = TubeNumerics
+    columns = ("p", "u_max", "lam1_mid", "t1_mid", "V", "Pi", "n_negative", "residual", "iterations")
+    special_points = ("limit_point",)
+    branches = ("primary",)
+    control: ClassVar[str] = "p (columns past a limit point are single-valued in V)"
+
+    def check(self, parameters: TubeParameters, requests: Requests) -> None:
+        """Refuse what the ranges of single parameters cannot.
+
+        Raises:
+            InputError: For a contact law or phase that is not there, or a state nobody could solve for.
+        """
+        check_requests(self, requests)
+        if parameters.contact != "none":
+            raise InputError(
+                f"tube: contact = {parameters.contact!r} is not available in this version; allowed: 'none'"
+            )
+        if parameters.phase != "inflation":
+            raise InputError("tube: phase = 'deflation' needs a contact history; allowed: 'inflation'")
+
+    def solve(
+        self,
+        parameters: TubeParameters,
+        numerics: TubeNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Trace the branch on all meshes, locate its limit points, solve for the states wanted."""
+        begun = time.perf_counter()
+        make = branch_maker(parameters, numerics, comm, progress)
+        family = BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"))
+        half = parameters.lf / 2
+        first = -half if parameters.extent == "full" else 0.0
+        default = np.linspace(first, half, 61)
+        result = self._result(parameters, numerics)
+        answer(result, family, requests, default, progress)
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+    def _result(self, parameters: TubeParameters, numerics: TubeNumerics) -> Result:
+        return Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics={
+                **numerics.model_dump(),
+                "meshes": numerics.meshes,
+                "quadrature_degree": 2 * numerics.degree + 2,
+                "stopping": "relative Newton step 1e-10, residual norm below 1e-8",
+            },
+            provenance={},
+        )
+
+
+def branch_maker(
+    parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
+) -> Callable[[int], EquilibriumBranch]:
+    """The branch of free inflation on the mesh of a level."""
+
+    def make(level: int) -> EquilibriumBranch:
+        progress("branch", level, numerics.levels)
+        at = TubeMesh(
+            numerics.meshes[level],
+            numerics.degree,
+            numerics.grading,
+            full=parameters.extent == "full",
+        )
+        system = System(formulation(comm, parameters.alpha, parameters.delta1, parameters.lf, at))
+        return free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
+
+    return make
+
+
+def answer(
+    result: Result,
+    family: BranchFamily,
+    requests: Requests,
+    default_points: np.ndarray,
+    progress: Progress,
+) -> None:
+    """Put branch, special points and the states wanted into a result; what fails is listed there."""
+    if requests.branch_uncertainty:
+        progress("uncertainty of the branch", 0, 1)
+    result.branches.append(family.branch(requests.branch_uncertainty))
+    try:
+        result.special_points.extend(family.special_points())
+    except ConvergenceError as error:
+        result.failures.append(Failure(family.fine.kind, str(error)))
+    for i, wanted in enumerate(requests.states):
+        progress("states", i, len(requests.states))
+        try:
+            result.states.append(_state(family, wanted, default_points))
+        except ConvergenceError as error:
+            result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+    result.failures.extend(family.failures)
+
+
+def _state(family: BranchFamily, wanted: StateRequest, default_points: np.ndarray) -> State:
+    points = sample_points(wanted.profile, default_points)
+    return family.state(wanted.name, wanted.value, wanted.crossing, points)
+
+
+class TubeFoldParameters(Parameters):
+    """Free tube whose limit points are followed in the pre-stretch."""
+
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
+    lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
+    delta1_end: float = Field(3.0, gt=1, le=5, description="pre-stretch at which the line ends")
+    u_end: float = Field(5.0, gt=0.05, le=10, description="u_max up to which a first fold is looked for")
+
+
+class TubeFold:
+    """Limit points of free inflation over the pre-stretch, through the cusp in which they merge."""
+
+    name: ClassVar[str] = "tube_fold"
+    title: ClassVar[str] = "Fold line of the freely inflated tube and its cusp"
+    paper: ClassVar[int] = 2
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = ENERGY
+    scales: ClassVar[dict[str, str]] = SCALES
+    parameters = TubeFoldParameters
+    numerics = TubeNumerics
+    columns = ("delta1", *Tube.columns)
+    special_points = ("cusp_point",)
+    branches = ("primary",)
+    control: ClassVar[str] = "delta1 (columns are single-valued in u_max)"
+
+    def check(self, parameters: TubeFoldParameters, requests: Requests) -> None:
+        """Refuse states nobody could solve for."""
+        check_requests(self, requests)
+
+    def solve(
+        self,
+        parameters: TubeFoldParameters,
+        numerics: TubeNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Locate the first limit point at ``delta1 = 1`` and follow it on all meshes."""
+        begun = time.perf_counter()
+        tube = TubeParameters(alpha=parameters.alpha, lf=parameters.lf, u_end=parameters.u_end)
+        branch = branch_maker(tube, numerics, comm, progress)
+
+        def make(level: int) -> SolutionCurve:
+            equilibria = branch(level)
+            if not len(equilibria.turns()):
+                raise InputError(
+                    f"tube_fold: at alpha = {parameters.alpha:g}, lf = {parameters.lf:g} the unstretched "
+                    f"tube has no limit point up to u_max = {parameters.u_end:g}: no fold line starts there"
+                )
+            return fold_line(equilibria, parameters.delta1_end, numerics.step)
+
+        family = BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("delta1", "u_max"))
+        result = Tube._result(self, parameters, numerics)
+        answer(result, family, requests, np.linspace(0, parameters.lf / 2, 61), progress)
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+
+registry.add(Tube())
+registry.add(TubeFold())

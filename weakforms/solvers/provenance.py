@@ -1,0 +1,55 @@
+"""Which software made a number: versions of the stack, revision of the code, ranks."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from mpi4py import MPI
+from petsc4py import PETSc
+from slepc4py import SLEPc
+
+import basix
+import dolfinx
+import ffcx
+import ufl
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Version of every package a result depends on."""
+    return {
+        "dolfinx": dolfinx.__version__,
+        "ufl": ufl.__version__,
+        "ffcx": ffcx.__version__,
+        "basix": basix.__version__,
+        "petsc": ".".join(map(str, PETSc.Sys.getVersion())),
+        "slepc": ".".join(map(str, SLEPc.Sys.getVersion())),
+        "python": platform.python_version(),
+    }
+
+
+@cache
+def revision() -> str:
+    """Git revision of the source tree, with ``+`` where it has changes; ``unknown`` outside one."""
+    root = Path(__file__).resolve().parents[2]
+    command = ["git", "-c", f"safe.directory={root}", "-C", str(root)]
+    try:
+        described = subprocess.run(
+            [*command, "describe", "--always", "--dirty=+", "--abbrev=12"],
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=10,
+        )
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+    return described.stdout.strip()
+
+
+def provenance(comm: MPI.Intracomm, wall: float) -> dict[str, Any]:
+    """Provenance block of a result."""
+    return {**versions(), "git": revision(), "ranks": comm.size, "wall_s": round(wall, 3)}

@@ -1,0 +1,209 @@
+"""Somebody else's curve held against a reference table: the cross-check that other packages call."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from weakforms.errors import InputError
+from weakforms.results import read_curve
+from weakforms.verification import references
+from weakforms.verification.discovery import FoundCase, get_case
+from weakforms.verification.outcome import Verdict
+from weakforms.verification.references import Reference
+
+SCHEMA = "weakforms.verdicts/1"
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """Verdicts on a foreign curve, one a column, and the part of the table it covers."""
+
+    case: str
+    curve: str
+    abscissa: str
+    covered: tuple[float, float]
+    """Range of the abscissa that was judged."""
+    table: tuple[float, float]
+    """Range of the abscissa that the table has."""
+    rows: int
+    ignored_rows: int
+    """Rows of the curve outside the table's range."""
+    verdicts: tuple[Verdict, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every column is within its bound."""
+        return bool(self.verdicts) and all(v.passed for v in self.verdicts)
+
+    @property
+    def partial(self) -> bool:
+        """Whether the curve leaves part of the table unjudged."""
+        return self.covered != self.table
+
+    def to_json(self) -> dict[str, Any]:
+        """JSON object of schema ``weakforms.verdicts/1``."""
+        return {"schema": SCHEMA, "passed": self.passed, "partial": self.partial, **asdict(self)}
+
+
+def compare(
+    case: str,
+    curve: str | Path | Mapping[str, Sequence[float]],
+    name: str | None = None,
+    accuracy: float | None = None,
+) -> Verdicts:
+    """Hold a curve against the reference table of a case.
+
+    The table is interpolated at the curve's abscissa by a cubic spline; the error of that, estimated from
+    the spline through every second row, widens the bound. A curve that covers part of the table is judged
+    there.
+
+    Args:
+        case: Id of a case, such as ``paper2.fig03``.
+        curve: A CSV or JSON file, or columns by name; must hold the table's abscissa, monotone.
+        name: Which table of the case, where it has several.
+        accuracy: Relative accuracy the curve claims; by default what the case asks of our own.
+
+    Raises:
+        InputError: For an unknown case or curve, a wrong column, an abscissa that is not monotone.
+    """
+    found = get_case(case)
+    table = references.load(found.paper, choose(found, name))
+    columns = read_curve(Path(curve)) if isinstance(curve, str | Path) else _columns(curve)
+    if accuracy is not None and not 0 < accuracy < 1:
+        raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1")
+    x, keep, shared = _aligned(table, columns)
+    verdicts = tuple(
+        _judge(found, table, column, x, columns[column][keep], accuracy) for column in shared
+    )
+    rows = table.columns[table.abscissa]
+    return Verdicts(
+        case=found.id,
+        curve=table.name,
+        abscissa=table.abscissa,
+        covered=(float(x.min()), float(x.max())),
+        table=(float(rows.min()), float(rows.max())),
+        rows=len(x),
+        ignored_rows=int(np.sum(~keep)),
+        verdicts=verdicts,
+    )
+
+
+def choose(found: FoundCase, name: str | None) -> str:
+    """The table of a case, by name where there are several.
+
+    Raises:
+        InputError: When the choice is not clear.
+    """
+    names = [
+        curve.reference
+        for panel in found.case.panels
+        for curve in panel.curves
+        if curve.reference is not None
+    ]
+    names = list(dict.fromkeys(names))
+    if name is None and len(names) == 1:
+        return names[0]
+    if name not in names:
+        problem = f"unknown curve {name!r}" if name else "which curve?"
+        raise InputError(f"{found.id}: {problem}; it has {', '.join(names) or 'none'}")
+    return name
+
+
+def _columns(curve: Mapping[str, Sequence[float]]) -> dict[str, np.ndarray]:
+    out = {}
+    for name, values in curve.items():
+        try:
+            array = np.asarray(values, dtype=float)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"column {name!r}: {error}") from error
+        if array.ndim != 1 or not len(array) or not np.all(np.isfinite(array)):
+            raise InputError(f"column {name!r} must be a list of finite numbers")
+        out[str(name)] = array
+    if len({len(values) for values in out.values()}) > 1:
+        raise InputError("the curve's columns differ in length")
+    return out
+
+
+def _aligned(
+    table: Reference, columns: Mapping[str, np.ndarray]
+) -> tuple[np.ndarray, np.ndarray, list[str]]:
+    """Abscissa within the table's range, which rows those are, and the columns to judge."""
+    if table.abscissa not in columns:
+        raise InputError(
+            f"the curve has no column {table.abscissa!r}, over which table {table.name} is compared; "
+            f"it has {', '.join(columns)}"
+        )
+    shared = [name for name in table.ordinates if name in columns]
+    if not shared:
+        raise InputError(
+            f"the curve has none of the columns of table {table.name}: {', '.join(table.ordinates)}"
+        )
+    x = columns[table.abscissa]
+    steps = np.diff(x)
+    if not (np.all(steps > 0) or np.all(steps < 0)):
+        raise InputError(f"the curve's {table.abscissa} must rise, or fall, from row to row")
+    rows = table.columns[table.abscissa]
+    keep = (x >= rows.min()) & (x <= rows.max())
+    if not np.any(keep):
+        raise InputError(
+            f"the curve's {table.abscissa} lies in [{x.min():g}, {x.max():g}], "
+            f"the table's in [{rows.min():g}, {rows.max():g}]: nothing to compare"
+        )
+    return x[keep], keep, shared
+
+
+def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cubic spline through a table at ``x``, and an estimate of its error (zero at the rows themselves)."""
+    order = np.argsort(rows)
+    rows, values = rows[order], values[order]
+    fine = CubicSpline(rows, values)(x)
+    every = np.unique(np.r_[np.arange(0, len(rows), 2), len(rows) - 1])
+    coarse = CubicSpline(rows[every], values[every])
+    # The coarse spline's error at the rows is known exactly; halving the spacing divides it by 16. A third
+    # of it instead leaves room for rows that are not fine enough for that rate.
+    at_rows = np.abs(coarse(rows) - values)
+    near = np.clip(np.searchsorted(rows, x), 1, len(rows) - 1)
+    local = np.array([at_rows[max(i - 3, 0) : i + 3].max() for i in near]) / 3.0
+    on_row = np.isclose(x, rows[near], rtol=0, atol=0) | np.isclose(x, rows[near - 1], rtol=0, atol=0)
+    return fine, np.where(on_row, 0.0, local)
+
+
+def _judge(
+    found: FoundCase,
+    table: Reference,
+    column: str,
+    x: np.ndarray,
+    values: np.ndarray,
+    accuracy: float | None,
+) -> Verdict:
+    if len(table) < 5:
+        raise InputError(f"table {table.name} has too few rows to interpolate")
+    expected, slack = interpolated(table.columns[table.abscissa], table.columns[column], x)
+    scale = float(np.max(np.abs(table.columns[column]))) or 1.0
+    asked = accuracy if accuracy is not None else found.case.asked.get(column, math.nan)
+    if math.isnan(asked):
+        asked = max(found.case.asked.values())
+    known = np.hypot(table.uncertainty[column], slack)
+    error = np.abs(values - expected) / scale
+    bound = asked + 2 * known / scale
+    i = int(np.argmax(error / bound))
+    return Verdict(
+        check=f"{table.name}:{column}",
+        kind="curve",
+        passed=bool(np.all(error <= bound)),
+        statement=f"{column} over {table.abscissa} against {table.source}",
+        detail=f"{len(x)} rows; scale {scale:.6g}",
+        error=float(error[i]),
+        bound=float(bound[i]),
+        asked=float(asked),
+        reference_uncertainty=float(known[i] / scale),
+        where=f"{table.abscissa} = {x[i]:g}",
+        reference=table.name,
+    )

@@ -1,0 +1,194 @@
+"""Panels: what their curves need solved, how they compare with their tables, what is drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.verification import references
+from weakforms.verification.bounds import Comparison, compare
+from weakforms.verification.case import Case, Curve, Panel
+from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome, Verdict
+from weakforms.verification.references import Reference
+from weakforms.verification.solutions import Solutions
+from weakforms.verification.specs import At, Spec
+
+Wanted = tuple[Spec, At | None]
+
+
+def reference_of(paper: int, curve: Curve) -> Reference | None:
+    """The curve's table, made sure to be for the curve's parameters.
+
+    Raises:
+        InputError: When table and case speak of different parameters.
+    """
+    if curve.reference is None:
+        return None
+    table = references.load(paper, curve.reference)
+    for name, value in table.parameters.items():
+        given = dict(curve.of.parameters).get(name)
+        if given is not None and given != value:
+            raise InputError(
+                f"table {table.name} is for {name} = {value}, the case compares {name} = {given} with it"
+            )
+    return table
+
+
+def curve_wants(paper: int, curve: Curve) -> list[Wanted]:
+    """Solutions a curve needs: a state at each row of its table, or one state with its profile there."""
+    table = reference_of(paper, curve)
+    if curve.at is not None:
+        return [(curve.of, profile_at(curve, table))]
+    if table is None:
+        return [(curve.of, None)]
+    rows = table.columns[table.abscissa]
+    return [(curve.of, None), *((curve.of, At(table.abscissa, float(v))) for v in rows)]
+
+
+def profile_at(curve: Curve, table: Reference | None) -> At:
+    """The state of a profile curve, sampled where its table has rows."""
+    points = () if table is None else tuple(float(v) for v in table.columns[table.abscissa])
+    return At(curve.at.name, curve.at.value, curve.at.crossing, points)
+
+
+def judge_curve(
+    paper: int, curve: Curve, case: Case, solutions: Solutions
+) -> tuple[list[Verdict], dict[str, Comparison]]:
+    """One verdict for each column of the table that the case states an accuracy for."""
+    table = reference_of(paper, curve)
+    if table is None:
+        return [], {}
+    verdicts, found = [], {}
+    for name in table.ordinates:
+        if name not in case.asked:
+            continue
+        values, uncertainty = _values(curve, table, name, solutions)
+        comparison = compare(values, uncertainty, table.columns[name], table.uncertainty[name])
+        found[name] = comparison
+        verdicts.append(_verdict(curve, table, name, comparison, case.asked[name]))
+    if not verdicts:
+        raise InputError(f"table {table.name}: the case states no accuracy for any of its columns")
+    return verdicts, found
+
+
+def _values(
+    curve: Curve, table: Reference, name: str, solutions: Solutions
+) -> tuple[np.ndarray, np.ndarray | float]:
+    if curve.at is not None:
+        return solutions.sampled(curve.of, profile_at(curve, table), name)
+    rows = [
+        solutions.quantity(curve.of, At(table.abscissa, float(v)), name)
+        for v in table.columns[table.abscissa]
+    ]
+    return np.array([q.value for q in rows]), np.array([q.uncertainty for q in rows])
+
+
+def _verdict(
+    curve: Curve, table: Reference, name: str, comparison: Comparison, asked: float
+) -> Verdict:
+    i = comparison.worst
+    abscissa = table.abscissa
+    return Verdict(
+        check=f"{table.name}:{name}",
+        kind="field" if curve.at is not None else "curve",
+        passed=comparison.passed(asked),
+        statement=f"{name} over {abscissa} for {curve.of}"
+        + (f" at {curve.at}" if curve.at is not None else ""),
+        detail=f"{len(table)} rows; scale {comparison.scale:.6g}",
+        error=float(comparison.error[i]),
+        bound=float(comparison.bound[i]),
+        asked=asked,
+        uncertainty=float(comparison.uncertainty[i]),
+        reference_uncertainty=comparison.reference_uncertainty,
+        where=f"{abscissa} = {table.columns[abscissa][i]:g}",
+        reference=table.name,
+    )
+
+
+def draw_panel(
+    paper: int, panel: Panel, solutions: Solutions, comparisons: dict[int, dict[str, Comparison]]
+) -> PanelOutcome:
+    """The panel as the report draws it; a curve that could not be solved is missing from it."""
+    outcome = PanelOutcome(
+        name=panel.name,
+        title=panel.title,
+        x=panel.x.name,
+        y=panel.y.name,
+        x_label=panel.x.tex,
+        y_label=panel.y.tex,
+        x_range=(panel.x.low, panel.x.high),
+        y_range=(panel.y.low, panel.y.high),
+        note=panel.note,
+    )
+    for curve in panel.curves:
+        try:
+            drawn = _draw(paper, panel, curve, solutions, comparisons.get(id(curve), {}))
+            marks = _markers(panel, curve, solutions)
+        except ConvergenceError:
+            continue  # judged, and reported as an error, where the curve is compared
+        outcome.curves.append(drawn)
+        outcome.markers.extend(marks)
+    return outcome
+
+
+def _draw(
+    paper: int,
+    panel: Panel,
+    curve: Curve,
+    solutions: Solutions,
+    comparisons: dict[str, Comparison],
+) -> CurveOutcome:
+    x, y = panel.x.name, curve.y or panel.y.name
+    table = reference_of(paper, curve)
+    if curve.at is not None:
+        columns = solutions.profile(curve.of, profile_at(curve, table)).columns
+        unstable: list[bool] = []
+    else:
+        columns = solutions.branch(curve.of).columns
+        unstable = [bool(n) for n in columns["n_negative"]]
+    xs, ys = columns[x], columns[y]
+    if panel.mirrored:
+        xs, ys = mirror(panel, x, xs), mirror(panel, y, ys)
+    outcome = CurveOutcome(
+        name=curve.reference or str(curve.of),
+        label=curve.label,
+        x=xs.tolist(),
+        y=ys.tolist(),
+        unstable=unstable if not panel.mirrored else [],
+    )
+    if table is not None and x in table.columns and y in table.columns:
+        rx, ry = table.columns[x], table.columns[y]
+        if panel.mirrored:
+            rx, ry = mirror(panel, x, rx), mirror(panel, y, ry)
+        outcome.reference_name, outcome.reference_kind = table.name, table.kind
+        outcome.reference_x, outcome.reference_y = rx.tolist(), ry.tolist()
+    worst = comparisons.get(y) or next(iter(comparisons.values()), None)
+    if table is not None and worst is not None:
+        outcome.residual_abscissa = table.abscissa
+        outcome.residual_x = table.columns[table.abscissa].tolist()
+        outcome.residual = worst.error.tolist()
+        outcome.residual_bound = worst.bound.tolist()
+    return outcome
+
+
+def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
+    """A half profile from the mid-plane outwards, drawn from end to end as the paper does.
+
+    Axial coordinates are odd about the mid-plane and shifted to start at 0; all else is even.
+    """
+    if name in ("Z", "eta"):
+        axis = panel.x if panel.x.name == name else panel.y
+        middle = (axis.low + axis.high) / 2
+        return np.concatenate([middle - values[::-1], middle + values[1:]])
+    return np.concatenate([values[::-1], values[1:]])
+
+
+def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
+    if not panel.markers:
+        return []
+    points = solutions.points(curve.of, panel.markers)
+    name = panel.markers.replace("_", " ")
+    return [
+        Marker(panel.markers, name, point.values[panel.x.name], point.values[panel.y.name])
+        for point in points
+    ]

@@ -1,0 +1,273 @@
+"""Checks of a case that are not curves: what they need solved, and their verdicts."""
+
+from __future__ import annotations
+
+from decimal import ROUND_HALF_EVEN, Decimal
+from functools import singledispatch
+
+import numpy as np
+
+from weakforms.results import SpecialPoint
+from weakforms.verification import references
+from weakforms.verification.bounds import compare
+from weakforms.verification.case import Check, Claim, Constant, Count, Order, Points
+from weakforms.verification.case import Printed as PrintedCheck
+from weakforms.verification.outcome import Convergence, Printed, Verdict
+from weakforms.verification.solutions import Solutions
+from weakforms.verification.specs import At, Spec
+
+Wanted = tuple[Spec, At | None]
+Judged = tuple[list[Verdict], list[Printed], list[Convergence]]
+
+ORDER_SLACK = 0.25
+"""How far below theory an observed order may lie: the next term of the error at the meshes used."""
+
+
+@singledispatch
+def wants(check: Check, paper: int) -> list[Wanted]:
+    """Solutions and states a check needs."""
+    raise TypeError(type(check))
+
+
+@singledispatch
+def judge(check: Check, paper: int, solutions: Solutions) -> Judged:
+    """Verdicts, ledger entries and convergence histories of a check."""
+    raise TypeError(type(check))
+
+
+@wants.register
+def _(check: Count, paper: int) -> list[Wanted]:
+    return [(spec, None) for spec in check.expected]
+
+
+@judge.register
+def _(check: Count, paper: int, solutions: Solutions) -> Judged:
+    verdicts = []
+    for spec, expected in check.expected.items():
+        found = len(solutions.points(spec, check.kind))
+        verdicts.append(
+            Verdict(
+                check=f"count_{check.kind}:{spec}",
+                kind="count",
+                passed=found == expected,
+                statement=f"{check.statement} ({spec})",
+                detail=f"expected {expected}, found {found}",
+            )
+        )
+    return verdicts, [], []
+
+
+def _rows(check: Points, paper: int) -> list[tuple[Spec, int, int]]:
+    """Spec, row of the table and index of the point for each row."""
+    table = references.load(paper, check.reference)
+    out = []
+    for row in range(len(table)):
+        given = {name: float(table.columns[name][row]) for name in check.parameters}
+        order = int(table.columns["order"][row]) if "order" in table.columns else 1
+        out.append((check.base.at(**given), row, order - 1))
+    return out
+
+
+@wants.register
+def _(check: Points, paper: int) -> list[Wanted]:
+    return [(spec, None) for spec, _, _ in _rows(check, paper)]
+
+
+@judge.register
+def _(check: Points, paper: int, solutions: Solutions) -> Judged:
+    table = references.load(paper, check.reference)
+    verdicts = []
+    for spec, row, index in _rows(check, paper):
+        points = solutions.points(spec, check.kind)
+        if index >= len(points):
+            verdicts.append(_missing(check, spec, index, len(points)))
+            continue
+        verdicts.extend(
+            _point_verdict(check, table, points[index], f"{spec}[{index + 1}]", name, row)
+            for name in check.asked
+        )
+    return verdicts, [], []
+
+
+def _missing(check: Points, spec: Spec, index: int, found: int) -> Verdict:
+    return Verdict(
+        check=f"{check.reference}:{spec}[{index + 1}]",
+        kind="point",
+        passed=False,
+        statement=f"{check.kind} {index + 1} of {spec}",
+        detail=f"not there: the branch has {found}",
+        reference=check.reference,
+    )
+
+
+def _point_verdict(
+    check: Points,
+    table: references.Reference,
+    point: SpecialPoint,
+    label: str,
+    name: str,
+    row: int,
+) -> Verdict:
+    asked = check.asked[name]
+    value = table.columns[name][row]
+    found = compare(point.values[name], point.uncertainty[name], value, table.uncertainty[name])
+    return Verdict(
+        check=f"{check.reference}:{label}:{name}",
+        kind="point",
+        passed=found.passed(asked),
+        statement=f"{name} of {check.kind} of {label}",
+        detail=f"computed {point.values[name]:.12g}, reference {value:.12g}",
+        error=float(found.error[0]),
+        bound=float(found.bound[0]),
+        asked=asked,
+        uncertainty=float(found.uncertainty[0]),
+        reference_uncertainty=found.reference_uncertainty,
+        reference=table.name,
+    )
+
+
+@wants.register
+def _(check: Claim, paper: int) -> list[Wanted]:
+    return list(check.wants)
+
+
+@judge.register
+def _(check: Claim, paper: int, solutions: Solutions) -> Judged:
+    holds, detail = check.holds(solutions)
+    verdict = Verdict(
+        check=f"claim:{check.name}",
+        kind="claim",
+        passed=bool(holds),
+        statement=check.statement,
+        detail=detail,
+    )
+    return [verdict], [], []
+
+
+@wants.register
+def _(check: Constant, paper: int) -> list[Wanted]:
+    return [(check.of, check.at)]
+
+
+@judge.register
+def _(check: Constant, paper: int, solutions: Solutions) -> Judged:
+    field = solutions.profile(check.of, check.at)
+    values = field.columns[check.column]
+    scale = float(np.max(np.abs(values)))
+    spread = float(np.ptp(values)) / scale
+    bound = 2 * field.uncertainty[check.column] / scale
+    verdict = Verdict(
+        check=f"constant:{check.column}:{check.of}:{check.at}",
+        kind="exact",
+        passed=spread <= bound <= check.asked,
+        statement=check.statement,
+        detail=f"spread over {len(values)} points, relative to {scale:.6g}",
+        error=spread,
+        bound=bound,
+        asked=check.asked,
+        uncertainty=bound / 2,
+        reference_uncertainty=0.0,
+        reference="exact first integral",
+    )
+    return [verdict], [], []
+
+
+def _on(check: Order, degree: int, cells: int) -> Spec:
+    return check.of.on(degree=degree, cells=cells, levels=2)
+
+
+@wants.register
+def _(check: Order, paper: int) -> list[Wanted]:
+    return [(_on(check, d, n), check.at) for d in check.expected for n in check.cells]
+
+
+@judge.register
+def _(check: Order, paper: int, solutions: Solutions) -> Judged:
+    table = references.load(paper, check.reference)
+    verdicts, histories = [], []
+    for degree, expected in check.expected.items():
+        errors = [_error(check, table, _on(check, degree, n), solutions) for n in check.cells]
+        fine = -np.log(errors[-1] / errors[-2]) / np.log(check.cells[-1] / check.cells[-2])
+        name = f"{check.quantity}, P{degree}"
+        verdicts.append(
+            Verdict(
+                check=f"order:{check.quantity}:P{degree}",
+                kind="order",
+                passed=bool(fine >= expected - ORDER_SLACK),
+                statement=f"{name} converges at order {expected:g} or better",
+                detail=f"observed {fine:.2f} from {check.cells[-2]} to {check.cells[-1]} cells; errors "
+                + ", ".join(f"{e:.1e}" for e in errors),
+                reference=table.name,
+            )
+        )
+        histories.append(
+            Convergence(
+                quantity=name,
+                degree=degree,
+                cells=list(check.cells),
+                errors=[float(e) for e in errors],
+                observed_order=float(fine),
+                expected_order=expected,
+                against=f"reference table {table.name}",
+            )
+        )
+    return verdicts, [], histories
+
+
+def _error(check: Order, table: references.Reference, spec: Spec, solutions: Solutions) -> float:
+    """Relative error on one mesh: of a special point's value, or the largest along a profile."""
+    exact = table.columns[check.column]
+    if check.at is None:
+        value = solutions.points(spec, check.kind)[check.row].values[check.column]
+        return abs(value - exact[check.row]) / abs(exact[check.row])
+    values, _ = solutions.sampled(spec, check.at, check.column)
+    return float(np.max(np.abs(values - exact)) / np.max(np.abs(exact)))
+
+
+@wants.register
+def _(check: PrintedCheck, paper: int) -> list[Wanted]:
+    return [(check.of, None)]
+
+
+@judge.register
+def _(check: PrintedCheck, paper: int, solutions: Solutions) -> Judged:
+    points = solutions.points(check.of, check.kind)
+    if check.index >= len(points):
+        verdict = Verdict(
+            check=f"printed:{check.what}",
+            kind="printed",
+            passed=False,
+            statement=f"{check.what} is printed as {check.printed}",
+            detail=f"there is no such {check.kind}",
+        )
+        return [verdict], [], []
+    point = points[check.index]
+    value, uncertainty = point.values[check.column], point.uncertainty[check.column]
+    reproduced = rounds_to(value, uncertainty, check.printed)
+    evidence = f"computed {value:.10g} with uncertainty {uncertainty:.1e}"
+    entry = Printed(
+        what=check.what,
+        printed=check.printed,
+        computed=value,
+        uncertainty=uncertainty,
+        status="reproduced" if reproduced else "not reproduced",
+        evidence=evidence,
+        source=check.source,
+    )
+    verdict = Verdict(
+        check=f"printed:{check.what}",
+        kind="printed",
+        passed=reproduced,
+        statement=f"{check.what} is printed as {check.printed} ({check.source})",
+        detail=evidence,
+    )
+    return [verdict], [entry], []
+
+
+def rounds_to(value: float, uncertainty: float, printed: str) -> bool:
+    """Whether a number, anywhere within its uncertainty, rounds to all printed digits."""
+    unit = Decimal(printed)
+    return all(
+        Decimal(end).quantize(unit, rounding=ROUND_HALF_EVEN) == unit
+        for end in (value - uncertainty, value + uncertainty)
+    )

@@ -1,0 +1,286 @@
+"""A run of the suite: what the cases need is collected, solved once, stored, then judged."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import cache
+from multiprocessing import get_context
+from pathlib import Path
+
+from weakforms.errors import InputError, WeakformsError
+from weakforms.results import Result, load_result, write_atomically
+from weakforms.results.io import dumps
+from weakforms.verification.curves import curve_wants, draw_panel, judge_curve
+from weakforms.verification.discovery import FoundCase
+from weakforms.verification.judge import judge, wants
+from weakforms.verification.machine import environment
+from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
+from weakforms.verification.solutions import Solutions
+from weakforms.verification.specs import At, Spec
+
+Report = Callable[[int, int, str], None]
+"""Progress: solves done, solves in all, what is being done."""
+
+
+@dataclass
+class Plan:
+    """Every solution a set of cases needs, each once, with all the states wanted of it."""
+
+    states: dict[Spec, list[At]]
+    by_case: dict[str, list[Spec]]
+
+    @classmethod
+    def of(cls, cases: Iterable[FoundCase]) -> Plan:
+        """Collect what the cases want; reference tables are read and checked here, before any solve."""
+        states: dict[Spec, list[At]] = {}
+        by_case: dict[str, list[Spec]] = {}
+        for found in cases:
+            needed = []
+            for spec, at in case_wants(found):
+                listed = states.setdefault(spec, [])
+                if at is not None and at not in listed:
+                    listed.append(at)
+                if spec not in needed:
+                    needed.append(spec)
+            by_case[found.id] = needed
+        return cls({spec: _merge(ats) for spec, ats in states.items()}, by_case)
+
+
+def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
+    """All solutions and states of one case."""
+    out = []
+    for panel in found.case.panels:
+        for curve in panel.curves:
+            out.extend(curve_wants(found.paper, curve))
+    for check in found.case.checks:
+        out.extend(wants(check, found.paper))
+    return out
+
+
+def _merge(ats: list[At]) -> list[At]:
+    """One request a state, sampled at the union of the points wanted of it."""
+    merged: dict[tuple[str, float, int], tuple[float, ...] | None] = {}
+    for at in ats:
+        key = (at.name, at.value, at.crossing)
+        points = merged.get(key)
+        if at.profile is not None:
+            # An empty tuple asks for the problem's own points: they are added wherever a picture is drawn.
+            points = tuple(sorted({*(points or ()), *at.profile}))
+        merged[key] = points
+    return [At(*key, profile=points) for key, points in merged.items()]
+
+
+# -- solving -------------------------------------------------------------------------------------
+
+
+def solve_spec(spec: Spec, states: list[At]) -> Result:
+    """Solve one spec with all its states (on all ranks of the world, if there are several)."""
+    from weakforms import api
+    from weakforms.problems.base import StateRequest
+
+    requests = [StateRequest(at.name, at.value, at.crossing, profile=at.profile) for at in states]
+    return api.solve_requests(
+        spec.problem,
+        dict(spec.parameters),
+        dict(spec.numerics),
+        requests,
+        branch_uncertainty=False,
+    )
+
+
+def _task(spec: Spec, states: list[At]) -> str:
+    return dumps(solve_spec(spec, states).to_json())
+
+
+@cache
+def source_digest() -> str:
+    """Digest of the package's source: a stored solution is reused only by the code that made it."""
+    folder = Path(__file__).resolve().parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(folder.rglob("*.py")):
+        digest.update(path.relative_to(folder).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def solution_key(spec: Spec, states: list[At]) -> str:
+    """Name under which a solution is stored."""
+    text = json.dumps([str(spec), sorted(map(repr, states)), source_digest()])
+    return f"{spec.problem}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+
+
+class Solver:
+    """Solves a plan into a folder, with what an earlier run left there if that is wanted.
+
+    Args:
+        folder: Where solutions are stored, one JSON file each.
+        jobs: Processes side by side.
+        resume: Take over what is stored there already.
+        writes: Whether this process writes (rank 0 of several).
+    """
+
+    def __init__(self, folder: Path, jobs: int = 1, resume: bool = False, writes: bool = True) -> None:
+        self.folder, self.jobs, self.resume, self.writes = folder, jobs, resume, writes
+        self.failures: dict[Spec, WeakformsError] = {}
+        self.results: dict[Spec, Result] = {}
+        self.files: dict[Spec, str] = {}
+
+    def run(self, plan: Plan, report: Report) -> None:
+        """Solve everything; a spec that fails is noted and the others go on."""
+        todo = []
+        for spec, states in plan.states.items():
+            path = self.folder / f"{solution_key(spec, states)}.json"
+            self.files[spec] = path.name
+            if self.resume and self._take(spec, path):
+                continue
+            todo.append((spec, states, path))
+        total, done = len(plan.states), len(plan.states) - len(todo)
+        for spec, outcome in self._outcomes(todo, lambda s: report(done, total, str(s))):
+            if isinstance(outcome, WeakformsError):
+                self.failures[spec] = outcome
+            else:
+                self._store(spec, outcome)
+            done += 1
+            report(done, total, str(spec))
+
+    def _take(self, spec: Spec, path: Path) -> bool:
+        if not path.exists():
+            return False
+        try:
+            self.results[spec] = load_result(path)
+        except InputError:
+            return False  # cut short by whatever ended that run: solve it again
+        return True
+
+    def _store(self, spec: Spec, text: str) -> None:
+        if self.writes:
+            write_atomically(self.folder / self.files[spec], text)
+        self.results[spec] = Result.from_json(json.loads(text))
+
+    def _outcomes(self, todo: list, begin: Callable[[Spec], None]) -> Iterable[tuple[Spec, object]]:
+        if self.jobs == 1:
+            for spec, states, _ in todo:
+                begin(spec)
+                try:
+                    yield spec, _task(spec, states)
+                except WeakformsError as error:
+                    yield spec, error
+            return
+        # Spawned, not forked: MPI and PETSc do not survive a fork.
+        with ProcessPoolExecutor(self.jobs, mp_context=get_context("spawn")) as pool:
+            futures = {pool.submit(_task, spec, states): spec for spec, states, _ in todo}
+            for future in as_completed(futures):
+                error = future.exception()
+                if error is not None and not isinstance(error, WeakformsError):
+                    raise error
+                yield futures[future], error or future.result()
+
+
+# -- judging -------------------------------------------------------------------------------------
+
+
+def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
+    """Verdicts and pictures of one case from stored solutions."""
+    begun = time.perf_counter()
+    solutions = Solutions(solver.results)
+    outcome = CaseOutcome(
+        id=found.id,
+        title=found.case.title,
+        source=found.case.source,
+        description=found.description,
+        status="passed",
+        solutions=[_solution(spec, solver) for spec in plan.by_case[found.id]],
+    )
+    for spec in plan.by_case[found.id]:
+        if spec in solver.failures:
+            outcome.errors.append(f"{spec}: {solver.failures[spec]}")
+    for panel in found.case.panels:
+        comparisons = {}
+        for curve in panel.curves:
+            try:
+                verdicts, comparisons[id(curve)] = judge_curve(
+                    found.paper, curve, found.case, solutions
+                )
+                outcome.verdicts.extend(verdicts)
+            except WeakformsError as error:
+                _unjudged(outcome, curve.reference or curve.label, "curve", error)
+        outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
+    for check in found.case.checks:
+        try:
+            verdicts, printed, histories = judge(check, found.paper, solutions)
+        except WeakformsError as error:
+            _unjudged(outcome, type(check).__name__.lower(), "claim", error)
+            continue
+        outcome.verdicts.extend(verdicts)
+        outcome.printed.extend(printed)
+        outcome.convergence.extend(histories)
+    outcome.status = _status(outcome)
+    outcome.seconds = time.perf_counter() - begun + sum(
+        s["provenance"].get("wall_s", 0.0) for s in outcome.solutions
+    )
+    return outcome
+
+
+def _unjudged(outcome: CaseOutcome, what: str, kind: str, error: WeakformsError) -> None:
+    """A check without numbers to judge is a failed one, never a missing one."""
+    outcome.errors.append(str(error))
+    outcome.verdicts.append(
+        Verdict(what, kind, False, "could be judged", detail=f"not solved: {error}")
+    )
+
+
+def _status(outcome: CaseOutcome) -> str:
+    if outcome.errors:
+        return "error"
+    # A case that judged nothing has verified nothing.
+    good = bool(outcome.verdicts) and all(v.passed for v in outcome.verdicts)
+    return "passed" if good else "failed"
+
+
+def _solution(spec: Spec, solver: Solver) -> dict:
+    result = solver.results.get(spec)
+    return {
+        "spec": str(spec),
+        "problem": spec.problem,
+        "parameters": result.parameters if result else dict(spec.parameters),
+        "numerics": result.numerics if result else dict(spec.numerics),
+        "provenance": result.provenance if result else {},
+        "failures": [f"{f.what}: {f.reason}" for f in result.failures] if result else [],
+        "file": f"solutions/{solver.files[spec]}",
+    }
+
+
+def verify(
+    cases: list[FoundCase],
+    out: Path,
+    profile: str,
+    selection: str,
+    jobs: int = 1,
+    resume: bool = False,
+    writes: bool = True,
+    report: Report = lambda *_: None,
+) -> RunOutcome:
+    """Solve and judge cases; the caller writes the report.
+
+    Raises:
+        InputError: Before anything is solved, when a case or a reference table is not sound.
+    """
+    begun, started = time.perf_counter(), datetime.now(UTC).isoformat(timespec="seconds")
+    plan = Plan.of(cases)
+    solver = Solver(out / "solutions", jobs, resume, writes)
+    solver.run(plan, report)
+    outcomes = [judge_case(found, plan, solver) for found in cases]
+    return RunOutcome(
+        profile=profile,
+        selection=selection,
+        started=started,
+        seconds=time.perf_counter() - begun,
+        environment=environment(),
+        cases=outcomes,
+    )
