@@ -14,12 +14,14 @@ from weakforms.verification.case import (
     Constant,
     Count,
     Curve,
+    Finding,
     Order,
     Panel,
     Points,
     Printed,
 )
 from weakforms.verification.compare import compare
+from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec, tube, tube_fold
 
 __version__ = "0.1.0"
@@ -34,11 +36,13 @@ __all__ = [
     "Count",
     "Curve",
     "EnvironmentLackError",
+    "Finding",
     "InputError",
     "Order",
     "Panel",
     "Points",
     "Printed",
+    "Solutions",
     "Spec",
     "WeakformsError",
     "cases",

@@ -9,7 +9,7 @@ from weakforms.errors import EnvironmentLackError
 from weakforms.results import Result
 
 
-def _problems() -> Any:
+def require_environment() -> Any:
     """The registry of problems, which needs dolfinx.
 
     Raises:
@@ -63,7 +63,7 @@ def solve(
         ConvergenceError: When no branch could be started.
         EnvironmentLackError: When dolfinx is missing.
     """
-    _problems()
+    require_environment()
     from weakforms.problems.base import StateRequest
 
     wanted = at.items() if isinstance(at, Mapping) else at
@@ -80,7 +80,7 @@ def solve_requests(
     progress: Any = None,
 ) -> Result:
     """As :func:`solve`, with requests that say for each state which profile points it needs."""
-    registry = _problems()
+    registry = require_environment()
     from mpi4py import MPI
 
     from weakforms.problems.base import Requests, silent, validated

@@ -50,9 +50,7 @@ def main(argv: list[str] | None = None) -> int:
         return 0
     wanted = args.names or (list(known) if args.all or args.paper is not None else [])
     if not wanted:
-        print(
-            "nothing to do: give a table, --paper N or --all (--list names them)", file=sys.stderr
-        )
+        print("nothing to do: give a table, --paper N or --all (--list names them)", file=sys.stderr)
         return 2
     failed = 0
     for i, name in enumerate(wanted, 1):

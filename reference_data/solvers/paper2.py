@@ -41,9 +41,7 @@ def curve(name: str, tube: Tube, u_stop: float, source: str) -> Table:
         raise RuntimeError(f"table {name}: u_max does not rise monotonically along the branch")
     a, (b, _) = fdb.curve(tube, "u_max", targets), col.curve(tube, "u_max", targets)
     columns = [prescribed("u_max", targets, text.COLUMNS["u_max"])]
-    columns += [
-        agreed(name, c, a[c], b[c], text.COLUMNS[c]) for c in ("p", "lam1_mid", "t1_mid", "V")
-    ]
+    columns += [agreed(name, c, a[c], b[c], text.COLUMNS[c]) for c in ("p", "lam1_mid", "t1_mid", "V")]
     title = f"Free inflation, alpha = {tube.alpha:g}, delta1 = {tube.delta1:g}, lf = {tube.lf:g}"
     return make(name, title, source, given(tube), columns, notes=text.CURVE_NOTES)
 
@@ -60,9 +58,7 @@ def limits(name: str, tubes: list[Tube], keys: tuple[str, ...], source: str) -> 
         a, b = a + by_fd, b + by_collocation
         if not by_fd:
             none.append(f"(alpha, delta1, lf) = ({tube.alpha:g}, {tube.delta1:g}, {tube.lf:g})")
-    key_columns = [
-        prescribed(k, np.array([getattr(t, k) for t, _ in rows]), text.COLUMNS[k]) for k in keys
-    ]
+    key_columns = [prescribed(k, np.array([getattr(t, k) for t, _ in rows]), text.COLUMNS[k]) for k in keys]
     key_columns.append(prescribed("order", np.array([o for _, o in rows]), text.COLUMNS["order"]))
     columns = key_columns + stacked(name, ("p", "u_max"), a, b)
     missing = f" Searched without finding any: {'; '.join(none)}." if none else ""

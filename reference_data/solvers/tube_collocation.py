@@ -187,9 +187,7 @@ class Linearised:
         b[-1] += scalar
         ends_and_p = np.linalg.solve(a, b)
         left = ends_and_p[:-1].reshape(k + 1, 4)
-        factors = np.concatenate(
-            [left[:-1], np.full((k, 1), ends_and_p[-1]), np.ones((k, 1))], axis=1
-        )
+        factors = np.concatenate([left[:-1], np.full((k, 1), ends_and_p[-1]), np.ones((k, 1))], axis=1)
         inner = np.einsum("kij,kj->ki", x, factors).reshape(k, m, 4)
         return np.concatenate([left[:-1, None], inner], axis=1), float(ends_and_p[-1])
 

@@ -75,9 +75,7 @@ def limit_pair(name: str, tube: Tube) -> tuple[list[Estimate], list[Estimate]]:
     return a, b
 
 
-def stacked(
-    name: str, columns: tuple[str, ...], a: list[Estimate], b: list[Estimate]
-) -> list[Column]:
+def stacked(name: str, columns: tuple[str, ...], a: list[Estimate], b: list[Estimate]) -> list[Column]:
     """Columns made of one estimate per row, each estimate holding all columns."""
     out = []
     for i, column in enumerate(columns):
@@ -86,16 +84,12 @@ def stacked(
             np.array([e.uncertainty[i] for e in a]),
             np.array([e.order[i] for e in a]),
         )
-        second = col.Resolved(
-            np.array([e.value[i] for e in b]), np.array([e.uncertainty[i] for e in b])
-        )
+        second = col.Resolved(np.array([e.value[i] for e in b]), np.array([e.uncertainty[i] for e in b]))
         out.append(agreed(name, column, first, second, text.COLUMNS[column]))
     return out
 
 
-def first_limits(
-    tube: Tube, u_stop: float = U_STOP
-) -> tuple[list[fdb.State], list[col.State], int]:
+def first_limits(tube: Tube, u_stop: float = U_STOP) -> tuple[list[fdb.State], list[col.State], int]:
     """First limit point on the grids and on the meshes, and the number of limit points."""
     by_fd = fdc.limit_points(tube, u_stop)
     if not by_fd:

@@ -32,9 +32,7 @@ class Extrapolated:
     order: Array
 
 
-def richardson(
-    coarse: Array, middle: Array, fine: Array, amplified: float | Array = 1.0
-) -> Extrapolated:
+def richardson(coarse: Array, middle: Array, fine: Array, amplified: float | Array = 1.0) -> Extrapolated:
     """Eliminate h^2 and h^4 from values on grids n, 2n, 4n.
 
     The uncertainty is the change made by the h^4 term, that is the error estimate of the
@@ -193,8 +191,7 @@ def curve(tube: Tube, control: str, targets: Array) -> dict[str, Extrapolated]:
         pairs = zip(GRIDS, states, strict=True)
         rows.append([quantities(tube, Grid(n), state) for n, state in pairs])
     return {
-        name: richardson(*(np.array([row[g][name] for row in rows]) for g in range(3)))
-        for name in rows[0][0]
+        name: richardson(*(np.array([row[g][name] for row in rows]) for g in range(3))) for name in rows[0][0]
     }
 
 
@@ -233,7 +230,4 @@ def profiles(tube: Tube, states: list[State], z_plot: Array) -> dict[str, Extrap
     at = fine.inverse(z_plot / (tube.lf / 2))
     # at the disk lambda1 is extrapolated over half a cell, which multiplies its rounding error
     spread = np.abs(sampling(middles(fine), at)).sum(axis=1) / (fine.density(at) * tube.length)
-    return {
-        name: richardson(*(r[name] for r in raw), amplified=np.maximum(1.0, spread))
-        for name in raw[0]
-    }
+    return {name: richardson(*(r[name] for r in raw), amplified=np.maximum(1.0, spread)) for name in raw[0]}

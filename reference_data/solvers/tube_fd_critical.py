@@ -52,9 +52,7 @@ class Null:
 
     def second(self) -> sp.csc_matrix:
         """F_yy[phi, .] as a matrix."""
-        bumped = fd.jacobian(
-            self.tube, self.grid, self.y + 1j * STEP * self.phi, self.p, plain_pressure
-        )
+        bumped = fd.jacobian(self.tube, self.grid, self.y + 1j * STEP * self.phi, self.p, plain_pressure)
         return bumped.imag / STEP
 
     def g_by_state(self) -> Array:
@@ -99,9 +97,7 @@ def limit_point(tube: Tube, grid: Grid, start: State, max_iter: int = 25) -> Sta
     raise RuntimeError(f"finite differences: limit point not found for {tube}, n = {grid.n}")
 
 
-def fold_at(
-    tube: Tube, grid: Grid, start: State, u: float, max_iter: int = 25
-) -> tuple[Tube, State]:
+def fold_at(tube: Tube, grid: Grid, start: State, u: float, max_iter: int = 25) -> tuple[Tube, State]:
     """The limit point with u_max = u, for (y, p, delta1); the tube's own delta1 is the guess.
 
     Raises:

@@ -15,9 +15,7 @@ METHOD = (
     "uncertainty of a column is u_b + max |a - b| + half a unit of the last digit; "
     "largest_difference_of_methods is max |a - b|."
 )
-TOLERANCE = (
-    "Newton takes one more step after the first one below 1e-7 (b) or 1e-6 (a): rounding only"
-)
+TOLERANCE = "Newton takes one more step after the first one below 1e-7 (b) or 1e-6 (a): rounding only"
 CURVE_NOTES = (
     "Primary branch from the unloaded tube on. u_max rises monotonically along it, which the "
     "pseudo-arclength trace of the finite-difference code checks over the whole table."

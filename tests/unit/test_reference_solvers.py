@@ -60,9 +60,7 @@ def test_constitutive_derivatives_against_complex_step(alpha, l1, l2):
     h = 1j * STEP
     assert mat.slope(l1, l2, alpha) == pytest.approx(derive(mat.energy, l1 + h, l2, alpha), 1e-13)
     assert mat.slope(l2, l1, alpha) == pytest.approx(derive(mat.energy, l1, l2 + h, alpha), 1e-13)
-    assert mat.curvature(l1, l2, alpha) == pytest.approx(
-        derive(mat.slope, l1 + h, l2, alpha), 1e-13
-    )
+    assert mat.curvature(l1, l2, alpha) == pytest.approx(derive(mat.slope, l1 + h, l2, alpha), 1e-13)
     assert mat.mixed(l1, l2, alpha) == pytest.approx(derive(mat.slope, l1, l2 + h, alpha), 1e-13)
 
 
@@ -174,9 +172,7 @@ def test_total_potential_is_stationary(alpha, delta1):
 
 def test_volume_and_displacement_control_meet_the_same_state():
     tube, mesh = Tube(0.1, 1.0, 6.0), tube_collocation_critical.MESHES[0]
-    state, system = tube_collocation.newton(
-        tube_collocation.first_guess(tube, mesh, 0.4), "u_max", 0.4
-    )
+    state, system = tube_collocation.newton(tube_collocation.first_guess(tube, mesh, 0.4), "u_max", 0.4)
     again = tube_collocation_critical.start(tube, mesh, "V", system.volume)
     assert again.p == pytest.approx(state.p, abs=1e-11)
 
@@ -201,8 +197,7 @@ def test_limit_point_is_singular_and_stationary():
     assert values[-1] < 1e-10 * values[-2]
     h, u = 1e-3, state[0][0] - 1
     far_left, left, right, far_right = (
-        tube_fd.newton(tube, grid, state, tube_fd.at_control("u_max", u + k * h))[1]
-        for k in (-2, -1, 1, 2)
+        tube_fd.newton(tube, grid, state, tube_fd.at_control("u_max", u + k * h))[1] for k in (-2, -1, 1, 2)
     )
     assert max(left, right) < state[1]
     slope = (8 * (right - left) - (far_right - far_left)) / (12 * h)
@@ -217,9 +212,7 @@ def test_fictitious_time_integration_reaches_the_newton_root():
     assert run.evaluations == 4 * run.steps
 
 
-@pytest.mark.parametrize(
-    "name", ["fig02b_delta1_1.5", "fig04_p_1.9", "limit_points_alpha_0.1", "long_tube"]
-)
+@pytest.mark.parametrize("name", ["fig02b_delta1_1.5", "fig04_p_1.9", "limit_points_alpha_0.1", "long_tube"])
 def test_regenerated_table_equals_the_committed_one(name, tmp_path):
     assert main([name, "--out", str(tmp_path)]) == 0
     about, committed = read(DATA / "paper2" / f"{name}.toml")

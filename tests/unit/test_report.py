@@ -122,9 +122,7 @@ def passing_case():
 def failing_case():
     checks = [
         verdict("good:p"),
-        verdict(
-            "bad:p", passed=False, error=1.3004e-9, bound=1.3e-9, detail="12 rows out of bound"
-        ),
+        verdict("bad:p", passed=False, error=1.3004e-9, bound=1.3e-9, detail="12 rows out of bound"),
         verdict("nan:p", passed=False, error=None, detail="not a number"),
     ]
     panels = [panel([curve("bad", 1.1, factor=3.0)])]
@@ -233,9 +231,7 @@ def test_ids_are_unique_and_links_arrive(reader):
     assert len(ids) == len(set(ids))
     assert "paper2.fig03" in ids
     assert "paper2.fig02:bad:p" in ids
-    targets = {
-        value[1:] for _, name, value in reader.attributes if name == "href" and value[0] == "#"
-    }
+    targets = {value[1:] for _, name, value in reader.attributes if name == "href" and value[0] == "#"}
     assert targets <= set(ids)
     for _, name, value in reader.attributes:
         if name in ("aria-labelledby", "aria-describedby"):

@@ -18,9 +18,7 @@ from weakforms.solvers.branch import DIAGNOSTICS
 class Parameters(BaseModel):
     """Parameters of a problem: names, defaults, ranges; nothing unknown, no NaN, immutable."""
 
-    model_config = ConfigDict(
-        extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True
-    )
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True)
 
 
 class Numerics(Parameters):
@@ -163,9 +161,7 @@ def check_requests(problem: Problem, requests: Requests) -> None:
             )
 
 
-def sample_points(
-    wanted: tuple[float, ...] | None, default: np.ndarray
-) -> np.ndarray | None:
+def sample_points(wanted: tuple[float, ...] | None, default: np.ndarray) -> np.ndarray | None:
     """Sorted sample points of a request; the default ones where it leaves the choice.
 
     Raises:

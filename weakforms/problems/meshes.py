@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from mpi4py import MPI
-
 from dolfinx import mesh as dmesh
+from mpi4py import MPI
 
 
 def graded_interval(

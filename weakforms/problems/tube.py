@@ -10,13 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-from mpi4py import MPI
-
 import basix.ufl
+import numpy as np
 import ufl
 from dolfinx import fem
 from dolfinx.mesh import Mesh
+from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Stretches, tube_stretches
@@ -36,7 +35,10 @@ WALK_FROM = 1.3
 (its tangent singular), and a guess of one's own may converge to a folded state."""
 
 FIRST_U = 0.02
-"""Mid-plane displacement of the first state."""
+"""Mid-plane displacement of the first state of a tube that is slack without pressure, or nearly so."""
+
+TAUT = 1.02
+"""Pre-stretch from which the branch begins at ``p = 0`` (the layer at the disk is then resolved)."""
 
 
 @dataclass(frozen=True)
@@ -62,20 +64,17 @@ def potential(rho: Expr, eta: Expr, p: Expr, alpha: Expr, delta1: Expr) -> Expr:
     return energy / ufl.sqrt(delta1) + gas_potential(rho, eta, p)
 
 
-def formulation(
-    comm: MPI.Intracomm, alpha: float, delta1: float, lf: float, at: TubeMesh
-) -> Formulation:
+def formulation(comm: MPI.Intracomm, alpha: float, delta1: float, lf: float, at: TubeMesh) -> Formulation:
     """Weak form of free inflation, with the pressure and the pre-stretch as loads."""
     half = lf / 2
     mesh = graded_interval(comm, at.cells, half, at.grading, mirrored=at.full)
-    space = fem.functionspace(
-        mesh, basix.ufl.element("Lagrange", "interval", at.degree, shape=(2,))
-    )
+    space = fem.functionspace(mesh, basix.ufl.element("Lagrange", "interval", at.degree, shape=(2,)))
     unknown = fem.Function(space, name="tube")
     unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), x[0]]))
     rho, eta = unknown
-    constants = {name: fem.Constant(mesh, value) for name, value in
-                 (("p", 0.0), ("delta1", delta1), ("alpha", alpha))}
+    constants = {
+        name: fem.Constant(mesh, value) for name, value in (("p", 0.0), ("delta1", delta1), ("alpha", alpha))
+    }
     loads = {name: (constants[name], ufl.variable(constants[name])) for name in ("p", "delta1")}
     p, d1 = (variable for _, variable in loads.values())
 
@@ -151,25 +150,28 @@ def _clamps(space: fem.FunctionSpace, half: float, full: bool) -> list[fem.Diric
     return [fixed(DISK, half), fem.dirichletbc(np.array(0.0), dofs, space.sub(1))]
 
 
-def first_state(solver: ExtendedNewton, delta1: float) -> State:
-    """A slightly inflated state of the tube, reached by walking down from a taut one."""
+def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
+    """First state of the branch and what holds it: unloaded where the tube is taut, else slightly inflated.
+
+    The latter is reached by walking down in the pre-stretch from a taut tube.
+    """
     state = solver.system.state()
+    if delta1 >= TAUT:
+        return state, Held("p", 0.0)
     inflated = Held("u_max", FIRST_U)
-    for stretch in np.linspace(max(delta1, WALK_FROM), delta1, 7 if delta1 < WALK_FROM else 1):
+    for stretch in np.linspace(WALK_FROM, delta1, 7):
         state.loads["delta1"] = float(stretch)
         state, _ = solver.solve(state, [inflated])
-    return state
+    return state, inflated
 
 
 def free_branch(system: System, delta1: float, u_end: float, step: float) -> EquilibriumBranch:
-    """Free inflation at fixed pre-stretch: from ``u_max = 0.02`` by arc-length to ``u_max = u_end``."""
+    """Free inflation at fixed pre-stretch by arc-length, up to ``u_max = u_end``."""
     solver = ExtendedNewton(system, ["p"])
     continuation = Continuation(solver, control=StepControl(first=step / 4, largest=step))
-    state = first_state(solver, delta1)
-    start = continuation.start(state, Held("u_max", FIRST_U), towards={"u_max": 1.0})
-    return EquilibriumBranch(
-        continuation, "p", start, stop=lambda point: point.monitors["u_max"] > u_end
-    )
+    state, held = first_state(solver, delta1)
+    start = continuation.start(state, held, towards={"u_max": 1.0})
+    return EquilibriumBranch(continuation, "p", start, stop=lambda point: point.monitors["u_max"] > u_end)
 
 
 def fold_line(branch: EquilibriumBranch, delta1_end: float, step: float) -> FoldLine:
@@ -179,9 +181,7 @@ def fold_line(branch: EquilibriumBranch, delta1_end: float, step: float) -> Fold
     fold = Fold("p", branch.system.mass_times(middle.tangent.u))
     solver = ExtendedNewton(branch.system, ["p", "delta1"])
     low = begin.loads["delta1"]
-    continuation = Continuation(
-        solver, [fold], StepControl(first=step / 4, largest=step), shift=1e-6
-    )
+    continuation = Continuation(solver, [fold], StepControl(first=step / 4, largest=step), shift=1e-6)
     start = continuation.start(begin, Held("delta1", low), towards={"delta1": 1.0})
     return FoldLine(
         continuation,

@@ -110,10 +110,20 @@ class Tube:
     scales: ClassVar[dict[str, str]] = SCALES
     parameters = TubeParameters
     numerics = TubeNumerics
-    columns = ("p", "u_max", "lam1_mid", "t1_mid", "V", "Pi", "n_negative", "residual", "iterations")
-    special_points = ("limit_point",)
+    columns = (
+        "p",
+        "u_max",
+        "lam1_mid",
+        "t1_mid",
+        "V",
+        "Pi",
+        "n_negative",
+        "residual",
+        "iterations",
+    )
+    special_points = ("limit_point", "bifurcation_point")
     branches = ("primary",)
-    control: ClassVar[str] = "p (columns past a limit point are single-valued in V)"
+    control: ClassVar[str] = "p (past a limit point compare over u_max, which rises all along the branch)"
 
     def check(self, parameters: TubeParameters, requests: Requests) -> None:
         """Refuse what the ranges of single parameters cannot.
@@ -197,7 +207,7 @@ def answer(
     try:
         result.special_points.extend(family.special_points())
     except ConvergenceError as error:
-        result.failures.append(Failure(family.fine.kind, str(error)))
+        result.failures.append(Failure("special points", str(error)))
     for i, wanted in enumerate(requests.states):
         progress("states", i, len(requests.states))
         try:
@@ -235,7 +245,7 @@ class TubeFold:
     columns = ("delta1", *Tube.columns)
     special_points = ("cusp_point",)
     branches = ("primary",)
-    control: ClassVar[str] = "delta1 (columns are single-valued in u_max)"
+    control: ClassVar[str] = "delta1 (past the cusp compare over u_max, which rises all along the line)"
 
     def check(self, parameters: TubeFoldParameters, requests: Requests) -> None:
         """Refuse states nobody could solve for."""

@@ -208,9 +208,7 @@ class Result:
     def points(self, kind: str, branch: str | None = None) -> list[SpecialPoint]:
         """Special points of one kind, in the order in which the branch meets them."""
         return [
-            point
-            for point in self.special_points
-            if point.kind == kind and branch in (None, point.branch)
+            point for point in self.special_points if point.kind == kind and branch in (None, point.branch)
         ]
 
     def to_json(self) -> dict[str, Any]:

@@ -6,17 +6,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-
+from scipy.interpolate import BarycentricInterpolator
 from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.solvers.constraints import Fold, Held, MonitorPlane
 from weakforms.solvers.continuation import Continuation, CurvePoint, hermite
 from weakforms.solvers.newton import Constraint
+from weakforms.solvers.stability import Stability
 from weakforms.solvers.system import State
 
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
 """Columns that describe the solve: they can be read, not prescribed."""
+
+
+NODES = 8
+"""States from which a bifurcation point is interpolated."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +30,8 @@ class Solved:
 
     values: dict[str, float]
     state: State
+    kind: str = ""
+    """Of the special point it is; empty for any other state."""
 
 
 class SolutionCurve:
@@ -130,9 +137,9 @@ class SolutionCurve:
     def _column(self, point: CurvePoint, name: str) -> float:
         return point.state.loads[name] if name in self.loads else point.monitors[name]
 
-    def _solve(self, guess: State, constraint: Constraint) -> Solved:
+    def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
         state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
-        return Solved(self._values(state), state)
+        return Solved(self._values(state), state, kind)
 
     def _between(self, i: int, fraction: float) -> State:
         """Cubic interpolation between two neighbours of the trace."""
@@ -156,6 +163,20 @@ class SolutionCurve:
             if gap > 1.2 * length:
                 raise ConvergenceError(f"{what}: converged {gap:.2g} away from where it was bracketed")
 
+    def _root(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
+        """Where a function of the state is zero between two neighbours, over planes across the curve."""
+        tangent = self.points[i].tangent
+        last: list[Solved] = []
+
+        def value(fraction: float) -> float:
+            guess = self._between(i, fraction)
+            last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
+            return function(last[-1])
+
+        value(brentq(value, 0.0, 1.0, xtol=1e-13, rtol=1e-13))
+        self._require_within(i, last[-1], f"{kind} in {self.control}")
+        return last[-1]
+
     def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
         """Rates of some columns along the branch at a point of the trace."""
         self.system.set_state(point.state.u, point.state.loads)
@@ -177,28 +198,65 @@ class EquilibriumBranch(SolutionCurve):
     kind = "limit_point"
 
     def special(self) -> list[Solved]:
-        """Limit points in order, each located by the extended system of :class:`Fold`.
+        """Limit points and bifurcation points in order.
 
-        Bracketed where ``dλ/ds`` changes sign, which must also be where the inertia changes.
+        Limit points are bracketed where ``dλ/ds`` changes sign, which must also be where the inertia
+        changes by one, and located by the extended system of :class:`Fold`. Where the inertia changes and
+        the load does not turn, another branch crosses.
 
         Raises:
-            ConvergenceError: When the two disagree, or the extended system does not converge in between.
+            ConvergenceError: When slope and inertia disagree, or a point is not converged to.
         """
-        turns = self.turns()
-        changes = np.flatnonzero(np.diff([p.n_negative for p in self.points]))
-        if not np.array_equal(turns, changes):
+        counts = np.array([p.n_negative for p in self.points])
+        turns = self.turns().tolist()
+        changes = np.flatnonzero(np.diff(counts)).tolist()
+        if not set(turns) <= set(changes):
             raise ConvergenceError(
-                f"folds by slope (after points {turns.tolist()}) and by inertia "
-                f"(after points {changes.tolist()}) disagree"
+                f"folds by slope (after points {turns}) and by inertia (after points {changes}) disagree"
             )
-        return [self._fold(int(i)) for i in turns]
+        jumps = np.abs(np.diff(counts)[changes])
+        if np.any(jumps != 1):
+            raise ConvergenceError(
+                f"several eigenvalues change sign between neighbours (after points {changes}): "
+                "shorter steps are needed to tell them apart"
+            )
+        return [self._fold(i) if i in turns else self._bifurcation(i) for i in changes]
 
     def _fold(self, i: int) -> Solved:
         a, b = self.points[i], self.points[i + 1]
         border = self.system.mass_times(a.tangent.u + b.tangent.u)
-        solved = self._solve(self._turn_guess(i), Fold(self.control, border))
+        solved = self._solve(self._turn_guess(i), Fold(self.control, border), "limit_point")
         self._require_within(i, solved, f"limit point of {self.control}")
         return solved
+
+    def _bifurcation(self, i: int) -> Solved:
+        """Where the eigenvalue that changes sign is zero, by interpolation from states to both sides.
+
+        At the point itself even the bordered matrix is singular (the null vector breaks the symmetry the
+        branch has), so nothing is solved there: eigenvalue, columns and state are smooth along the branch
+        and interpolated from :data:`NODES` states solved for at Chebyshev nodes.
+        """
+        stability, tangent = Stability(self.system), self.points[i].tangent
+        index = min(self.points[i].n_negative, self.points[i + 1].n_negative)
+        nodes = (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
+        solved, eigenvalues = [], []
+        for fraction in nodes:
+            guess = self._between(i, float(fraction))
+            solved.append(self._solve(guess, self.continuation.plane(guess, tangent)))
+            eigenvalues.append(stability.nearest_by_index(solved[-1].state, index))
+        along = BarycentricInterpolator(nodes, eigenvalues)
+        root = brentq(lambda x: float(along(x)), 0.0, 1.0, xtol=1e-14)
+
+        def at_root(values: list) -> np.ndarray:
+            return BarycentricInterpolator(nodes, np.array(values))(root)
+
+        names = solved[0].values
+        loads = {k: float(at_root([s.state.loads[k] for s in solved])) for k in solved[0].state.loads}
+        return Solved(
+            {name: float(at_root([s.values[name] for s in solved])) for name in names},
+            State(at_root([s.state.u for s in solved]), loads),
+            "bifurcation_point",
+        )
 
 
 class FoldLine(SolutionCurve):
@@ -215,17 +273,5 @@ class FoldLine(SolutionCurve):
         return [self._cusp(int(i)) for i in self.turns()]
 
     def _cusp(self, i: int) -> Solved:
-        a = self.points[i]
         (fold,) = self.continuation.fixed
-        last: list[Solved] = []
-
-        def curvature(fraction: float) -> float:
-            guess = self._between(i, fraction)
-            plane = self.continuation.plane(guess, a.tangent)
-            last.append(self._solve(guess, plane))
-            return fold.curvature(self.solver)
-
-        brentq(curvature, 0.0, 1.0, xtol=1e-12, rtol=1e-12)
-        solved = last[-1]
-        self._require_within(i, solved, f"cusp in {self.control}")
-        return solved
+        return self._root(i, lambda _: fold.curvature(self.solver), "cusp_point")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from weakforms.solvers.linear import BorderedMatrix
 from weakforms.solvers.newton import ExtendedNewton
 
 
@@ -69,9 +70,7 @@ class MonitorPlane:
         for name, weight in self.weights.items():
             part, rates = Held(name, 0.0).gradient(solver)
             row = row + weight * part
-            loads = {
-                k: loads.get(k, 0.0) + weight * rates.get(k, 0.0) for k in {*loads, *rates}
-            }
+            loads = {k: loads.get(k, 0.0) + weight * rates.get(k, 0.0) for k in {*loads, *rates}}
         return row, loads
 
 
@@ -97,11 +96,11 @@ class Fold:
 
     def vectors(self, solver: ExtendedNewton) -> tuple[np.ndarray, np.ndarray, float]:
         """``(φ, ψ, q)``; ``K`` must be factorised at the state the system holds."""
-        system = solver.system
-        rate = system.load_derivative(self.load)
-        x, y = solver.factor.solve(rate), solver.factor.solve(self.border)
-        s, t = system.dot(self.border, x), system.dot(rate, y)
-        return x / s, y / t, -1.0 / s
+        rate = solver.system.load_derivative(self.load)
+        nothing, one, corner = np.zeros(solver.system.size), np.ones(1), np.zeros((1, 1))
+        phi, q = BorderedMatrix(solver.factor, [rate], [self.border], corner).solve(nothing, one)
+        psi, _ = BorderedMatrix(solver.factor, [self.border], [rate], corner).solve(nothing, one)
+        return phi, psi, float(q[0])
 
     def value(self, solver: ExtendedNewton) -> float:
         """``q``; factorises ``K``."""

@@ -13,6 +13,12 @@ from weakforms.solvers.refinement import Estimate, estimate
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.stability import Stability
 
+KINDS = ("limit_point", "bifurcation_point", "cusp_point")
+"""Special points located on a curve; a state can be asked for at one."""
+
+CRITICAL = 1e-6
+"""Magnitude below which an eigenvalue at a special point is that point's own zero."""
+
 
 class BranchFamily:
     """A branch traced on meshes from coarse to fine.
@@ -85,7 +91,7 @@ class BranchFamily:
     # -- points ------------------------------------------------------------------------------
 
     def special_points(self) -> list[SpecialPoint]:
-        """Limit points (cusps of a fold line) located on every mesh, which must agree on their number.
+        """Special points located on every mesh, which must agree on their kinds and order.
 
         Raises:
             ConvergenceError: When it does.
@@ -95,7 +101,7 @@ class BranchFamily:
             values = {k: self._estimate([s.values[k] for s in same]) for k in same[-1].values}
             points.append(
                 SpecialPoint(
-                    self.fine.kind,
+                    same[-1].kind,
                     self.name,
                     self.fine.control,
                     {k: float(v.value) for k, v in values.items()},
@@ -113,16 +119,12 @@ class BranchFamily:
 
     def _locate(self) -> list[tuple[Solved, ...]]:
         found = [level.special() for level in self.levels]
-        counts = {len(item) for item in found}
-        if len(counts) != 1:
-            raise ConvergenceError(
-                f"number of {self.fine.kind}s depends on the mesh: {[len(item) for item in found]}"
-            )
+        kinds = [[solved.kind for solved in item] for item in found]
+        if any(item != kinds[-1] for item in kinds):
+            raise ConvergenceError(f"special points depend on the mesh: {kinds}")
         return list(zip(*found, strict=True))
 
-    def state(
-        self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None
-    ) -> State:
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
         """A state with a column at exactly a value, and its profile if points for it are given.
 
         With the kind of the curve's special points for a name, the state at the ``value``-th of them.
@@ -130,22 +132,26 @@ class BranchFamily:
         Raises:
             InputError: When the branch has no such state.
         """
-        if name == self.fine.kind:
-            points = self._special()
+        special = name in KINDS
+        if special:
+            points = [same for same in self._special() if same[-1].kind == name]
             if not 1 <= value <= len(points):
                 raise InputError(f"{name} = {value:g}: this branch has {len(points)} of them")
             solved = points[int(value) - 1]
         else:
             solved = [level.at(name, value, crossing) for level in self.levels]
         quantities = {k: self._quantity([s.values[k] for s in solved]) for k in solved[-1].values}
-        quantities |= self._diagnostics(solved)
+        quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)
 
-    def _diagnostics(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
-        """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia."""
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia.
+
+        At a special point the critical eigenvalue is zero to round-off and does not count as negative.
+        """
         spectra = [
-            Stability(level.system).spectrum(s.state, shift=level.continuation.shift)
+            Stability(level.system).spectrum(s.state, shift=max(critical, level.continuation.shift))
             for level, s in zip(self.levels, solved, strict=True)
         ]
         counts = {spectrum.n_negative for spectrum in spectra}
@@ -185,9 +191,7 @@ class BranchFamily:
     def _quantity(self, values: list[float]) -> Quantity:
         found = self._estimate(values)
         order = float(found.order)
-        return Quantity(
-            float(found.value), float(found.uncertainty), order if np.isfinite(order) else None
-        )
+        return Quantity(float(found.value), float(found.uncertainty), order if np.isfinite(order) else None)
 
 
 def _orders(values: dict[str, Estimate]) -> dict[str, float]:

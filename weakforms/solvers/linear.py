@@ -18,6 +18,10 @@ REFINEMENT_LIMIT = 1e-6
 """Relative residual above which a bordered solve counts as failed."""
 
 
+ROUND_OFF = 1e-13
+"""Absolute residual that is round-off of forces of order one, whatever the right-hand side."""
+
+
 class Factorization:
     """``K = L D Lᵀ``: solves, and the number of negative eigenvalues by Sylvester's law.
 
@@ -32,6 +36,8 @@ class Factorization:
         self.package = "petsc" if system.comm.size == 1 and small else "mumps"
         self._pc = self._make(self.package)
         self.count = 0
+        self.stiffened: tuple[float, np.ndarray] | None = None
+        """``(τ, e_i)`` while ``K + τ e_i e_iᵀ`` is factorised in place of ``K``."""
 
     def _make(self, package: str) -> PETSc.PC:
         pc = PETSc.PC().create(self.system.comm)
@@ -63,6 +69,7 @@ class Factorization:
     def update(self) -> None:
         """Factorise the tangent at the state the system holds."""
         self.system.tangent()
+        self.stiffened = None
         self.refactor()
 
     def refactor(self) -> None:
@@ -70,6 +77,26 @@ class Factorization:
         self._pc.setOperators(self.system.matrix)
         self._pc.setUp()
         self.count += 1
+
+    def stiffen(self) -> None:
+        """Make a singular ``K`` regular by one diagonal entry, where its null vector is largest."""
+        system = self.system
+        null = self.solve(np.ones(system.size))
+        size = np.abs(np.nan_to_num(null, nan=np.inf))
+        size[system.bc_dofs] = 0.0
+        diagonal = np.abs(system.matrix.getDiagonal().array)
+        largest = system.comm.allgather((float(size.max(initial=0.0)), float(diagonal.max(initial=0.0))))
+        tau = max(stiffness for _, stiffness in largest)
+        owner = int(np.argmax([amplitude for amplitude, _ in largest]))
+        unit = np.zeros(system.size)
+        if system.comm.rank == owner:
+            i = int(np.argmax(size))
+            unit[i] = 1.0
+            row = system.matrix.getOwnershipRange()[0] + i
+            system.matrix.setValue(row, row, tau, addv=True)
+        system.matrix.assemble()
+        self.stiffened = (tau, unit)
+        self.refactor()
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
         """``K⁻¹ rhs`` for owned arrays."""
@@ -90,11 +117,11 @@ class BorderedMatrix:
     ``K`` may be nearly singular (at a limit point it is) as long as the whole is not: the elimination is
     followed by iterative refinement against the whole matrix, and the residual is checked. Where that does
     not converge because ``K`` is singular to round-off, the degree of freedom ``i`` that dominates its null
-    vector is stiffened, :math:`\hat K = K + \tau e_i e_i^T`, and :math:`-\tau e_i (e_i^T z)` taken back by one
-    more border; that is the same system with a regular block.
+    vector is stiffened, :math:`\hat K = K + \tau e_i e_i^T`, and :math:`-\tau e_i (e_i^T z)` taken back by
+    one more border; that is the same system with a regular block.
 
     Args:
-        factor: Factorised ``K``. A stiffened matrix stays in it until its next update.
+        factor: Factorised ``K``; a stiffened one stays in it until its next update.
         columns: ``B``, one array a scalar unknown.
         rows: ``C``, one array a constraint.
         corner: ``D``.
@@ -108,11 +135,18 @@ class BorderedMatrix:
         corner: np.ndarray,
     ) -> None:
         self.factor, self.system = factor, factor.system
-        self.columns, self.rows, self.corner = columns, rows, corner
+        self._given = (columns, rows, corner)
         self._size = len(rows)
         self._eliminate()
 
     def _eliminate(self) -> None:
+        self.columns, self.rows, self.corner = self._given
+        if self.factor.stiffened is not None:
+            tau, unit = self.factor.stiffened
+            self.columns, self.rows = [*self.columns, -tau * unit], [*self.rows, unit]
+            wider = -np.eye(self._size + 1)
+            wider[: self._size, : self._size] = self.corner
+            self.corner = wider
         self._solved = [self.factor.solve(column) for column in self.columns]
         schur = self.corner.copy()
         for i, row in enumerate(self.rows):
@@ -145,9 +179,7 @@ class BorderedMatrix:
     def _norm(self, f: np.ndarray, g: np.ndarray) -> float:
         return float(np.sqrt(self.system.dot(f, f) + g @ g))
 
-    def _refined(
-        self, f: np.ndarray, g: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, float]:
+    def _refined(self, f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
         """Solution by elimination and refinement, and its residual relative to the right-hand side."""
         scale = self._norm(f, g) or 1.0
         z, mu = self._once(f, g)
@@ -172,40 +204,16 @@ class BorderedMatrix:
                 mend()
             wide = np.concatenate([g, np.zeros(len(self.rows) - len(g))])
             z, mu, left = self._refined(f, wide)
-            if left < REFINEMENT_LIMIT:
+            if left < REFINEMENT_LIMIT or left * self._norm(f, g) < ROUND_OFF:
                 return z, mu[: self._size]
-        raise ConvergenceError(
-            f"bordered linear system is singular (residual {left:.1e} after refinement)"
-        )
+        raise ConvergenceError(f"bordered linear system is singular (residual {left:.1e} after refinement)")
 
     def _stiffen(self) -> None:
-        """Make ``K`` regular by one diagonal entry, and the border one wider."""
-        system = self.system
-        null = self.factor.solve(np.ones(system.size))
-        size = np.abs(np.nan_to_num(null, nan=np.inf))
-        size[system.bc_dofs] = 0.0
-        here = float(size.max(initial=0.0))
-        owner = int(np.argmax(system.comm.allgather(here)))
-        unit = np.zeros(system.size)
-        matrix = system.matrix
-        tau = float(np.abs(matrix.getDiagonal().array).max(initial=0.0))
-        tau = max(system.comm.allgather(tau))
-        if system.comm.rank == owner:
-            i = int(np.argmax(size))
-            unit[i] = 1.0
-            row = matrix.getOwnershipRange()[0] + i
-            matrix.setValue(row, row, tau, addv=True)
-        matrix.assemble()
-        self.factor.refactor()
-        self.columns = [*self.columns, -tau * unit]
-        self.rows = [*self.rows, unit]
-        corner = -np.eye(len(self.rows))
-        corner[: len(self.corner), : len(self.corner)] = self.corner
-        self.corner = corner
-        self._eliminate()
+        if self.factor.stiffened is None:
+            self.factor.stiffen()
+            self._eliminate()
 
     def _pivot(self) -> None:
-        """Repeat the factorisation with pivoting."""
         if self.factor.use_pivoting():
             self.factor.refactor()
             self._eliminate()

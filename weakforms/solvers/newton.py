@@ -19,13 +19,11 @@ from weakforms.errors import ConvergenceError
 from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.system import State, System
 
-_REASONS = {
-    value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)
-}
+_REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
 
 
 RESIDUAL_LIMIT = 1e-8
-"""Residual norm above which no state is accepted, however small the last step was (forces are of order one)."""
+"""Residual norm above which no state is accepted, however small the last step (forces are of order one)."""
 
 
 class Constraint(Protocol):
@@ -86,9 +84,7 @@ class ExtendedNewton:
         self._norms: list[float] = []
         self._snes = self._make_snes(prefix, stol, max_iterations, line_search)
 
-    def _make_snes(
-        self, prefix: str, stol: float, max_iterations: int, line_search: str
-    ) -> PETSc.SNES:
+    def _make_snes(self, prefix: str, stol: float, max_iterations: int, line_search: str) -> PETSc.SNES:
         snes = PETSc.SNES().create(self.system.comm)
         snes.setOptionsPrefix(prefix)
         snes.setFunction(self._residual, self._x.duplicate())

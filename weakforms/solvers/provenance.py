@@ -8,14 +8,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from mpi4py import MPI
-from petsc4py import PETSc
-from slepc4py import SLEPc
-
 import basix
 import dolfinx
 import ffcx
 import ufl
+from mpi4py import MPI
+from petsc4py import PETSc
+from slepc4py import SLEPc
 
 
 @cache

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from mpi4py import MPI
-
 import ufl
 from dolfinx import fem, geometry
+from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.solvers import compat
@@ -26,9 +25,7 @@ class Sampler:
         points: Coordinates, shape ``(n,)``.
     """
 
-    def __init__(
-        self, unknown: fem.Function, expressions: Mapping[str, Expr], points: np.ndarray
-    ) -> None:
+    def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], points: np.ndarray) -> None:
         self.names = tuple(expressions)
         space = unknown.function_space
         degree = space.ufl_element().degree + 1

@@ -81,6 +81,21 @@ class Stability:
             f"(nearest to zero: {values[np.argmin(np.abs(values))]:.1e})"
         )
 
+    def nearest_by_index(self, state: State, index: int) -> float:
+        """The eigenvalue number ``index`` in ascending order, by way of the one nearest to zero.
+
+        For root finding: where the inertia is ``index`` or ``index + 1`` that one is the nearest from its
+        side, whatever sign round-off gives it.
+        """
+        self.system.set_state(state.u, state.loads)
+        self.factor.update()
+        negative = self.factor.negative_count()
+        values = self._eigenvalues(index + 3)
+        below, above = values[values < 0], values[values >= 0]
+        if negative > index:
+            return float(below[-1]) if len(below) else float(values[0])
+        return float(above[0]) if len(above) else float(values[-1])
+
     def _eigenvalues(self, wanted: int) -> np.ndarray:
         eps = self._solver(wanted)
         try:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-import numpy as np
-from mpi4py import MPI
-from petsc4py import PETSc
-
 import dolfinx.fem.petsc as fem_petsc
+import numpy as np
 import ufl
 from dolfinx import fem
+from mpi4py import MPI
+from petsc4py import PETSc
 from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
@@ -190,9 +189,7 @@ class System:
             if derived not in self._ufl:
                 self._ufl[derived] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
             empty = not self._ufl[derived].integrals()
-            out[name] = (
-                0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))
-            )
+            out[name] = 0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))
         return out
 
     def third_variation(

@@ -1,0 +1,1 @@
+"""Is it right: cases, references, uncertainties, verdicts, report."""

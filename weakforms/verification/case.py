@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
+
+Finding = tuple[bool, str]
+"""Whether a claim holds, and what was found, with numbers."""
 
 
 @dataclass(frozen=True)
@@ -90,13 +94,13 @@ class Points:
 class Claim:
     """A statement of the paper that is true or false of some solutions.
 
-    ``holds`` gets :class:`weakforms.verification.solutions.Solutions` and returns the truth and what was found.
+    ``holds`` looks at the solutions listed in ``wants`` and returns the truth and what was found.
     """
 
     name: str
     statement: str
     wants: tuple[tuple[Spec, At | None], ...]
-    holds: Callable[..., tuple[bool, str]]
+    holds: Callable[[Solutions], Finding]
 
 
 @dataclass(frozen=True)

@@ -79,9 +79,7 @@ def compare(
     if accuracy is not None and not 0 < accuracy < 1:
         raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1")
     x, keep, shared = _aligned(table, columns)
-    verdicts = tuple(
-        _judge(found, table, column, x, columns[column][keep], accuracy) for column in shared
-    )
+    verdicts = tuple(_judge(found, table, column, x, columns[column][keep], accuracy) for column in shared)
     rows = table.columns[table.abscissa]
     return Verdicts(
         case=found.id,
@@ -131,9 +129,7 @@ def _columns(curve: Mapping[str, Sequence[float]]) -> dict[str, np.ndarray]:
     return out
 
 
-def _aligned(
-    table: Reference, columns: Mapping[str, np.ndarray]
-) -> tuple[np.ndarray, np.ndarray, list[str]]:
+def _aligned(table: Reference, columns: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Abscissa within the table's range, which rows those are, and the columns to judge."""
     if table.abscissa not in columns:
         raise InputError(

@@ -83,9 +83,7 @@ def _values(
     return np.array([q.value for q in rows]), np.array([q.uncertainty for q in rows])
 
 
-def _verdict(
-    curve: Curve, table: Reference, name: str, comparison: Comparison, asked: float
-) -> Verdict:
+def _verdict(curve: Curve, table: Reference, name: str, comparison: Comparison, asked: float) -> Verdict:
     i = comparison.worst
     abscissa = table.abscissa
     return Verdict(

@@ -178,7 +178,17 @@ def _on(check: Order, degree: int, cells: int) -> Spec:
 
 @wants.register
 def _(check: Order, paper: int) -> list[Wanted]:
-    return [(_on(check, d, n), check.at) for d in check.expected for n in check.cells]
+    at = _sampled_at(check, paper)
+    return [(_on(check, d, n), at) for d in check.expected for n in check.cells]
+
+
+def _sampled_at(check: Order, paper: int) -> At | None:
+    """The state with its profile sampled where the table has rows."""
+    if check.at is None:
+        return None
+    table = references.load(paper, check.reference)
+    points = tuple(float(v) for v in table.columns[table.abscissa])
+    return At(check.at.name, check.at.value, check.at.crossing, points)
 
 
 @judge.register
@@ -186,7 +196,8 @@ def _(check: Order, paper: int, solutions: Solutions) -> Judged:
     table = references.load(paper, check.reference)
     verdicts, histories = [], []
     for degree, expected in check.expected.items():
-        errors = [_error(check, table, _on(check, degree, n), solutions) for n in check.cells]
+        at = _sampled_at(check, paper)
+        errors = [_error(check, table, _on(check, degree, n), at, solutions) for n in check.cells]
         fine = -np.log(errors[-1] / errors[-2]) / np.log(check.cells[-1] / check.cells[-2])
         name = f"{check.quantity}, P{degree}"
         verdicts.append(
@@ -214,13 +225,15 @@ def _(check: Order, paper: int, solutions: Solutions) -> Judged:
     return verdicts, [], histories
 
 
-def _error(check: Order, table: references.Reference, spec: Spec, solutions: Solutions) -> float:
+def _error(
+    check: Order, table: references.Reference, spec: Spec, at: At | None, solutions: Solutions
+) -> float:
     """Relative error on one mesh: of a special point's value, or the largest along a profile."""
     exact = table.columns[check.column]
-    if check.at is None:
+    if at is None:
         value = solutions.points(spec, check.kind)[check.row].values[check.column]
         return abs(value - exact[check.row]) / abs(exact[check.row])
-    values, _ = solutions.sampled(spec, check.at, check.column)
+    values, _ = solutions.sampled(spec, at, check.column)
     return float(np.max(np.abs(values - exact)) / np.max(np.abs(exact)))
 
 

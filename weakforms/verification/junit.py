@@ -17,9 +17,7 @@ def clean(text: object) -> str:
     return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", str(text))
 
 
-def inline_svg(
-    drawing: str, ident: str, title: str, description: str, colours: Mapping[str, str]
-) -> str:
+def inline_svg(drawing: str, ident: str, title: str, description: str, colours: Mapping[str, str]) -> str:
     """A matplotlib drawing made fit to stand among others in one page.
 
     Args:
@@ -37,9 +35,7 @@ def inline_svg(
         for child in list(parent):
             if child.tag.rpartition("}")[2] in ("metadata", "style"):
                 parent.remove(child)
-    used = set(
-        re.findall(r"#([\w-]+)", " ".join(v for e in root.iter() for v in e.attrib.values()))
-    )
+    used = set(re.findall(r"#([\w-]+)", " ".join(v for e in root.iter() for v in e.attrib.values())))
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
         attributes = {key.rpartition("}")[2]: value for key, value in element.attrib.items()}
@@ -137,9 +133,7 @@ def _testcase(suite: ET.Element, case: CaseOutcome, verdict: Verdict) -> None:
         for name in ("error", "bound", "asked", "uncertainty", "reference_uncertainty")
         if (value := getattr(verdict, name)) is not None
     ]
-    message = "; ".join(
-        [", ".join(numbers)] * bool(numbers) + [verdict.where] * bool(verdict.where)
-    )
+    message = "; ".join([", ".join(numbers)] * bool(numbers) + [verdict.where] * bool(verdict.where))
     failure = ET.SubElement(item, "failure", type=clean(verdict.kind))
     failure.set("message", clean(message or verdict.statement))
     lines = [verdict.statement, verdict.detail, message, f"reference: {verdict.reference}"]

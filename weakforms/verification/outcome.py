@@ -1,7 +1,7 @@
 """What judging a case leaves behind: everything the report draws, and nothing that must be solved again.
 
-``report.json`` (schema ``weakforms.report/1``) is a :class:`RunOutcome` written out; the HTML report, ``junit.xml``
-and the terminal summary are made from it alone.
+``report.json`` (schema ``weakforms.report/1``) is a :class:`RunOutcome` written out; the HTML report,
+``junit.xml`` and the terminal summary are made from it alone.
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ def load(paper: int, name: str, root: Path = ROOT) -> Reference:
     """The table ``reference_data/paperN/NAME``.
 
     Raises:
-        InputError: When it is missing, incomplete, altered (its checksum is not the recorded one) or no table.
+        InputError: When it is missing, incomplete, altered (by its checksum) or no table.
     """
     folder = root / "reference_data" / f"paper{paper}"
     facts = _facts(folder / f"{name}.toml")
@@ -58,7 +58,7 @@ def load(paper: int, name: str, root: Path = ROOT) -> Reference:
     if hashlib.sha256(raw).hexdigest() != facts.get("sha256"):
         raise InputError(
             f"reference table {path} is truncated or altered: its checksum is not the one in {name}.toml; "
-            f"restore it, or regenerate it with: {facts.get('regenerate', 'python -m reference_data.solvers')}"
+            f"restore it, or regenerate it: {facts.get('regenerate', 'python -m reference_data.solvers')}"
         )
     columns = _columns(path.name, raw.decode("ascii"))
     described = facts.get("columns", {})

@@ -140,14 +140,17 @@ class Solver:
             if self.resume and self._take(spec, path):
                 continue
             todo.append((spec, states, path))
-        total, done = len(plan.states), len(plan.states) - len(todo)
-        for spec, outcome in self._outcomes(todo, lambda s: report(done, total, str(s))):
+        total = len(plan.states)
+
+        def tell(spec: Spec) -> None:
+            report(len(self.results) + len(self.failures), total, str(spec))
+
+        for spec, outcome in self._outcomes(todo, tell):
             if isinstance(outcome, WeakformsError):
                 self.failures[spec] = outcome
             else:
                 self._store(spec, outcome)
-            done += 1
-            report(done, total, str(spec))
+            tell(spec)
 
     def _take(self, spec: Spec, path: Path) -> bool:
         if not path.exists():
@@ -204,9 +207,7 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
         comparisons = {}
         for curve in panel.curves:
             try:
-                verdicts, comparisons[id(curve)] = judge_curve(
-                    found.paper, curve, found.case, solutions
-                )
+                verdicts, comparisons[id(curve)] = judge_curve(found.paper, curve, found.case, solutions)
                 outcome.verdicts.extend(verdicts)
             except WeakformsError as error:
                 _unjudged(outcome, curve.reference or curve.label, "curve", error)
@@ -221,8 +222,8 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
         outcome.printed.extend(printed)
         outcome.convergence.extend(histories)
     outcome.status = _status(outcome)
-    outcome.seconds = time.perf_counter() - begun + sum(
-        s["provenance"].get("wall_s", 0.0) for s in outcome.solutions
+    outcome.seconds = (
+        time.perf_counter() - begun + sum(s["provenance"].get("wall_s", 0.0) for s in outcome.solutions)
     )
     return outcome
 
@@ -230,9 +231,7 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
 def _unjudged(outcome: CaseOutcome, what: str, kind: str, error: WeakformsError) -> None:
     """A check without numbers to judge is a failed one, never a missing one."""
     outcome.errors.append(str(error))
-    outcome.verdicts.append(
-        Verdict(what, kind, False, "could be judged", detail=f"not solved: {error}")
-    )
+    outcome.verdicts.append(Verdict(what, kind, False, "could be judged", detail=f"not solved: {error}"))
 
 
 def _status(outcome: CaseOutcome) -> str:

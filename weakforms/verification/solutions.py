@@ -35,7 +35,7 @@ class Solutions:
         """Special points of a kind in order."""
         result = self.result(spec)
         for failure in result.failures:
-            if failure.what == kind:
+            if failure.what == "special points":
                 raise ConvergenceError(f"{spec}: {failure.reason}")
         return result.points(kind)
 

@@ -1,4 +1,4 @@
-"""What is to be solved, as plain values: a problem, its parameters, its meshes. Nothing is imported to say so."""
+"""What is to be solved, as plain values: a problem, its parameters, its meshes."""
 
 from __future__ import annotations
 

@@ -120,9 +120,7 @@ def html_tex(text: str) -> str:
         math_part = re.sub(r"(?<![A-Za-zα-ω])([A-Za-zα-ω])(?![A-Za-z;])", r"<i>\1</i>", math_part)
         for sign, tag in (("_", "sub"), ("\\^", "sup")):
             pattern = sign + r"(?:\{([^{}]*)\}|(<i>.</i>|[^<\s]))"
-            math_part = re.sub(
-                pattern, lambda hit, tag=tag: f"<{tag}>{hit[1] or hit[2]}</{tag}>", math_part
-            )
+            math_part = re.sub(pattern, lambda hit, tag=tag: f"<{tag}>{hit[1] or hit[2]}</{tag}>", math_part)
         parts[index] = re.sub("[{}]", "", math_part)
     return "".join(parts)
 

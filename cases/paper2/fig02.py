@@ -1,0 +1,120 @@
+"""Paper 2, figure 2: mid-plane displacement against pressure in free inflation.
+
+Panel (a) neo-Hookean, panel (b) Mooney-Rivlin with alpha = 0.1, each for three pre-stretches. Past a limit
+point the pressure is no abscissa, so the curves are compared over the displacement.
+"""
+
+from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, tube
+
+STRETCHES = (1, 1.5, 2)
+NH = {d: tube(alpha=0, delta1=d) for d in STRETCHES}
+MR = {d: tube(alpha=0.1, delta1=d) for d in STRETCHES}
+FALLING = At("p", 1.2, crossing=2)
+PRESSURE, DISPLACEMENT = Axis("p", 0, 3), Axis("u_max", 0, 4)
+
+
+def softens(solutions: Solutions) -> Finding:
+    """u_max rises with delta1 at equal pressure below every limit point, for both materials."""
+    found = []
+    for curves, p in ((NH, 0.5), (NH, 0.8), (MR, 0.5), (MR, 1.0), (MR, 1.5)):
+        found.append([solutions.value(curves[d], At("p", p), "u_max") for d in STRETCHES])
+    return all(a < b < c for a, b, c in found), "; ".join(
+        " < ".join(f"{u:.4f}" for u in row) for row in found
+    )
+
+
+def falling_branch_softens(solutions: Solutions) -> Finding:
+    """On the falling neo-Hookean branches u_max at equal pressure rises with delta1."""
+    u = [solutions.value(NH[d], FALLING, "u_max") for d in STRETCHES]
+    return u[0] < u[1] < u[2], "u_max at p = 1.2: " + " < ".join(f"{v:.5f}" for v in u)
+
+
+def curves_cross(solutions: Solutions) -> Finding:
+    """Mooney-Rivlin: the order of the curves is reversed at large displacement."""
+    u = [solutions.value(MR[d], At("p", 1.9), "u_max") for d in (1.5, 2)]
+    p = [solutions.value(MR[d], At("u_max", 3.0), "p") for d in STRETCHES]
+    detail = f"u_max at p = 1.9: {u[1]:.4f} (2) < {u[0]:.4f} (1.5); p at u_max = 3: " + " < ".join(
+        f"{v:.5f}" for v in p
+    )
+    return u[1] < u[0] and p[0] < p[1] < p[2], detail
+
+
+def first_branch_at_1_9(solutions: Solutions) -> Finding:
+    """At p = 1.9 the unstretched tube is before its limit point, that with delta1 = 1.5 far inflated."""
+    low = solutions.value(MR[1], At("p", 1.9), "u_max")
+    high = solutions.value(MR[1.5], At("p", 1.9), "u_max")
+    first, second = solutions.points(MR[1], "limit_point")
+    good = low < first.values["u_max"] and second.values["p"] > 1.9 and high > second.values["u_max"]
+    return (
+        good,
+        f"u_max = {low:.4f} (delta1 = 1), {high:.4f} (1.5); second limit p = {second.values['p']:.5f}",
+    )
+
+
+SOFTENING_AT = [(NH[d], At("p", p)) for d in STRETCHES for p in (0.5, 0.8)] + [
+    (MR[d], At("p", p)) for d in STRETCHES for p in (0.5, 1.0, 1.5)
+]
+
+CASE = Case(
+    title="Free inflation: displacement against pressure",
+    source="Patil, Nordmark & Eriksson (2014), figure 2",
+    panels=tuple(
+        Panel(
+            name,
+            x=PRESSURE,
+            y=DISPLACEMENT,
+            title=title,
+            markers="limit_point",
+            curves=tuple(
+                Curve(curves[d], rf"$\delta_1 = {d}$", reference=f"fig02{name}_delta1_{d}") for d in STRETCHES
+            ),
+        )
+        for name, title, curves in (
+            ("a", "neo-Hookean", NH),
+            ("b", r"Mooney-Rivlin, $\alpha = 0.1$", MR),
+        )
+    ),
+    checks=(
+        Count(
+            "limit_point",
+            {NH[1]: 1, NH[1.5]: 1, NH[2]: 1, MR[1]: 2, MR[1.5]: 0, MR[2]: 0},
+            "neo-Hookean tubes have one limit point, Mooney-Rivlin ones two or none",
+        ),
+        Points(
+            "limit_point",
+            reference="limit_points_alpha_0",
+            base=tube(alpha=0),
+            parameters=("delta1",),
+            asked={"p": 1e-8, "u_max": 1e-6},
+        ),
+        Claim(
+            "softening",
+            "at a given pressure below the limit points, u_max grows with the pre-stretch",
+            tuple(SOFTENING_AT),
+            softens,
+        ),
+        Claim(
+            "softening_falling_branch",
+            "the neo-Hookean tube softens with pre-stretch on its falling branch too",
+            tuple((NH[d], FALLING) for d in STRETCHES),
+            falling_branch_softens,
+        ),
+        Claim(
+            "curves_cross",
+            "past its steep part the Mooney-Rivlin tube does not soften: the curves of panel (b) cross "
+            "(the paper's text claims softening before and after the limit point)",
+            (
+                *((MR[d], At("p", 1.9)) for d in (1.5, 2)),
+                *((MR[d], At("u_max", 3.0)) for d in STRETCHES),
+            ),
+            curves_cross,
+        ),
+        Claim(
+            "states_at_1.9",
+            "at p = 1.9 the unstretched tube is on its first branch, the one with delta1 = 1.5 is not",
+            ((MR[1], At("p", 1.9)), (MR[1.5], At("p", 1.9))),
+            first_branch_at_1_9,
+        ),
+    ),
+    asked={"p": 1e-7, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+)

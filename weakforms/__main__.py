@@ -1,0 +1,5 @@
+"""``python -m weakforms`` is the command line."""
+
+from weakforms.cli import main
+
+main()

@@ -1,0 +1,266 @@
+"""The command line: one verb for each thing people do with the suite."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from weakforms.errors import InputError
+from weakforms.terminal import complain, console, guarded, print_json, progress_bar, rank, request
+
+app = typer.Typer(
+    name="weakforms",
+    help="FEniCSx weak-form verification suite of inflation and instabilities of hyperelastic membranes.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+Out = Annotated[Path, typer.Option("--out", help="Folder for solutions and report.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Jobs = Annotated[int, typer.Option("-j", "--jobs", min=1, max=64, help="Solves side by side.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Take over what an interrupted run stored.")]
+
+
+@app.callback()
+def _options(
+    debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")] = False,
+) -> None:
+    """Options before the verb."""
+
+
+@app.command("list")
+def list_(
+    paper: Annotated[int | None, typer.Option(min=1, max=5, help="Only this paper.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Every problem and every case, one line each."""
+    from weakforms.verification.catalogue import listing, print_listing
+
+    entries = listing(paper)
+    if as_json:
+        print_json(entries)
+    else:
+        print_listing(entries, console())
+
+
+@app.command()
+def show(name: Annotated[str, typer.Argument(help="A problem or a case.")], as_json: Json = False) -> None:
+    """A problem's parameters, ranges and energy; a case's source, checks and references."""
+    from weakforms.verification.catalogue import describe, print_description
+
+    facts = describe(name)
+    if as_json:
+        print_json(facts)
+    else:
+        print_description(facts, console())
+
+
+@app.command()
+def solve(
+    problem: Annotated[str, typer.Argument(help="Name of the problem; see: weakforms list.")],
+    sets: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="A parameter.")
+    ] = None,
+    at: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=VALUE", help="A state wanted: a column (or special point) at a value."),
+    ] = None,
+    crossing: Annotated[int, typer.Option(help="Which crossing of that value.")] = 1,
+    branch: Annotated[str, typer.Option(help="On which branch.")] = "primary",
+    mesh: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=VALUE", help="Numerics: degree, cells, levels."),
+    ] = None,
+    spec: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.json", help="Request with parameters, at, numerics."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="File for the result; default: standard output.")] = None,
+    form: Annotated[str, typer.Option("--format", help="json or csv (csv: the branches only).")] = "json",
+) -> None:
+    """One problem at any parameters, as a result JSON."""
+    from weakforms import api
+    from weakforms.results.io import branch_csv, dumps, require_writable, validate, write_atomically
+
+    if form not in ("json", "csv"):
+        raise InputError(f"--format {form!r}: allowed are json and csv")
+    wanted = request(spec, sets, at, mesh)
+    if out is not None:
+        if out.is_dir():
+            raise InputError(f"--out {out} is a folder; a file name is wanted")
+        require_writable(out.parent)
+    with progress_bar() as progress:
+        result = api.solve(
+            problem,
+            at=wanted["at"],
+            crossing=crossing,
+            branch=branch,
+            numerics=wanted["numerics"],
+            progress=progress,
+            **wanted["parameters"],
+        )
+    data = result.to_json()
+    validate(data)
+    if rank() == 0:
+        text = branch_csv(result) if form == "csv" else dumps(data)
+        if out is None:
+            sys.stdout.write(text)
+        else:
+            write_atomically(out, text)
+        for failure in result.failures:
+            complain(f"not converged: {failure.what}: {failure.reason}")
+    if result.failures:
+        raise typer.Exit(3)
+
+
+@app.command()
+def check(
+    names: Annotated[list[str], typer.Argument(metavar="CASE...", help="Ids of cases.")],
+    out: Out = Path("out"),
+    jobs: Jobs = 1,
+    resume: Resume = False,
+) -> None:
+    """Solve and check single cases."""
+    from weakforms.verification.discovery import get_case
+
+    _verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
+
+
+@app.command()
+def verify(
+    paper: Annotated[int | None, typer.Option(min=1, max=5, help="Only this paper.")] = None,
+    expression: Annotated[
+        str | None, typer.Option("-k", metavar="EXPR", help="Cases by name, with and, or, not.")
+    ] = None,
+    jobs: Jobs = 1,
+    profile: Annotated[str, typer.Option(help="quick or full.")] = "full",
+    resume: Resume = False,
+    out: Out = Path("out"),
+) -> None:
+    """All cases with a progress bar; then the report."""
+    from weakforms.verification.discovery import select
+
+    if profile not in ("quick", "full"):
+        raise InputError(f"--profile {profile!r}: allowed are quick and full")
+    cases = select(paper, expression)
+    if profile == "quick":
+        cases = [found for found in cases if found.case.quick]
+        if not cases:
+            raise InputError("none of the cases selected is in the quick profile")
+    words = [f"paper {paper}"] if paper else []
+    words += [f"-k {expression!r}"] if expression else []
+    _verify(cases, out, profile, ", ".join(words) or "all cases", jobs, resume)
+
+
+@app.command()
+def report(
+    folder: Annotated[Path, typer.Argument(help="Output folder of a run.")],
+    out: Annotated[Path | None, typer.Option(help="Folder for the report; default: its old place.")] = None,
+) -> None:
+    """Rebuild the report from stored results, without solving."""
+    from weakforms.verification.report import load_run, write_report
+    from weakforms.verification.summary import print_summary
+
+    stored = folder / "report" if (folder / "report").is_dir() else folder
+    run = load_run(stored)
+    page = write_report(run, out or stored)
+    print_summary(run, console())
+    console().print(f"report: {page}", soft_wrap=True)
+
+
+@app.command()
+def compare(
+    case: Annotated[str, typer.Argument(help="Id of a case.")],
+    file: Annotated[Path, typer.Argument(help="CSV or JSON with the curve.")],
+    curve: Annotated[str | None, typer.Option(help="Which curve of the case.")] = None,
+    accuracy: Annotated[
+        float | None,
+        typer.Option(help="Relative accuracy the curve claims; default: what the case asks."),
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Hold somebody else's curve against the reference."""
+    from weakforms.verification.catalogue import print_verdicts
+    from weakforms.verification.compare import compare as compare_curve
+
+    verdicts = compare_curve(case, file, curve, accuracy)
+    if as_json:
+        print_json(verdicts.to_json())
+    else:
+        print_verdicts(verdicts, console())
+    if not verdicts.passed:
+        raise typer.Exit(1)
+
+
+@app.command()
+def bench(as_json: Json = False) -> None:
+    """Time and memory by stage, for fixed problems."""
+    from weakforms.verification.bench import print_bench, run_bench
+
+    with progress_bar() as progress:
+        table = run_bench(progress)
+    if rank() != 0:
+        return
+    if as_json:
+        print_json(table)
+    else:
+        print_bench(table, console())
+
+
+@app.command(hidden=True)
+def warm() -> None:
+    """Compile every form once, so that the image holds a warm cache."""
+    from weakforms.verification.bench import run_bench
+
+    run_bench()
+
+
+# -- shared by the verbs -------------------------------------------------------------------------
+
+
+def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int, resume: bool) -> None:
+    from weakforms import api
+    from weakforms.results.io import require_writable
+    from weakforms.verification import runner
+    from weakforms.verification.report import write_report
+    from weakforms.verification.summary import print_summary, run_status
+
+    api.require_environment()
+    require_writable(out / "solutions")
+    require_writable(out / "report")
+    first = rank() == 0
+    with progress_bar() as progress:
+        run = runner.verify(
+            cases,
+            out,
+            profile,
+            selection,
+            jobs=jobs,
+            resume=resume,
+            writes=first,
+            report=lambda done, total, what: progress(what, done, total),
+        )
+    if first:
+        page = write_report(run, out / "report")
+        print_summary(run, console())
+        console().print(f"report: {page}", soft_wrap=True)
+    status = run_status(run)
+    if status != "passed":
+        raise typer.Exit(3 if status == "error" else 1)
+
+
+def main() -> None:
+    """Console script."""
+    if "--debug" in sys.argv[1:]:
+        sys.argv.remove("--debug")
+        sys.exit(app(standalone_mode=False) or 0)
+    sys.exit(guarded(lambda: app(standalone_mode=False)))
+
+
+if __name__ == "__main__":
+    main()

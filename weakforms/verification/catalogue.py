@@ -1,0 +1,197 @@
+"""What there is: problems and cases, listed and described for people and programs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.verification import references
+from weakforms.verification.compare import Verdicts
+from weakforms.verification.discovery import FoundCase, find_cases
+from weakforms.verification.summary import plain_tex, scientific
+
+
+def _problems() -> dict[str, Any]:
+    from weakforms.api import require_environment
+
+    return require_environment().problems
+
+
+def listing(paper: int | None = None) -> list[dict[str, Any]]:
+    """One entry a problem and a case; problems need dolfinx and are left out without it."""
+    entries = []
+    try:
+        problems = _problems().values()
+    except EnvironmentLackError:
+        problems = ()
+    for problem in problems:
+        if paper in (None, problem.paper):
+            entries.append(
+                {
+                    "kind": "problem",
+                    "id": problem.name,
+                    "paper": problem.paper,
+                    "title": problem.title,
+                }
+            )
+    for found in find_cases():
+        if paper in (None, found.paper):
+            entries.append({"kind": "case", "id": found.id, "paper": found.paper, "title": found.case.title})
+    if not entries:
+        raise InputError(f"there is no problem or case of paper {paper}")
+    return entries
+
+
+def print_listing(entries: list[dict[str, Any]], console: Console) -> None:
+    """A line an entry."""
+    width = max(len(entry["id"]) for entry in entries)
+    for entry in entries:
+        console.print(f"{entry['kind']:8} {entry['id']:{width}}  {entry['title']}", soft_wrap=True)
+
+
+def describe(name: str) -> dict[str, Any]:
+    """Facts about a problem or a case.
+
+    Raises:
+        InputError: When there is neither of that name.
+    """
+    for found in find_cases():
+        if found.id == name:
+            return _case_facts(found)
+    problems = _problems()
+    if name in problems:
+        return _problem_facts(problems[name])
+    known = [*problems, *(found.id for found in find_cases())]
+    raise InputError(f"unknown problem or case {name!r}; there are {', '.join(known)}")
+
+
+def _problem_facts(problem: Any) -> dict[str, Any]:
+    return {
+        "kind": "problem",
+        "id": problem.name,
+        "title": problem.title,
+        "source": problem.source,
+        "energy": problem.energy,
+        "control": problem.control,
+        "parameters": _fields(problem.parameters),
+        "numerics": _fields(problem.numerics),
+        "columns": list(problem.columns),
+        "special_points": list(problem.special_points),
+        "branches": list(problem.branches),
+        "scales": problem.scales,
+    }
+
+
+def _fields(model: Any) -> list[dict[str, Any]]:
+    properties = model.model_json_schema()["properties"]
+    signs = {"minimum": ">=", "exclusiveMinimum": ">", "maximum": "<=", "exclusiveMaximum": "<"}
+    out = []
+    for name, facts in properties.items():
+        allowed = " and ".join(f"{sign} {facts[key]:g}" for key, sign in signs.items() if key in facts)
+        if "enum" in facts:
+            allowed = ", ".join(map(str, facts["enum"]))
+        out.append(
+            {
+                "name": name,
+                "default": facts.get("default"),
+                "allowed": allowed,
+                "description": facts.get("description", ""),
+            }
+        )
+    return out
+
+
+def _case_facts(found: FoundCase) -> dict[str, Any]:
+    case = found.case
+    tables = [c.reference for p in case.panels for c in p.curves if c.reference]
+    tables += [check.reference for check in case.checks if getattr(check, "reference", "")]
+    return {
+        "kind": "case",
+        "id": found.id,
+        "title": case.title,
+        "source": case.source,
+        "description": found.description,
+        "panels": [
+            {"name": p.name, "x": p.x.name, "y": p.y.name, "curves": [str(c.of) for c in p.curves]}
+            for p in case.panels
+        ],
+        "checks": [
+            getattr(check, "statement", None)
+            or f"{type(check).__name__} {getattr(check, 'reference', '') or getattr(check, 'what', '')}"
+            for check in case.checks
+        ],
+        "asked": dict(case.asked),
+        "references": [
+            {
+                "name": n,
+                "type": t.kind,
+                "rows": len(t),
+                "uncertainty": t.uncertainty,
+                "method": t.method,
+            }
+            for n in dict.fromkeys(tables)
+            for t in [references.load(found.paper, n)]
+        ],
+    }
+
+
+def print_description(facts: dict[str, Any], console: Console) -> None:
+    """The facts for people."""
+    console.print(f"[bold]{facts['id']}[/bold]  {facts['title']}", soft_wrap=True)
+    console.print(facts["source"], soft_wrap=True)
+    if facts["kind"] == "case":
+        _print_case(facts, console)
+        return
+    console.print(f"\n{facts['energy']}\n")
+    for title in ("parameters", "numerics"):
+        table = Table("name", "default", "allowed", "meaning", title=title, title_justify="left")
+        for row in facts[title]:
+            table.add_row(row["name"], str(row["default"]), row["allowed"], row["description"])
+        console.print(table)
+    console.print(f"control: {facts['control']}")
+    console.print(f"columns: {', '.join(facts['columns'])}")
+    console.print(f"special points: {', '.join(facts['special_points'])}")
+    scales = Table("name", "scaling", title="scales", title_justify="left")
+    for name, text in facts["scales"].items():
+        scales.add_row(name, text)
+    console.print(scales)
+
+
+def _print_case(facts: dict[str, Any], console: Console) -> None:
+    console.print(f"\n{facts['description']}\n", markup=False)
+    for panel in facts["panels"]:
+        console.print(f"panel {panel['name']}: {panel['y']} over {panel['x']}")
+        for curve in panel["curves"]:
+            console.print(f"  {curve}", markup=False)
+    console.print("checks:")
+    for check in facts["checks"]:
+        console.print(f"  {plain_tex(check)}", markup=False)
+    asked = ", ".join(f"{name} {value:g}" for name, value in facts["asked"].items())
+    console.print(f"accuracy asked (relative): {asked}")
+    for table in facts["references"]:
+        largest = max(table["uncertainty"].values())
+        console.print(
+            f"reference {table['name']}: {table['type']}, {table['rows']} rows, "
+            f"uncertainty up to {largest:.1e}"
+        )
+
+
+def print_verdicts(verdicts: Verdicts, console: Console) -> None:
+    """Verdicts on a foreign curve as a table."""
+    part = "part of it" if verdicts.partial else "all of it"
+    console.print(
+        f"{verdicts.case}, {verdicts.curve}: {verdicts.rows} rows over {verdicts.abscissa} in "
+        f"[{verdicts.covered[0]:g}, {verdicts.covered[1]:g}]; the table has "
+        f"[{verdicts.table[0]:g}, {verdicts.table[1]:g}]: {part} is judged"
+        + (f", {verdicts.ignored_rows} rows lie outside" if verdicts.ignored_rows else ""),
+        markup=False,
+        soft_wrap=True,
+    )
+    table = Table("column", "verdict", "error", "bound", "worst at")
+    for v in verdicts.verdicts:
+        word = "within" if v.passed else "OUT OF BOUNDS"
+        table.add_row(v.check.split(":")[-1], word, scientific(v.error), scientific(v.bound), v.where)
+    console.print(table)
