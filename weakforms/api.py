@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from weakforms.errors import EnvironmentLackError
+from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results import Result
+
+States = Mapping[str, float] | Iterable[tuple[str, float]]
+"""States wanted: a column, or a kind of special point, and its value or number."""
 
 
 def require_environment() -> Any:
@@ -36,7 +39,7 @@ def require_environment() -> Any:
 def solve(
     problem: str,
     *,
-    at: Mapping[str, float] | Iterable[tuple[str, float]] = (),
+    at: States = (),
     crossing: int = 1,
     branch: str = "primary",
     numerics: Mapping[str, Any] | None = None,
@@ -63,12 +66,33 @@ def solve(
         ConvergenceError: When no branch could be started.
         EnvironmentLackError: When dolfinx is missing.
     """
-    require_environment()
+    return prepare(problem, parameters, numerics or {}, at, crossing, branch)(progress)
+
+
+def prepare(
+    problem: str,
+    parameters: Mapping[str, Any],
+    numerics: Mapping[str, Any],
+    at: States,
+    crossing: int = 1,
+    branch: str = "primary",
+) -> Callable[[Any], Result]:
+    """Everything :func:`solve` does before solving: what it returns solves, and takes a progress callback.
+
+    Raises:
+        InputError: For an unknown problem, parameter or branch, or a value out of range.
+        EnvironmentLackError: When dolfinx is missing.
+    """
+    chosen = require_environment().get(problem)
     from weakforms.problems.base import StateRequest
 
+    if branch not in chosen.branches:
+        raise InputError(f"{problem} has no branch {branch!r}; it has {', '.join(chosen.branches)}")
+    if crossing < 1:
+        raise InputError(f"{problem}: crossing = {crossing} must be 1 or more")
     wanted = at.items() if isinstance(at, Mapping) else at
-    states = [StateRequest(name, float(v), crossing, branch, profile=()) for name, v in wanted]
-    return solve_requests(problem, parameters, dict(numerics or {}), states, progress=progress)
+    states = [StateRequest(name, _number(name, v), crossing, branch, profile=()) for name, v in wanted]
+    return _prepared(problem, parameters, numerics, states)
 
 
 def solve_requests(
@@ -77,9 +101,18 @@ def solve_requests(
     numerics: Mapping[str, Any],
     states: Iterable[Any],
     branch_uncertainty: bool = True,
-    progress: Any = None,
 ) -> Result:
     """As :func:`solve`, with requests that say for each state which profile points it needs."""
+    return _prepared(problem, parameters, numerics, states, branch_uncertainty)(None)
+
+
+def _prepared(
+    problem: str,
+    parameters: Mapping[str, Any],
+    numerics: Mapping[str, Any],
+    states: Iterable[Any],
+    branch_uncertainty: bool = True,
+) -> Callable[[Any], Result]:
     registry = require_environment()
     from mpi4py import MPI
 
@@ -90,7 +123,14 @@ def solve_requests(
     meshes = validated(chosen.numerics, dict(numerics), f"{problem} numerics")
     requests = Requests(tuple(states), branch_uncertainty)
     chosen.check(values, requests)
-    return chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
+    return lambda progress: chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
+
+
+def _number(name: str, value: object) -> float:
+    try:
+        return float(value if not isinstance(value, bool) else str(value))
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"at {name} = {str(value)[:80]!r}: the value must be a number") from None
 
 
 def cases() -> list[str]:

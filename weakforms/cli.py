@@ -85,25 +85,15 @@ def solve(
 ) -> None:
     """One problem at any parameters, as a result JSON."""
     from weakforms import api
-    from weakforms.results.io import branch_csv, dumps, require_writable, validate, write_atomically
+    from weakforms.results.io import branch_csv, dumps, require_place_for, validate, write_atomically
 
     if form not in ("json", "csv"):
         raise InputError(f"--format {form!r}: allowed are json and csv")
-    wanted = request(spec, sets, at, mesh)
+    solve_it = api.prepare(problem, **request(spec, sets, at, mesh), crossing=crossing, branch=branch)
     if out is not None:
-        if out.is_dir():
-            raise InputError(f"--out {out} is a folder; a file name is wanted")
-        require_writable(out.parent)
+        require_place_for(out)
     with progress_bar() as progress:
-        result = api.solve(
-            problem,
-            at=wanted["at"],
-            crossing=crossing,
-            branch=branch,
-            numerics=wanted["numerics"],
-            progress=progress,
-            **wanted["parameters"],
-        )
+        result = solve_it(progress)
     data = result.to_json()
     validate(data)
     if rank() == 0:
@@ -128,6 +118,7 @@ def check(
     """Solve and check single cases."""
     from weakforms.verification.discovery import get_case
 
+    names = list(dict.fromkeys(names))
     _verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
 
 
@@ -225,14 +216,11 @@ def warm() -> None:
 
 def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int, resume: bool) -> None:
     from weakforms import api
-    from weakforms.results.io import require_writable
     from weakforms.verification import runner
     from weakforms.verification.report import write_report
     from weakforms.verification.summary import print_summary, run_status
 
     api.require_environment()
-    require_writable(out / "solutions")
-    require_writable(out / "report")
     first = rank() == 0
     with progress_bar() as progress:
         run = runner.verify(
@@ -256,10 +244,10 @@ def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int
 
 def main() -> None:
     """Console script."""
-    if "--debug" in sys.argv[1:]:
-        sys.argv.remove("--debug")
-        sys.exit(app(standalone_mode=False) or 0)
-    sys.exit(guarded(lambda: app(standalone_mode=False)))
+    words = sys.argv[1:]
+    debug = "--debug" in words
+    words = [word for word in words if word != "--debug"]
+    sys.exit(guarded(lambda: app(words, standalone_mode=False), debug))
 
 
 if __name__ == "__main__":

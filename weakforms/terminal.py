@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 import sys
+import traceback
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +16,9 @@ import click
 from rich.console import Console
 
 from weakforms.errors import InputError, WeakformsError
+
+LONGEST_COMPLAINT = 600
+"""Characters after which a complaint is cut: a message may quote what it was given."""
 
 
 def request(
@@ -28,12 +34,10 @@ def request(
     for key in data:
         if not isinstance(data[key], dict):
             raise InputError(f"request {spec}: {key!r} must be an object of names and values")
-    states = [(str(k), _number(str(k), v)) for k, v in data.get("at", {}).items()]
-    states += [(name, _number(name, value)) for name, value in _pairs("--at", at)]
     return {
         "parameters": data.get("parameters", {}) | dict(_pairs("--set", sets)),
         "numerics": data.get("numerics", {}) | dict(_pairs("--mesh", mesh)),
-        "at": states,
+        "at": [*data.get("at", {}).items(), *_pairs("--at", at)],
     }
 
 
@@ -45,13 +49,6 @@ def _pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:
             raise InputError(f"{option} {item!r}: NAME=VALUE is wanted")
         pairs.append((name.strip(), value.strip()))
     return pairs
-
-
-def _number(name: str, value: object) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"--at {name}={value}: the value must be a number") from None
 
 
 def rank() -> int:
@@ -70,7 +67,7 @@ def console(stderr: bool = False) -> Console:
 
 def print_json(data: Any) -> None:
     """Indented JSON on standard output."""
-    sys.stdout.write(json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+    sys.stdout.write(json.dumps(data, indent=1) + "\n")
 
 
 @contextmanager
@@ -104,28 +101,56 @@ def progress_bar() -> Any:
 
 
 def complain(text: str) -> None:
-    """One line on standard error, from one rank."""
-    if rank() == 0:
-        sys.stderr.write(f"weakforms: {' '.join(text.split())}\n")
+    """One line on standard error, from one rank; cut where it is very long, without control characters."""
+    if rank() != 0:
+        return
+    line = re.sub(r"[\x00-\x1f\x7f-\x9f]+", "\N{REPLACEMENT CHARACTER}", " ".join(text.split()))
+    if len(line) > LONGEST_COMPLAINT:
+        line = f"{line[: LONGEST_COMPLAINT // 2]} ... {line[-LONGEST_COMPLAINT // 4 :]}"
+    sys.stderr.write(f"weakforms: {line}\n")
 
 
-def guarded(run: Callable[[], Any]) -> int:
-    """Exit status of a command; deliberate errors become one line."""
+def _abort_other_ranks() -> None:
+    """End ranks that would wait for this one for ever."""
+    from mpi4py import MPI
+
+    if MPI.COMM_WORLD.size > 1:
+        MPI.COMM_WORLD.Abort(1)
+
+
+def guarded(run: Callable[[], Any], debug: bool = False) -> int:
+    """Exit status of a command; deliberate errors become one line, with ``debug`` after their traceback."""
     try:
         outcome = run()
-    except WeakformsError as error:
-        complain(str(error))
-        return error.exit_status
-    except click.ClickException as error:
-        complain(error.format_message())
-        return 2
-    except (click.Abort, KeyboardInterrupt):
-        complain("interrupted")
-        return 130
-    except BrokenPipeError:
-        return 0
-    except Exception as error:
-        # A defect of ours: still one line, and a way to the traceback.
-        complain(f"internal error, please report it ({type(error).__name__}: {error}); see --debug")
-        return 1
+        sys.stdout.flush()
+    except (Exception, KeyboardInterrupt) as error:
+        if debug:
+            traceback.print_exc()
+        status, text = _verdict_on(error)
+        complain(text)
+        return status
     return outcome if isinstance(outcome, int) else 0
+
+
+def _verdict_on(error: BaseException) -> tuple[int, str]:
+    """Exit status and message an exception ends a command with."""
+    if isinstance(error, WeakformsError):
+        return error.exit_status, str(error)
+    if isinstance(error, click.ClickException):
+        return 2, error.format_message()
+    if isinstance(error, click.Abort | KeyboardInterrupt):
+        return 130, "interrupted"
+    if isinstance(error, OSError) and _stdout_is_gone():
+        return 2, f"cannot write to standard output: {error.strerror}"
+    # A defect of ours: still one line, and a way to the traceback.
+    return 1, f"internal error, please report it ({type(error).__name__}: {error}); see --debug"
+
+
+def _stdout_is_gone() -> bool:
+    """Whether standard output takes nothing more; then it is closed for good, so that the exit is quiet."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return True
+    return False

@@ -129,6 +129,11 @@ def _flux_blocks(tube: Tube, at: Half, dz: Array) -> tuple[Array, Array]:
 
 def jacobian(tube: Tube, grid: Grid, y: Array, p: Any, pressure: Pressure) -> sp.csc_matrix:
     """Analytic derivative of :func:`residual` with respect to y (also for complex y)."""
+    return _assemble(jacobian_blocks(tube, grid, y, p, pressure), grid.n)
+
+
+def jacobian_blocks(tube: Tube, grid: Grid, y: Array, p: Any, pressure: Pressure) -> Array:
+    """The derivative as blocks: node 0 .. n-1, equation, unknown, neighbour (left, self, right)."""
     n, at = grid.n, half_points(tube, grid, y)
     left, right = _flux_blocks(tube, at, grid.half * tube.length)
     dz = grid.node[:-1] * tube.length
@@ -158,7 +163,7 @@ def jacobian(tube: Tube, grid: Grid, y: Array, p: Any, pressure: Pressure) -> sp
     blocks[0, 0, :, 2] += blocks[0, 0, :, 0] * np.array([1, -1])
     blocks[0, 1] = 0
     blocks[0, 1, 1, 1] = 1
-    return _assemble(blocks, n)
+    return blocks
 
 
 def _assemble(blocks: Array, n: int) -> sp.csc_matrix:

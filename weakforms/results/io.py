@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import math
 import os
@@ -36,7 +37,10 @@ def validate(data: dict[str, Any]) -> None:
         InputError: Naming the first place that does not fit.
     """
     validator = jsonschema.Draft202012Validator(schema())
-    error = next(iter(sorted(validator.iter_errors(data), key=lambda e: list(map(str, e.path)))), None)
+    try:
+        error = min(validator.iter_errors(data), key=lambda e: list(map(str, e.path)), default=None)
+    except RecursionError:
+        raise InputError("not a weakforms.result/1 object: nested too deeply") from None
     if error is not None:
         place = "/".join(map(str, error.absolute_path)) or "top level"
         raise InputError(f"not a weakforms.result/1 object: at {place}: {error.message[:200]}")
@@ -45,12 +49,18 @@ def validate(data: dict[str, Any]) -> None:
 def write_atomically(path: Path, text: str) -> None:
     """Write a file that appears under its name only when complete.
 
+    A link is followed; a device or pipe is written to, never replaced.
+
     Raises:
         InputError: When the place cannot be written to.
     """
     path = Path(path)
     temporary = None
     try:
+        if path.exists() and not path.is_file():
+            path.write_text(text, "utf-8")
+            return
+        path = Path(os.path.realpath(path))
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
@@ -69,8 +79,8 @@ def _umask() -> int:
     return mask
 
 
-def require_writable(folder: Path) -> None:
-    """Make sure results can be put into a folder before anything is solved.
+def require_writable(folder: Path, name: str = "") -> None:
+    """Make sure results can be put into a folder, and under a name, before anything is solved.
 
     Raises:
         InputError: When they cannot.
@@ -78,10 +88,23 @@ def require_writable(folder: Path) -> None:
     folder = Path(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
+        with tempfile.NamedTemporaryFile(dir=folder, prefix=f".{name}."):
             pass
     except OSError as error:
-        raise InputError(f"cannot write to folder {folder}: {error.strerror or error}") from error
+        place = f"{folder / name}" if name else f"to folder {folder}"
+        raise InputError(f"cannot write {place}: {error.strerror or error}") from error
+
+
+def require_place_for(path: Path) -> None:
+    """Make sure a file can be written before anything is solved.
+
+    Raises:
+        InputError: When it cannot, or when the path is a folder.
+    """
+    if path.is_dir():
+        raise InputError(f"cannot write {path}: it is a folder, a file name is wanted")
+    if not path.exists() or path.is_file():
+        require_writable(path.parent, path.name)
 
 
 def dumps(data: dict[str, Any]) -> str:
@@ -97,7 +120,7 @@ def load_json(path: Path, what: str) -> dict[str, Any]:
     """
     try:
         data = json.loads(_text(path, what))
-    except (json.JSONDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
         raise InputError(f"{what} {path} is not JSON: {str(error).splitlines()[0]}") from error
     if not isinstance(data, dict):
         raise InputError(f"{what} {path} must hold a JSON object, not {type(data).__name__}")
@@ -137,8 +160,9 @@ def read_curve(path: Path) -> dict[str, np.ndarray]:
         data = load_json(path, "curve file")
         if data.get("schema") == "weakforms.result/1":
             validate(data)
-            branch = Result.from_json(data).branches[0]
-            return {key: np.asarray(values, float) for key, values in branch.columns.items()}
+            if not data["branches"]:
+                raise InputError(f"curve file {path} is a result without a branch")
+            data = data["branches"][0]
         columns = data.get("columns", data)
         if not isinstance(columns, dict):
             raise InputError(f"curve file {path}: 'columns' must be an object of lists")
@@ -149,11 +173,14 @@ def read_curve(path: Path) -> dict[str, np.ndarray]:
 
 def _text(path: Path, what: str) -> str:
     try:
-        if Path(path).stat().st_size > MAX_CURVE_BYTES:
-            raise InputError(f"{what} {path} is larger than {MAX_CURVE_BYTES >> 20} MiB")
-        return Path(path).read_text("utf-8-sig")
+        with Path(path).open("rb") as stream:
+            raw = stream.read(MAX_CURVE_BYTES + 1)  # a pipe or device does not tell its size
     except OSError as error:
         raise InputError(f"cannot read {what} {path}: {error.strerror or error}") from error
+    if len(raw) > MAX_CURVE_BYTES:
+        raise InputError(f"{what} {path} is larger than {MAX_CURVE_BYTES >> 20} MiB")
+    try:
+        return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{what} {path} is not UTF-8 text (byte {error.start})") from error
 
@@ -161,20 +188,21 @@ def _text(path: Path, what: str) -> str:
 def _read_csv(path: Path) -> dict[str, list[str]]:
     text = _text(path, "curve file")
     try:
-        rows = [row for row in csv.reader(text.splitlines()) if row]
+        reader = csv.reader(io.StringIO(text))
+        rows = [(reader.line_num, row) for row in reader if row]
     except csv.Error as error:
         raise InputError(f"curve file {path} is not CSV: {error}") from error
     if len(rows) < 2:
         raise InputError(f"curve file {path} needs a header row and at least one row of numbers")
-    header = [name.strip() for name in rows[0]]
+    header = [name.strip() for name in rows[0][1]]
     if len(set(header)) != len(header):
         raise InputError(f"curve file {path}: a column name stands twice in {header}")
-    for number, row in enumerate(rows[1:], start=2):
+    for line, row in rows[1:]:
         if len(row) != len(header):
             raise InputError(
-                f"curve file {path}, row {number}: {len(row)} cells under {len(header)} column names"
+                f"curve file {path}, line {line}: {len(row)} cells under {len(header)} column names"
             )
-    return {name: [row[j] for row in rows[1:]] for j, name in enumerate(header)}
+    return {name: [row[j] for _, row in rows[1:]] for j, name in enumerate(header)}
 
 
 def _numbers(path: Path, columns: dict[str, Any]) -> dict[str, np.ndarray]:
@@ -194,9 +222,9 @@ def _numbers(path: Path, columns: dict[str, Any]) -> dict[str, np.ndarray]:
 def _number(path: Path, name: str, row: int, value: object) -> float:
     try:
         number = float(value) if not isinstance(value, bool) else math.nan
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
         shown = str(value)[:40]
-        raise InputError(f"curve file {path}, column {name!r}, row {row}: {shown!r} is not a number")
+        raise InputError(f"curve file {path}, column {name!r}, row {row}: {shown!r} is not a finite number")
     return number

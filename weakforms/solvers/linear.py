@@ -36,6 +36,7 @@ class Factorization:
         self.package = "petsc" if system.comm.size == 1 and small else "mumps"
         self._pc = self._make(self.package)
         self.count = 0
+        self.failed = False
         self.stiffened: tuple[float, np.ndarray] | None = None
         """``(τ, e_i)`` while ``K + τ e_i e_iᵀ`` is factorised in place of ``K``."""
 
@@ -76,6 +77,7 @@ class Factorization:
         """Factorise the matrix as it stands."""
         self._pc.setOperators(self.system.matrix)
         self._pc.setUp()
+        self.failed = self._pc.getFailedReason() != PETSc.PC.FailedReason.NOERROR
         self.count += 1
 
     def stiffen(self) -> None:
@@ -84,9 +86,12 @@ class Factorization:
         null = self.solve(np.ones(system.size))
         size = np.abs(np.nan_to_num(null, nan=np.inf))
         size[system.bc_dofs] = 0.0
-        diagonal = np.abs(system.matrix.getDiagonal().array)
-        largest = system.comm.allgather((float(size.max(initial=0.0)), float(diagonal.max(initial=0.0))))
-        tau = max(stiffness for _, stiffness in largest)
+        # Of a single degree of freedom the diagonal is the singular K itself; its mass is not.
+        stiffness = max(
+            float(np.abs(m.getDiagonal().array).max(initial=0.0)) for m in (system.matrix, system.mass)
+        )
+        largest = system.comm.allgather((float(size.max(initial=0.0)), stiffness))
+        tau = max(value for _, value in largest)
         owner = int(np.argmax([amplitude for amplitude, _ in largest]))
         unit = np.zeros(system.size)
         if system.comm.rank == owner:
@@ -99,14 +104,22 @@ class Factorization:
         self.refactor()
 
     def solve(self, rhs: np.ndarray) -> np.ndarray:
-        """``K⁻¹ rhs`` for owned arrays."""
+        """``K⁻¹ rhs`` for owned arrays; NaN where a zero pivot ended the factorisation."""
+        if self.failed:
+            return np.full(self.system.size, np.nan)
         x, y = self.system._work()
         x.array[:] = rhs
         self._pc.getFactorMatrix().solve(x, y)
         return y.array.copy()
 
     def negative_count(self) -> int:
-        """Number of negative eigenvalues of ``K`` (its Dirichlet rows count as positive)."""
+        """Number of negative eigenvalues of ``K`` (its Dirichlet rows count as positive).
+
+        Raises:
+            ConvergenceError: When ``K`` is exactly singular.
+        """
+        if self.failed:
+            raise ConvergenceError("inertia: the tangent is singular, its factorisation met a zero pivot")
         negative, _zero, _positive = self._pc.getFactorMatrix().getInertia()
         return int(negative)
 

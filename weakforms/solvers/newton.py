@@ -150,7 +150,7 @@ class ExtendedNewton:
         gradients = [c.gradient(self) for c in constraints]
         corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
         rows = [self._free(row) for row, _ in gradients]
-        return BorderedMatrix(self.factor, columns, rows, corner.reshape(len(rows), -1))
+        return BorderedMatrix(self.factor, columns, rows, corner.reshape(len(rows), len(columns)))
 
     def _free(self, row: np.ndarray) -> np.ndarray:
         row = row.copy()

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import ufl
 from dolfinx import fem, geometry
+from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
@@ -17,7 +18,8 @@ class Sampler:
     """Evaluates expressions of an unknown at points along a one-dimensional mesh.
 
     The expressions are interpolated element by element in polynomials of one degree more than the
-    unknown's, then evaluated: what that adds is smaller than the discretisation error of a derivative.
+    unknown's, then evaluated: what that adds is smaller than the discretisation error of a derivative. A
+    point between two cells gets the mean of both sides, so that the ranks' order does not matter.
 
     Args:
         unknown: The function the expressions depend on; evaluated as it stands at each call.
@@ -36,31 +38,28 @@ class Sampler:
         self._comm = space.mesh.comm
         self._points = np.zeros((len(points), 3))
         self._points[:, 0] = points
-        self._cells, self._mine = self._locate(space.mesh)
+        self._index, self._cells = self._locate(space.mesh)
+        count = np.bincount(self._index, minlength=len(points))
+        self._count = self._comm.allreduce(count, op=MPI.SUM)
+        if np.any(self._count == 0):
+            raise ValueError(f"sample point {points[np.argmin(self._count)]} lies outside the mesh")
 
-    def _locate(self, mesh: object) -> tuple[np.ndarray, np.ndarray]:
-        """A cell for each point on this rank, and which points this rank answers for."""
+    def _locate(self, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+        """Every pair of a point and a cell of this rank that holds it."""
         tree = geometry.bb_tree(mesh, mesh.topology.dim, padding=1e-10)
         candidates = geometry.compute_collisions_points(tree, self._points)
         cells = geometry.compute_colliding_cells(mesh, candidates, self._points)
         owned = mesh.topology.index_map(mesh.topology.dim).size_local
-        first = np.full(len(self._points), -1, dtype=np.int32)
-        for i in range(len(self._points)):
-            links = cells.links(i)
-            here = links[links < owned]
-            first[i] = here[0] if len(here) else -1
-        rank = np.where(first >= 0, self._comm.rank, self._comm.size)
-        answering = self._comm.allreduce(rank, op=MPI.MIN)
-        if np.any(answering == self._comm.size):
-            raise ValueError("a sample point lies outside the mesh")
-        return first, np.flatnonzero(answering == self._comm.rank)
+        pairs = [(i, c) for i in range(len(self._points)) for c in cells.links(i) if c < owned]
+        index, cell = np.array(pairs, dtype=np.int32).reshape(-1, 2).T
+        return index, cell
 
     def __call__(self) -> dict[str, np.ndarray]:
         """One array a column."""
         self._function.interpolate(self._expression)
         values = np.zeros((len(self._points), len(self.names)))
-        if len(self._mine):
-            found = self._function.eval(self._points[self._mine], self._cells[self._mine])
-            values[self._mine] = found.reshape(len(self._mine), -1)
-        values = self._comm.allreduce(values, op=MPI.SUM)
+        if len(self._index):
+            found = self._function.eval(self._points[self._index], self._cells)
+            np.add.at(values, self._index, found.reshape(len(self._index), -1))
+        values = self._comm.allreduce(values, op=MPI.SUM) / self._count[:, None]
         return dict(zip(self.names, values.T, strict=True))

@@ -71,9 +71,8 @@ class System:
 
         self.vec = self.unknown.x.petsc_vec.duplicate()
         self.size = self.vec.getLocalSize()
-        self.bc_dofs = np.concatenate(
-            [dofs[:owned] for dofs, owned in (bc.dof_indices() for bc in formulation.bcs)]
-        )
+        owned = [dofs[:count] for dofs, count in (bc.dof_indices() for bc in formulation.bcs)]
+        self.bc_dofs = np.concatenate(owned) if owned else np.empty(0, dtype=np.int32)
         fem_petsc.set_bc(self.vec, formulation.bcs)
         self._bc_values = self.vec.array[self.bc_dofs].copy()
         self.matrix = fem_petsc.create_matrix(self._form("tangent"))

@@ -128,6 +128,7 @@ def _case_facts(found: FoundCase) -> dict[str, Any]:
             {
                 "name": n,
                 "type": t.kind,
+                "abscissa": t.abscissa,
                 "rows": len(t),
                 "uncertainty": t.uncertainty,
                 "method": t.method,
@@ -174,8 +175,9 @@ def _print_case(facts: dict[str, Any], console: Console) -> None:
     for table in facts["references"]:
         largest = max(table["uncertainty"].values())
         console.print(
-            f"reference {table['name']}: {table['type']}, {table['rows']} rows, "
-            f"uncertainty up to {largest:.1e}"
+            f"reference {table['name']}: {table['type']}, {table['rows']} rows of "
+            f"{', '.join(table['uncertainty'])}, uncertainty up to {largest:.1e}",
+            soft_wrap=True,
         )
 
 
@@ -193,5 +195,11 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
     table = Table("column", "verdict", "error", "bound", "worst at")
     for v in verdicts.verdicts:
         word = "within" if v.passed else "OUT OF BOUNDS"
-        table.add_row(v.check.split(":")[-1], word, scientific(v.error), scientific(v.bound), v.where)
+        column = v.check.split(":")[-1]
+        if verdicts.unjudged_rows[column] == verdicts.rows:
+            word = "NOT JUDGED"
+        table.add_row(column, word, scientific(v.error), scientific(v.bound), v.where)
     console.print(table)
+    for v in verdicts.verdicts:
+        if verdicts.unjudged_rows[v.check.split(":")[-1]]:
+            console.print(f"{v.check}: {v.detail}", markup=False, soft_wrap=True)

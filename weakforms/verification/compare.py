@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -35,6 +34,8 @@ class Verdicts:
     rows: int
     ignored_rows: int
     """Rows of the curve outside the table's range."""
+    unjudged_rows: dict[str, int]
+    """Per column: rows between the table's, where it is too coarse to judge to the accuracy asked."""
     verdicts: tuple[Verdict, ...]
 
     @property
@@ -45,7 +46,7 @@ class Verdicts:
     @property
     def partial(self) -> bool:
         """Whether the curve leaves part of the table unjudged."""
-        return self.covered != self.table
+        return self.covered != self.table or any(self.unjudged_rows.values())
 
     def to_json(self) -> dict[str, Any]:
         """JSON object of schema ``weakforms.verdicts/1``."""
@@ -61,8 +62,9 @@ def compare(
     """Hold a curve against the reference table of a case.
 
     The table is interpolated at the curve's abscissa by a cubic spline; the error of that, estimated from
-    the spline through every second row, widens the bound. A curve that covers part of the table is judged
-    there.
+    the spline through every second row, widens the bound. A wide bound never passes for agreement: rows at
+    which it would exceed twice the accuracy asked are not judged, and counted. A curve that covers part of
+    the table is judged there.
 
     Args:
         case: Id of a case, such as ``paper2.fig03``.
@@ -75,21 +77,24 @@ def compare(
     """
     found = get_case(case)
     table = references.load(found.paper, choose(found, name))
-    columns = read_curve(Path(curve)) if isinstance(curve, str | Path) else _columns(curve)
     if accuracy is not None and not 0 < accuracy < 1:
         raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1")
-    x, keep, shared = _aligned(table, columns)
-    verdicts = tuple(_judge(found, table, column, x, columns[column][keep], accuracy) for column in shared)
-    rows = table.columns[table.abscissa]
+    columns = read_curve(Path(curve)) if isinstance(curve, str | Path) else _columns(curve)
+    asked = dict.fromkeys(table.ordinates, accuracy) if accuracy is not None else found.case.asked
+    x, keep, shared = _aligned(table, columns, asked)
+    judged = [_judge(table, column, x, columns[column][keep], asked[column]) for column in shared]
+    rows, whole = table.columns[table.abscissa], columns[table.abscissa]
+    low, high = float(rows.min()), float(rows.max())
     return Verdicts(
         case=found.id,
         curve=table.name,
         abscissa=table.abscissa,
-        covered=(float(x.min()), float(x.max())),
-        table=(float(rows.min()), float(rows.max())),
+        covered=(max(float(whole.min()), low), min(float(whole.max()), high)),
+        table=(low, high),
         rows=len(x),
         ignored_rows=int(np.sum(~keep)),
-        verdicts=verdicts,
+        unjudged_rows={column: unjudged for column, (_, unjudged) in zip(shared, judged, strict=True)},
+        verdicts=tuple(verdict for verdict, _ in judged),
     )
 
 
@@ -119,7 +124,7 @@ def _columns(curve: Mapping[str, Sequence[float]]) -> dict[str, np.ndarray]:
     for name, values in curve.items():
         try:
             array = np.asarray(values, dtype=float)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise InputError(f"column {name!r}: {error}") from error
         if array.ndim != 1 or not len(array) or not np.all(np.isfinite(array)):
             raise InputError(f"column {name!r} must be a list of finite numbers")
@@ -129,17 +134,21 @@ def _columns(curve: Mapping[str, Sequence[float]]) -> dict[str, np.ndarray]:
     return out
 
 
-def _aligned(table: Reference, columns: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray, list[str]]:
+def _aligned(
+    table: Reference, columns: Mapping[str, np.ndarray], asked: Mapping[str, float]
+) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Abscissa within the table's range, which rows those are, and the columns to judge."""
     if table.abscissa not in columns:
         raise InputError(
             f"the curve has no column {table.abscissa!r}, over which table {table.name} is compared; "
             f"it has {', '.join(columns)}"
         )
-    shared = [name for name in table.ordinates if name in columns]
+    judged = [name for name in table.ordinates if name in asked]
+    shared = [name for name in judged if name in columns]
     if not shared:
         raise InputError(
-            f"the curve has none of the columns of table {table.name}: {', '.join(table.ordinates)}"
+            f"the curve has none of the columns of table {table.name} that are judged: "
+            f"{', '.join(judged)}; it has {', '.join(columns)}"
         )
     x = columns[table.abscissa]
     steps = np.diff(x)
@@ -157,6 +166,8 @@ def _aligned(table: Reference, columns: Mapping[str, np.ndarray]) -> tuple[np.nd
 
 def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Cubic spline through a table at ``x``, and an estimate of its error (zero at the rows themselves)."""
+    if len(rows) < 5:
+        raise InputError(f"a table of {len(rows)} rows is too short to interpolate")
     order = np.argsort(rows)
     rows, values = rows[order], values[order]
     fine = CubicSpline(rows, values)(x)
@@ -172,30 +183,30 @@ def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[n
 
 
 def _judge(
-    found: FoundCase,
-    table: Reference,
-    column: str,
-    x: np.ndarray,
-    values: np.ndarray,
-    accuracy: float | None,
-) -> Verdict:
-    if len(table) < 5:
-        raise InputError(f"table {table.name} has too few rows to interpolate")
+    table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float
+) -> tuple[Verdict, int]:
+    """Verdict on a column, and the number of rows the table is too coarse to judge."""
     expected, slack = interpolated(table.columns[table.abscissa], table.columns[column], x)
     scale = float(np.max(np.abs(table.columns[column]))) or 1.0
-    asked = accuracy if accuracy is not None else found.case.asked.get(column, math.nan)
-    if math.isnan(asked):
-        asked = max(found.case.asked.values())
     known = np.hypot(table.uncertainty[column], slack)
     error = np.abs(values - expected) / scale
     bound = asked + 2 * known / scale
-    i = int(np.argmax(error / bound))
-    return Verdict(
+    # A row beyond even the wide bound is wrong whatever the table's coarseness.
+    judged = (bound <= 2 * asked) | (error > bound)
+    unjudged = int(np.sum(~judged))
+    detail = f"{len(x)} rows; scale {scale:.6g}"
+    if unjudged:
+        detail += f"; {unjudged} lie where the table is too coarse to judge to {asked:g}"
+    if not np.any(judged):
+        detail += f": give the curve at the table's own {table.abscissa}, or claim a lesser accuracy"
+        judged[:] = True
+    i = int(np.argmax(np.where(judged, error / bound, -1)))
+    verdict = Verdict(
         check=f"{table.name}:{column}",
         kind="curve",
-        passed=bool(np.all(error <= bound)),
+        passed=unjudged < len(x) and bool(np.all(error[judged] <= bound[judged])),
         statement=f"{column} over {table.abscissa} against {table.source}",
-        detail=f"{len(x)} rows; scale {scale:.6g}",
+        detail=detail,
         error=float(error[i]),
         bound=float(bound[i]),
         asked=float(asked),
@@ -203,3 +214,4 @@ def _judge(
         where=f"{table.abscissa} = {x[i]:g}",
         reference=table.name,
     )
+    return verdict, unjudged

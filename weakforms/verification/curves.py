@@ -7,7 +7,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.verification import references
 from weakforms.verification.bounds import Comparison, compare
-from weakforms.verification.case import Case, Curve, Panel
+from weakforms.verification.case import LABELS, Case, Curve, Panel
 from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome, Verdict
 from weakforms.verification.references import Reference
 from weakforms.verification.solutions import Solutions
@@ -25,6 +25,8 @@ def reference_of(paper: int, curve: Curve) -> Reference | None:
     if curve.reference is None:
         return None
     table = references.load(paper, curve.reference)
+    if table.abscissa is None:
+        raise InputError(f"table {table.name} names no abscissa: it is no curve")
     for name, value in table.parameters.items():
         given = dict(curve.of.parameters).get(name)
         if given is not None and given != value:
@@ -51,6 +53,21 @@ def profile_at(curve: Curve, table: Reference | None) -> At:
     return At(curve.at.name, curve.at.value, curve.at.crossing, points)
 
 
+def names(paper: int, curve: Curve, case: Case) -> list[str]:
+    """What the verdicts on a curve will be called, known before anything is solved."""
+    table = reference_of(paper, curve)
+    if table is None:
+        return []
+    judged = [_name(table, column) for column in table.ordinates if column in case.asked]
+    if not judged:
+        raise InputError(f"table {table.name}: the case states no accuracy for any of its columns")
+    return judged
+
+
+def _name(table: Reference, column: str) -> str:
+    return f"{table.name}:{column}"
+
+
 def judge_curve(
     paper: int, curve: Curve, case: Case, solutions: Solutions
 ) -> tuple[list[Verdict], dict[str, Comparison]]:
@@ -66,8 +83,6 @@ def judge_curve(
         comparison = compare(values, uncertainty, table.columns[name], table.uncertainty[name])
         found[name] = comparison
         verdicts.append(_verdict(curve, table, name, comparison, case.asked[name]))
-    if not verdicts:
-        raise InputError(f"table {table.name}: the case states no accuracy for any of its columns")
     return verdicts, found
 
 
@@ -87,7 +102,7 @@ def _verdict(curve: Curve, table: Reference, name: str, comparison: Comparison, 
     i = comparison.worst
     abscissa = table.abscissa
     return Verdict(
-        check=f"{table.name}:{name}",
+        check=_name(table, name),
         kind="field" if curve.at is not None else "curve",
         passed=comparison.passed(asked),
         statement=f"{name} over {abscissa} for {curve.of}"
@@ -162,7 +177,7 @@ def _draw(
         outcome.reference_x, outcome.reference_y = rx.tolist(), ry.tolist()
     worst = comparisons.get(y) or next(iter(comparisons.values()), None)
     if table is not None and worst is not None:
-        outcome.residual_abscissa = table.abscissa
+        outcome.residual_abscissa = LABELS.get(table.abscissa, table.abscissa)
         outcome.residual_x = table.columns[table.abscissa].tolist()
         outcome.residual = worst.error.tolist()
         outcome.residual_bound = worst.bound.tolist()

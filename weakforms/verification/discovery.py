@@ -38,11 +38,9 @@ def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
         InputError: When a case file does not define ``CASE``.
     """
     found = []
-    for path in sorted((root / "cases").glob("paper[0-9]*/*.py")):
-        if path.stem.startswith("_"):
-            continue
-        paper = int(path.parent.name.removeprefix("paper"))
-        found.append(_load(path, paper))
+    for path in sorted((root / "cases").glob("paper[1-5]/*.py")):
+        if not path.stem.startswith("_"):
+            found.append(_load(path, int(path.parent.name.removeprefix("paper"))))
     return tuple(sorted(found, key=lambda item: (item.paper, item.id)))
 
 
@@ -53,7 +51,7 @@ def _load(path: Path, paper: int) -> FoundCase:
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise InputError(f"case file {path}: {type(error).__name__}: {error}") from error
     case = getattr(module, "CASE", None)
     if not isinstance(case, Case):
@@ -95,10 +93,18 @@ def select(paper: int | None = None, expression: str | None = None) -> list[Foun
 class Expression:
     """``a and not (b or c)`` over words found in a text; parsed here, never evaluated as code."""
 
+    LONGEST = 200
+    """Words and brackets an expression may have, so that its nesting stays within the stack."""
+
     def __init__(self, text: str) -> None:
         self._text = text
         self._tokens = re.findall(r"[()]|[^\s()]+", text.lower())
         self._at = 0
+        if len(self._tokens) > self.LONGEST:
+            raise InputError(
+                f"the expression {text[:40]!r}... has {len(self._tokens)} words and brackets; "
+                f"allowed are {self.LONGEST}"
+            )
         self._tree = self._or()
         if self._at != len(self._tokens):
             raise self._error()

@@ -35,19 +35,30 @@ def judge(check: Check, paper: int, solutions: Solutions) -> Judged:
     raise TypeError(type(check))
 
 
+@singledispatch
+def names(check: Check, paper: int) -> list[str]:
+    """What the verdicts of a check will be called, known before anything is solved."""
+    raise TypeError(type(check))
+
+
 @wants.register
 def _(check: Count, paper: int) -> list[Wanted]:
     return [(spec, None) for spec in check.expected]
 
 
+@names.register
+def _(check: Count, paper: int) -> list[str]:
+    return [f"count_{check.kind}:{spec}" for spec in check.expected]
+
+
 @judge.register
 def _(check: Count, paper: int, solutions: Solutions) -> Judged:
     verdicts = []
-    for spec, expected in check.expected.items():
+    for name, (spec, expected) in zip(names(check, paper), check.expected.items(), strict=True):
         found = len(solutions.points(spec, check.kind))
         verdicts.append(
             Verdict(
-                check=f"count_{check.kind}:{spec}",
+                check=name,
                 kind="count",
                 passed=found == expected,
                 statement=f"{check.statement} ({spec})",
@@ -73,28 +84,38 @@ def _(check: Points, paper: int) -> list[Wanted]:
     return [(spec, None) for spec, _, _ in _rows(check, paper)]
 
 
+@names.register
+def _(check: Points, paper: int) -> list[str]:
+    rows = _rows(check, paper)
+    return [
+        _point_name(check, f"{spec}[{index + 1}]", name) for spec, _, index in rows for name in check.asked
+    ]
+
+
+def _point_name(check: Points, label: str, name: str) -> str:
+    return f"{check.reference}:{label}:{name}"
+
+
 @judge.register
 def _(check: Points, paper: int, solutions: Solutions) -> Judged:
     table = references.load(paper, check.reference)
     verdicts = []
     for spec, row, index in _rows(check, paper):
-        points = solutions.points(spec, check.kind)
-        if index >= len(points):
-            verdicts.append(_missing(check, spec, index, len(points)))
-            continue
-        verdicts.extend(
-            _point_verdict(check, table, points[index], f"{spec}[{index + 1}]", name, row)
-            for name in check.asked
-        )
+        points, label = solutions.points(spec, check.kind), f"{spec}[{index + 1}]"
+        for name in check.asked:
+            if index < len(points):
+                verdicts.append(_point_verdict(check, table, points[index], label, name, row))
+            else:
+                verdicts.append(_missing(check, label, name, len(points)))
     return verdicts, [], []
 
 
-def _missing(check: Points, spec: Spec, index: int, found: int) -> Verdict:
+def _missing(check: Points, label: str, name: str, found: int) -> Verdict:
     return Verdict(
-        check=f"{check.reference}:{spec}[{index + 1}]",
+        check=_point_name(check, label, name),
         kind="point",
         passed=False,
-        statement=f"{check.kind} {index + 1} of {spec}",
+        statement=f"{name} of {check.kind} of {label}",
         detail=f"not there: the branch has {found}",
         reference=check.reference,
     )
@@ -112,7 +133,7 @@ def _point_verdict(
     value = table.columns[name][row]
     found = compare(point.values[name], point.uncertainty[name], value, table.uncertainty[name])
     return Verdict(
-        check=f"{check.reference}:{label}:{name}",
+        check=_point_name(check, label, name),
         kind="point",
         passed=found.passed(asked),
         statement=f"{name} of {check.kind} of {label}",
@@ -131,11 +152,17 @@ def _(check: Claim, paper: int) -> list[Wanted]:
     return list(check.wants)
 
 
+@names.register
+def _(check: Claim, paper: int) -> list[str]:
+    return [f"claim:{check.name}"]
+
+
 @judge.register
 def _(check: Claim, paper: int, solutions: Solutions) -> Judged:
     holds, detail = check.holds(solutions)
+    (name,) = names(check, paper)
     verdict = Verdict(
-        check=f"claim:{check.name}",
+        check=name,
         kind="claim",
         passed=bool(holds),
         statement=check.statement,
@@ -149,6 +176,11 @@ def _(check: Constant, paper: int) -> list[Wanted]:
     return [(check.of, check.at)]
 
 
+@names.register
+def _(check: Constant, paper: int) -> list[str]:
+    return [f"constant:{check.column}:{check.of}:{check.at}"]
+
+
 @judge.register
 def _(check: Constant, paper: int, solutions: Solutions) -> Judged:
     field = solutions.profile(check.of, check.at)
@@ -156,8 +188,9 @@ def _(check: Constant, paper: int, solutions: Solutions) -> Judged:
     scale = float(np.max(np.abs(values)))
     spread = float(np.ptp(values)) / scale
     bound = 2 * field.uncertainty[check.column] / scale
+    (name,) = names(check, paper)
     verdict = Verdict(
-        check=f"constant:{check.column}:{check.of}:{check.at}",
+        check=name,
         kind="exact",
         passed=spread <= bound <= check.asked,
         statement=check.statement,
@@ -191,18 +224,23 @@ def _sampled_at(check: Order, paper: int) -> At | None:
     return At(check.at.name, check.at.value, check.at.crossing, points)
 
 
+@names.register
+def _(check: Order, paper: int) -> list[str]:
+    return [f"order:{check.quantity}:P{degree}" for degree in check.expected]
+
+
 @judge.register
 def _(check: Order, paper: int, solutions: Solutions) -> Judged:
     table = references.load(paper, check.reference)
     verdicts, histories = [], []
-    for degree, expected in check.expected.items():
+    for called, (degree, expected) in zip(names(check, paper), check.expected.items(), strict=True):
         at = _sampled_at(check, paper)
         errors = [_error(check, table, _on(check, degree, n), at, solutions) for n in check.cells]
         fine = -np.log(errors[-1] / errors[-2]) / np.log(check.cells[-1] / check.cells[-2])
         name = f"{check.quantity}, P{degree}"
         verdicts.append(
             Verdict(
-                check=f"order:{check.quantity}:P{degree}",
+                check=called,
                 kind="order",
                 passed=bool(fine >= expected - ORDER_SLACK),
                 statement=f"{name} converges at order {expected:g} or better",
@@ -213,7 +251,7 @@ def _(check: Order, paper: int, solutions: Solutions) -> Judged:
         )
         histories.append(
             Convergence(
-                quantity=name,
+                quantity=check.quantity,
                 degree=degree,
                 cells=list(check.cells),
                 errors=[float(e) for e in errors],
@@ -242,12 +280,18 @@ def _(check: PrintedCheck, paper: int) -> list[Wanted]:
     return [(check.of, None)]
 
 
+@names.register
+def _(check: PrintedCheck, paper: int) -> list[str]:
+    return [f"printed:{check.what}"]
+
+
 @judge.register
 def _(check: PrintedCheck, paper: int, solutions: Solutions) -> Judged:
     points = solutions.points(check.of, check.kind)
+    (name,) = names(check, paper)
     if check.index >= len(points):
         verdict = Verdict(
-            check=f"printed:{check.what}",
+            check=name,
             kind="printed",
             passed=False,
             statement=f"{check.what} is printed as {check.printed}",
@@ -268,7 +312,7 @@ def _(check: PrintedCheck, paper: int, solutions: Solutions) -> Judged:
         source=check.source,
     )
     verdict = Verdict(
-        check=f"printed:{check.what}",
+        check=name,
         kind="printed",
         passed=reproduced,
         statement=f"{check.what} is printed as {check.printed} ({check.source})",
@@ -280,6 +324,8 @@ def _(check: PrintedCheck, paper: int, solutions: Solutions) -> Judged:
 def rounds_to(value: float, uncertainty: float, printed: str) -> bool:
     """Whether a number, anywhere within its uncertainty, rounds to all printed digits."""
     unit = Decimal(printed)
+    if not abs(value) + uncertainty < 1e9:  # nor does anything that is not a number
+        return False
     return all(
         Decimal(end).quantize(unit, rounding=ROUND_HALF_EVEN) == unit
         for end in (value - uncertainty, value + uncertainty)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import tomllib
 from dataclasses import dataclass
 from functools import cache
@@ -60,21 +61,39 @@ def load(paper: int, name: str, root: Path = ROOT) -> Reference:
             f"reference table {path} is truncated or altered: its checksum is not the one in {name}.toml; "
             f"restore it, or regenerate it: {facts.get('regenerate', 'python -m reference_data.solvers')}"
         )
-    columns = _columns(path.name, raw.decode("ascii"))
-    described = facts.get("columns", {})
-    missing = [column for column in columns if "uncertainty" not in described.get(column, {})]
-    if missing or facts.get("type") not in KINDS:
-        raise InputError(f"reference table {name}.toml: no uncertainty for {missing}, or unknown type")
+    columns = _columns(path.name, raw)
+    kind, abscissa = facts.get("type"), facts.get("abscissa")
+    if kind not in KINDS:
+        raise InputError(f"reference table {name}.toml: type = {kind!r}; allowed are {', '.join(KINDS)}")
+    if abscissa is not None and not (abscissa in columns and _monotone(columns[abscissa])):
+        raise InputError(f"reference table {name}: abscissa {abscissa!r} is no column that rises or falls")
     return Reference(
         name=name,
-        kind=facts["type"],
+        kind=kind,
         source=facts.get("source", ""),
         method=facts.get("method", ""),
-        abscissa=facts.get("abscissa"),
+        abscissa=abscissa,
         columns=columns,
-        uncertainty={column: float(described[column]["uncertainty"]) for column in columns},
+        uncertainty={column: _uncertainty(name, facts, column) for column in columns},
         parameters=dict(facts.get("parameters", {})),
     )
+
+
+def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:
+    try:
+        value = facts["columns"][column]["uncertainty"]
+    except (KeyError, TypeError):
+        value = None
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
+        raise InputError(
+            f"reference table {name}.toml: uncertainty of {column} = {value!r}; a number from 0 is wanted"
+        )
+    return float(value)
+
+
+def _monotone(values: np.ndarray) -> bool:
+    steps = np.diff(values)
+    return bool(np.all(steps > 0) or np.all(steps < 0))
 
 
 def _facts(path: Path) -> dict[str, Any]:
@@ -86,13 +105,15 @@ def _facts(path: Path) -> dict[str, Any]:
         raise InputError(f"reference table {path.name} is not TOML: {error}") from error
 
 
-def _columns(name: str, text: str) -> dict[str, np.ndarray]:
-    lines = text.splitlines()
-    header = lines[0].split(",")
+def _columns(name: str, raw: bytes) -> dict[str, np.ndarray]:
     try:
+        lines = raw.decode("ascii").splitlines()
+        header = lines[0].split(",") if lines else []
         rows = np.array([[float(cell) for cell in line.split(",")] for line in lines[1:]])
-    except ValueError as error:
+    except ValueError as error:  # ragged rows and what is not ASCII are ValueErrors too
         raise InputError(f"reference table {name}: {error}") from error
-    if rows.ndim != 2 or rows.shape[1] != len(header):
-        raise InputError(f"reference table {name}: rows do not fit the header {header}")
+    if rows.ndim != 2 or rows.shape[1] != len(set(header)) or not np.all(np.isfinite(rows)):
+        raise InputError(
+            f"reference table {name}: rows of finite numbers under the header {header} are wanted"
+        )
     return dict(zip(header, rows.T, strict=True))

@@ -5,20 +5,23 @@ from __future__ import annotations
 import hashlib
 import json
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 
-from weakforms.errors import InputError, WeakformsError
+from weakforms.errors import EnvironmentLackError, InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
-from weakforms.results.io import dumps
+from weakforms.results.io import dumps, require_writable
+from weakforms.verification import curves
 from weakforms.verification.curves import curve_wants, draw_panel, judge_curve
 from weakforms.verification.discovery import FoundCase
-from weakforms.verification.judge import judge, wants
+from weakforms.verification.judge import judge, names, wants
 from weakforms.verification.machine import environment
 from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
 from weakforms.verification.solutions import Solutions
@@ -41,6 +44,7 @@ class Plan:
         states: dict[Spec, list[At]] = {}
         by_case: dict[str, list[Spec]] = {}
         for found in cases:
+            check_ids(found)
             needed = []
             for spec, at in case_wants(found):
                 listed = states.setdefault(spec, [])
@@ -61,6 +65,14 @@ def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
     for check in found.case.checks:
         out.extend(wants(check, found.paper))
     return out
+
+
+def check_ids(found: FoundCase) -> list[str]:
+    """What the verdicts of a case will be called, known before anything is solved."""
+    case = found.case
+    drawn = [n for p in case.panels for c in p.curves for n in curves.names(found.paper, c, case)]
+    stated = [n for check in case.checks for n in names(check, found.paper)]
+    return list(dict.fromkeys([*drawn, *stated]))
 
 
 def _merge(ats: list[At]) -> list[At]:
@@ -176,13 +188,21 @@ class Solver:
                     yield spec, error
             return
         # Spawned, not forked: MPI and PETSc do not survive a fork.
-        with ProcessPoolExecutor(self.jobs, mp_context=get_context("spawn")) as pool:
+        pool = ProcessPoolExecutor(self.jobs, mp_context=get_context("spawn"))
+        try:
             futures = {pool.submit(_task, spec, states): spec for spec, states, _ in todo}
             for future in as_completed(futures):
                 error = future.exception()
                 if error is not None and not isinstance(error, WeakformsError):
                     raise error
                 yield futures[future], error or future.result()
+        except BrokenProcessPool:
+            raise EnvironmentLackError(
+                "a process that was solving died, perhaps for want of memory; "
+                f"with fewer than -j {self.jobs} and --resume the run goes on from what is solved"
+            ) from None
+        finally:
+            pool.shutdown(cancel_futures=True)  # after Ctrl-C nothing more is begun
 
 
 # -- judging -------------------------------------------------------------------------------------
@@ -206,21 +226,17 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
     for panel in found.case.panels:
         comparisons = {}
         for curve in panel.curves:
-            try:
+            with _missed(outcome, curves.names(found.paper, curve, found.case), "curve"):
                 verdicts, comparisons[id(curve)] = judge_curve(found.paper, curve, found.case, solutions)
-                outcome.verdicts.extend(verdicts)
-            except WeakformsError as error:
-                _unjudged(outcome, curve.reference or curve.label, "curve", error)
-        outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
+                _add(outcome, verdicts)
+        with _missed(outcome, [f"panel {panel.name}"], "curve"):
+            outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
     for check in found.case.checks:
-        try:
+        with _missed(outcome, names(check, found.paper), type(check).__name__.lower()):
             verdicts, printed, histories = judge(check, found.paper, solutions)
-        except WeakformsError as error:
-            _unjudged(outcome, type(check).__name__.lower(), "claim", error)
-            continue
-        outcome.verdicts.extend(verdicts)
-        outcome.printed.extend(printed)
-        outcome.convergence.extend(histories)
+            _add(outcome, verdicts)
+            outcome.printed.extend(printed)
+            outcome.convergence.extend(histories)
     outcome.status = _status(outcome)
     outcome.seconds = (
         time.perf_counter() - begun + sum(s["provenance"].get("wall_s", 0.0) for s in outcome.solutions)
@@ -228,10 +244,30 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
     return outcome
 
 
-def _unjudged(outcome: CaseOutcome, what: str, kind: str, error: WeakformsError) -> None:
-    """A check without numbers to judge is a failed one, never a missing one."""
-    outcome.errors.append(str(error))
-    outcome.verdicts.append(Verdict(what, kind, False, "could be judged", detail=f"not solved: {error}"))
+def _add(outcome: CaseOutcome, verdicts: Iterable[Verdict]) -> None:
+    """Two panels may draw different columns of one table: it is judged once."""
+    judged = {verdict.check for verdict in outcome.verdicts}
+    outcome.verdicts.extend(v for v in verdicts if v.check not in judged)
+
+
+@contextmanager
+def _missed(outcome: CaseOutcome, expected: list[str], kind: str) -> Iterator[None]:
+    """A check without numbers to judge is a failed one, never a missing one.
+
+    A wrong solution may be one the check cannot cope with (no limit point where it takes the first): that
+    is a failure of the check. Only what was not solved is an error of the case.
+    """
+    try:
+        yield
+    except WeakformsError as error:
+        if str(error) not in outcome.errors:
+            outcome.errors.append(str(error))
+        reason = f"not solved: {error}"
+    except Exception as error:
+        reason = f"could not be judged: {type(error).__name__}: {error}"
+    else:
+        return
+    _add(outcome, [Verdict(name, kind, False, "is to be judged", detail=reason) for name in expected])
 
 
 def _status(outcome: CaseOutcome) -> str:
@@ -272,6 +308,8 @@ def verify(
     """
     begun, started = time.perf_counter(), datetime.now(UTC).isoformat(timespec="seconds")
     plan = Plan.of(cases)
+    require_writable(out / "solutions")
+    require_writable(out / "report")
     solver = Solver(out / "solutions", jobs, resume, writes)
     solver.run(plan, report)
     outcomes = [judge_case(found, plan, solver) for found in cases]

@@ -1,0 +1,51 @@
+"""A pytest fixture for other packages: assert that a curve of theirs agrees with a reference table.
+
+Installed with the package; elsewhere ``pytest -p weakforms.pytest_plugin``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from weakforms.verification.compare import Verdicts
+
+CurveLike = str | Path | Mapping[str, Sequence[float]]
+
+
+@pytest.fixture(scope="session")
+def weakforms_check() -> Callable[..., Verdicts]:
+    """``weakforms_check(case, curve, name=None, accuracy=None)``: fails with the table of verdicts."""
+    from weakforms.errors import InputError
+    from weakforms.verification.compare import compare
+
+    def check(
+        case: str, curve: CurveLike, name: str | None = None, accuracy: float | None = None
+    ) -> Verdicts:
+        __tracebackhide__ = True
+        try:
+            verdicts = compare(case, curve, name, accuracy)
+        except InputError as error:
+            pytest.fail(f"nothing was compared: {error}", pytrace=False)
+        if not verdicts.passed:
+            pytest.fail(_table(verdicts), pytrace=False)
+        return verdicts
+
+    return check
+
+
+def _table(verdicts: Verdicts) -> str:
+    """The table that ``weakforms compare`` prints."""
+    import io
+
+    from rich.console import Console
+
+    from weakforms.verification.catalogue import print_verdicts
+
+    text = io.StringIO()
+    print_verdicts(verdicts, Console(file=text, width=110, highlight=False))
+    return text.getvalue()
