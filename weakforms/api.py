@@ -21,8 +21,9 @@ def require_environment() -> Any:
     try:
         from weakforms.problems import registry
     except ImportError as error:
+        missing = (error.name or str(error)).partition(".")[0]
         raise EnvironmentLackError(
-            f"{error.name or error} is not installed here; use ./run, or on Debian trixie: "
+            f"{missing} is not installed here; use ./run, or on Debian trixie: "
             "apt install python3-dolfinx-real python3-petsc4py-real python3-slepc4py-real"
         ) from error
     from weakforms.solvers import compat

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Annotated, Any
@@ -157,7 +158,7 @@ def report(
     from weakforms.verification.report import load_run, write_report
     from weakforms.verification.summary import print_summary
 
-    stored = folder / "report" if (folder / "report").is_dir() else folder
+    stored = folder / "report" if os.path.isdir(folder / "report") else folder
     run = load_run(stored)
     page = write_report(run, out or stored)
     print_summary(run, console())
@@ -244,6 +245,8 @@ def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int
 
 def main() -> None:
     """Console script."""
+    # PETSc's own handlers turn a closed pipe or a termination into a crash report.
+    os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".strip()
     words = sys.argv[1:]
     debug = "--debug" in words
     words = [word for word in words if word != "--debug"]

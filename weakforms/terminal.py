@@ -123,7 +123,7 @@ def guarded(run: Callable[[], Any], debug: bool = False) -> int:
     try:
         outcome = run()
         sys.stdout.flush()
-    except (Exception, KeyboardInterrupt) as error:
+    except (Exception, KeyboardInterrupt, SystemExit) as error:
         if debug:
             traceback.print_exc()
         status, text = _verdict_on(error)
@@ -140,6 +140,8 @@ def _verdict_on(error: BaseException) -> tuple[int, str]:
         return 2, error.format_message()
     if isinstance(error, click.Abort | KeyboardInterrupt):
         return 130, "interrupted"
+    if isinstance(error, SystemExit):  # what click and rich make of a reader that went away
+        return 2, "cannot write to standard output: Broken pipe"
     if isinstance(error, OSError) and _stdout_is_gone():
         return 2, f"cannot write to standard output: {error.strerror}"
     # A defect of ours: still one line, and a way to the traceback.

@@ -81,7 +81,14 @@ def integrate(
 
 
 def solve(
-    tube: Tube, grid: Grid, p: float, variant: int, tolerance: float = 1e-10, limit: int = 200000
+    tube: Tube,
+    grid: Grid,
+    p: float,
+    variant: int,
+    tolerance: float = 1e-10,
+    limit: int = 200000,
+    pressure: fd.Pressure = plain_pressure,
+    height: float = 0.3,
 ) -> tuple[Run, float]:
     """State at fixed pressure by one of the three variants, and its gain c.
 
@@ -92,13 +99,15 @@ def solve(
         variant: 1 as published, 2 constant gain, 3 frozen tangent.
         tolerance: Stop at this residual.
         limit: Largest number of steps.
+        pressure: Effective pressure P_eff(rho, p).
+        height: u_max of the first guess.
     """
-    start, _ = fd.first_guess(tube, grid, 0.3)
-    core = fd.jacobian(tube, grid, start, p, plain_pressure)[:-2, :-2]
+    start, _ = fd.first_guess(tube, grid, height)
+    core = fd.jacobian(tube, grid, start, p, pressure)[:-2, :-2]
     inner = slice(0, -2)  # the disk's two conditions hold in the first guess and stay
 
     def f(x: Array) -> Array:
-        full = fd.residual(tube, grid, np.append(x, start[-2:]), p, plain_pressure)[inner]
+        full = fd.residual(tube, grid, np.append(x, start[-2:]), p, pressure)[inner]
         full[1] = -full[1]  # eta(0) = 0 is written as +eta_0: turn it into a descent as well
         return full
 
@@ -120,7 +129,10 @@ def flat(core: Array) -> Array:
     return np.linspace(1.0, 2.0, core.shape[0])
 
 
-def newton_state(tube: Tube, grid: Grid, p: float) -> Array:
+def newton_state(
+    tube: Tube, grid: Grid, p: float, pressure: fd.Pressure = plain_pressure, height: float = 0.3
+) -> Array:
     """The same difference equations solved by Newton's method."""
-    first = fd.newton(tube, grid, fd.first_guess(tube, grid, 0.3), fd.at_control("u_max", 0.3))
-    return fd.newton(tube, grid, first, pressure_condition(p))[0]
+    guess, control = fd.first_guess(tube, grid, height), fd.at_control("u_max", height)
+    first = fd.newton(tube, grid, guess, control, pressure)
+    return fd.newton(tube, grid, first, pressure_condition(p), pressure)[0]

@@ -66,21 +66,44 @@ def long_computed(name: str) -> Table:
     return make(name, title, source, given(LONG), columns, notes=notes)
 
 
+FTIM_NOTES = (
+    "u_max of a row with converged = 0 is where 5000 steps lead, not a solution; its "
+    "uncertainty is that of the converged rows. The tangent of variant 3 is that of the "
+    "first guess. seconds is machine-dependent."
+)
+
+
 def ftim_state(name: str) -> Table:
     """One state by fictitious time integration, in three variants, against Newton."""
     tube, p, grid = Tube(0.1, 1.0, 6.0), 1.5, Grid(20)
     root = float(ftim.newton_state(tube, grid, p)[0]) - 1
-    variants = (1, 2, 3)
-    runs, gains = zip(*(ftim.solve(tube, grid, p, v) for v in variants), strict=True)
+    solved = [ftim.solve(tube, grid, p, v) for v in (1, 2, 3)]
+    title = "Fictitious time integration of one state of free inflation"
+    return ftim_table(name, title, given(tube) | {"p": p}, grid, root, solved)
+
+
+def ftim_table(
+    name: str,
+    title: str,
+    parameters: dict[str, object],
+    grid: Grid,
+    root: float,
+    solved: list[tuple[ftim.Run, float]],
+) -> Table:
+    """The three variants of fictitious time integration against the Newton root.
+
+    Raises:
+        RuntimeError: If other variants than 2 and 3 converge, or not to the root.
+    """
+    runs, gains = zip(*solved, strict=True)
     u = np.array([run.state[0] - 1 for run in runs])
     done = np.array([run.converged for run in runs])
     if not np.array_equal(done, [False, True, True]):
         raise RuntimeError(f"table {name}: variants converged: {done}")
-    error = float(np.max(np.abs(u[done] - root)))
-    if error > 1e-9:
+    if (error := float(np.max(np.abs(u[done] - root)))) > 1e-9:
         raise RuntimeError(f"table {name}: FTIM and Newton differ by {error:.1e}")
     counts = {
-        "variant": (variants, "1: as published; 2: constant gain, m = 0; 3: frozen tangent"),
+        "variant": ((1, 2, 3), "1: as published; 2: constant gain, m = 0; 3: frozen tangent"),
         "converged": (done, "1 if the residual fell below 1e-10"),
         "steps": ([r.steps for r in runs], "Runge-Kutta steps"),
         "rhs_evaluations": ([r.evaluations for r in runs], "evaluations of the residual"),
@@ -99,18 +122,14 @@ def ftim_state(name: str) -> Table:
     ]
     return make(
         name,
-        "Fictitious time integration of one state of free inflation",
+        title,
         "the solution method of the paper (fictitious time, nu = 0.02, step 0.001)",
-        given(tube) | {"p": p, "nu": ftim.NU, "step": ftim.STEP},
+        parameters | {"nu": ftim.NU, "step": ftim.STEP},
         columns,
         method="x' = nu/(1 + tau)^m B F(x), classical Runge-Kutta; F: central differences.",
         grid=f"{grid.n} cells: the discretisation error is common to all rows, and not included",
         tolerance="residual below 1e-10",
-        notes=(
-            "u_max of a row with converged = 0 is where 5000 steps lead, not a solution; its "
-            "uncertainty is that of the converged rows. The tangent of variant 3 is that of the "
-            "first guess. seconds is machine-dependent."
-        ),
+        notes=FTIM_NOTES,
         extra={"seconds": [round(r.seconds, 3) for r in runs]},
     )
 

@@ -76,7 +76,7 @@ class Fitted:
 
 
 def numerator(where: float) -> int:
-    """j for which the grid is least distorted."""
+    """The j for which the grid is least distorted."""
     plain = np.arctanh(where * np.tanh(STRETCH)) / STRETCH
     return int(np.clip(round(PARTS * plain), 1, PARTS - 1))
 
@@ -206,11 +206,17 @@ def summary(state: Contact) -> dict[str, float]:
     }
 
 
-def extrapolated(values: Sequence[Array], powers: Sequence[int], rounding: float = 0.0) -> Extrapolated:
+def extrapolated(
+    values: Sequence[Array], powers: Sequence[int], irregular: bool = False, amplified: float = 1.0
+) -> Extrapolated:
     """Limit h -> 0 of values on grids n, 2n, 4n, ... eliminating one power of h per refinement.
 
-    The uncertainty is the change made by the last elimination, that is the error of the value
-    from the finer grids with one power less.
+    The uncertainty is the change made by the last elimination (the error of the value from the
+    finer grids with one power less), an eighth of the one before, and rounding. ``irregular``:
+    part of the error depends on where a kink falls between the nodes, which grids do not tell
+    but other rows do; the difference to the limit without the finest grid is added, and ten
+    times the largest of this row and its three neighbours on each side is taken. ``amplified``
+    multiplies the rounding error of a slope (extrapolation to an end of a zone does so).
     """
     v = [np.asarray(x, dtype=float) for x in values]
 
@@ -219,35 +225,47 @@ def extrapolated(values: Sequence[Array], powers: Sequence[int], rounding: float
         matrix = np.stack([np.ones(len(v)), *(h**q for q in powers)], axis=1)
         return np.tensordot(np.linalg.inv(matrix)[0], np.array(v), axes=1)
 
-    value, less = limit(v, powers), limit(v[1:], powers[:-1])
+    value, less, least = (limit(v[i:], powers[: len(powers) - i]) for i in range(3))
     with np.errstate(divide="ignore", invalid="ignore"):
         order = np.log2(np.abs((v[-3] - v[-2]) / (v[-2] - v[-1])))
-    floor = 8 * np.finfo(float).eps * GRIDS[-1] * np.maximum(1.0, np.abs(value)) + rounding
-    return Extrapolated(value, np.abs(value - less) + floor, order)
+    floor = amplified * 8 * np.finfo(float).eps * GRIDS[-1] * np.maximum(1.0, np.abs(value))
+    change = np.abs(value - less) + np.abs(less - least) / 8
+    if irregular:
+        change = change + np.abs(value - limit(v[:-1], powers[:-1]))
+        change = 10 * np.array([change[max(0, i - 3) : i + 4].max() for i in range(len(change))])
+    return Extrapolated(value, change + floor, order)
 
 
-def one_sided(grid: Any, front: int, at: Array, side: Array, halves: bool = False) -> Array:
-    """Interpolation from nodes (or half points) of the zone each point lies in; side -1 is the patch."""
+def peak(values: Array) -> float:
+    """Largest value of smooth samples: the vertex of a parabola unless it is at an end."""
+    i = int(np.argmax(values))
+    if i in (0, len(values) - 1):
+        return float(values[i])
+    left, middle, right = values[i - 1 : i + 2]
+    bend = left - 2 * middle + right
+    return float(middle - (right - left) ** 2 / (8 * bend)) if bend < 0 else float(middle)
+
+
+def one_sided(grid: Any, front: int, at: Array, inner: Array, halves: bool = False) -> Array:
+    """Interpolation from the nodes (or half points, mirrored at 0) of the zone each point lies in."""
     places = (grid.x[1:] + grid.x[:-1]) / 2 if halves else grid.x
-    size = len(places)
     cut = front if halves else front + 1
-    rows = np.zeros((len(at), size))
-    inner = side < 0
-    mirrored = np.concatenate([-places[:cut][::-1], places[:cut]])
-    matrix = fdb.sampling(mirrored, at[inner])
-    rows[np.ix_(inner, np.arange(cut))] = matrix[:, cut:] + (matrix[:, :cut][:, ::-1] if halves else 0)
-    if not halves:
-        rows[np.ix_(inner, np.arange(cut))] = fdb.sampling(places[:cut], at[inner])
-    rest = slice(front, size)
-    rows[np.ix_(~inner, np.arange(size)[rest])] = fdb.sampling(places[rest], at[~inner])
+    rows = np.zeros((len(at), len(places)))
+    if halves:
+        matrix = fdb.sampling(np.concatenate([-places[:cut][::-1], places[:cut]]), at[inner])
+        matrix = matrix[:, cut:] + matrix[:, :cut][:, ::-1]
+    else:
+        matrix = fdb.sampling(places[:cut], at[inner])
+    rows[np.ix_(inner, np.arange(cut))] = matrix
+    rows[np.ix_(~inner, np.arange(front, len(places)))] = fdb.sampling(places[front:], at[~inner])
     return rows
 
 
 def profile(tube: Tube, grid: Any, y: Array, front: int, z: Array) -> dict[str, Array]:
     """Columns over z, each zone interpolated from its own nodes; lambda1 from half points."""
     at = grid.inverse(z / tube.length)
-    side = np.where(z < grid.fraction(grid.x[front]) * tube.length, -1, 1)
-    nodal, halves = one_sided(grid, front, at, side), one_sided(grid, front, at, side, halves=True)
+    inner = at < grid.x[front]
+    nodal, halves = (one_sided(grid, front, at, inner, h) for h in (False, True))
     rho, eta = nodal @ y[0::2], nodal @ y[1::2]
     lam1 = halves @ fd.half_points(tube, grid, y).l1
     lam2 = rho / tube.r0

@@ -147,29 +147,45 @@ class Inflation:
         return x, low
 
 
-def tractions(tube: Tube, grid: Fitted, y: Array, p: float, pressure: fd.Pressure, front: int) -> Array:
-    """f_t at nodes 0 .. front-1 from the balance of each cell; the front's by cubic extrapolation."""
+def inner_slopes(glued: Glued, y: Array, front: int) -> tuple[float, float, float]:
+    """rho', eta' and eta'' at the inner side of the front, from the four half points before it."""
+    tube, grid = glued.tube, glued.grid
+    at = fd.half_points(tube, grid, y)
+    before = front - 1 - np.arange(4)
+    value = np.array([35.0, -35.0, 21.0, -5.0]) / 16
+    slope = np.array([71.0, -141.0, 93.0, -23.0]) / 24  # times (value there)/h
+    width = float(grid.density(grid.x[front])) / grid.n * tube.length
+    return float(value @ at.a[before]), float(value @ at.b[before]), float(slope @ at.b[before]) / width
+
+
+def traction_at_front(glued: Glued, y: Array, push: float, front: int) -> float:
+    """f_t at the inner side of the front.
+
+    rho'' follows from the radial equation, eta'' from the frozen eta; with both the derivative
+    of the axial force is known. ``push`` is P_eff there.
+    """
+    tube, rho = glued.tube, float(y[2 * front])
+    a, e, bend = inner_slopes(glued, y, front)
+    l1, l2 = float(np.hypot(a, e)), rho / tube.r0
+    s, c, t = a / l1, e / l1, mat.slope(l1, l2, tube.alpha) / l1
+    w11, w12 = mat.curvature(l1, l2, tube.alpha), mat.mixed(l1, l2, tube.alpha)
+    aa, ae, ee = (tube.r0 * x for x in (w11 * s * s + t * c * c, (w11 - t) * s * c, w11 * c * c + t * s * s))
+    second = (mat.slope(l2, l1, tube.alpha) - push * rho * e - w12 * s * a - ae * bend) / aa
+    return -(w12 * c * a + ae * second + ee * bend - push * rho * a) / (rho * l1)
+
+
+def tractions(glued: Glued, y: Array, push: Array, front: int) -> Array:
+    """f_t at nodes 0 .. front, from the balance of each cell; ``push`` is P_eff at the nodes."""
+    tube, grid = glued.tube, glued.grid
     at = fd.half_points(tube, grid, y)
     axial = tube.r0 * at.w1 * at.b / at.l1
     a, b = fd.node_slopes(tube, grid, y)
     rho, dz = y[0:-2:2], grid.node[:-1] * tube.length
-    push = pressure(rho, p) * rho
     out = np.zeros(front + 1)
     i = slice(1, front)
-    out[i] = -((axial[1:front] - axial[: front - 1]) / dz[i] - push[i] * a[i])
+    out[i] = -((axial[1:front] - axial[: front - 1]) / dz[i] - push[i] * rho[i] * a[i])
     out[i] /= rho[i] * np.hypot(a, b)[i]
-    if front > 4:
-        out[front] = 4 * out[front - 1] - 6 * out[front - 2] + 4 * out[front - 3] - out[front - 4]
-    return out
-
-
-def spring_density(glued: Glued, y: Array, front: int, acting: bool | Array = True) -> Array:
-    """f_k at nodes 0 .. front-1, that of the front by cubic extrapolation."""
-    a, b = fd.node_slopes(glued.tube, glued.grid, y)
-    out = np.zeros(front + 1)
-    i = slice(0, front)
-    out[i] = glued.substrate.radial(y[0:-2:2][i], np.hypot(a, b)[i], b[i]) * acting
-    out[front] = 4 * out[front - 1] - 6 * out[front - 2] + 4 * out[front - 3] - out[front - 4]
+    out[front] = traction_at_front(glued, y, float(push[front]), front)
     return out
 
 
@@ -177,7 +193,6 @@ def summary(glued: Glued, state: tuple[Array, float], front: int) -> dict[str, f
     """Columns of a curve at a state with the front at a node."""
     tube, grid, (y, p) = glued.tube, glued.grid, state
     lam1, lam2 = y[3] / (grid.node[0] * tube.length), y[0] / tube.r0
-    f_t = tractions(tube, grid, y, p, cfd.spring_up_to(glued.substrate, front), front)
     return {
         "p": p,
         "u_max": y[0] - 1,
@@ -187,7 +202,7 @@ def summary(glued: Glued, state: tuple[Array, float], front: int) -> dict[str, f
         "lam2_mid": lam2,
         "Z_front": tube.delta1 * float(grid.fraction(grid.x[front])) * tube.length,
         "V": fd.volume(y),
-        "traction_front": abs(float(f_t[front])),
+        "traction_front": abs(traction_at_front(glued, y, p, front)) if front > 3 else 0.0,
     }
 
 

@@ -77,7 +77,7 @@ def stick(state: State, history: Frozen) -> State:
 
 
 def axial_slope(state: State) -> tuple[float, Array]:
-    """eta' at the free side of the front, and its gradient by (rho, eta, l1, b) there."""
+    """Slope eta' at the free side of the front, and its gradient by (rho, eta, l1, b) there."""
     _, _, l1, b = state.y[-1][0, 0]
     return float(l1 * np.cos(b)), np.array([0.0, 0.0, np.cos(b), -l1 * np.sin(b)])
 
@@ -201,9 +201,7 @@ def split_at(state: State, z: float, mesh: Mesh) -> State:
         x = con.places(m, left, right)[0] / front
         rows.append(free.evaluate(inner.mesh, state.y[0], x))
     zones = (replace(inner, spring=True), Zone(mesh, stuck=True), outer)
-    return replace(
-        state, zones=zones, y=(*rows, *state.y[1:]), scalars=np.array([state.p, z, front])
-    )
+    return replace(state, zones=zones, y=(*rows, *state.y[1:]), scalars=np.array([state.p, z, front]))
 
 
 def released(state: State, how: Resolution, p: float) -> tuple[State, Linearised]:
@@ -250,8 +248,10 @@ def unilateral(start: State, how: Resolution, p: Array, step: float = 0.01) -> l
         count = max(1, int(np.ceil((at - target) / step - 1e-9)))
         for now in at + (float(target) - at) * np.arange(1, count + 1) / count:
             if at == target:
-                state, system = released(state, how, at) if not on else con.newton(
-                    state, [("scalar", 0, at), ("scalar", 1, float(state.fronts[-1]))]
+                state, system = (
+                    released(state, how, at)
+                    if not on
+                    else con.newton(state, [("scalar", 0, at), ("scalar", 1, float(state.fronts[-1]))])
                 )
                 break
             if on:

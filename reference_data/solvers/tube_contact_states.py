@@ -32,8 +32,8 @@ class Resolution:
 
 
 RESOLUTIONS = (
-    Resolution(critical.MESHES[0], Mesh(6, 12), TwoSided(8, 12, 0.6), 20),
-    Resolution(critical.MESHES[1], Mesh(8, 16), TwoSided(10, 16, 0.6), 28),
+    Resolution(critical.MESHES[0], Mesh(6, 12), TwoSided(8, 12, 0.6), 26),
+    Resolution(critical.MESHES[1], Mesh(8, 16), TwoSided(10, 16, 0.6), 34),
 )
 
 
@@ -164,7 +164,19 @@ def patches(state: State) -> list[Patch]:
     return out
 
 
-def dense(mesh: Mesh, values: Array, points: int = 40) -> Array:
+def tractions_at(state: State, z: Array) -> tuple[Array, Array]:
+    """f_t and f_k at positions z inside the stuck zones."""
+    f_t, f_k = np.zeros(len(z)), np.zeros(len(z))
+    for d, patch in enumerate(patches(state)):
+        left, right = con.bounds(state, state.scalars)[d]
+        here = (z >= left) & (z <= right)
+        both = np.stack([patch.f_t, patch.f_k], axis=-1)
+        x = (z[here] - left) / (right - left)
+        f_t[here], f_k[here] = free.evaluate(state.zones[d].mesh, both, x).T
+    return f_t, f_k
+
+
+def dense(mesh: Mesh, values: Array, points: int = 201) -> Array:
     """Nodal values sampled densely, ends of the elements included."""
     return values @ free.lagrange(mesh.nodes, np.linspace(0, 1, points)).T
 

@@ -49,7 +49,7 @@ def fd_states(tube: Tube, u: float) -> list[tuple[np.ndarray, float]]:
     return tube_fd_branch.on_three_grids(tube, first, tube_fd.at_control("u_max", u))
 
 
-def derive(f, *args) -> float:  # noqa: ANN002
+def derive(f, *args) -> float:
     """Derivative with respect to the argument that carries the imaginary step."""
     return np.imag(f(*args)) / STEP
 

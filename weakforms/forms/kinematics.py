@@ -22,7 +22,7 @@ class Stretches:
     """Radial component of the unit tangent of the deformed meridian."""
 
 
-def tube_stretches(rho: Expr, eta: Expr, delta1: Expr) -> Stretches:
+def tube_stretches(rho: Expr, eta: Expr, delta1: Expr, jacobian: Expr | float = 1.0) -> Stretches:
     r"""Stretches of a cylinder stretched axially by ``delta1`` in uniaxial tension, then inflated.
 
     .. math:: \lambda_1 = \delta_1\sqrt{\rho_{,Z}^2 + \eta_{,Z}^2}, \qquad
@@ -36,10 +36,11 @@ def tube_stretches(rho: Expr, eta: Expr, delta1: Expr) -> Stretches:
         rho: Deformed radius over ``Z``.
         eta: Deformed axial position over ``Z``.
         delta1: Axial pre-stretch.
+        jacobian: ``dZ/dx`` where the mesh's own coordinate ``x`` is not ``Z``.
     """
     arc = sqrt(rho.dx(0) ** 2 + eta.dx(0) ** 2)
     return Stretches(
-        lam1=delta1 * arc,
+        lam1=delta1 * arc / jacobian,
         lam2=rho / sqrt(delta1),
         cos_beta=eta.dx(0) / arc,
         sin_beta=rho.dx(0) / arc,

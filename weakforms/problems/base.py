@@ -140,7 +140,8 @@ def check_requests(problem: Problem, requests: Requests) -> None:
     Raises:
         InputError: For an unknown column or branch, a crossing below one, a value that is no number.
     """
-    allowed = [*(c for c in problem.columns if c not in DIAGNOSTICS), *problem.special_points]
+    barred = (*DIAGNOSTICS, *getattr(problem, "derived", ()))
+    allowed = [*(c for c in problem.columns if c not in barred), *problem.special_points]
     for wanted in requests.states:
         if wanted.name not in allowed:
             raise InputError(

@@ -23,9 +23,11 @@ from weakforms.problems.base import (
     silent,
 )
 from weakforms.problems.tube import TubeMesh, fold_line, formulation, free_branch
+from weakforms.problems.tube_contact_solve import contact_family
 from weakforms.results import Failure, Result, State
 from weakforms.solvers.branch import EquilibriumBranch, SolutionCurve
 from weakforms.solvers.family import BranchFamily
+from weakforms.solvers.pieces import PiecewiseFamily
 from weakforms.solvers.provenance import provenance
 from weakforms.solvers.system import System
 
@@ -51,14 +53,41 @@ SCALES = {
     "lam2": "circumferential stretch, 1",
     "t1": "meridional Cauchy resultant over C1 h_o",
     "t2": "circumferential Cauchy resultant over C1 h_o",
+    "Z_front": "Z of the contact front",
+    "contact_length": "deformed length of the whole patch over R_f",
+    "lam2_mid": "circumferential stretch at the mid-plane, 1",
+    "line_force": "axial line force at the edge of the patch over C1 h_o (equation 22)",
+    "line_force_membrane": "the same without the jump of the spring's term",
+    "traction_front": "|f_t| at the front, inside, times R_f/(C1 h_o)",
+    "traction_max": "largest axial traction |f_t| of the substrate times R_f/(C1 h_o)",
+    "spring_max": "largest radial spring density |f_k| times R_f/(C1 h_o)",
+    "t2_min": "smallest circumferential resultant over C1 h_o",
+    "kappa": "curvature of the free part at the front times R_f; negative: bulged outward",
+    "f_t": "axial traction of the substrate on the membrane times R_f/(C1 h_o)",
+    "f_k": "radial spring density times R_f/(C1 h_o); negative: pushes inward",
     "eigenvalue_1": "lowest eigenvalue of the second variation at fixed p against the mass matrix",
 }
 
 ENERGY = (
-    "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z ] dZ,  "
+    "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z "
+    "+ (k/2) chi rho (rho - s)^2 eta_Z ] dZ,  "
     "lam1 = delta1 sqrt(rho_Z^2 + eta_Z^2),  lam2 = rho/sqrt(delta1),  "
     "w = I1 - 3 + alpha (I2 - 3)"
 )
+
+
+DERIVED_COLUMNS = (
+    "line_force",
+    "line_force_membrane",
+    "traction_front",
+    "traction_max",
+    "spring_max",
+    "t2_min",
+)
+"""Columns of constrained inflation that can be read, not prescribed."""
+
+CONTACT_COLUMNS = ("Z_front", "contact_length", "lam2_mid", "kappa", *DERIVED_COLUMNS)
+"""Columns of constrained inflation only."""
 
 
 class TubeNumerics(Numerics):
@@ -117,11 +146,13 @@ class Tube:
         "t1_mid",
         "V",
         "Pi",
+        *CONTACT_COLUMNS,
         "n_negative",
         "residual",
         "iterations",
     )
-    special_points = ("limit_point", "bifurcation_point")
+    derived = DERIVED_COLUMNS
+    special_points = ("limit_point", "bifurcation_point", "contact_onset")
     branches = ("primary",)
     control: ClassVar[str] = "p (past a limit point compare over u_max, which rises all along the branch)"
 
@@ -132,12 +163,17 @@ class Tube:
             InputError: For a contact law or phase that is not there, or a state nobody could solve for.
         """
         check_requests(self, requests)
-        if parameters.contact != "none":
+        if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
-                f"tube: contact = {parameters.contact!r} is not available in this version; allowed: 'none'"
+                "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"
             )
-        if parameters.phase != "inflation":
-            raise InputError("tube: phase = 'deflation' needs a contact history; allowed: 'inflation'")
+        if parameters.contact == "frictionless" and parameters.phase == "deflation":
+            raise InputError(
+                "tube: frictionless contact has no history, it deflates as it inflates; "
+                "phase = 'deflation' is allowed with contact = 'adhesive'"
+            )
+        if parameters.contact != "none" and parameters.extent != "half":
+            raise InputError("tube: contact is solved on the half tube; allowed: extent = 'half'")
 
     def solve(
         self,
@@ -149,8 +185,11 @@ class Tube:
     ) -> Result:
         """Trace the branch on all meshes, locate its limit points, solve for the states wanted."""
         begun = time.perf_counter()
-        make = branch_maker(parameters, numerics, comm, progress)
-        family = BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"))
+        if parameters.contact == "none":
+            make = branch_maker(parameters, numerics, comm, progress)
+            family = BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"))
+        else:
+            family = contact_family(parameters, numerics, comm, progress)
         half = parameters.lf / 2
         first = -half if parameters.extent == "full" else 0.0
         default = np.linspace(first, half, 61)
@@ -195,7 +234,7 @@ def branch_maker(
 
 def answer(
     result: Result,
-    family: BranchFamily,
+    family: BranchFamily | PiecewiseFamily,
     requests: Requests,
     default_points: np.ndarray,
     progress: Progress,
@@ -217,7 +256,7 @@ def answer(
     result.failures.extend(family.failures)
 
 
-def _state(family: BranchFamily, wanted: StateRequest, default_points: np.ndarray) -> State:
+def _state(family: BranchFamily | PiecewiseFamily, wanted: StateRequest, default_points: np.ndarray) -> State:
     points = sample_points(wanted.profile, default_points)
     return family.state(wanted.name, wanted.value, wanted.crossing, points)
 
@@ -242,7 +281,7 @@ class TubeFold:
     scales: ClassVar[dict[str, str]] = SCALES
     parameters = TubeFoldParameters
     numerics = TubeNumerics
-    columns = ("delta1", *Tube.columns)
+    columns = ("delta1", *(c for c in Tube.columns if c not in CONTACT_COLUMNS))
     special_points = ("cusp_point",)
     branches = ("primary",)
     control: ClassVar[str] = "delta1 (past the cusp compare over u_max, which rises all along the line)"

@@ -57,7 +57,7 @@ def write_atomically(path: Path, text: str) -> None:
     path = Path(path)
     temporary = None
     try:
-        if path.exists() and not path.is_file():
+        if os.path.exists(path) and not os.path.isfile(path):
             path.write_text(text, "utf-8")
             return
         path = Path(os.path.realpath(path))
@@ -68,9 +68,10 @@ def write_atomically(path: Path, text: str) -> None:
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
     except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror or error}") from error
+    finally:
         if temporary is not None:
             Path(temporary).unlink(missing_ok=True)
-        raise InputError(f"cannot write {path}: {error.strerror or error}") from error
 
 
 def _umask() -> int:
@@ -101,9 +102,9 @@ def require_place_for(path: Path) -> None:
     Raises:
         InputError: When it cannot, or when the path is a folder.
     """
-    if path.is_dir():
+    if os.path.isdir(path):
         raise InputError(f"cannot write {path}: it is a folder, a file name is wanted")
-    if not path.exists() or path.is_file():
+    if not os.path.exists(path) or os.path.isfile(path):  # Path.exists raises for a name that is too long
         require_writable(path.parent, path.name)
 
 

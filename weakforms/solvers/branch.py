@@ -80,6 +80,12 @@ class SolutionCurve:
         out["iterations"] = np.array([p.record.iterations for p in points])
         return out
 
+    @property
+    def shown(self) -> list[str]:
+        """Columns that results show, diagnostics apart."""
+        names = [*self.loads, *self.points[0].monitors]
+        return [name for name in names if name not in self.system.formulation.internal]
+
     def _values(self, state: State) -> dict[str, float]:
         """Columns of a state the system holds."""
         return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
@@ -93,26 +99,33 @@ class SolutionCurve:
             InputError: When the column cannot be prescribed or never takes the value that often.
             ConvergenceError: When the state was bracketed but not converged to.
         """
-        columns = self.columns()
-        if name in DIAGNOSTICS or name not in columns:
-            known = ", ".join(key for key in columns if key not in DIAGNOSTICS)
-            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
-        distance = columns[name] - value
-        # A point that has the value exactly counts with the interval before it.
-        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
-        if distance[0] == 0:
-            hits = np.concatenate([[0], hits])
+        hits = self.crossings(name, value)
         if len(hits) < crossing:
-            low, high = columns[name].min(), columns[name].max()
+            column = self.columns()[name]
             raise InputError(
                 f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
-                f"{name} ranges over [{low:.6g}, {high:.6g}]"
+                f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
             )
+        distance = self.columns()[name] - value
         i = int(hits[crossing - 1])
         span = distance[i] - distance[i + 1]
         solved = self._solve(self._between(i, distance[i] / span), Held(name, value))
         self._require_within(i, solved, f"state at {name} = {value:g}")
         return solved
+
+    def crossings(self, name: str, value: float) -> np.ndarray:
+        """Indices of the points after which a column passes a value.
+
+        Raises:
+            InputError: When the column cannot be prescribed.
+        """
+        if name not in (*self.loads, *self.system.formulation.monitors):
+            known = ", ".join((*self.loads, *self.system.formulation.monitors))
+            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
+        distance = self.columns()[name] - value
+        # A point that has the value exactly counts with the interval before it.
+        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
+        return np.concatenate([[0], hits]) if distance[0] == 0 else hits
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
         """The state of this mesh that lies across the branch from a point of another mesh.
@@ -182,6 +195,15 @@ class SolutionCurve:
         self.system.set_state(point.state.u, point.state.loads)
         return {name: self.continuation.rate(name, point.tangent) for name in names}
 
+    def end_at(self, name: str, value: float) -> None:
+        """Replace the last point by the one at which a column has a value, reached just before it."""
+        solved = self.at(name, value)
+        before, last = self.points[-2:]
+        length = self.continuation.distance(solved.state, before.state)
+        self.points[-1] = self.continuation.point(
+            solved.state, last.record, before.tangent, before.arclength + length
+        )
+
     def turns(self) -> np.ndarray:
         """Indices of the points after which the control changes direction."""
         rates = np.array([p.tangent.loads[self.control] for p in self.points])
@@ -190,6 +212,22 @@ class SolutionCurve:
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
         return self._between(i, ra / (ra - rb))
+
+
+class FittedBranch(SolutionCurve):
+    """Solutions with more unknown loads than the control, such as a front that the mesh follows."""
+
+    def special(self) -> list[Solved]:
+        """Limit points of the control: roots of its rate along the curve."""
+        return [self._root(int(i), self._control_rate(int(i)), "limit_point") for i in self.turns()]
+
+    def _control_rate(self, i: int) -> Callable[[Solved], float]:
+        along = self.points[i].tangent
+
+        def rate(_solved: Solved) -> float:
+            return self.continuation.direction_here(along).loads[self.control]
+
+        return rate
 
 
 class EquilibriumBranch(SolutionCurve):

@@ -109,6 +109,11 @@ class Continuation:
         length = self._norm(u, loads)
         return Tangent(u / length, {name: v / length for name, v in loads.items()})
 
+    def direction_here(self, along: Tangent) -> Tangent:
+        """Direction of the curve at the state the system holds, oriented as another."""
+        self.solver.factor.update()
+        return self._tangent(along)
+
     # -- stepping ----------------------------------------------------------------------------
 
     def point(self, state: State, record: SolveRecord, along: Tangent, s: float) -> CurvePoint:

@@ -59,12 +59,12 @@ class BranchFamily:
         A point the coarser meshes cannot be brought across from is left out and listed as a failure.
         """
         fine = self.fine
-        columns = fine.columns()
+        columns = {n: v for n, v in fine.columns().items() if n in (*fine.shown, *DIAGNOSTICS)}
         if not with_uncertainty:
             return Branch(self.name, fine.control, columns)
-        names = [n for n in columns if n not in DIAGNOSTICS]
+        names = fine.shown
         total = fine.points[-1].arclength or 1.0
-        kept, errors = [], []
+        kept, errors, missed = [], [], []
         for i, point in enumerate(fine.points):
             rates = fine.direction(point, self.across)
             try:
@@ -73,11 +73,14 @@ class BranchFamily:
                     for level in self.levels[:-1]
                 ]
             except ConvergenceError as error:
-                self.failures.append(Failure(f"branch {self.name}, point {i}", str(error)))
+                missed.append((i, str(error)))
                 continue
             own = {name: columns[name][i] for name in names}
             errors.append([[values[n] for n in names] for values in [*others, own]])
             kept.append(i)
+        if missed:
+            places = f"points {missed[0][0]} to {missed[-1][0]}, {len(missed)} of them left out"
+            self.failures.append(Failure(f"branch {self.name}, {places}", missed[0][1]))
         table = np.array(errors)  # (points, levels, columns)
         found = estimate([table[:, k] for k in range(table.shape[1])], self.cap)
         wide = _widen(found.uncertainty)
@@ -96,20 +99,10 @@ class BranchFamily:
         Raises:
             ConvergenceError: When it does.
         """
-        points = []
-        for same in self._special():
-            values = {k: self._estimate([s.values[k] for s in same]) for k in same[-1].values}
-            points.append(
-                SpecialPoint(
-                    same[-1].kind,
-                    self.name,
-                    self.fine.control,
-                    {k: float(v.value) for k, v in values.items()},
-                    {k: float(v.uncertainty) for k, v in values.items()},
-                    orders=_orders(values),
-                )
-            )
-        return points
+        return [
+            special_point(same, self.fine.shown, self.cap, self.name, self.fine.control)
+            for same in self._special()
+        ]
 
     def _special(self) -> list[tuple[Solved, ...]]:
         """Each special point on all meshes; located once."""
@@ -140,7 +133,7 @@ class BranchFamily:
             solved = points[int(value) - 1]
         else:
             solved = [level.at(name, value, crossing) for level in self.levels]
-        quantities = {k: self._quantity([s.values[k] for s in solved]) for k in solved[-1].values}
+        quantities = {k: self._quantity([s.values[k] for s in solved]) for k in self.fine.shown}
         quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)
@@ -166,7 +159,9 @@ class BranchFamily:
         samples = []
         for k, (level, s) in enumerate(zip(self.levels, solved, strict=True)):
             level.system.set_state(s.state.u, s.state.loads)
-            samples.append(self._sampler(k, points)())
+            locate = level.system.formulation.locate
+            places = points if locate is None else locate(points, s.state.loads)
+            samples.append(self._sampler(k, places)())
         columns: dict[str, np.ndarray] = {"Z": points}
         uncertainty = {"Z": 0.0}
         for name in samples[-1]:
@@ -192,6 +187,21 @@ class BranchFamily:
         found = self._estimate(values)
         order = float(found.order)
         return Quantity(float(found.value), float(found.uncertainty), order if np.isfinite(order) else None)
+
+
+def special_point(
+    same: Sequence[Solved], shown: Sequence[str], cap: float, branch: str, control: str
+) -> SpecialPoint:
+    """A special point located on several meshes, coarse to fine, with its uncertainties."""
+    values = {k: estimate([s.values[k] for s in same], cap) for k in shown}
+    return SpecialPoint(
+        same[-1].kind,
+        branch,
+        control,
+        {k: float(v.value) for k, v in values.items()},
+        {k: float(v.uncertainty) for k, v in values.items()},
+        orders=_orders(values),
+    )
 
 
 def _orders(values: dict[str, Estimate]) -> dict[str, float]:

@@ -14,6 +14,35 @@ from ufl.core.expr import Expr
 from weakforms.solvers import compat
 
 
+class Interpolant:
+    """Expressions of an unknown as polynomials on each cell, discontinuous between cells.
+
+    Args:
+        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        expressions: Name and expression of each column.
+        raise_degree: How much the polynomials' degree exceeds the unknown's.
+    """
+
+    def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], raise_degree: int = 1) -> None:
+        space = unknown.function_space
+        degree = space.ufl_element().degree + raise_degree
+        target = compat.scalar_space(space, "Lagrange", degree, len(expressions))
+        self.function = fem.Function(target)
+        nodes = compat.interpolation_points(target.element)
+        self._expression = fem.Expression(ufl.as_vector(list(expressions.values())), nodes)
+        self._columns = len(expressions)
+        self._owned = target.dofmap.index_map.size_local
+
+    def update(self) -> None:
+        """Interpolate the expressions as they stand."""
+        self.function.interpolate(self._expression)
+
+    def values(self) -> np.ndarray:
+        """Values at the nodes of this rank's cells, shape ``(nodes, expressions)``."""
+        self.update()
+        return self.function.x.array.reshape(-1, self._columns)[: self._owned]
+
+
 class Sampler:
     """Evaluates expressions of an unknown at points along a one-dimensional mesh.
 
@@ -29,12 +58,8 @@ class Sampler:
 
     def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], points: np.ndarray) -> None:
         self.names = tuple(expressions)
+        self._interpolant = Interpolant(unknown, expressions)
         space = unknown.function_space
-        degree = space.ufl_element().degree + 1
-        target = compat.scalar_space(space, "Lagrange", degree, len(self.names))
-        self._function = fem.Function(target)
-        nodes = compat.interpolation_points(target.element)
-        self._expression = fem.Expression(ufl.as_vector(list(expressions.values())), nodes)
         self._comm = space.mesh.comm
         self._points = np.zeros((len(points), 3))
         self._points[:, 0] = points
@@ -56,10 +81,10 @@ class Sampler:
 
     def __call__(self) -> dict[str, np.ndarray]:
         """One array a column."""
-        self._function.interpolate(self._expression)
+        self._interpolant.update()
         values = np.zeros((len(self._points), len(self.names)))
         if len(self._index):
-            found = self._function.eval(self._points[self._index], self._cells)
+            found = self._interpolant.function.eval(self._points[self._index], self._cells)
             np.add.at(values, self._index, found.reshape(len(self._index), -1))
         values = self._comm.allreduce(values, op=MPI.SUM) / self._count[:, None]
         return dict(zip(self.names, values.T, strict=True))

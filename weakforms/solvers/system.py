@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import dolfinx.fem.petsc as fem_petsc
@@ -14,6 +14,7 @@ from petsc4py import PETSc
 from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
+from weakforms.solvers.sampling import Interpolant
 
 
 @dataclass
@@ -47,6 +48,14 @@ class Formulation:
     """Scalar functionals, the columns of a branch."""
     profile: Mapping[str, Expr] = field(default_factory=dict)
     """Expressions sampled along the body for fields."""
+    derived: Mapping[str, Callable[[Mapping[str, float]], float]] = field(default_factory=dict)
+    """Columns computed from the functionals' values: to read, not to prescribe."""
+    maxima: Mapping[str, Expr] = field(default_factory=dict)
+    """Columns that are the largest value of an expression anywhere on the body."""
+    internal: tuple[str, ...] = ()
+    """Functionals the solvers need and results do not show."""
+    locate: Callable[[np.ndarray, Mapping[str, float]], np.ndarray] | None = None
+    """Mesh coordinates of material points at given loads, where the mesh follows something that moves."""
     tangent: ufl.Form | None = None
     """Second variation; by default the derivative of ``residual``."""
 
@@ -67,6 +76,7 @@ class System:
         self._phi, self._psi = fem.Function(space), fem.Function(space)
         self._rate = fem.Constant(space.mesh, 0.0)
         self._forms: dict[str, fem.Form] = {}
+        self._peaks: Interpolant | None = None
         self._ufl = self._ufl_forms()
 
         self.vec = self.unknown.x.petsc_vec.duplicate()
@@ -164,7 +174,18 @@ class System:
         """All scalar functionals at the state held, one reduction for all."""
         names = list(self.formulation.monitors)
         local = np.array([fem.assemble_scalar(self._form(f"monitor_{n}")) for n in names])
-        return dict(zip(names, self.sum(local).tolist(), strict=True))
+        values = dict(zip(names, self.sum(local).tolist(), strict=True)) | self._maxima()
+        return values | {name: f(values) for name, f in self.formulation.derived.items()}
+
+    def _maxima(self) -> dict[str, float]:
+        """Largest nodal values, cell by cell, of expressions interpolated with two degrees more."""
+        if not self.formulation.maxima:
+            return {}
+        if self._peaks is None:
+            self._peaks = Interpolant(self.unknown, self.formulation.maxima, raise_degree=2)
+        local = self._peaks.values().max(axis=0, initial=-np.inf)
+        largest = np.max(self.comm.allgather(local), axis=0)
+        return dict(zip(self.formulation.maxima, largest.tolist(), strict=True))
 
     def monitor(self, name: str) -> float:
         """One scalar functional."""

@@ -24,9 +24,7 @@ def reference_of(paper: int, curve: Curve) -> Reference | None:
     """
     if curve.reference is None:
         return None
-    table = references.load(paper, curve.reference)
-    if table.abscissa is None:
-        raise InputError(f"table {table.name} names no abscissa: it is no curve")
+    table = references.load_curve(paper, curve.reference)
     for name, value in table.parameters.items():
         given = dict(curve.of.parameters).get(name)
         if given is not None and given != value:

@@ -65,8 +65,8 @@ def load(paper: int, name: str, root: Path = ROOT) -> Reference:
     kind, abscissa = facts.get("type"), facts.get("abscissa")
     if kind not in KINDS:
         raise InputError(f"reference table {name}.toml: type = {kind!r}; allowed are {', '.join(KINDS)}")
-    if abscissa is not None and not (abscissa in columns and _monotone(columns[abscissa])):
-        raise InputError(f"reference table {name}: abscissa {abscissa!r} is no column that rises or falls")
+    if abscissa is not None and abscissa not in columns:
+        raise InputError(f"reference table {name}: abscissa {abscissa!r} is none of {', '.join(columns)}")
     return Reference(
         name=name,
         kind=kind,
@@ -91,9 +91,17 @@ def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:
     return float(value)
 
 
-def _monotone(values: np.ndarray) -> bool:
-    steps = np.diff(values)
-    return bool(np.all(steps > 0) or np.all(steps < 0))
+def load_curve(paper: int, name: str) -> Reference:
+    """A table whose abscissa rises, or falls, from row to row.
+
+    Raises:
+        InputError: As :func:`load`, and when it is no such table.
+    """
+    table = load(paper, name)
+    steps = np.diff(table.columns[table.abscissa]) if table.abscissa else np.zeros(1)
+    if not (np.all(steps > 0) or np.all(steps < 0)):
+        raise InputError(f"reference table {name} is no curve: its abscissa must rise, or fall, all along")
+    return table
 
 
 def _facts(path: Path) -> dict[str, Any]:

@@ -1,0 +1,88 @@
+"""The physics: every case of the suite, each of its checks an item of its own.
+
+All cases are solved once a session, by the code path of ``weakforms verify``.
+"""
+
+import fcntl
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+from weakforms.errors import InputError
+from weakforms.verification.discovery import FoundCase, find_cases
+from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
+from weakforms.verification.runner import check_ids, verify
+from weakforms.verification.summary import scientific
+
+CASES = find_cases()
+UNSOUND: dict[str, str] = {}
+"""Cases whose reference tables are not in order: they fail, the others are judged."""
+
+
+def checks_of(found: FoundCase) -> list[str]:
+    try:
+        return check_ids(found)
+    except InputError as error:
+        UNSOUND[found.id] = str(error)
+        return []
+
+
+def items(names: bool) -> Iterable[object]:
+    for found in CASES:
+        marks = getattr(pytest.mark, f"paper{found.paper}")
+        for name in checks_of(found) if names else [""]:
+            ident = f"{found.id}:{name}" if name else found.id
+            yield pytest.param(found.id, *[name] * names, marks=marks, id=ident)
+
+
+@pytest.fixture(scope="session")
+def run(request, tmp_path_factory) -> RunOutcome:
+    """Outcomes of the cases among the items selected; workers side by side share the solutions."""
+    shared = tmp_path_factory.getbasetemp()
+    if hasattr(request.config, "workerinput"):
+        shared = shared.parent
+    wanted = {i.callspec.params["case"] for i in request.session.items if "case" in callspec(i)}
+    out = shared / "cases"
+    with (shared / "cases.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        return verify([c for c in CASES if c.id in wanted - set(UNSOUND)], out, "full", "pytest", resume=True)
+
+
+def callspec(item: pytest.Item) -> dict:
+    return item.callspec.params if hasattr(item, "callspec") and item.path == Path(__file__) else {}
+
+
+def outcome_of(run: RunOutcome, case: str) -> CaseOutcome:
+    return next(outcome for outcome in run.cases if outcome.id == case)
+
+
+def explained(verdict: Verdict) -> str:
+    sizes = ", ".join(f"{n} {scientific(getattr(verdict, n), 3)}" for n in ("error", "bound", "asked"))
+    lines = [verdict.statement, verdict.detail, sizes if verdict.bound is not None else "", verdict.where]
+    return "\n".join(line for line in lines if line)
+
+
+@pytest.mark.parametrize(("case", "check"), items(names=True))
+def test_check(run, case, check):
+    verdict = next(v for v in outcome_of(run, case).verdicts if v.check == check)
+    if not verdict.passed:
+        pytest.fail(explained(verdict), pytrace=False)
+
+
+@pytest.mark.parametrize("case", items(names=False))
+def test_case_is_complete(run, case):
+    assert case not in UNSOUND, UNSOUND[case]
+    outcome = outcome_of(run, case)
+    found = next(c for c in CASES if c.id == case)
+    assert outcome.errors == []
+    assert sorted(v.check for v in outcome.verdicts) == sorted(check_ids(found))
+    assert outcome.status == ("passed" if all(v.passed for v in outcome.verdicts) else "failed")
+    assert len(outcome.panels) == len(found.case.panels)
+    # A check with a bound states both uncertainties it rests on, and a bound no wider than what was asked.
+    for verdict in outcome.verdicts:
+        if verdict.kind in ("curve", "field", "point", "exact"):
+            assert verdict.uncertainty > 0
+            assert verdict.reference_uncertainty is not None
+            if verdict.passed:
+                assert verdict.error <= verdict.bound <= verdict.asked

@@ -1,0 +1,71 @@
+"""The command line called inside this process, and solves that must not happen."""
+
+import io
+from collections.abc import Iterator
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+
+import pytest
+
+from weakforms.cli import app
+from weakforms.problems import registry
+from weakforms.results import Branch, Result
+from weakforms.terminal import guarded
+
+
+@dataclass(frozen=True)
+class Called:
+    """What a command left: exit status, standard output, standard error."""
+
+    status: int
+    out: str
+    err: str
+
+
+def call(*words: object) -> Called:
+    """The console script's own way through ``guarded``."""
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        status = guarded(lambda: app([str(word) for word in words], standalone_mode=False))
+    return Called(status, out.getvalue(), err.getvalue())
+
+
+def pytest_make_parametrize_id(val: object) -> str | None:
+    """Long and binary parameters get short names."""
+    return ascii(val)[:40] if isinstance(val, str | bytes) else None
+
+
+@pytest.fixture(scope="session")
+def weakforms():
+    return call
+
+
+@pytest.fixture
+def solves(monkeypatch):
+    """Every solve is counted and answered with a canned result."""
+    seen = []
+    for problem in registry.problems.values():
+        monkeypatch.setattr(type(problem), "solve", lambda self, *_: seen.append(self.name) or canned())
+    return seen
+
+
+@pytest.fixture(scope="module")
+def canned_solves() -> Iterator[None]:
+    """As ``solves``, for a whole module."""
+    with pytest.MonkeyPatch.context() as patch:
+        for problem in registry.problems.values():
+            patch.setattr(type(problem), "solve", lambda *_: canned())
+        yield
+
+
+def canned() -> Result:
+    """The smallest result that fits the schema."""
+    versions = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
+    return Result(
+        problem="tube",
+        parameters={},
+        scales={},
+        numerics={},
+        provenance={**versions, "ranks": 1, "wall_s": 0.0},
+        branches=[Branch("primary", "p", {"p": [0.0, 1.0]})],
+    )

@@ -1,0 +1,511 @@
+"""Every verb does what its help says, and ends with the exit status the contract gives it."""
+
+import csv
+import io
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from weakforms import api
+from weakforms.errors import ConvergenceError
+from weakforms.problems import tube as tube_module
+from weakforms.results import load_result, validate
+from weakforms.solvers.continuation import StepControl
+from weakforms.verification import catalogue, discovery, references, runner
+from weakforms.verification.compare import interpolated
+
+TUBE = ("solve", "tube", "--set", "contact=none", "--set", "alpha=0.1", "--set", "delta1=1.1")
+COARSE = ("--mesh", "cells=32", "--mesh", "levels=2")
+SHORT = ("--set", "u_end=0.5", *COARSE)
+CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
+HARD = "solve tube --set alpha=0 --set lf=20 --set u_end=3 --mesh degree=1 --mesh cells=8 --mesh levels=2"
+"""Two coarse meshes of linear elements on a long tube: spurious limit points, and no end in sight."""
+
+TINY = '''"""Two short branches."""
+from weakforms import At, Axis, Case, Claim, Curve, Panel, tube
+
+ONE, TWO = (tube(delta1=d, u_end=0.3).on(cells=16, levels=2) for d in (1.5, 2))
+
+def wider(solutions):
+    u = [solutions.value(spec, At("p", 0.5), "u_max") for spec in (ONE, TWO)]
+    return u[0] < u[1], f"{u}"
+
+CASE = Case(
+    title="tiny",
+    source="tests",
+    panels=(Panel("a", x=Axis("p", 0, 2), y=Axis("u_max", 0, 1), curves=(Curve(ONE, "1.5"),)),),
+    checks=(Claim("wider", "is wider", ((ONE, At("p", 0.5)), (TWO, At("p", 0.5))), wider),),
+)
+'''
+
+
+@pytest.fixture
+def tiny(tmp_path, monkeypatch):
+    """A tree whose only case solves in a tenth of a second; returns how to change the case."""
+    path = tmp_path / "cases" / "paper2" / "tiny.py"
+    path.parent.mkdir(parents=True)
+    find = discovery.find_cases
+
+    def write(old: str = "", new: str = "") -> None:
+        assert old in TINY
+        path.write_text(TINY.replace(old, new) if old else TINY)
+        find.cache_clear()
+
+    write()
+    for module in (discovery, catalogue):
+        monkeypatch.setattr(module, "find_cases", lambda: find(tmp_path))
+    yield write
+    find.cache_clear()
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """Specs that the runner solves in this process."""
+    seen, right = [], runner.solve_spec
+
+    def counted(spec: object, states: list) -> object:
+        seen.append(str(spec))
+        return right(spec, states)
+
+    monkeypatch.setattr(runner, "solve_spec", counted)
+    return seen
+
+
+def die(*_: object) -> None:
+    """What a solving process does when the machine runs out of memory."""
+    os._exit(9)
+
+
+def shell(*words: str, before: str = "pass", **options: object) -> subprocess.CompletedProcess:
+    """The console script in a process of its own; ``before`` is run ahead of it."""
+    code = f"import sys; {before}; sys.argv[0] = 'weakforms'; from weakforms.cli import main; main()"
+    command = [sys.executable, "-c", code, *words]
+    return subprocess.run(command, text=True, timeout=60, check=False, **{"capture_output": True} | options)
+
+
+# -- list and show -------------------------------------------------------------------------------
+
+
+def test_list_names_every_problem_and_case(weakforms):
+    entries = json.loads(weakforms("list", "--json").out)
+    assert {e["id"] for e in entries if e["kind"] == "problem"} >= {"tube", "tube_fold"}
+    assert [e["id"] for e in entries if e["kind"] == "case"] == api.cases()
+    lines = weakforms("list").out.splitlines()
+    assert [line.split()[:2] for line in lines] == [[e["kind"], e["id"]] for e in entries]
+    assert {e["paper"] for e in json.loads(weakforms("list", "--paper", 2, "--json").out)} == {2}
+
+
+def test_show_problem_says_what_is_admissible(weakforms):
+    facts = json.loads(weakforms("show", "tube", "--json").out)
+    parameters = {p["name"]: p for p in facts["parameters"]}
+    assert parameters["alpha"]["allowed"] == ">= 0 and <= 1"
+    assert parameters["delta1"]["default"] == 1.0
+    assert "none" in parameters["contact"]["allowed"]
+    assert {p["name"] for p in facts["numerics"]} >= {"degree", "cells", "levels"}
+    text = weakforms("show", "tube").out
+    expected = ["w(lam1, lam2)", ">= 1 and <= 5", *facts["columns"], *facts["scales"]]
+    assert [word for word in expected if word not in text] == []
+
+
+def test_show_case_lists_checks_and_references(weakforms):
+    facts = json.loads(weakforms("show", CASE, "--json").out)
+    tables = {t["name"]: t for t in facts["references"]}
+    assert tables[CURVE]["abscissa"] == "u_max"
+    assert tables[CURVE]["uncertainty"]["p"] == references.load(2, CURVE).uncertainty["p"]
+    assert len(facts["checks"]) == 7
+    text = weakforms("show", CASE).out
+    assert [name for name in [*tables, "figure 3", "both limit pressures fall"] if name not in text] == []
+
+
+# -- solve ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def result(weakforms, tmp_path_factory):
+    path = tmp_path_factory.mktemp("solve") / "r.json"
+    wanted = ("--at", "u_max=2", "--at", "limit_point=1", "--at", "V=20")
+    called = weakforms(*TUBE, *wanted, "--out", path)
+    assert (called.status, called.out, called.err) == (0, "", "")
+    assert list(path.parent.iterdir()) == [path]
+    return path
+
+
+def test_solve_gives_both_limit_points_with_uncertainties(result):
+    found = load_result(result)  # validated
+    table = references.load(2, "limit_points_alpha_0.1")
+    rows = np.flatnonzero(table.columns["delta1"] == 1.1)
+    points = found.points("limit_point")
+    assert len(points) == len(rows) == 2
+    for point, row in zip(points, rows, strict=True):
+        assert abs(point.values["p"] / table.columns["p"][row] - 1) < 1e-8
+        for name in ("p", "u_max", "V"):
+            assert 0 < point.uncertainty[name] < 1e-6
+    assert found.parameters["contact"] == "none"
+    assert found.parameters["lf"] == 6.0  # a default
+    assert {"dolfinx", "petsc", "git", "ranks"} <= set(found.provenance)
+
+
+def test_states_are_solved_for_exactly(result):
+    found = load_result(result)
+    at_u, at_limit, at_volume = found.states
+    assert at_u.quantities["u_max"].value == pytest.approx(2, abs=1e-12)
+    assert at_volume.quantities["V"].value == pytest.approx(20, abs=1e-11)
+    assert at_limit.quantities["p"].value == found.points("limit_point")[0].values["p"]
+    assert at_limit.quantities["n_negative"].value == 0
+    profile = at_u.fields[0].columns
+    assert profile["rho"][0] == pytest.approx(3, abs=1e-11)
+    assert set(at_u.fields[0].uncertainty) == set(profile)
+
+
+def test_second_crossing_lies_on_the_falling_branch(weakforms, result):
+    first, second = load_result(result).points("limit_point")
+    p = (first.values["p"] + second.values["p"]) / 2
+    called = weakforms(*TUBE, *COARSE, "--at", f"p={p}", "--crossing", 2)
+    assert called.status == 0
+    (state,) = json.loads(called.out)["states"]
+    assert first.values["u_max"] < state["quantities"]["u_max"]["value"] < second.values["u_max"]
+    assert state["quantities"]["p"]["value"] == pytest.approx(p, abs=1e-11)
+    assert state["quantities"]["n_negative"]["value"] == 1
+    assert state["crossing"] == 2
+
+
+def test_standard_output_is_the_file(weakforms, tmp_path):
+    called = weakforms(*TUBE, *SHORT)
+    weakforms(*TUBE, *SHORT, "--out", tmp_path / "deep" / "er.json")
+    one, two = json.loads(called.out), json.loads((tmp_path / "deep" / "er.json").read_text())
+    validate(one)
+    for data in (one, two):
+        del data["provenance"]["wall_s"]
+    assert one == two
+
+
+def test_csv_holds_the_branch(weakforms):
+    rows = list(csv.reader(io.StringIO(weakforms(*TUBE, *SHORT, "--format", "csv").out)))
+    columns = json.loads(weakforms(*TUBE, *SHORT).out)["branches"][0]["columns"]
+    assert rows[0] == ["branch", *columns]
+    assert {row[0] for row in rows[1:]} == {"primary"}
+    at = rows[0].index("p")
+    assert [float(row[at]) for row in rows[1:]] == pytest.approx(columns["p"], rel=1e-11)
+
+
+def test_options_override_the_request_file(weakforms, tmp_path):
+    spec = {
+        "parameters": {"alpha": 0.2, "delta1": 1.5, "u_end": 0.5},
+        "at": {"u_max": 0.25},
+        "numerics": {"cells": 16, "levels": 2},
+    }
+    (tmp_path / "s.json").write_text(json.dumps(spec))
+    called = weakforms("solve", "tube", "--spec", tmp_path / "s.json", "--set", "delta1=2")
+    data = json.loads(called.out)
+    assert (data["parameters"]["alpha"], data["parameters"]["delta1"]) == (0.2, 2.0)
+    assert data["numerics"]["meshes"] == [8, 16]
+    assert data["states"][0]["at"] == {"u_max": 0.25}
+
+
+def test_the_fold_line_holds_the_cusp(weakforms):
+    called = weakforms("solve", "tube_fold", "--set", "alpha=0.1")
+    data = json.loads(called.out)
+    validate(data)
+    (cusp,) = data["special_points"]
+    assert (called.status, cusp["kind"], round(cusp["values"]["delta1"], 3)) == (0, "cusp_point", 1.163)
+    assert 0 < cusp["uncertainty"]["delta1"] < 1e-7
+
+
+def test_python_gives_what_the_command_gives(weakforms):
+    called = json.loads(weakforms(*TUBE, *SHORT, "--at", "u_max=0.3").out)
+    found = api.solve(
+        "tube", delta1=1.1, u_end=0.5, numerics={"cells": 32, "levels": 2}, at={"u_max": 0.3}
+    ).to_json()
+    assert called["branches"] == found["branches"]
+    assert called["states"] == found["states"]
+
+
+# -- solves that do not converge -----------------------------------------------------------------
+
+
+def test_what_converged_is_kept_and_the_rest_is_named(weakforms, tmp_path, monkeypatch):
+    monkeypatch.setattr(StepControl, "max_points", 8)
+    monkeypatch.setattr(StepControl.__init__, "__defaults__", (0.05, 0.1, 1e-7, 2e-3, 0.85, 8))
+    called = weakforms(*TUBE, *COARSE, "--out", tmp_path / "r.json")
+    assert called.status == 3
+    assert "did not end within 8 points" in called.err
+    kept = load_result(tmp_path / "r.json")
+    assert len(kept.branch()) == 9
+    assert [f.what for f in kept.failures] == ["branch primary"]
+
+
+def test_nothing_is_written_when_nothing_converged(weakforms, tmp_path, monkeypatch):
+    def stuck(*_: object) -> None:
+        raise ConvergenceError("no first state")
+
+    monkeypatch.setattr(tube_module, "first_state", stuck)
+    called = weakforms(*TUBE, "--out", tmp_path / "r.json")
+    assert (called.status, called.out, called.err) == (3, "", "weakforms: no first state\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_state_that_is_not_there_is_named_with_the_range(weakforms):
+    called = weakforms(*TUBE, *SHORT, "--at", "u_max=99")
+    assert called.status in (2, 3)
+    assert "u_max = 99 is crossed 0 times" in called.err
+    assert called.err.count("\n") == 1
+
+
+# -- check, verify, report -----------------------------------------------------------------------
+
+
+def test_verify_writes_the_report_and_resume_solves_nothing(weakforms, tiny, solved, tmp_path):
+    out = tmp_path / "out"
+    called = weakforms("verify", "-k", "tiny and not fig", "--out", out)
+    assert called.status == 0
+    assert "PASSED: the only check holds" in called.out
+    assert len(solved) == 2
+    assert {p.name for p in (out / "report").iterdir()} == {"index.html", "junit.xml", "report.json"}
+    before = {p: p.read_bytes() for p in (out / "solutions").iterdir()}
+    assert len(before) == 2
+
+    solved.clear()
+    assert weakforms("verify", "-k", "tiny", "--resume", "--out", out).status == 0
+    assert solved == []
+
+    cut, whole = sorted(before)
+    cut.write_bytes(before[cut][:400])
+    assert weakforms("check", "paper2.tiny", "paper2.tiny", "--resume", "--out", out).status == 0
+    assert len(solved) == 1
+    assert whole.read_bytes() == before[whole]
+    assert json.loads(cut.read_text())["branches"] == json.loads(before[cut])["branches"]
+
+    solved.clear()
+    assert weakforms("verify", "--profile", "quick", "--out", out).status == 0
+    assert len(solved) == 2  # without --resume everything is solved again
+
+
+def test_report_is_rebuilt_without_solving(weakforms, tiny, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    weakforms("check", "paper2.tiny", "--out", out)
+    page = (out / "report" / "index.html").read_bytes()
+    shutil.rmtree(out / "solutions")
+    for module, name in ((api, "solve_requests"), (runner, "verify"), (discovery, "find_cases")):
+        monkeypatch.delattr(module, name)
+    called = weakforms("report", out, "--out", tmp_path / "again")
+    assert called.status == 0
+    assert "PASSED" in called.out
+    assert (tmp_path / "again" / "index.html").read_bytes() == page
+    assert weakforms("report", out / "report").status == 0
+
+
+def test_jobs_give_the_same_numbers(weakforms, tiny, tmp_path):
+    def numbers(*options: str) -> list[str]:
+        out = tmp_path / f"out{len(options)}"
+        assert weakforms("verify", *options, "--out", out).status == 0
+        data = json.loads((out / "report" / "report.json").read_text())
+        return [v["detail"] for case in data["cases"] for v in case["verdicts"]]
+
+    assert numbers() == numbers("-j", "2")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "status", "said"),
+    [
+        ("u[0] < u[1]", "u[1] < u[0]", 1, "failed"),
+        ("u[0] < u[1]", "u[2] > 0", 1, "could not be judged: IndexError"),
+        ('Axis("p", 0', 'Axis("nope", 0', 1, "could not be judged: KeyError"),
+        ("checks=(Cl", "checks=() and (Cl", 1, "failed without a failed check"),
+        ('At("p", 0.5)), (T', 'At("p", 7)), (T', 3, "p = 7 is crossed 0 times"),
+    ],
+)
+def test_a_case_that_does_not_hold(weakforms, tiny, tmp_path, old, new, status, said):
+    tiny(old, new)
+    called = weakforms("verify", "--out", tmp_path / "out")
+    assert (called.status, called.err) == (status, "")
+    assert said in " ".join(called.out.split())
+    assert (tmp_path / "out" / "report" / "index.html").exists()
+
+
+def test_a_solve_that_fails_leaves_the_others(weakforms, tiny, tmp_path, monkeypatch):
+    right = runner.solve_spec
+
+    def first_fails(spec: object, states: list) -> object:
+        if dict(spec.parameters)["delta1"] == 1.5:
+            raise ConvergenceError("stalled at p = 0.1")
+        return right(spec, states)
+
+    monkeypatch.setattr(runner, "solve_spec", first_fails)
+    called = weakforms("verify", "--out", tmp_path / "out")
+    assert called.status == 3
+    assert "stalled at p = 0.1" in called.out
+    data = json.loads((tmp_path / "out" / "report" / "report.json").read_text())
+    assert [(v["check"], v["passed"]) for v in data["cases"][0]["verdicts"]] == [("claim:wider", False)]
+    assert len(list((tmp_path / "out" / "solutions").iterdir())) == 1
+
+
+def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "_task", die)
+    called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
+    assert (called.status, called.err.count("\n")) == (4, 1)
+    assert "a process that was solving died" in called.err
+
+
+# -- compare -------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Writes columns as a CSV file."""
+
+    def write(columns: dict) -> Path:
+        path = tmp_path / "curve.csv"
+        rows = zip(*columns.values(), strict=True)
+        lines = [",".join(columns), *(",".join(repr(float(v)) for v in row) for row in rows)]
+        path.write_text("\n".join(lines))
+        return path
+
+    return write
+
+
+def table_columns(*names: str, part: slice = slice(None), **factors: float) -> dict:
+    columns = references.load(2, CURVE).columns
+    return {n: columns[n][part] * factors.get(n, 1.0) for n in names or ("u_max", "p", "V")}
+
+
+@pytest.mark.parametrize(
+    ("columns", "options", "status", "said"),
+    [
+        (table_columns(p=1 + 1e-9), (), 0, "all of it is judged"),
+        (table_columns("V", "u_max", "p"), (), 0, "all of it is judged"),
+        (table_columns(part=slice(None, None, -1)), (), 0, "all of it is judged"),
+        (table_columns(part=slice(20, 60)), (), 0, "part of it is judged"),
+        (table_columns(p=1 + 3e-7), (), 1, "OUT OF BOUNDS"),
+        (table_columns(V=-1), (), 1, "OUT OF BOUNDS"),
+        (table_columns("u_max", "p", p=1 + 3e-7), ("--accuracy", "1e-6"), 0, "within"),
+        (table_columns("u_max", "p", p=1 + 3e-9), ("--accuracy", "1e-9"), 1, "OUT OF BOUNDS"),
+        (table_columns(u_max=1 + 1e-5), (), 1, "OUT OF BOUNDS"),
+    ],
+)
+def test_compare(weakforms, written, columns, options, status, said):
+    called = weakforms("compare", CASE, written(columns), "--curve", CURVE, *options)
+    assert (called.status, called.err) == (status, "")
+    assert said in called.out
+
+
+def test_verdicts_as_json(weakforms, written):
+    columns = table_columns(part=slice(5, 50), p=1 + 1e-4)
+    called = weakforms("compare", CASE, written(columns), "--curve", CURVE, "--json")
+    data = json.loads(called.out)
+    assert (called.status, data["schema"], data["passed"]) == (1, "weakforms.verdicts/1", False)
+    assert (data["case"], data["curve"], data["abscissa"]) == (CASE, CURVE, "u_max")
+    assert (data["rows"], data["ignored_rows"], data["partial"]) == (45, 0, True)
+    assert data["covered"] == [columns["u_max"][0], columns["u_max"][-1]]
+    wrong, right = data["verdicts"]
+    assert (wrong["check"], wrong["passed"]) == (f"{CURVE}:p", False)
+    assert wrong["error"] == pytest.approx(1e-4, rel=0.1)
+    assert wrong["bound"] == pytest.approx(wrong["asked"] + 2 * wrong["reference_uncertainty"])
+    assert (right["check"], right["passed"]) == (f"{CURVE}:V", True)
+
+
+def test_our_own_result_passes_as_a_curve(weakforms, result):
+    called = weakforms("compare", CASE, result, "--curve", CURVE, "--json")
+    data = json.loads(called.out)
+    assert (called.status, len(data["verdicts"])) == (0, 4)
+    # Near p = 0 the table is too coarse for rows between its own: said, not passed over.
+    assert 0 < data["unjudged_rows"]["p"] < data["rows"] / 2
+    assert data["partial"]
+
+
+def test_a_wide_interpolation_error_does_not_pass_for_agreement(weakforms, written):
+    u = np.linspace(0.055, 0.095, 5)
+    columns = references.load(2, CURVE).columns
+    p, slack = interpolated(columns["u_max"], columns["p"], u)
+    assert slack.max() > 1e-6  # beyond the 1e-7 asked: nobody could tell these from the right numbers
+    called = weakforms("compare", CASE, written({"u_max": u, "p": p + slack / 4}), "--curve", CURVE)
+    assert called.status == 1
+    assert "NOT JUDGED" in called.out
+    assert "give the curve at the table's own u_max" in called.out
+    # Halfway between rows of the smooth part it is sharp enough to tell 1e-6.
+    x, y = columns["u_max"][60:], columns["p"][60:]
+    middle = {"u_max": (x[1:] + x[:-1]) / 2}
+    middle["p"] = np.interp(middle["u_max"], x, y) + 1e-5
+    assert weakforms("compare", CASE, written(middle), "--curve", CURVE).status == 1
+
+
+# -- the whole program ---------------------------------------------------------------------------
+
+
+def test_status_0_and_help():
+    done = shell("list", "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "tube" in done.stdout
+
+
+def test_status_1(written):
+    done = shell("compare", CASE, str(written(table_columns(p=2))), "--curve", CURVE)
+    assert (done.returncode, done.stderr) == (1, "")
+
+
+def test_status_2_and_debug():
+    plain, debug = shell("solve", "nope"), shell("solve", "nope", "--debug")
+    assert (plain.returncode, plain.stdout) == (2, "")
+    assert plain.stderr == "weakforms: unknown problem 'nope'; the problems are tube, tube_fold\n"
+    assert debug.returncode == 2
+    assert "Traceback" in debug.stderr
+    assert debug.stderr.endswith(plain.stderr)
+
+
+def test_status_3_for_a_problem_that_is_too_hard(tmp_path):
+    done = shell(*HARD.split(), "--out", str(tmp_path / "r.json"))
+    assert (done.returncode, done.stdout) == (3, "")
+    kept = load_result(tmp_path / "r.json")
+    assert len(kept.branch()) > 100
+    assert kept.special_points == []
+    assert "special points" in {f.what for f in kept.failures}
+    lines = done.stderr.splitlines()
+    assert len(lines) == len(kept.failures)
+    assert all(line.startswith("weakforms: not converged: ") and len(line) < 700 for line in lines)
+
+
+def test_status_4_without_dolfinx_but_curves_can_be_compared(written):
+    missing = "sys.modules['dolfinx'] = None"
+    done = shell("solve", "tube", before=missing)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (4, "", 1)
+    assert "dolfinx is not installed" in done.stderr
+    assert "apt install" in done.stderr
+    path = str(written(table_columns()))
+    assert shell("compare", CASE, path, "--curve", CURVE, before=missing).returncode == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+def test_output_that_cannot_be_written_is_one_line():
+    with open("/dev/full", "w") as full:
+        done = shell("list", capture_output=False, stdout=full, stderr=subprocess.PIPE)
+    assert done.returncode == 2
+    assert done.stderr.startswith("weakforms: cannot write to standard output: ")
+    assert done.stderr.count("\n") == 1
+
+
+def test_reader_that_closes_the_pipe_is_no_crash():
+    reading, writing = os.pipe()
+    os.close(reading)
+    try:  # "show" of a problem starts PETSc
+        done = shell("show", "tube", capture_output=False, stdout=writing, stderr=subprocess.PIPE)
+    finally:
+        os.close(writing)
+    assert (done.returncode, done.stderr) == (2, "weakforms: cannot write to standard output: Broken pipe\n")
+
+
+def test_bench_has_its_stages(weakforms, monkeypatch):
+    from weakforms.verification import bench
+
+    monkeypatch.setattr(bench, "CELLS", 16)
+    called = weakforms("bench", "--json")
+    data = json.loads(called.out)
+    stages = {row["stage"]: row for row in data["rows"]}
+    assert (called.status, data["ranks"]) == (0, 1)
+    assert stages["branch, warm"]["points"] > 50
+    assert all(row["seconds"] >= 0 for row in data["rows"])
+    assert "fold line, first" in weakforms("bench").out

@@ -1,0 +1,231 @@
+"""Results go out and come back unchanged, fit their schema or are refused, and appear whole or not at all."""
+
+import copy
+import json
+import os
+
+import numpy as np
+import pytest
+
+from weakforms.errors import InputError
+from weakforms.results import (
+    Branch,
+    Failure,
+    Field,
+    Quantity,
+    Result,
+    SpecialPoint,
+    State,
+    load_result,
+    read_curve,
+    validate,
+    write_atomically,
+)
+from weakforms.results.io import branch_csv, dumps, require_place_for, require_writable
+
+VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "1")
+
+
+def full() -> Result:
+    """A result in which everything that can be there is there."""
+    return Result(
+        problem="tube",
+        parameters={"alpha": 0.1, "contact": "none"},
+        scales={"p": "P R/C"},
+        numerics={"degree": 4, "meshes": [8, 16]},
+        provenance={**VERSIONS, "ranks": 2, "wall_s": 0.5},
+        branches=[
+            Branch(
+                "primary",
+                "p",
+                {"p": np.array([0.1, 1 / 3, np.nan]), "n_negative": np.array([0, 1, 1])},
+                {"p": np.array([1e-12, 2e-12, 3e-12])},
+            )
+        ],
+        special_points=[
+            SpecialPoint("limit_point", "primary", "p", {"p": 1 / 3}, {"p": 1e-12}, orders={"p": 8.1})
+        ],
+        quantities={"count": Quantity(3), "p": Quantity(0.1, 1e-9, 3.9)},
+        states=[
+            State(
+                {"p": 0.1},
+                "primary",
+                {"u_max": Quantity(2.5, 1e-9)},
+                (Field("profile", {"Z": np.array([0.0, 1.5])}, {"Z": 0.0}),),
+                2,
+            )
+        ],
+        failures=[Failure("state at p = 9", "not there")],
+    )
+
+
+def test_json_round_trip_is_exact(tmp_path):
+    data = full().to_json()
+    validate(data)
+    write_atomically(tmp_path / "r.json", dumps(data))
+    back = load_result(tmp_path / "r.json")
+    assert back.to_json() == data
+    assert back.branch().columns["p"][1] == 1 / 3
+    assert np.isnan(back.branch().columns["p"][2])
+    assert back.branch().columns["n_negative"].dtype.kind == "i"
+    assert (back.states[0].crossing, back.quantities["p"].order) == (2, 3.9)
+    assert back.points("limit_point", "other") == []
+    with pytest.raises(KeyError, match="primary"):
+        back.branch("other")
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        (["schema"], "weakforms.result/2"),
+        (["problem"], ""),
+        (["parameters"], []),
+        (["provenance", "ranks"], 0),
+        (["provenance", "wall_s"], -1),
+        (["provenance", "petsc"], None),
+        (["branches"], {}),
+        (["branches", 0, "columns"], {}),
+        (["branches", 0, "columns", "p"], [1, "2"]),
+        (["branches", 0, "columns", "p"], 1),
+        (["special_points", 0, "kind"], "turning_point"),
+        (["special_points", 0, "status"], "guessed"),
+        (["special_points", 0, "values", "p"], None),
+        (["special_points", 0, "uncertainty", "p"], -1e-9),
+        (["quantities", "p", "value"], "1"),
+        (["quantities", "p", "uncertainty"], -1),
+        (["quantities", "p", "error"], 1),
+        (["states", 0, "at"], {}),
+        (["states", 0, "crossing"], 0),
+        (["states", 0, "fields", 0, "columns"], {}),
+        (["failures", 0], {"what": "x"}),
+    ],
+)
+def test_schema_refuses(path, value):
+    data = full().to_json()
+    *steps, last = path
+    place = data
+    for step in steps:
+        place = place[step]
+    if value is None and last == "petsc":
+        del place[last]
+    else:
+        place[last] = value
+    with pytest.raises(InputError, match=r"weakforms\.result/1") as refusal:
+        validate(data)
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("key", sorted(set(full().to_json()) - {"schema"}))
+def test_schema_wants_every_part(key):
+    data = full().to_json()
+    del data[key]
+    with pytest.raises(InputError, match=key):
+        validate(data)
+
+
+def test_what_is_not_finite_is_never_written():
+    data = full().to_json()
+    data["quantities"]["p"]["value"] = float("nan")
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        dumps(data)
+
+
+def test_csv_has_every_branch_and_column():
+    result = full()
+    result.branches.append(Branch("secondary", "p", {"p": np.array([2.0]), "q": np.array([5])}))
+    lines = branch_csv(result).splitlines()
+    assert lines[0] == "branch,p,n_negative,q"
+    assert lines[1:] == ["primary,0.1,0,", "primary,0.333333333333,1,", "primary,nan,1,", "secondary,2,,5"]
+
+
+# -- files ---------------------------------------------------------------------------------------
+
+
+def test_failed_write_leaves_nothing_and_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "r.json"
+    write_atomically(path, "old")
+
+    def full_disk(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    for name in ("replace", "chmod"):
+        with monkeypatch.context() as patch:
+            patch.setattr(os, name, full_disk)
+            with pytest.raises(InputError, match=r"cannot write .*r\.json: No space left on device"):
+                write_atomically(path, "new")
+        assert [p.name for p in tmp_path.iterdir()] == ["r.json"]
+        assert path.read_text() == "old"
+
+
+def test_interrupted_write_leaves_nothing(tmp_path, monkeypatch):
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_atomically(tmp_path / "r.json", "new")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_written_files_have_the_usual_permissions_and_line_ends(tmp_path):
+    write_atomically(tmp_path / "a" / "b" / "r.txt", "one\ntwo λ\n")
+    path = tmp_path / "a" / "b" / "r.txt"
+    assert path.read_bytes() == "one\ntwo λ\n".encode()
+    mask = os.umask(0)
+    os.umask(mask)
+    assert path.stat().st_mode & 0o777 == 0o666 & ~mask
+
+
+def test_links_are_followed_and_devices_are_not_replaced(tmp_path):
+    (tmp_path / "real").write_text("old")
+    (tmp_path / "link").symlink_to("real")
+    write_atomically(tmp_path / "link", "new")
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "real").read_text() == "new"
+    (tmp_path / "null").symlink_to(os.devnull)
+    require_place_for(tmp_path / "null")
+    write_atomically(tmp_path / "null", "gone")
+    assert (tmp_path / "null").is_symlink()
+    assert (tmp_path / "null").is_char_device()
+
+
+def test_places_are_tried_before_solving(tmp_path):
+    (tmp_path / "file").write_text("")
+    require_place_for(tmp_path / "file")
+    require_place_for(tmp_path / "new" / "r.json")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "new"]
+    assert list((tmp_path / "new").iterdir()) == []
+    for bad in (tmp_path, tmp_path / "file" / "x", tmp_path / ("x" * 300), tmp_path / ("x" * 300) / "y"):
+        with pytest.raises(InputError, match="cannot write"):
+            require_place_for(bad)
+    with pytest.raises(InputError, match="cannot write to folder"):
+        require_writable(tmp_path / "file")
+
+
+# -- curves --------------------------------------------------------------------------------------
+
+COLUMNS = {"u": [1.0, 2.5], "p": [3.0, -4e-3]}
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("c.csv", "u,p\n1,3\n2.5,-4e-3\n"),
+        ("c.csv", "\ufeffu , p\r\n1, 3\r\n\r\n2.5, -4e-3"),
+        ("c.txt", '"u","p"\n"1","3"\n2.5,-0.004'),
+        ("c.json", json.dumps(COLUMNS)),
+        ("c.JSON", json.dumps({"columns": COLUMNS, "by": "somebody"})),
+        ("c.json", json.dumps(full().to_json() | {"branches": [Branch("b", "p", COLUMNS).to_json()]})),
+    ],
+)
+def test_curves_are_read(tmp_path, name, content):
+    (tmp_path / name).write_text(content)
+    found = read_curve(tmp_path / name)
+    assert {key: values.tolist() for key, values in found.items()} == COLUMNS
+
+
+def test_validation_does_not_change_what_it_sees():
+    data = full().to_json()
+    before = copy.deepcopy(data)
+    validate(data)
+    assert data == before
