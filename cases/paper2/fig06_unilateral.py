@@ -1,8 +1,9 @@
 """Paper 2, figure 6(b) again: adhesive deflation with a spring that pushes but does not pull.
 
-The paper remarks that inflation and deflation curves closely match. With the spring of its equation (9), which
-pulls a receding membrane outwards, they do not; with this reading they do, all the way down. Tractions are not
-compared here: where the spring lets go the solution has a kink inside a cell, which limits their bounds.
+The paper remarks that inflation and deflation curves closely match. With the spring of its equation (9),
+which pulls a receding membrane outwards, they do not; with this reading they do, all the way down.
+Tractions are not compared here: where the spring lets go the solution has a kink inside a cell, which limits
+their bounds.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube

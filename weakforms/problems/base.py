@@ -36,7 +36,7 @@ class StateRequest:
     crossing: int = 1
     branch: str = "primary"
     profile: tuple[float, ...] | None = None
-    """Points at which fields are sampled; ``None`` for none, empty for the problem's own choice."""
+    """Points at which fields are sampled besides the problem's own; ``None`` for no fields."""
 
 
 @dataclass(frozen=True)
@@ -163,14 +163,14 @@ def check_requests(problem: Problem, requests: Requests) -> None:
 
 
 def sample_points(wanted: tuple[float, ...] | None, default: np.ndarray) -> np.ndarray | None:
-    """Sorted sample points of a request; the default ones where it leaves the choice.
+    """Sorted sample points of a request: the default ones and those it names.
 
     Raises:
         InputError: For a point outside the body.
     """
     if wanted is None:
         return None
-    points = np.unique(np.asarray(wanted, dtype=float)) if wanted else default
+    points = np.unique(np.concatenate([default, np.asarray(wanted, dtype=float)]))
     if points[0] < default[0] - 1e-9 or points[-1] > default[-1] + 1e-9:
         raise InputError(
             f"profile points must lie in [{default[0]:g}, {default[-1]:g}], "

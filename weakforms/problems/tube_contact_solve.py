@@ -23,8 +23,8 @@ FIRST_TERMS, MORE_TERMS = 14, 4
 
 CAP, CAP_UNILATERAL = 2.0, 1.0
 """Highest order of convergence the uncertainties reckon with. Mesh and series are refined together, and
-tractions hold second derivatives, so no more credit than order two is given; where a unilateral spring lets go
-inside a cell, order one."""
+tractions hold second derivatives: no more credit than order two is given, than order one where a unilateral
+spring lets go inside a cell."""
 
 NO_PATCH = {
     name: 0.0

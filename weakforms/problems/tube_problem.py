@@ -97,7 +97,7 @@ class TubeNumerics(Numerics):
     cells: int = Field(96, ge=8, le=20_000, description="cells on half the length, finest mesh")
     levels: int = Field(3, ge=2, le=4, description="meshes, each twice as fine as the one before")
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
-    step: float = Field(0.08, gt=0, le=0.5, description="largest arc-length step")
+    step: float = Field(0.08, ge=0.01, le=0.5, description="largest arc-length step")
 
     @model_validator(mode="after")
     def _nested(self) -> TubeNumerics:

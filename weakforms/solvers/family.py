@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -81,6 +82,8 @@ class BranchFamily:
         if missed:
             places = f"points {missed[0][0]} to {missed[-1][0]}, {len(missed)} of them left out"
             self.failures.append(Failure(f"branch {self.name}, {places}", missed[0][1]))
+        if not kept:
+            raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
         table = np.array(errors)  # (points, levels, columns)
         found = estimate([table[:, k] for k in range(table.shape[1])], self.cap)
         wide = _widen(found.uncertainty)
@@ -114,7 +117,8 @@ class BranchFamily:
         found = [level.special() for level in self.levels]
         kinds = [[solved.kind for solved in item] for item in found]
         if any(item != kinds[-1] for item in kinds):
-            raise ConvergenceError(f"special points depend on the mesh: {kinds}")
+            counts = [dict(Counter(item)) for item in kinds]
+            raise ConvergenceError(f"special points depend on the mesh, coarse to fine: {counts}")
         return list(zip(*found, strict=True))
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:

@@ -77,12 +77,15 @@ class ExtendedNewton:
         self.bordered: BorderedMatrix | None = None
         self._size = system.size
         self._chord = False
-        comm = system.comm
-        self._root = comm.size - 1
-        extra = len(self.scalars) if comm.rank == self._root else 0
-        self._x = PETSc.Vec().createMPI((system.size + extra, None), comm=comm)
+        self._root = system.comm.size - 1
         self._norms: list[float] = []
-        self._snes = self._make_snes(prefix, stol, max_iterations, line_search)
+        self._settings = (prefix, stol, max_iterations, line_search)
+        self._renew()
+
+    def _renew(self) -> None:
+        extra = len(self.scalars) if self.system.comm.rank == self._root else 0
+        self._x = PETSc.Vec().createMPI((self._size + extra, None), comm=self.system.comm)
+        self._snes = self._make_snes(*self._settings)
 
     def _make_snes(self, prefix: str, stol: float, max_iterations: int, line_search: str) -> PETSc.SNES:
         snes = PETSc.SNES().create(self.system.comm)
@@ -184,6 +187,7 @@ class ExtendedNewton:
         try:
             self._snes.solve(None, self._x)
         except PETSc.Error as error:
+            self._renew()  # what was interrupted keeps its vectors locked
             raise ConvergenceError(f"SNES failed: {_innermost(error)}") from error
         reason = self._snes.getConvergedReason()
         record = SolveRecord(

@@ -1,0 +1,75 @@
+"""Paper 2, figure 7: principal stretches along the constrained tube, alpha = 0.1, delta1 = 1.
+
+(a) frictionless, (b) adhesive inflation, (c) adhesive deflation with a bilateral spring. The tables leave out
+points within 0.02 of the front, where the stretches have kinks or jumps.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
+
+SLIP = tube(contact="frictionless", alpha=0.1, delta1=1)
+STICK = tube(contact="adhesive", alpha=0.1, delta1=1)
+BONDED = STICK.at(phase="deflation", spring="bilateral")
+UP, DOWN = (1.6, 2, 2.5, 3), (3, 2, 1, 0)
+PANELS = (
+    ("a", "frictionless", SLIP, UP),
+    ("b", "adhesive inflation", STICK, UP),
+    ("c", "adhesive deflation", BONDED, DOWN),
+)
+
+
+def frozen(solutions: Solutions) -> Finding:
+    """lam1 at the mid-plane after first touch, in adhesive inflation and deflation."""
+    values = [solutions.value(STICK, At("p", float(p)), "lam1_mid") for p in UP]
+    values += [solutions.value(BONDED, At("p", float(p)), "lam1_mid") for p in DOWN]
+    return max(values) - min(
+        values
+    ) < 1e-9, f"lam1_mid = {values[0]:.10f}, spread {max(values) - min(values):.1e}"
+
+
+def where_largest(solutions: Solutions) -> Finding:
+    """lam1 is largest at the disk and lam2 high in the centre, in frictionless contact."""
+    rows = []
+    for p in UP:
+        columns = solutions.profile(SLIP, At("p", float(p), profile=())).columns
+        rows.append(
+            (columns["lam1"].argmax() == len(columns["Z"]) - 1, columns["lam2"][0] / columns["lam2"][-1])
+        )
+    return all(end and ratio > 1.2 for end, ratio in rows), "lam2 centre over end: " + ", ".join(
+        f"{ratio:.3f}" for _, ratio in rows
+    )
+
+
+CASE = Case(
+    title="Stretches along the constrained tube",
+    source="Patil, Nordmark & Eriksson (2014), figure 7",
+    panels=tuple(
+        Panel(
+            f"{letter}, {column}",
+            x=Axis("Z", 0, 6),
+            y=Axis(column, 0.9, 1.5),
+            title=title,
+            mirrored=True,
+            curves=tuple(
+                Curve(of, rf"$p = {p}$", reference=f"fig07{letter}_p_{p}", at=At("p", float(p)), y=column)
+                for p in pressures
+            ),
+        )
+        for letter, title, of, pressures in PANELS
+        for column in ("lam1", "lam2")
+    ),
+    checks=(
+        Claim(
+            "frozen",
+            "lam1 at the mid-plane keeps its value at first touch in adhesive inflation and deflation",
+            tuple((STICK, At("p", float(p))) for p in UP) + tuple((BONDED, At("p", float(p))) for p in DOWN),
+            frozen,
+        ),
+        Claim(
+            "where_largest",
+            "lam1 is largest at the ends, lam2 high in the centre",
+            tuple((SLIP, At("p", float(p), profile=())) for p in UP),
+            where_largest,
+        ),
+    ),
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4},
+)

@@ -1,0 +1,66 @@
+"""Paper 2, figure 8: stress resultants along the tube, alpha = 0.1.
+
+(a) adhesive inflation, delta1 = 1; (b) adhesive inflation of the pre-stretched tube, delta1 = 2; (c) adhesive
+deflation, delta1 = 1. The paper's caption says "deflated" for all three.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
+
+STICK = {d: tube(contact="adhesive", alpha=0.1, delta1=d) for d in (1, 2)}
+BONDED = STICK[1].at(phase="deflation", spring="bilateral")
+UP, DOWN = (1.6, 2, 2.5, 3), (3, 2, 1, 0)
+PANELS = (
+    ("a", "adhesive inflation, $\\delta_1 = 1$", STICK[1], "fig07b", UP, {"t1": (0, 2), "t2": (0, 4)}),
+    ("b", "adhesive inflation, $\\delta_1 = 2$", STICK[2], "fig08b", UP, {"t1": (3, 7), "t2": (0, 4)}),
+    ("c", "adhesive deflation, $\\delta_1 = 1$", BONDED, "fig07c", DOWN, {"t1": (0, 2), "t2": (0, 4)}),
+)
+
+
+def mid_plane_stress(solutions: Solutions) -> Finding:
+    """t1 at the mid-plane over p = 1.6..3: rises for delta1 = 1, falls for delta1 = 2."""
+    rows = {d: [solutions.value(STICK[d], At("p", float(p)), "t1_mid") for p in UP] for d in (1, 2)}
+    good = rows[1] == sorted(rows[1]) and rows[2] == sorted(rows[2], reverse=True)
+    return good, "; ".join(f"delta1 = {d}: " + ", ".join(f"{v:.4f}" for v in row) for d, row in rows.items())
+
+
+def never_compressed(solutions: Solutions) -> Finding:
+    """Smallest hoop resultant down to p = 0 with a bilateral spring."""
+    lowest = solutions.branch(BONDED).columns["t2_min"].min()
+    return lowest > 0, f"smallest t2 along the branch {lowest:.4f}"
+
+
+CASE = Case(
+    title="Stress resultants along the constrained tube",
+    source="Patil, Nordmark & Eriksson (2014), figure 8",
+    panels=tuple(
+        Panel(
+            f"{letter}, {column}",
+            x=Axis("Z", 0, 6),
+            y=Axis(column, *limits[column]),
+            title=title,
+            mirrored=True,
+            curves=tuple(
+                Curve(of, rf"$p = {p}$", reference=f"{table}_p_{p}", at=At("p", float(p)), y=column)
+                for p in pressures
+            ),
+        )
+        for letter, title, of, table, pressures, limits in PANELS
+        for column in ("t1", "t2")
+    ),
+    checks=(
+        Claim(
+            "mid_plane_stress",
+            "t1 at the mid-plane rises with p for delta1 = 1 and falls for delta1 = 2 in adhesive inflation "
+            "(the text speaks of the stretch; it is the stress)",
+            tuple((STICK[d], At("p", float(p))) for d in (1, 2) for p in UP),
+            mid_plane_stress,
+        ),
+        Claim(
+            "never_compressed",
+            "with a bilateral spring no compressive stress appears down to p = 0",
+            ((BONDED, None),),
+            never_compressed,
+        ),
+    ),
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4},
+)

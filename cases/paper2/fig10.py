@@ -1,0 +1,64 @@
+"""Paper 2, figure 10: deflating profiles at p = 3, 2, 1.5, 1, 0 (bilateral spring), alpha = 0.1."""
+
+import numpy as np
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
+
+DOWN = (3, 2, 1.5, 1, 0)
+BONDED = {
+    d: tube(contact="adhesive", phase="deflation", spring="bilateral", alpha=0.1, delta1=d) for d in (1, 2)
+}
+
+
+def horizontal(solutions: Solutions) -> Finding:
+    """Material points of the patch keep their eta while the tube deflates."""
+    worst = 0.0
+    for spec in BONDED.values():
+        fields = [solutions.profile(spec, At("p", float(p), profile=())).columns for p in DOWN]
+        inside = fields[0]["Z"] < 2.2
+        spread = np.ptp([f["eta"][inside] for f in fields], axis=0)
+        worst = max(worst, float(spread.max()))
+    return worst < 1e-12, f"largest change of eta in the patch {worst:.1e}"
+
+
+def curls_inward(solutions: Solutions) -> Finding:
+    """Curvature of the free part at the front: negative at p = 3, positive at p = 0."""
+    rows = {d: [solutions.value(spec, At("p", p), "kappa") for p in (3.0, 0.0)] for d, spec in BONDED.items()}
+    return all(a < 0 < b for a, b in rows.values()), "; ".join(
+        f"delta1 = {d}: {a:.3f} to {b:.3f}" for d, (a, b) in rows.items()
+    )
+
+
+CASE = Case(
+    title="Deflating profiles",
+    source="Patil, Nordmark & Eriksson (2014), figure 10",
+    panels=tuple(
+        Panel(
+            letter,
+            x=Axis("eta", 0, 6),
+            y=Axis("rho", 1, 1.6),
+            title=rf"$\alpha = 0.1$, $\delta_1 = {d}$; substrate at $\rho = 1.3$",
+            mirrored=True,
+            curves=tuple(
+                Curve(BONDED[d], rf"$p = {p}$", reference=f"fig10{letter}_p_{p}", at=At("p", float(p)))
+                for p in DOWN
+            ),
+        )
+        for letter, d in (("a", 1), ("b", 2))
+    ),
+    checks=(
+        Claim(
+            "horizontal",
+            "material points of the patch move on horizontal lines",
+            tuple((spec, At("p", float(p), profile=())) for spec in BONDED.values() for p in DOWN),
+            horizontal,
+        ),
+        Claim(
+            "curls_inward",
+            "the curvature of the free part at the front changes sign as p falls",
+            tuple((spec, At("p", p)) for spec in BONDED.values() for p in (3.0, 0.0)),
+            curls_inward,
+        ),
+    ),
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4},
+)
