@@ -190,7 +190,7 @@ class BranchFamily:
     def _quantity(self, values: list[float]) -> Quantity:
         found = self._estimate(values)
         order = float(found.order)
-        return Quantity(float(found.value), float(found.uncertainty), order if np.isfinite(order) else None)
+        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
 
 
 def special_point(
@@ -209,7 +209,7 @@ def special_point(
 
 
 def _orders(values: dict[str, Estimate]) -> dict[str, float]:
-    return {k: float(v.order) for k, v in values.items() if np.isfinite(v.order)}
+    return {k: float(v.order) for k, v in values.items() if v.order > 0}
 
 
 def _widen(uncertainty: np.ndarray) -> np.ndarray:
