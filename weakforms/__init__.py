@@ -21,8 +21,9 @@ from weakforms.verification.case import (
     Printed,
 )
 from weakforms.verification.compare import compare
+from weakforms.verification.references import load as reference
 from weakforms.verification.solutions import Solutions
-from weakforms.verification.specs import At, Spec, tube, tube_fold
+from weakforms.verification.specs import At, Spec, tube, tube_fold, tube_scheme
 
 __version__ = "0.1.0"
 
@@ -47,7 +48,9 @@ __all__ = [
     "WeakformsError",
     "cases",
     "compare",
+    "reference",
     "solve",
     "tube",
     "tube_fold",
+    "tube_scheme",
 ]

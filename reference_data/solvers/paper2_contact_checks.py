@@ -47,13 +47,12 @@ def derivatives(state: State, zone: int, element: int) -> dict[str, Array]:
 
 
 def relative_jumps(state: State, zone: int) -> dict[str, Array]:
-    """Jump of each derivative at the right end of a zone over its size in the elements next to it."""
+    """Jump of each derivative at the right end of a zone over the larger of its two values there."""
     inside, outside = derivatives(state, zone, -1), derivatives(state, zone + 1, 0)
     out = {}
     for name in FIELDS:
         a, b = inside[name], outside[name]
-        size = np.maximum(np.abs(a).max(axis=1), np.abs(b).max(axis=1))
-        out[name] = np.abs(a[:, -1] - b[:, 0]) / size
+        out[name] = np.abs(a[:, -1] - b[:, 0]) / np.maximum(np.abs(a[:, -1]), np.abs(b[:, 0]))
     return out
 
 
@@ -62,9 +61,9 @@ def examined(which: int) -> list[State]:
     if which == 1:  # an arbitrary point of a free tube in the place of the front
         out = []
         for (first, _), how in zip(cc.touching(CASE), st.RESOLUTIONS, strict=True):
-            guess = st.frictionless_near_touch(first, CASE.substrate, how, 0.8 * CASE.tube.length)
+            guess = st.frictionless_near_touch(first, CASE.substrate, how, 0.7 * CASE.tube.length)
             guess = replace(guess, zones=(Zone(how.inner), Zone(how.outer)))
-            fixed = [("scalar", 0, first.p), ("scalar", 1, 0.8 * CASE.tube.length)]
+            fixed = [("scalar", 0, first.p), ("scalar", 1, 0.7 * CASE.tube.length)]
             out.append(con.newton(guess, fixed)[0])
         return out
     if which == 2:
@@ -103,7 +102,7 @@ def continuity(name: str) -> Table:
         "field": ("1", "1 rho, 2 eta, 3 lam1, 4 lam2, 5 t1, 6 t2"),
         "first_jump": ("1", f"order of the first derivative by z that jumps; {NONE}: none up to {HIGHEST}"),
         "printed": ("1", "the same by the printed table"),
-        "jump": ("1", "that jump over the largest value of the derivative nearby; 0 if there is none"),
+        "jump": ("1", "that jump over the larger of the two one-sided values; 0 if there is none"),
         "below": ("1", "largest such ratio of all lower orders: rounding amplified by differentiation"),
     }
     columns = [prescribed(c, v, about[c]) for c, v in zip(list(about)[:4], data[:4], strict=True)]

@@ -180,6 +180,14 @@ class BorderedMatrix:
             z -= value * column
         return z, mu
 
+    def multiply(self, z: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The bordered matrix times ``(z, mu)``; a stiffened diagonal entry is taken back."""
+        wide = mu
+        if self.factor.stiffened is not None:
+            wide = np.append(mu, self.system.dot(self.factor.stiffened[1], z))
+        r, h = self._defect(np.zeros_like(z), np.zeros(len(wide)), z, wide)
+        return -r, -h[: self._size]
+
     def _defect(
         self, f: np.ndarray, g: np.ndarray, z: np.ndarray, mu: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:

@@ -92,9 +92,8 @@ class ExtendedNewton:
         snes.setOptionsPrefix(prefix)
         snes.setFunction(self._residual, self._x.duplicate())
         sizes = (self._x.getSizes(), self._x.getSizes())
-        # SNES wants a matrix; all that is ever asked of it is the bordered solve below.
         shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
-        shell.setPythonContext(_Opaque())
+        shell.setPythonContext(_BorderedOperator(self))
         shell.setUp()
         snes.setJacobian(self._jacobian, shell)
         ksp = snes.getKSP()
@@ -205,8 +204,16 @@ class ExtendedNewton:
         return system.state(), record
 
 
-class _Opaque:
-    """Context of a matrix nobody multiplies with."""
+class _BorderedOperator:
+    """The Jacobian of the whole system as SNES sees it (a backtracking line search multiplies with it)."""
+
+    def __init__(self, newton: ExtendedNewton) -> None:
+        self._newton = newton
+
+    def mult(self, _mat: PETSc.Mat, x: PETSc.Vec, out: PETSc.Vec) -> None:
+        """``out = J x``."""
+        newton = self._newton
+        newton._join(out, *newton.bordered.multiply(*newton._split(x)))
 
 
 class _BorderedSolve:

@@ -85,6 +85,7 @@ class System:
         self.bc_dofs = np.concatenate(owned) if owned else np.empty(0, dtype=np.int32)
         fem_petsc.set_bc(self.vec, formulation.bcs)
         self._bc_values = self.vec.array[self.bc_dofs].copy()
+        self._fixed = len(self.bc_dofs)
         self.matrix = fem_petsc.create_matrix(self._form("tangent"))
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
@@ -109,6 +110,15 @@ class System:
         matrix = fem_petsc.assemble_matrix(fem.form(self.formulation.mass), self.formulation.bcs, 0.0)
         matrix.assemble()
         return matrix
+
+    def hold(self, dofs: np.ndarray, values: np.ndarray) -> None:
+        """Hold further degrees of freedom of this rank at values, in place of any held before.
+
+        For conditions that come and go (a contact history); those of the formulation stay.
+        """
+        self.bc_dofs = np.concatenate([self.bc_dofs[: self._fixed], dofs]).astype(np.int32)
+        self._bc_values = np.concatenate([self._bc_values[: self._fixed], values])
+        self.matrix.setOption(PETSc.Mat.Option.KEEP_NONZERO_PATTERN, True)
 
     # -- the state ---------------------------------------------------------------------------
 
@@ -168,6 +178,9 @@ class System:
         self.matrix.zeroEntries()
         fem_petsc.assemble_matrix(self.matrix, self._form("tangent"), self.formulation.bcs)
         self.matrix.assemble()
+        held = self.bc_dofs[self._fixed :]
+        if self.comm.allreduce(len(held)):
+            self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0], diag=1.0)
         return self.matrix
 
     def monitors(self) -> dict[str, float]:

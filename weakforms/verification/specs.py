@@ -41,6 +41,11 @@ def tube_fold(**parameters: Any) -> Spec:
     return Spec("tube_fold", _sorted(parameters))
 
 
+def tube_scheme(**parameters: Any) -> Spec:
+    """The constrained tube of Paper 2 by the paper's own schemes on a fixed mesh."""
+    return Spec("tube_scheme", _sorted(parameters))
+
+
 @dataclass(frozen=True)
 class At:
     """A state wanted of a solution: a column at a value, or the ``value``-th special point of a kind."""

@@ -1,0 +1,61 @@
+"""Paper 2's own way through contact on a fixed mesh, and the limit it tends to.
+
+Frictionless contact by a conditional in the weak form (semi-smooth Newton), the printed adhesive rule by
+pressure steps, and the front advanced from node to node: linear elements, refined in mesh and step, against the
+front-fitted solution at p = 3. The two adhesive routes are of first order in the contact length.
+"""
+
+import numpy as np
+
+from weakforms import At, Case, Claim, Finding, Solutions, tube, tube_scheme
+
+CELLS = (50, 100, 200, 400)
+END = At("p", 3.0)
+DATA = {"alpha": 0.1, "delta1": 1}
+LIMIT = {
+    "semismooth": tube(contact="frictionless", **DATA),
+    "pressure_steps": tube(contact="adhesive", **DATA),
+    "front_nodes": tube(contact="adhesive", **DATA),
+}
+RUNS = {
+    scheme: [tube_scheme(scheme=scheme, **DATA).on(cells=n, steps=2 * (n // 4)) for n in CELLS]
+    for scheme in LIMIT
+}
+LEAST_ORDER = {
+    "semismooth": {"u_max": 1.75, "contact_length": 0.75},
+    "pressure_steps": {"u_max": 0.75, "contact_length": 0.75},
+    "front_nodes": {"u_max": 0.75, "contact_length": 0.75},
+}
+"""First order, second for the displacement of frictionless contact; less a quarter, as the front is in a cell."""
+
+
+def tends_to_limit(scheme: str, solutions: Solutions) -> Finding:
+    """Errors against the fitted solution: their mean rate, and their bounds on the two finest meshes."""
+    good, rows = True, []
+    for name, least in LEAST_ORDER[scheme].items():
+        exact = solutions.value(LIMIT[scheme], END, name)
+        found = [solutions.result(spec).quantities[name] for spec in RUNS[scheme]]
+        errors = np.array([abs(q.value - exact) for q in found])
+        slope = -np.polyfit(np.log(CELLS), np.log(errors), 1)[0]
+        within = all(e <= 2 * q.uncertainty + 1e-8 for e, q in list(zip(errors, found, strict=True))[-2:])
+        good &= bool(within) and slope >= least
+        rows.append(f"{name}: order {slope:.2f}, errors " + ", ".join(f"{e:.1e}" for e in errors))
+    return good, "; ".join(rows)
+
+
+def claim(scheme: str, statement: str) -> Claim:
+    """The claim for one scheme."""
+    wants = (*((spec, None) for spec in RUNS[scheme]), (LIMIT[scheme], END))
+    return Claim(scheme, statement, wants, lambda solutions: tends_to_limit(scheme, solutions))
+
+
+CASE = Case(
+    title="Contact schemes on a fixed mesh",
+    source="the algorithm of Patil, Nordmark & Eriksson (2014), section 3",
+    checks=(
+        claim("semismooth", "frictionless contact as a conditional tends to the front-fitted solution"),
+        claim("pressure_steps", "the printed pressure stepping tends to the continuous adhesive history"),
+        claim("front_nodes", "following the front from node to node tends to the same history"),
+    ),
+    quick=False,
+)
