@@ -1,8 +1,8 @@
 """Paper 2's own way through contact on a fixed mesh, and the limit it tends to.
 
 Frictionless contact by a conditional in the weak form (semi-smooth Newton), the printed adhesive rule by
-pressure steps, and the front advanced from node to node: linear elements, refined in mesh and step, against the
-front-fitted solution at p = 3. The two adhesive routes are of first order in the contact length.
+pressure steps, and the front advanced from node to node: linear elements, refined in mesh and step, against
+the front-fitted solution at p = 3. The two adhesive routes are of first order in the contact length.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ LEAST_ORDER = {
     "pressure_steps": {"u_max": 0.75, "contact_length": 0.75},
     "front_nodes": {"u_max": 0.75, "contact_length": 0.75},
 }
-"""First order, second for the displacement of frictionless contact; less a quarter, as the front is in a cell."""
+"""First order, second for the displacement of frictionless contact; less a quarter (front within a cell)."""
 
 
 def tends_to_limit(scheme: str, solutions: Solutions) -> Finding:

@@ -1,10 +1,11 @@
 """Paper 2, table 1: orders of continuity at the contact front, measured.
 
-On each side of the front a polynomial is fitted to the solution (elements of degree 6) over a window, and its
-derivatives are compared at the front: the first whose jump does not vanish is the order. The printed table has
-u, w, lam2 in C^i and lam1, t1, t2 in C^(i-1) with i = 2 (frictionless), 1 (adhesive inflation), 0 (adhesive
-deflation): the first jump is in derivative i + 1, or i. In frictionless contact lam1, t1 and t2 are smoother
-than that: w - lam1 w_1 is constant along the membrane, which makes lam1 a smooth function of lam2.
+On each side of the front a polynomial is fitted to the solution (elements of degree 6) over a window, and
+its derivatives are compared at the front: the first whose jump does not vanish is the order. The printed
+table has u, w, lam2 in C^i and lam1, t1, t2 in C^(i-1) with i = 2 (frictionless), 1 (adhesive inflation), 0
+(adhesive deflation): the first jump is in derivative i + 1, or i. In frictionless contact lam1, t1 and t2
+are smoother than that: w - lam1 w_1 is constant along the membrane, which makes lam1 a smooth function of
+lam2.
 """
 
 import numpy as np
@@ -81,7 +82,7 @@ def continuity(kind: int, solutions: Solutions) -> Finding:
 STATEMENTS = {
     2: "frictionless: the third derivative of u and w is the first to jump, as printed; so is that of lam1, "
     "t1 and t2, where the table prints the second",
-    3: "adhesive inflation: the second derivatives of u and w and the first of lam1, t1 and t2 jump, as printed",
+    3: "adhesive inflation: the second derivatives of u and w and the first of lam1, t1, t2 jump, as printed",
     4: "adhesive deflation: the first derivatives of u and w jump, and lam1, t1, t2 themselves, as printed",
 }
 

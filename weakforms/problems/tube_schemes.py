@@ -6,10 +6,12 @@ Here the contact indicator is ``rho > s`` itself, a conditional in the residual 
 - ``semismooth``: frictionless contact at the last pressure, by pressure steps;
 - ``pressure_steps``: the printed rule: after each converged pressure step every node with ``rho > s`` keeps
   its axial position in all later steps. Nodes that touch within a step move without friction until its end;
-- ``front_nodes``: the pressure is an unknown; each node in turn is made to touch, ``rho(z_i) = s``, and stick.
+- ``front_nodes``: the pressure is an unknown; each node in turn is made to touch, ``rho(z_i) = s``, and
+  stick.
 
-All are of first order or so where the fitted mesh of :mod:`weakforms.problems.tube_contact` is not; they are here
-to show that they tend to the same limit. The history is per node: each rank runs the whole of this small problem.
+All are of first order or so where the fitted mesh of :mod:`weakforms.problems.tube_contact` is not; they
+are here to show that they tend to the same limit. The history is per node: each rank runs the whole of this
+small problem.
 """
 
 from __future__ import annotations
