@@ -19,6 +19,7 @@ from weakforms.verification.case import (
     Panel,
     Points,
     Printed,
+    PrintedExact,
 )
 from weakforms.verification.compare import compare
 from weakforms.verification.references import load as reference
@@ -43,6 +44,7 @@ __all__ = [
     "Panel",
     "Points",
     "Printed",
+    "PrintedExact",
     "Solutions",
     "Spec",
     "WeakformsError",

@@ -4,7 +4,20 @@ Panel (a) neo-Hookean, panel (b) Mooney-Rivlin with alpha = 0.1, each for three 
 point the pressure is no abscissa, so the curves are compared over the displacement.
 """
 
-from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, tube
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    PrintedExact,
+    Solutions,
+    tube,
+)
 
 STRETCHES = (1, 1.5, 2)
 NH = {d: tube(alpha=0, delta1=d) for d in STRETCHES}
@@ -86,6 +99,21 @@ CASE = Case(
             base=tube(alpha=0),
             parameters=("delta1",),
             asked={"p": 1e-8, "u_max": 1e-6},
+        ),
+        PrintedExact(
+            "delta2 for delta1 = 1.5",
+            "0.8164",
+            exact=1.5**-0.5,
+            evidence="uniaxial pre-stretch leaves delta2 = 1/sqrt(delta1) = 0.816497: cut off, not rounded",
+            source="section on results",
+            misprint=True,
+        ),
+        PrintedExact(
+            "delta2 for delta1 = 2",
+            "0.7071",
+            exact=2**-0.5,
+            evidence="delta2 = 1/sqrt(delta1) = 0.707107",
+            source="section on results",
         ),
         Claim(
             "softening",

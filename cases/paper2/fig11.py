@@ -48,8 +48,8 @@ CASE = Case(
     checks=(
         Claim(
             "grows_then_stagnates",
-            "the contact length of the unstretched tube grows fast first and then stagnates; the "
-            "pre-stretched tube's stays smaller; all stay below l_f",
+            "the contact length of the unstretched tube grows fast first and then stagnates; at p = 3 the "
+            "pre-stretched tube's is smaller (near first contact it is the longer one); all stay below l_f",
             tuple(
                 (TUBES[law, (a, 1)], At("p", p)) for _, law, _ in LAWS for a in (0, 0.1) for p in EARLY_LATE
             )

@@ -31,7 +31,8 @@ SPRING = {
     "bilateral": (
         "Spring as in equation (9): it acts on the whole acquired patch, whatever the sign of rho - s."
     ),
-    "unilateral": "The spring acts only where rho > s; the axial position alone stays stuck.",
+    "unilateral": "The spring acts only where rho > s; the axial position alone stays stuck. "
+    "Not tabulated just below p_end, where the strip that has lifted is narrower than a few cells of (a).",
 }
 DEFLATION_NOTES = (
     "Deflation from p_end at the end of adhesive inflation; the patch acquired there does not peel."

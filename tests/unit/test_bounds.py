@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from weakforms.verification.bounds import compare
-from weakforms.verification.judge import rounds_to
+from weakforms.verification.ledger import rounds_to
 
 NAN, INF = float("nan"), float("inf")
 

@@ -298,6 +298,8 @@ def test_contact_table_is_sharp_and_says_what_it_is(path):
     assert {"alpha", "delta1", "lf", "k", "s", "p_end"} <= given.keys()
     for name, column in about["columns"].items():
         bound = 1e-8 if given["contact"] == "frictionless" else LIMITS.get(name, 1e-7)
+        if given.get("spring") == "unilateral" and name in ("traction_max", "t2_min"):
+            bound *= 10  # next to p_end the lifted strip is as narrow as a few finite-difference cells
         assert column["uncertainty"] <= bound, name
     if "Z" in columns:
         assert np.abs(columns["Z"] - given["Z_front"]).min() > 0.02

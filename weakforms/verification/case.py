@@ -146,7 +146,19 @@ class Printed:
     index: int = 0
 
 
-Check = Count | Points | Claim | Constant | Order | Printed
+@dataclass(frozen=True)
+class PrintedExact:
+    """A printed number with a closed form: reproduced to all its digits, or a misprint that this shows."""
+
+    what: str
+    printed: str
+    exact: float
+    evidence: str
+    source: str
+    misprint: bool = False
+
+
+Check = Count | Points | Claim | Constant | Order | Printed | PrintedExact
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from decimal import ROUND_HALF_EVEN, Decimal
 from functools import singledispatch
 
 import numpy as np
@@ -11,7 +10,6 @@ from weakforms.results import SpecialPoint
 from weakforms.verification import references
 from weakforms.verification.bounds import compare
 from weakforms.verification.case import Check, Claim, Constant, Count, Order, Points
-from weakforms.verification.case import Printed as PrintedCheck
 from weakforms.verification.outcome import Convergence, Printed, Verdict
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
@@ -273,60 +271,3 @@ def _error(
         return abs(value - exact[check.row]) / abs(exact[check.row])
     values, _ = solutions.sampled(spec, at, check.column)
     return float(np.max(np.abs(values - exact)) / np.max(np.abs(exact)))
-
-
-@wants.register
-def _(check: PrintedCheck, paper: int) -> list[Wanted]:
-    return [(check.of, None)]
-
-
-@names.register
-def _(check: PrintedCheck, paper: int) -> list[str]:
-    return [f"printed:{check.what}"]
-
-
-@judge.register
-def _(check: PrintedCheck, paper: int, solutions: Solutions) -> Judged:
-    points = solutions.points(check.of, check.kind)
-    (name,) = names(check, paper)
-    if check.index >= len(points):
-        verdict = Verdict(
-            check=name,
-            kind="printed",
-            passed=False,
-            statement=f"{check.what} is printed as {check.printed}",
-            detail=f"there is no such {check.kind}",
-        )
-        return [verdict], [], []
-    point = points[check.index]
-    value, uncertainty = point.values[check.column], point.uncertainty[check.column]
-    reproduced = rounds_to(value, uncertainty, check.printed)
-    evidence = f"computed {value:.10g} with uncertainty {uncertainty:.1e}"
-    entry = Printed(
-        what=check.what,
-        printed=check.printed,
-        computed=value,
-        uncertainty=uncertainty,
-        status="reproduced" if reproduced else "not reproduced",
-        evidence=evidence,
-        source=check.source,
-    )
-    verdict = Verdict(
-        check=name,
-        kind="printed",
-        passed=reproduced,
-        statement=f"{check.what} is printed as {check.printed} ({check.source})",
-        detail=evidence,
-    )
-    return [verdict], [entry], []
-
-
-def rounds_to(value: float, uncertainty: float, printed: str) -> bool:
-    """Whether a number, anywhere within its uncertainty, rounds to all printed digits."""
-    unit = Decimal(printed)
-    if not abs(value) + uncertainty < 1e9:  # nor does anything that is not a number
-        return False
-    return all(
-        Decimal(end).quantize(unit, rounding=ROUND_HALF_EVEN) == unit
-        for end in (value - uncertainty, value + uncertainty)
-    )

@@ -18,7 +18,10 @@ from pathlib import Path
 from weakforms.errors import EnvironmentLackError, InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
 from weakforms.results.io import dumps, require_writable
-from weakforms.verification import curves
+from weakforms.verification import (
+    curves,
+    ledger,  # noqa: F401  (registers its checks)
+)
 from weakforms.verification.curves import curve_wants, draw_panel, judge_curve
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.judge import judge, names, wants
