@@ -451,7 +451,9 @@ def test_status_1(written):
 def test_status_2_and_debug():
     plain, debug = shell("solve", "nope"), shell("solve", "nope", "--debug")
     assert (plain.returncode, plain.stdout) == (2, "")
-    assert plain.stderr == "weakforms: unknown problem 'nope'; the problems are tube, tube_fold, tube_scheme\n"
+    assert (
+        plain.stderr == "weakforms: unknown problem 'nope'; the problems are tube, tube_fold, tube_scheme\n"
+    )
     assert debug.returncode == 2
     assert "Traceback" in debug.stderr
     assert debug.stderr.endswith(plain.stderr)
