@@ -17,6 +17,16 @@ def grows(solutions: Solutions) -> Finding:
     return values == sorted(values), ", ".join(f"{v:.4f}" for v in values)
 
 
+def turns_up(solutions: Solutions) -> Finding:
+    """|f_t| at the front in deflation: where it is smallest."""
+    columns = solutions.branch(BONDED).columns
+    i = int(columns["traction_front"].argmin())
+    p, values = columns["p"], columns["traction_front"]
+    return 0.1 < p[i] < 0.6 and values[-1] > values[i], (
+        f"from {values[0]:.4f} at p = 3 to {values[i]:.4f} at p = {p[i]:.2f}, then {values[-1]:.4f} at p = 0"
+    )
+
+
 def same_order(solutions: Solutions) -> Finding:
     """Max |f_t| over max |f_k| at p = 3."""
     state = At("p", 3.0)
@@ -56,6 +66,12 @@ CASE = Case(
             "|f_t| at the front increases with p in inflation",
             tuple((STICK, At("p", float(p))) for p in UP),
             grows,
+        ),
+        Claim(
+            "turns_up",
+            "in deflation |f_t| at the front decreases with p to about p = 0.3, then turns up slightly",
+            ((BONDED, None),),
+            turns_up,
         ),
         Claim("same_order", "f_t and f_k are of the same order", ((STICK, At("p", 3.0)),), same_order),
         Claim(
