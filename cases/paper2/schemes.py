@@ -37,7 +37,7 @@ def tends_to_limit(scheme: str, solutions: Solutions) -> Finding:
         found = [solutions.result(spec).quantities[name] for spec in RUNS[scheme]]
         errors = np.array([abs(q.value - exact) for q in found])
         slope = -np.polyfit(np.log(CELLS), np.log(errors), 1)[0]
-        within = all(e <= 2 * q.uncertainty + 1e-8 for e, q in list(zip(errors, found, strict=True))[-2:])
+        within = all(e <= 2 * q.uncertainty for e, q in list(zip(errors, found, strict=True))[-2:])
         good &= bool(within) and slope >= least
         rows.append(f"{name}: order {slope:.2f}, errors " + ", ".join(f"{e:.1e}" for e in errors))
     return good, "; ".join(rows)

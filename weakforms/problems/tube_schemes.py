@@ -17,7 +17,7 @@ small problem.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 import basix.ufl
@@ -75,6 +75,8 @@ class FixedMesh:
     radial: np.ndarray
     """Degrees of freedom of ``rho`` this rank owns, from the mid-plane outwards; ``eta`` follows each."""
     parameters: SchemeParameters
+    _held: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    _at: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     @classmethod
     def build(cls, comm: MPI.Intracomm, given: SchemeParameters, cells: int) -> FixedMesh:
@@ -154,10 +156,9 @@ class FixedMesh:
 
     def _hold(self, dofs: np.ndarray, state: State) -> None:
         fresh = np.setdiff1d(dofs, self.system.bc_dofs)
-        held = np.concatenate([self._held, fresh]) if hasattr(self, "_held") else fresh
-        values = np.concatenate([self._at, state.u[fresh]]) if hasattr(self, "_at") else state.u[fresh]
-        self._held, self._at = held, values
-        self.system.hold(held, values)
+        self._held = np.concatenate([self._held, fresh])
+        self._at = np.concatenate([self._at, state.u[fresh]])
+        self.system.hold(self._held, self._at)
 
     def outcome(self, state: State) -> dict[str, float]:
         """``u_max`` and contact length, the front linear between the nodes around it."""
