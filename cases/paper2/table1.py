@@ -10,19 +10,16 @@ lam2.
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, reference, tube
+from weakforms import At, Case, Claim, Finding, Solutions, continuity, reference, tube
 
 FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2")
-WINDOW, NODES, FIT = 0.2, 30, 9
-OFFSETS = WINDOW * (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
+WINDOW = 0.2
 STICK = tube(contact="adhesive", alpha=0.1, delta1=1).on(degree=6)
 KINDS = {
     2: ("frictionless", tube(contact="frictionless", alpha=0.1, delta1=1).on(degree=6), 2.0, "fig06a"),
     3: ("adhesive inflation", STICK, 2.0, "fig06b"),
     4: ("adhesive deflation", STICK.at(phase="deflation", spring="bilateral"), 1.0, "fig06b"),
 }
-VANISHES, JUMPS = 2e-3, 1e-2
-"""Relative jumps below the one are none, above the other are one; in between nothing is measured."""
 
 
 def front(kind: int) -> float:
@@ -34,49 +31,25 @@ def front(kind: int) -> float:
 
 def state(kind: int) -> At:
     """The state with its profile on both sides of the front."""
-    z = front(kind)
-    return At("p", KINDS[kind][2], profile=tuple(sorted([*(z - OFFSETS), *(z + OFFSETS)])))
+    return At("p", KINDS[kind][2], profile=continuity.samples(front(kind), WINDOW))
 
 
-def one_sided(z: np.ndarray, values: np.ndarray, side: int) -> list[tuple[float, float]]:
-    """Value at the front and largest magnitude in the window of derivatives 0 to 3."""
-    inside = (side * z > 0) & (side * z < WINDOW)
-    fit = np.polynomial.Chebyshev.fit(z[inside], values[inside], FIT)
-    grid = side * np.linspace(0, WINDOW / 2, 20)
-    return [
-        (float(d(0.0)), float(np.abs(d(grid)).max())) for d in (fit.deriv(m) if m else fit for m in range(4))
-    ]
-
-
-def measured(kind: int, solutions: Solutions) -> dict[str, tuple[int, list[float]]]:
-    """First derivative that jumps, and the relative jumps, of every field."""
-    at = state(kind)
-    z = np.asarray(at.profile) - front(kind)
-    out = {}
-    for name in FIELDS:
-        values, _ = solutions.sampled(KINDS[kind][1], at, name)
-        sides = [one_sided(z, values, side) for side in (-1, 1)]
-        jumps = [abs(a - b) / max(p, q) for (a, p), (b, q) in zip(*sides, strict=True)]
-        first = next((m for m, jump in enumerate(jumps) if jump > JUMPS), 4)
-        out[name] = (first, jumps)
-    return out
-
-
-def continuity(kind: int, solutions: Solutions) -> Finding:
+def as_measured(kind: int, solutions: Solutions) -> Finding:
     """The measured orders are the reference's, and no jump is in between."""
     table = reference(2, "table1_continuity")
     rows = table.columns["kind"] == kind
     expected = dict(zip(FIELDS, table.columns["first_jump"][rows].astype(int), strict=True))
-    found = measured(kind, solutions)
-    good = all(
-        first == expected[name] and all(jump < VANISHES for jump in jumps[:first])
-        for name, (first, jumps) in found.items()
-    )
-    return good, "; ".join(
-        f"{name}: derivative {first} (jump {jumps[first] if first < 4 else 0:.2g}, below "
-        f"{max(jumps[:first], default=0):.0e})"
-        for name, (first, jumps) in found.items()
-    )
+    at, good, found = state(kind), True, []
+    for name in FIELDS:
+        values, _ = solutions.sampled(KINDS[kind][1], at, name)
+        jumps = continuity.jumps(np.asarray(at.profile) - front(kind), values, WINDOW)
+        first, clear = continuity.first_jump(jumps)
+        good &= clear and first == expected[name]
+        found.append(
+            f"{name}: derivative {first} (jump {jumps[first] if first < 4 else 0:.2g}, below "
+            f"{max(jumps[:first], default=0):.0e})"
+        )
+    return good, "; ".join(found)
 
 
 STATEMENTS = {
@@ -94,7 +67,7 @@ CASE = Case(
             KINDS[kind][0].replace(" ", "_"),
             statement,
             ((KINDS[kind][1], state(kind)),),
-            lambda solutions, kind=kind: continuity(kind, solutions),
+            lambda solutions, kind=kind: as_measured(kind, solutions),
         )
         for kind, statement in STATEMENTS.items()
     ),

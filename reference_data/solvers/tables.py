@@ -93,8 +93,9 @@ def agreed(
     differences: Estimate,
     collocation: Estimate,
     about: tuple[str, str],
+    other: str = "finite differences",
 ) -> Column:
-    """Column of collocation values, once the finite differences are found to agree.
+    """Column of collocation values, once the other method is found to agree.
 
     Raises:
         DisagreementError: Naming table, column and worst row.
@@ -104,7 +105,7 @@ def agreed(
     if not np.all(gap <= room):
         row = int(np.nanargmax(np.where(np.isfinite(gap), gap / room, np.inf)))
         raise DisagreementError(
-            f"table {table}, column {name}, row {row}: finite differences "
+            f"table {table}, column {name}, row {row}: {other} "
             f"{differences.value[row]:.14g}, collocation {collocation.value[row]:.14g}, "
             f"difference {gap[row]:.2e}, combined uncertainty {room[row]:.2e}"
         )
@@ -113,7 +114,7 @@ def agreed(
     extra = {
         "largest_difference_of_methods": round_up(float(gap.max())),
         "uncertainty_collocation": round_up(own),
-        "uncertainty_finite_differences": round_up(float(np.max(differences.uncertainty))),
+        f"uncertainty_{other.replace(' ', '_')}": round_up(float(np.max(differences.uncertainty))),
     }
     order = getattr(differences, "order", None)
     if order is not None and np.isfinite(order).any():
@@ -167,7 +168,8 @@ def toml_text(table: Table, sha256: str) -> str:
     lines += ["", "[parameters]"]
     lines += [f"{key} = {_toml(value)}" for key, value in table.parameters.items()]
     for c in table.columns:
-        lines += ["", f"[columns.{c.name}]"]
+        key = json.dumps(c.name) if "." in c.name else c.name  # a bare dot would nest
+        lines += ["", f"[columns.{key}]"]
         about = {"scaling": c.scaling, "meaning": c.meaning, "uncertainty": c.uncertainty}
         lines += [f"{key} = {_toml(value)}" for key, value in (about | c.extra).items()]
     return "\n".join(lines) + "\n"

@@ -14,6 +14,7 @@ import pytest
 
 from weakforms import api
 from weakforms.errors import ConvergenceError
+from weakforms.problems import registry
 from weakforms.problems import tube as tube_module
 from weakforms.results import load_result, validate
 from weakforms.solvers.continuation import StepControl
@@ -451,9 +452,8 @@ def test_status_1(written):
 def test_status_2_and_debug():
     plain, debug = shell("solve", "nope"), shell("solve", "nope", "--debug")
     assert (plain.returncode, plain.stdout) == (2, "")
-    assert (
-        plain.stderr == "weakforms: unknown problem 'nope'; the problems are tube, tube_fold, tube_scheme\n"
-    )
+    known = ", ".join(registry.problems)
+    assert plain.stderr == f"weakforms: unknown problem 'nope'; the problems are {known}\n"
     assert debug.returncode == 2
     assert "Traceback" in debug.stderr
     assert debug.stderr.endswith(plain.stderr)

@@ -30,6 +30,7 @@ MAY = {
         "numpy",
         "scipy",
         "pydantic",
+        "gmsh",
         "weakforms.problems",
         "weakforms.forms",
         "weakforms.solvers",

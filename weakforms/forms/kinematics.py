@@ -45,3 +45,34 @@ def tube_stretches(rho: Expr, eta: Expr, delta1: Expr, jacobian: Expr | float = 
         cos_beta=eta.dx(0) / arc,
         sin_beta=rho.dx(0) / arc,
     )
+
+
+class Slope:
+    """Stands for a function of which only the derivative enters a form."""
+
+    def __init__(self, slope: Expr) -> None:
+        self._slope = slope
+
+    def dx(self, _direction: int) -> Expr:
+        """The derivative."""
+        return self._slope
+
+
+def disk_stretches(x: Expr, lam2: Expr, lam2_slope: Expr, eta_slope: Expr) -> Stretches:
+    r"""Stretches of a flat disk deformed into a surface of revolution, with ``lam2`` for an unknown.
+
+    .. math:: \rho = x\lambda_2, \qquad \rho' = \lambda_2 + x\lambda_2', \qquad
+              \lambda_1 = \sqrt{\rho'^2 + \eta'^2}
+
+    With the circumferential stretch in place of the radius nothing is divided by ``x``: the pole is a
+    point like any other (Patil, DasGupta & Eriksson 2015, section 2, use the same variable).
+
+    Args:
+        x: Radius in the unstretched disk.
+        lam2: Circumferential stretch over ``x``.
+        lam2_slope: Its derivative in ``x``.
+        eta_slope: Derivative of the deformed height in ``x``.
+    """
+    radial = lam2 + x * lam2_slope
+    lam1 = sqrt(radial**2 + eta_slope**2)
+    return Stretches(lam1=lam1, lam2=lam2, cos_beta=-eta_slope / lam1, sin_beta=radial / lam1)

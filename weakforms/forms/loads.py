@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from ufl import conditional
+from ufl.conditional import Condition
 from ufl.core.expr import Expr
 
 
@@ -35,3 +37,43 @@ def substrate_potential(rho: Expr, eta: Expr, k: Expr, s: Expr, in_contact: Expr
         in_contact: Indicator of contact, held fixed when the potential is differentiated.
     """
     return k * in_contact * rho * (rho - s) ** 2 * eta.dx(0) / 2
+
+
+def bed_potential(rho: Expr, rho_slope: Expr, gap: Expr, k: Expr, in_contact: Expr) -> Expr:
+    r"""Bed of springs on a plane across the axis, per ``2 pi`` and per meridian coordinate.
+
+    .. math:: \int \tfrac k2\, \chi\, g^2 \rho\, \rho' \,\mathrm{d}x
+
+    The weight is the *projected* area, so the springs act as a pressure ``-k g`` normal to the deformed
+    membrane (Patil, DasGupta & Eriksson 2015, equation 9).
+
+    Args:
+        rho: Deformed radius.
+        rho_slope: Its derivative.
+        gap: Depth ``g`` beyond the plane; negative where the springs pull.
+        k: Stiffness ``K R_f^2/(C1 h)``.
+        in_contact: Indicator of contact, held fixed when the potential is differentiated.
+    """
+    return k * in_contact * gap**2 * rho * rho_slope / 2
+
+
+def liquid_potential(rho: Expr, rho_slope: Expr, z: Expr, level: Expr, gamma: Expr, wet: Condition) -> Expr:
+    r"""Liquid of a given level inside a surface of revolution, per ``2 pi`` and per meridian coordinate.
+
+    .. math:: -\int \Phi(z)\, \rho\, \rho' \,\mathrm{d}S, \qquad
+              \Phi = \tfrac12 \gamma \max(z_w - z, 0)^2
+
+    Up to a constant (the ends being held, or on the axis) this is
+    :math:`-\int \gamma\max(z_w - z, 0)\,\tfrac12\rho^2 z'\,\mathrm{d}S`, by parts. It has two derivatives in
+    ``z`` but for a step, so differentiating it twice loses nothing.
+
+    Args:
+        rho: Deformed radius.
+        rho_slope: Its derivative along the meridian.
+        z: Deformed height.
+        level: Level ``z_w`` of the liquid.
+        gamma: Specific weight.
+        wet: Where ``z < z_w``, held fixed when the potential is differentiated.
+    """
+    head = conditional(wet, gamma * (level - z) ** 2 / 2, 0.0)
+    return -head * rho * rho_slope

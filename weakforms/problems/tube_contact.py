@@ -21,7 +21,7 @@ from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
-from weakforms.forms.kinematics import tube_stretches
+from weakforms.forms.kinematics import Slope, tube_stretches
 from weakforms.forms.loads import enclosed_volume, gas_potential, substrate_potential
 from weakforms.forms.materials import mooney_rivlin, stress_resultants
 from weakforms.problems.meshes import tag_points
@@ -151,7 +151,7 @@ class ContactModel:
         eta, eta_x = self.axial_position()
         p, k, delta1 = (self.loads[name][1] for name in ("p", "k", "delta1"))
         jacobian = self._jacobian()
-        axial = _Slope(eta_x)
+        axial = Slope(eta_x)
         stretches = tube_stretches(rho, axial, delta1, jacobian)
         contact = self._in_patch(1.0, 0.0)
         if data.unilateral:
@@ -252,17 +252,6 @@ class ContactModel:
             fem.dirichletbc(np.array([1.0, self.half]), disk, space),
             fem.dirichletbc(np.array(0.0), dofs, axial),
         ]
-
-
-class _Slope:
-    """Stands for a function of which only the derivative enters."""
-
-    def __init__(self, slope: Expr) -> None:
-        self._slope = slope
-
-    def dx(self, _direction: int) -> Expr:
-        """The derivative."""
-        return self._slope
 
 
 def chebyshev(m: int, t: Expr | float) -> Expr | float:

@@ -2,33 +2,20 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import ClassVar, Literal
 
 import numpy as np
 from mpi4py import MPI
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.base import (
-    Numerics,
-    Parameters,
-    Progress,
-    Requests,
-    StateRequest,
-    check_requests,
-    registry,
-    sample_points,
-    silent,
-)
+from weakforms.errors import InputError
+from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry
+from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.problems.tube import TubeMesh, fold_line, formulation, free_branch
 from weakforms.problems.tube_contact_solve import contact_family
-from weakforms.results import Failure, Result, State
 from weakforms.solvers.branch import EquilibriumBranch, SolutionCurve
 from weakforms.solvers.family import BranchFamily
-from weakforms.solvers.pieces import PiecewiseFamily
-from weakforms.solvers.provenance import provenance
 from weakforms.solvers.system import System
 
 SOURCE = "Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282"
@@ -90,26 +77,10 @@ CONTACT_COLUMNS = ("Z_front", "contact_length", "lam2_mid", "kappa", *DERIVED_CO
 """Columns of constrained inflation only."""
 
 
-class TubeNumerics(Numerics):
+class TubeNumerics(MeshNumerics):
     """Meshes of the tube: ``cells`` on the half length of the finest, halved for each coarser level."""
 
-    degree: int = Field(4, ge=1, le=6, description="polynomial degree of rho and eta")
-    cells: int = Field(96, ge=8, le=20_000, description="cells on half the length, finest mesh")
-    levels: int = Field(3, ge=2, le=4, description="meshes, each twice as fine as the one before")
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
-    step: float = Field(0.08, ge=0.01, le=0.5, description="largest arc-length step")
-
-    @model_validator(mode="after")
-    def _nested(self) -> TubeNumerics:
-        coarsest = 2 ** (self.levels - 1)
-        if self.cells % coarsest:
-            raise ValueError(f"cells must be a multiple of {coarsest} for {self.levels} levels")
-        return self
-
-    @property
-    def meshes(self) -> list[int]:
-        """Cells of each mesh, coarse to fine."""
-        return [self.cells // 2**k for k in reversed(range(self.levels))]
 
 
 class TubeParameters(Parameters):
@@ -128,7 +99,7 @@ class TubeParameters(Parameters):
     extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
 
 
-class Tube:
+class Tube(PathProblem):
     """Inflation of a pre-stretched cylindrical membrane (contact law ``none``)."""
 
     name: ClassVar[str] = "tube"
@@ -175,42 +146,26 @@ class Tube:
         if parameters.contact != "none" and parameters.extent != "half":
             raise InputError("tube: contact is solved on the half tube; allowed: extent = 'half'")
 
-    def solve(
+    def families(
         self,
         parameters: TubeParameters,
         numerics: TubeNumerics,
-        requests: Requests,
+        _requests: Requests,
         comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
-        """Trace the branch on all meshes, locate its limit points, solve for the states wanted."""
-        begun = time.perf_counter()
-        if parameters.contact == "none":
-            make = branch_maker(parameters, numerics, comm, progress)
-            family = BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"))
-        else:
-            family = contact_family(parameters, numerics, comm, progress)
-        half = parameters.lf / 2
-        first = -half if parameters.extent == "full" else 0.0
-        default = np.linspace(first, half, 61)
-        result = self._result(parameters, numerics)
-        answer(result, family, requests, default, progress)
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
+        progress: Progress,
+    ) -> dict[str, Family]:
+        """The branch on all meshes: free, or in contact."""
+        if parameters.contact != "none":
+            return {"primary": contact_family(parameters, numerics, comm, progress)}
+        make = branch_maker(parameters, numerics, comm, progress)
+        return {
+            "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max")),
+        }
 
-    def _result(self, parameters: TubeParameters, numerics: TubeNumerics) -> Result:
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={
-                **numerics.model_dump(),
-                "meshes": numerics.meshes,
-                "quadrature_degree": 2 * numerics.degree + 2,
-                "stopping": "relative Newton step 1e-10, residual norm below 1e-8",
-            },
-            provenance={},
-        )
+    def points(self, parameters: TubeParameters) -> np.ndarray:
+        """61 points over the body."""
+        half = parameters.lf / 2
+        return np.linspace(-half if parameters.extent == "full" else 0.0, half, 61)
 
 
 def branch_maker(
@@ -232,35 +187,6 @@ def branch_maker(
     return make
 
 
-def answer(
-    result: Result,
-    family: BranchFamily | PiecewiseFamily,
-    requests: Requests,
-    default_points: np.ndarray,
-    progress: Progress,
-) -> None:
-    """Put branch, special points and the states wanted into a result; what fails is listed there."""
-    if requests.branch_uncertainty:
-        progress("uncertainty of the branch", 0, 1)
-    result.branches.append(family.branch(requests.branch_uncertainty))
-    try:
-        result.special_points.extend(family.special_points())
-    except ConvergenceError as error:
-        result.failures.append(Failure("special points", str(error)))
-    for i, wanted in enumerate(requests.states):
-        progress("states", i, len(requests.states))
-        try:
-            result.states.append(_state(family, wanted, default_points))
-        except ConvergenceError as error:
-            result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
-    result.failures.extend(family.failures)
-
-
-def _state(family: BranchFamily | PiecewiseFamily, wanted: StateRequest, default_points: np.ndarray) -> State:
-    points = sample_points(wanted.profile, default_points)
-    return family.state(wanted.name, wanted.value, wanted.crossing, points)
-
-
 class TubeFoldParameters(Parameters):
     """Free tube whose limit points are followed in the pre-stretch."""
 
@@ -270,7 +196,7 @@ class TubeFoldParameters(Parameters):
     u_end: float = Field(5.0, gt=0.05, le=10, description="u_max up to which a first fold is looked for")
 
 
-class TubeFold:
+class TubeFold(PathProblem):
     """Limit points of free inflation over the pre-stretch, through the cusp in which they merge."""
 
     name: ClassVar[str] = "tube_fold"
@@ -290,16 +216,15 @@ class TubeFold:
         """Refuse states nobody could solve for."""
         check_requests(self, requests)
 
-    def solve(
+    def families(
         self,
         parameters: TubeFoldParameters,
         numerics: TubeNumerics,
-        requests: Requests,
+        _requests: Requests,
         comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
-        """Locate the first limit point at ``delta1 = 1`` and follow it on all meshes."""
-        begun = time.perf_counter()
+        progress: Progress,
+    ) -> dict[str, Family]:
+        """The first limit point at ``delta1 = 1``, followed on all meshes."""
         tube = TubeParameters(alpha=parameters.alpha, lf=parameters.lf, u_end=parameters.u_end)
         branch = branch_maker(tube, numerics, comm, progress)
 
@@ -312,11 +237,13 @@ class TubeFold:
                 )
             return fold_line(equilibria, parameters.delta1_end, numerics.step)
 
-        family = BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("delta1", "u_max"))
-        result = Tube._result(self, parameters, numerics)
-        answer(result, family, requests, np.linspace(0, parameters.lf / 2, 61), progress)
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
+        return {
+            "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("delta1", "u_max"))
+        }
+
+    def points(self, parameters: TubeFoldParameters) -> np.ndarray:
+        """61 points from the mid-plane to the disk."""
+        return np.linspace(0, parameters.lf / 2, 61)
 
 
 registry.add(Tube())

@@ -98,7 +98,7 @@ class SpecialPoint:
     """A point solved for by an extended system, never read off a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
-    stability_change, pull_off.
+    stability_change, pull_off, zone_opening, zone_closing.
     """
 
     kind: str

@@ -101,17 +101,22 @@ class SolutionCurve:
         """
         hits = self.crossings(name, value)
         if len(hits) < crossing:
-            column = self.columns()[name]
+            column = self._over_points(name)
             raise InputError(
                 f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
                 f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
             )
-        distance = self.columns()[name] - value
         i = int(hits[crossing - 1])
-        span = distance[i] - distance[i + 1]
-        solved = self._solve(self._between(i, distance[i] / span), Held(name, value))
+        solved = self._solve(self._between(i, self._fraction(i, name, value)), Held(name, value))
         self._require_within(i, solved, f"state at {name} = {value:g}")
         return solved
+
+    def _fraction(self, i: int, name: str, value: float) -> float:
+        """Where between two neighbours a column has a value; a load by its own cubic, next to a turn too."""
+        if name in self.loads:
+            return float(brentq(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0))
+        before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
+        return before / (before - after)
 
     def crossings(self, name: str, value: float) -> np.ndarray:
         """Indices of the points after which a column passes a value.
@@ -122,7 +127,7 @@ class SolutionCurve:
         if name not in (*self.loads, *self.system.formulation.monitors):
             known = ", ".join((*self.loads, *self.system.formulation.monitors))
             raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
-        distance = self.columns()[name] - value
+        distance = self._over_points(name) - value
         # A point that has the value exactly counts with the interval before it.
         hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
         return np.concatenate([[0], hits]) if distance[0] == 0 else hits
@@ -146,6 +151,9 @@ class SolutionCurve:
         span = places[i + 1] - places[i]
         guess = self._between(i, (target - places[i]) / span if span else 0.5)
         return self._solve(guess, MonitorPlane(rates, target))
+
+    def _over_points(self, name: str) -> np.ndarray:
+        return np.array([self._column(point, name) for point in self.points])
 
     def _column(self, point: CurvePoint, name: str) -> float:
         return point.state.loads[name] if name in self.loads else point.monitors[name]
@@ -197,12 +205,21 @@ class SolutionCurve:
 
     def end_at(self, name: str, value: float) -> None:
         """Replace the last point by the one at which a column has a value, reached just before it."""
-        solved = self.at(name, value)
+        solved = self.at(name, value, len(self.crossings(name, value)))
         before, last = self.points[-2:]
         length = self.continuation.distance(solved.state, before.state)
         self.points[-1] = self.continuation.point(
             solved.state, last.record, before.tangent, before.arclength + length
         )
+
+    def extend_to(self, load: str, value: float) -> None:
+        """One more point at the end, at a value of a load that is near enough for a linear guess."""
+        last, continuation = self.points[-1], self.continuation
+        step = (value - last.state.loads[load]) / last.tangent.loads[load]
+        guess = continuation.predict(None, last, step)
+        state, record = self.solver.solve(guess, [*continuation.fixed, Held(load, value)])
+        length = continuation.distance(state, last.state)
+        self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
 
     def turns(self) -> np.ndarray:
         """Indices of the points after which the control changes direction."""

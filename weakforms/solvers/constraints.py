@@ -47,7 +47,7 @@ class Held:
         system = solver.system
         if self._is_load(solver):
             return np.zeros(system.size), {self.name: 1.0}
-        return system.monitor_gradient(self.name)
+        return system.monitor_gradient(self.name, solver.scalars)
 
     def _is_load(self, solver: ExtendedNewton) -> bool:
         return self.name in solver.system.load_names

@@ -59,6 +59,7 @@ class Continuation:
         control: Step lengths.
         shift: Inertia is counted of ``K + shift M``: on a fold line, where ``K`` is singular by definition,
             a small shift leaves the critical eigenvalue out of the count.
+        allowed: True of states that make sense; a step that leads to another is repeated shorter.
     """
 
     def __init__(
@@ -67,8 +68,10 @@ class Continuation:
         fixed: Sequence[Constraint] = (),
         control: StepControl | None = None,
         shift: float = 0.0,
+        allowed: Callable[[State], bool] = lambda _: True,
     ) -> None:
         self.solver, self.system = solver, solver.system
+        self.allowed = allowed
         self.shift = shift
         self.fixed = tuple(fixed)
         self.control = control or StepControl()
@@ -185,6 +188,8 @@ class Continuation:
         guess = self.predict(before, at, step)
         plane = self.plane(at.state, at.tangent, step)
         state, record = self.solver.solve(guess, [*self.fixed, plane], chord=not self.fixed)
+        if not self.allowed(state):
+            raise ConvergenceError("the step leads out of the range of the problem")
         chord = self.distance(state, at.state)
         new = self.point(state, record, at.tangent, at.arclength + chord)
         if self._inner(new.tangent, at.tangent) < self.control.max_turn:

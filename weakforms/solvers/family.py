@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from weakforms.solvers.refinement import Estimate, estimate
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.stability import Stability
 
-KINDS = ("limit_point", "bifurcation_point", "cusp_point")
+KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
 """Special points located on a curve; a state can be asked for at one."""
 
 CRITICAL = 1e-6
@@ -29,8 +29,9 @@ class BranchFamily:
     Args:
         make: Builds the branch on the mesh of a level.
         levels: Number of meshes, at least two.
-        cap: Highest order of convergence to reckon with.
+        cap: Highest order of convergence to reckon with ...
         across: Columns that span the plane in which branches of two meshes are compared.
+        caps: ... and for some columns a lower one (one-sided traces of derivatives).
         name: Name of the branch.
     """
 
@@ -41,7 +42,9 @@ class BranchFamily:
         cap: float,
         across: tuple[str, ...],
         name: str = "primary",
+        caps: Mapping[str, float] | None = None,
     ) -> None:
+        self.caps = dict(caps or {})
         self.levels = [make(level) for level in range(levels)]
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
@@ -85,7 +88,8 @@ class BranchFamily:
         if not kept:
             raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
         table = np.array(errors)  # (points, levels, columns)
-        found = estimate([table[:, k] for k in range(table.shape[1])], self.cap)
+        caps = np.array([self.caps.get(n, self.cap) for n in names])
+        found = estimate([table[:, k] for k in range(table.shape[1])], caps)
         wide = _widen(found.uncertainty)
         return Branch(
             self.name,
@@ -103,7 +107,7 @@ class BranchFamily:
             ConvergenceError: When it does.
         """
         return [
-            special_point(same, self.fine.shown, self.cap, self.name, self.fine.control)
+            special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, self.caps)
             for same in self._special()
         ]
 
@@ -137,7 +141,7 @@ class BranchFamily:
             solved = points[int(value) - 1]
         else:
             solved = [level.at(name, value, crossing) for level in self.levels]
-        quantities = {k: self._quantity([s.values[k] for s in solved]) for k in self.fine.shown}
+        quantities = {k: self._quantity([s.values[k] for s in solved], k) for k in self.fine.shown}
         quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)
@@ -166,10 +170,11 @@ class BranchFamily:
             locate = level.system.formulation.locate
             places = points if locate is None else locate(points, s.state.loads)
             samples.append(self._sampler(k, places)())
-        columns: dict[str, np.ndarray] = {"Z": points}
-        uncertainty = {"Z": 0.0}
+        abscissa = self.fine.system.formulation.abscissa
+        columns: dict[str, np.ndarray] = {abscissa: points}
+        uncertainty = {abscissa: 0.0}
         for name in samples[-1]:
-            found = estimate([sample[name] for sample in samples], self.cap)
+            found = estimate([sample[name] for sample in samples], self.caps.get(name, self.cap))
             columns[name] = found.value
             uncertainty[name] = float(found.uncertainty.max())
         return Field("profile", columns, uncertainty)
@@ -184,20 +189,23 @@ class BranchFamily:
 
     # -- estimates ---------------------------------------------------------------------------
 
-    def _estimate(self, values: list[float]) -> Estimate:
-        return estimate(values, self.cap)
-
-    def _quantity(self, values: list[float]) -> Quantity:
-        found = self._estimate(values)
+    def _quantity(self, values: list[float], name: str = "") -> Quantity:
+        found = estimate(values, self.caps.get(name, self.cap))
         order = float(found.order)
         return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
 
 
 def special_point(
-    same: Sequence[Solved], shown: Sequence[str], cap: float, branch: str, control: str
+    same: Sequence[Solved],
+    shown: Sequence[str],
+    cap: float,
+    branch: str,
+    control: str,
+    caps: Mapping[str, float] | None = None,
 ) -> SpecialPoint:
     """A special point located on several meshes, coarse to fine, with its uncertainties."""
-    values = {k: estimate([s.values[k] for s in same], cap) for k in shown}
+    lower = caps or {}
+    values = {k: estimate([s.values[k] for s in same], lower.get(k, cap)) for k in shown}
     return SpecialPoint(
         same[-1].kind,
         branch,

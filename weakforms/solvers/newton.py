@@ -75,6 +75,8 @@ class ExtendedNewton:
         self.factor = Factorization(system, prefix + "factor_")
         self.constraints: Sequence[Constraint] = ()
         self.bordered: BorderedMatrix | None = None
+        self.failure = ""
+        """Why the last linear system could not be solved, if so."""
         self._size = system.size
         self._chord = False
         self._root = system.comm.size - 1
@@ -182,7 +184,8 @@ class ExtendedNewton:
         self._norms.clear()
         system.set_state(guess.u, guess.loads)
         self._join(self._x, guess.u, np.array([guess.loads[name] for name in self.scalars]))
-        self._chord = chord
+        self._chord, self.failure = chord, ""
+        self._snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
         try:
             self._snes.solve(None, self._x)
         except PETSc.Error as error:
@@ -195,6 +198,8 @@ class ExtendedNewton:
             self.factor.count - before,
             tuple(self._norms),
         )
+        if self.failure:
+            raise ConvergenceError(f"SNES ended with {record.reason}: {self.failure}")
         if reason <= 0 or not record.norms[-1] < RESIDUAL_LIMIT:
             raise ConvergenceError(
                 f"SNES ended with {record.reason} after {record.iterations} iterations, "
@@ -222,11 +227,16 @@ class _BorderedSolve:
     def __init__(self, newton: ExtendedNewton) -> None:
         self._newton = newton
 
-    def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
-        """``out = J⁻¹ rhs``."""
+    def apply(self, pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
+        """``out = J⁻¹ rhs``; a failure is noted for SNES to end with: nothing may be raised through PETSc."""
         newton = self._newton
         f, g = newton._split(rhs)
-        newton._join(out, *newton.bordered.solve(f, g))
+        try:
+            newton._join(out, *newton.bordered.solve(f, g))
+        except ConvergenceError as error:
+            newton.failure = str(error)
+            out.set(0.0)
+            pc.setFailedReason(PETSc.PC.FailedReason.SUBPC_ERROR)
 
 
 def _innermost(error: BaseException) -> str:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from weakforms.errors import InputError
-from weakforms.results import Branch, Failure, SpecialPoint, State
+from weakforms.results import Branch, Failure, Quantity, SpecialPoint, State
 from weakforms.solvers.family import KINDS, BranchFamily
 
 
@@ -62,7 +62,7 @@ class PiecewiseFamily:
         joints = list(self._joints())
         points: list[SpecialPoint] = []
         for i, piece in enumerate(self.pieces):
-            points.extend(piece.family.special_points())
+            points.extend(_point_with_fixed(p, piece.fixed) for p in piece.family.special_points())
             points.extend(joints[i : i + 1])
         return points
 
@@ -78,7 +78,7 @@ class PiecewiseFamily:
             if name in KINDS:
                 here = sum(point.kind == name for point in family.special_points())
                 if value <= here:
-                    return family.state(name, value, 1, profile)
+                    return _with_fixed(family.state(name, value, 1, profile), piece.fixed, crossing)
                 value -= here
                 continue
             if name in piece.fixed:
@@ -87,11 +87,23 @@ class PiecewiseFamily:
             ranges += [columns.min(), columns.max()]
             here = len(family.fine.crossings(name, value))
             if left <= here:
-                return _as_asked(family.state(name, value, left, profile), crossing)
+                return _with_fixed(family.state(name, value, left, profile), piece.fixed, crossing)
             left -= here
         where = f"; {name} ranges over [{min(ranges):.6g}, {max(ranges):.6g}]" if ranges else ""
         raise InputError(f"{name} = {value:g} is not met {crossing} times on this branch{where}")
 
 
-def _as_asked(state: State, crossing: int) -> State:
-    return State(state.at, state.branch, state.quantities, state.fields, crossing)
+def _with_fixed(state: State, fixed: Mapping[str, float], crossing: int) -> State:
+    """A piece's state with the columns it has fixed values for; one that has none there is left out."""
+    quantities = {name: value for name, value in state.quantities.items() if name not in fixed}
+    quantities |= {name: Quantity(value, 0.0) for name, value in fixed.items() if not np.isnan(value)}
+    return State(state.at, state.branch, quantities, state.fields, crossing)
+
+
+def _point_with_fixed(point: SpecialPoint, fixed: Mapping[str, float]) -> SpecialPoint:
+    """A piece's special point without the columns that it has fixed values for."""
+    values, spread, orders = (
+        {name: value for name, value in of.items() if name not in fixed}
+        for of in (point.values, point.uncertainty, point.orders)
+    )
+    return replace(point, values=values, uncertainty=spread, orders=orders)

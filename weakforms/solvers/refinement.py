@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -25,7 +26,7 @@ class Estimate:
     order: np.ndarray
 
 
-def estimate(levels: list[np.ndarray | float], cap: float) -> Estimate:
+def estimate(levels: list[np.ndarray | float], cap: float | np.ndarray) -> Estimate:
     r"""Grid convergence estimate from values on meshes of widths ``h``, ``h/2``, ``h/4``...
 
     With the last differences :math:`d_1, d_2`, the observed order is :math:`q = \log_2 |d_1/d_2|`, kept
@@ -38,7 +39,8 @@ def estimate(levels: list[np.ndarray | float], cap: float) -> Estimate:
 
     Args:
         levels: Values from coarse to fine, scalars or arrays of one shape; two or more.
-        cap: Highest order the method can have (twice the degree for energies and limit loads).
+        cap: Highest order the method can have (twice the degree for energies and limit loads, the degree for
+            derivatives at a point); one number or one a value.
 
     Raises:
         ValueError: With fewer than two meshes: one mesh has no uncertainty.
@@ -59,3 +61,19 @@ def estimate(levels: list[np.ndarray | float], cap: float) -> Estimate:
     left = np.maximum(last, first / 2.0**cap)
     observed = np.where(last > floor, order, np.nan)
     return Estimate(fine, safety * left / (2.0**used - 1.0) + floor, observed)
+
+
+def estimate_in_norm(levels: list[np.ndarray], cap: float) -> float:
+    r"""One uncertainty for a whole field: :func:`estimate` with differences in the maximum norm.
+
+    Point by point differences of two meshes oscillate within cells and pass through zero anywhere, so that
+    orders observed there mean little; those of the norms do not.
+
+    Args:
+        levels: Values at the same points from coarse to fine; two or more.
+        cap: Highest order the method can have.
+    """
+    values = [np.asarray(level, dtype=float) for level in levels]
+    steps = [float(np.max(np.abs(b - a))) for a, b in pairwise(values)]
+    like = [sum(steps[k:]) for k in range(len(values))]  # scalars with these differences, 0 on the finest
+    return float(estimate(like, cap).uncertainty)

@@ -9,6 +9,9 @@ import ufl
 from dolfinx import fem, geometry
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
+from numpy.polynomial import Polynomial
+from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import brentq
 from ufl.core.expr import Expr
 
 from weakforms.solvers import compat
@@ -43,8 +46,62 @@ class Interpolant:
         return self.function.x.array.reshape(-1, self._columns)[: self._owned]
 
 
+class FirstLevels:
+    """Where along a one-dimensional body expressions first reach a level in magnitude.
+
+    Args:
+        unknown: The function the expressions depend on.
+        coordinate: Material coordinate.
+        levels: Expression and level of each name.
+    """
+
+    def __init__(
+        self, unknown: fem.Function, coordinate: Expr, levels: Mapping[str, tuple[Expr, float]]
+    ) -> None:
+        self._levels = {name: level for name, (_, level) in levels.items()}
+        columns = {"": coordinate, **{name: expression for name, (expression, _) in levels.items()}}
+        self._interpolant = Interpolant(unknown, columns)
+        space = unknown.function_space
+        self._comm = space.mesh.comm
+        self._cells = space.mesh.topology.index_map(1).size_local
+
+    def __call__(self) -> dict[str, float]:
+        """The smallest such coordinate; the body's end where a level is never reached."""
+        dofs = self._interpolant.function.function_space.dofmap.list[: self._cells]
+        nodes = self._interpolant.values()[dofs]
+        order = np.argsort(nodes[:, :, 0], axis=1)[:, :, None]
+        nodes = np.take_along_axis(nodes, order, axis=1)
+        local = [_first(nodes[:, :, 0], nodes[:, :, i], v) for i, v in enumerate(self._levels.values(), 1)]
+        end = nodes[:, :, 0].max(initial=-np.inf)
+        gathered = np.array(self._comm.allgather([*local, end]))
+        found = np.minimum(gathered[:, :-1].min(axis=0), gathered[:, -1].max())
+        return dict(zip(self._levels, found.tolist(), strict=True))
+
+
+def _first(x: np.ndarray, values: np.ndarray, level: float) -> float:
+    """Smallest ``x`` with ``|value| = level`` by the cells' polynomials; infinite if there is none.
+
+    Args:
+        x: Nodes, ascending in each row (a cell).
+        values: Values there.
+        level: Positive.
+    """
+    beyond = np.abs(values) >= level
+    if not beyond.any():
+        return np.inf
+    cell = min(np.flatnonzero(beyond.any(axis=1)), key=lambda c: x[c, beyond[c].argmax()])
+    node = int(beyond[cell].argmax())
+    if node == 0:
+        return float(x[cell, 0])
+    polynomial, sign = BarycentricInterpolator(x[cell], values[cell]), np.sign(values[cell, node])
+    root = brentq(
+        lambda at: sign * float(polynomial(at)) - level, x[cell, node - 1], x[cell, node], xtol=1e-15
+    )
+    return float(root)
+
+
 class Sampler:
-    """Evaluates expressions of an unknown at points along a one-dimensional mesh.
+    """Evaluates expressions of an unknown at points of a mesh.
 
     The expressions are interpolated element by element in polynomials of one degree more than the
     unknown's, then evaluated: what that adds is smaller than the discretisation error of a derivative. A
@@ -53,7 +110,7 @@ class Sampler:
     Args:
         unknown: The function the expressions depend on; evaluated as it stands at each call.
         expressions: Name and expression of each column.
-        points: Coordinates, shape ``(n,)``.
+        points: Coordinates, shape ``(n,)`` or, on a mesh of ``d`` coordinates, ``(n, d)``.
     """
 
     def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], points: np.ndarray) -> None:
@@ -61,8 +118,9 @@ class Sampler:
         self._interpolant = Interpolant(unknown, expressions)
         space = unknown.function_space
         self._comm = space.mesh.comm
+        given = np.asarray(points, dtype=float).reshape(len(points), -1)
         self._points = np.zeros((len(points), 3))
-        self._points[:, 0] = points
+        self._points[:, : given.shape[1]] = given
         self._index, self._cells = self._locate(space.mesh)
         count = np.bincount(self._index, minlength=len(points))
         self._count = self._comm.allreduce(count, op=MPI.SUM)
@@ -88,3 +146,58 @@ class Sampler:
             np.add.at(values, self._index, found.reshape(len(self._index), -1))
         values = self._comm.allreduce(values, op=MPI.SUM) / self._count[:, None]
         return dict(zip(self.names, values.T, strict=True))
+
+
+class Probe:
+    """Expressions of an unknown at one point along a one-dimensional mesh, located anew at each call.
+
+    Args:
+        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        expressions: Name and expression of each column.
+    """
+
+    def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr]) -> None:
+        self.names = tuple(expressions)
+        self._interpolant = Interpolant(unknown, expressions)
+        self._mesh = unknown.function_space.mesh
+        self._tree = geometry.bb_tree(self._mesh, self._mesh.topology.dim, padding=1e-10)
+        self._owned = self._mesh.topology.index_map(self._mesh.topology.dim).size_local
+
+    def __call__(self, x: float) -> dict[str, float]:
+        """One number a column; between two cells the mean of both."""
+        point = np.array([[x, 0.0, 0.0]])
+        candidates = geometry.compute_collisions_points(self._tree, point)
+        found = geometry.compute_colliding_cells(self._mesh, candidates, point).links(0)
+        cells = found[found < self._owned].astype(np.int32)
+        self._interpolant.update()
+        total = np.zeros(len(self.names) + 1)
+        if len(cells):
+            values = self._interpolant.function.eval(np.repeat(point, len(cells), axis=0), cells)
+            total[:-1] = values.reshape(len(cells), -1).sum(axis=0)
+            total[-1] = len(cells)
+        total = self._mesh.comm.allreduce(total, op=MPI.SUM)
+        return dict(zip(self.names, (total[:-1] / total[-1]).tolist(), strict=True))
+
+
+class Peak:
+    """Largest value of one component of a function along a one-dimensional mesh, by its polynomials."""
+
+    def __init__(self, function: fem.Function, component: int) -> None:
+        space = function.function_space
+        self._function, self._block, self._component = function, space.dofmap.index_map_bs, component
+        self._comm = space.mesh.comm
+        self._cells = space.dofmap.list[: space.mesh.topology.index_map(1).size_local]
+        nodes = space.tabulate_dof_coordinates()[:, 0][self._cells]
+        middle, half = nodes.mean(axis=1, keepdims=True), np.ptp(nodes, axis=1, keepdims=True) / 2
+        self._at = (nodes - middle) / half
+
+    def __call__(self) -> float:
+        """The largest value; the cells that hold the largest nodal ones are searched."""
+        values = self._function.x.array[self._block * self._cells + self._component]
+        largest = float(values.max(initial=-np.inf))
+        for cell in np.argsort(values.max(axis=1, initial=-np.inf))[-3:]:
+            polynomial = Polynomial.fit(self._at[cell], values[cell], values.shape[1] - 1, domain=[-1, 1])
+            roots = polynomial.deriv().roots()
+            inside = roots[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) <= 1)].real
+            largest = max(largest, *polynomial(inside).tolist(), largest)
+        return self._comm.allreduce(largest, op=MPI.MAX)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,8 +10,11 @@ from petsc4py import PETSc
 from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.linear import Factorization
+from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.system import State, System
+
+LOWEST = -1e6
+"""Eigenvalue below which none is looked for."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,14 @@ class Spectrum:
 
     eigenvalues: tuple[float, ...]
     n_negative: int
+
+
+@dataclass(frozen=True)
+class Mode:
+    """An eigenvalue and its eigenvector, of unit length in the mass norm."""
+
+    eigenvalue: float
+    vector: np.ndarray
 
 
 class Stability:
@@ -34,13 +46,13 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
 
-    def _solver(self, wanted: int) -> SLEPc.EPS:
+    def _solver(self, wanted: int, target: float = 0.0) -> SLEPc.EPS:
         eps = SLEPc.EPS().create(self.system.comm)
         eps.setOptionsPrefix(self._prefix)
         eps.setOperators(self.system.matrix, self.system.mass)
         eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
         eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(0.0)
+        eps.setTarget(target)
         eps.setDimensions(nev=wanted)
         eps.setTolerances(tol=1e-12, max_it=200)
         st = eps.getST()
@@ -71,15 +83,37 @@ class Stability:
         self.factor.refactor()
         negative = self.factor.negative_count()
         wanted = max(count, negative + 1)
-        for extra in (0, wanted, 4 * wanted):
+        for extra in (0, wanted):
             values = self._eigenvalues(wanted + extra)
             if int(np.sum(values < 0)) == negative:
                 return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
         found = int(np.sum(values < 0))
+        if found < negative:  # more than the inertia's are round-off of a zero: nothing was missed
+            below = self._from_below(negative)
+            found = int(np.sum(below < 0))
+            if found == negative:
+                values = np.concatenate([below[:negative], values[values >= 0]])
+                return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
         raise ConvergenceError(
             f"stability: inertia counts {negative} negative eigenvalues, SLEPc finds {found} "
             f"(nearest to zero: {values[np.argmin(np.abs(values))]:.1e})"
         )
+
+    def _from_below(self, count: int) -> np.ndarray:
+        """The lowest eigenvalues of the matrix as it stands, about a target that the inertia finds below all.
+
+        A few far from zero would otherwise be reached only past all the small ones.
+        """
+        matrix, mass, target = self.system.matrix, self.system.mass, 0.0
+        while target > LOWEST:
+            further = min(2 * target, -1.0)
+            matrix.axpy(target - further, mass)
+            target = further
+            self.factor.refactor()
+            if not self.factor.negative_count():
+                matrix.axpy(target, mass)
+                return self._eigenvalues(count, target=target)
+        raise ConvergenceError(f"stability: there are eigenvalues below {LOWEST:g}")
 
     def nearest_by_index(self, state: State, index: int) -> float:
         """The eigenvalue number ``index`` in ascending order, by way of the one nearest to zero.
@@ -96,8 +130,75 @@ class Stability:
             return float(below[-1]) if len(below) else float(values[0])
         return float(above[0]) if len(above) else float(values[-1])
 
-    def _eigenvalues(self, wanted: int) -> np.ndarray:
-        eps = self._solver(wanted)
+    def bordered(self, state: State, border: np.ndarray, compliance: float, shift: float = 0.0) -> Spectrum:
+        r"""Lowest eigenvalue of :math:`K + b b^T/c`, or for ``c = 0`` of ``K`` on :math:`b^T x = 0`.
+
+        Solves go through the bordered matrix :math:`\begin{pmatrix} K & b \\ b^T & -c \end{pmatrix}`, whose
+        inertia, less one negative eigenvalue, is that of the operator.
+
+        Args:
+            state: An equilibrium.
+            border: ``b``, zero on Dirichlet rows.
+            compliance: ``c``, not negative.
+            shift: Added to all eigenvalues while they are computed, where ``K`` alone is singular.
+
+        Raises:
+            ConvergenceError: When SLEPc's count of negative eigenvalues is not the inertia's.
+        """
+        self.system.set_state(state.u, state.loads)
+        self.system.tangent()
+        if shift:
+            self.system.matrix.axpy(shift, self.system.mass)
+        self.factor.refactor()
+        negative = self.factor.negative_count()
+        bordered = BorderedMatrix(self.factor, [border], [border], np.array([[-compliance]]))
+        schur = -compliance - self.system.dot(border, self.factor.solve(border))
+        negative += int(schur < 0) - 1
+        for wanted in (negative + 1, 2 * negative + 4):
+            values = self._eigenvalues(wanted, bordered)
+            if int(np.sum(values < 0)) == negative:
+                return Spectrum(tuple((values - shift).tolist()), negative)
+        raise ConvergenceError(
+            f"stability: inertia counts {negative} negative eigenvalues under the constraint, SLEPc finds "
+            f"{int(np.sum(values < 0))}"
+        )
+
+    def modes(self, state: State, count: int) -> list[Mode]:
+        """The eigenvalues nearest to zero with their modes, at least ``count`` of them, nearest first.
+
+        Raises:
+            ConvergenceError: When fewer converge.
+        """
+        self.system.set_state(state.u, state.loads)
+        self.system.tangent()
+        eps = self._solver(count)
+        try:
+            eps.solve()
+            if eps.getConverged() < count:
+                raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {count} eigenvalues")
+            vector, _ = self.system.matrix.createVecs()
+            found = []
+            for i in range(eps.getConverged()):
+                value = eps.getEigenpair(i, vector).real
+                found.append(self._mode(value, vector.array.copy()))
+        except PETSc.Error as error:
+            raise ConvergenceError(f"SLEPc failed: {error}") from error
+        finally:
+            _destroy(eps)
+        return sorted(found, key=lambda mode: abs(mode.eigenvalue))
+
+    def _mode(self, eigenvalue: float, vector: np.ndarray) -> Mode:
+        length = np.sqrt(self.system.dot(vector, self.system.mass_times(vector)))
+        return Mode(float(eigenvalue), vector / length)
+
+    def _eigenvalues(
+        self, wanted: int, inverse: BorderedMatrix | None = None, target: float = 0.0
+    ) -> np.ndarray:
+        eps = self._solver(wanted, target)
+        if inverse is not None:
+            pc = eps.getST().getKSP().getPC()
+            pc.setType("python")
+            pc.setPythonContext(_BorderedInverse(inverse))
         try:
             eps.solve()
             if eps.getConverged() < wanted:
@@ -106,4 +207,21 @@ class Stability:
         except PETSc.Error as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
         finally:
-            eps.destroy()
+            _destroy(eps)
+
+
+def _destroy(eps: SLEPc.EPS) -> None:
+    """Give it back; one that broke off (a singular matrix) has parts in use, and what it raised counts."""
+    with suppress(PETSc.Error):
+        eps.destroy()
+
+
+class _BorderedInverse:
+    """Preconditioner that is the solver: the first block of a bordered system."""
+
+    def __init__(self, bordered: BorderedMatrix) -> None:
+        self._bordered = bordered
+
+    def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
+        """``out = (K + b bᵀ/c)⁻¹ rhs``."""
+        out.array_w[:], _ = self._bordered.solve(rhs.array_r.copy(), np.zeros(1))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import dolfinx.fem.petsc as fem_petsc
@@ -14,7 +14,7 @@ from petsc4py import PETSc
 from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
-from weakforms.solvers.sampling import Interpolant
+from weakforms.solvers.sampling import FirstLevels, Interpolant
 
 
 @dataclass
@@ -48,16 +48,26 @@ class Formulation:
     """Scalar functionals, the columns of a branch."""
     profile: Mapping[str, Expr] = field(default_factory=dict)
     """Expressions sampled along the body for fields."""
+    abscissa: str = "Z"
+    """Name of the material coordinate they are sampled over."""
     derived: Mapping[str, Callable[[Mapping[str, float]], float]] = field(default_factory=dict)
     """Columns computed from the functionals' values: to read, not to prescribe."""
     maxima: Mapping[str, Expr] = field(default_factory=dict)
     """Columns that are the largest value of an expression anywhere on the body."""
+    levels: Mapping[str, tuple[Expr, float]] = field(default_factory=dict)
+    """Columns that are the smallest ``coordinate`` at which an expression's magnitude reaches a level (the
+    largest one where it never does)."""
+    coordinate: Expr | None = None
+    """Material coordinate that ``levels`` are given in."""
     internal: tuple[str, ...] = ()
     """Functionals the solvers need and results do not show."""
     locate: Callable[[np.ndarray, Mapping[str, float]], np.ndarray] | None = None
     """Mesh coordinates of material points at given loads, where the mesh follows something that moves."""
     tangent: ufl.Form | None = None
     """Second variation; by default the derivative of ``residual``."""
+    aim: Callable[[str], None] | None = None
+    """Called with a load's name before a derivative in it is assembled. Loads that enter through one and the
+    same ``ufl.variable`` (points of a mesh that moves) share compiled derivatives; this tells them apart."""
 
 
 class System:
@@ -77,6 +87,7 @@ class System:
         self._rate = fem.Constant(space.mesh, 0.0)
         self._forms: dict[str, fem.Form] = {}
         self._peaks: Interpolant | None = None
+        self._levels: FirstLevels | None = None
         self._ufl = self._ufl_forms()
 
         self.vec = self.unknown.x.petsc_vec.duplicate()
@@ -94,7 +105,7 @@ class System:
     def _ufl_forms(self) -> dict[str, ufl.Form]:
         given = self.formulation
         tangent = given.tangent or ufl.derivative(given.residual, self.unknown, self.trial)
-        forms = {"residual": given.residual, "tangent": tangent}
+        forms = {"residual": given.residual, "tangent": tangent, "mass": given.mass}
         forms |= {f"d_{name}": ufl.diff(given.residual, v) for name, (_, v) in given.loads.items()}
         forms |= {f"monitor_{name}": form for name, form in given.monitors.items()}
         return forms
@@ -107,9 +118,13 @@ class System:
 
     def _mass_matrix(self) -> PETSc.Mat:
         """Mass matrix with *zero* Dirichlet rows: they must add no finite eigenvalue."""
-        matrix = fem_petsc.assemble_matrix(fem.form(self.formulation.mass), self.formulation.bcs, 0.0)
+        matrix = fem_petsc.assemble_matrix(self._form("mass"), self.formulation.bcs, 0.0)
         matrix.assemble()
         return matrix
+
+    def update_mass(self) -> None:
+        """Assemble the mass matrix anew, where it depends on loads or on a mesh that has moved."""
+        self.mass = self._mass_matrix()
 
     def hold(self, dofs: np.ndarray, values: np.ndarray) -> None:
         """Hold further degrees of freedom of this rank at values, in place of any held before.
@@ -171,7 +186,15 @@ class System:
 
     def load_derivative(self, name: str) -> np.ndarray:
         """``∂R/∂λ`` for one scalar."""
-        return self._vector(f"d_{name}")
+        return self._vector(f"d_{self._aim(name)}")
+
+    def _aim(self, name: str) -> str:
+        """Make derivatives in a load assemble as such; the load whose compiled forms it shares."""
+        if self.formulation.aim is None:
+            return name
+        self.formulation.aim(name)
+        variable = self.formulation.loads[name][1]
+        return next(other for other, (_, v) in self.formulation.loads.items() if v is variable)
 
     def tangent(self) -> PETSc.Mat:
         """``K = ∂R/∂U``, always the same matrix object."""
@@ -187,7 +210,9 @@ class System:
         """All scalar functionals at the state held, one reduction for all."""
         names = list(self.formulation.monitors)
         local = np.array([fem.assemble_scalar(self._form(f"monitor_{n}")) for n in names])
-        values = dict(zip(names, self.sum(local).tolist(), strict=True)) | self._maxima()
+        values = (
+            dict(zip(names, self.sum(local).tolist(), strict=True)) | self._maxima() | self._first_levels()
+        )
         return values | {name: f(values) for name, f in self.formulation.derived.items()}
 
     def _maxima(self) -> dict[str, float]:
@@ -200,26 +225,45 @@ class System:
         largest = np.max(self.comm.allgather(local), axis=0)
         return dict(zip(self.formulation.maxima, largest.tolist(), strict=True))
 
+    def _first_levels(self) -> dict[str, float]:
+        """Where expressions first reach their levels, by their polynomials on each cell."""
+        given = self.formulation
+        if not given.levels:
+            return {}
+        if self._levels is None:
+            self._levels = FirstLevels(self.unknown, given.coordinate, given.levels)
+        return self._levels()
+
     def monitor(self, name: str) -> float:
         """One scalar functional."""
         self._require_monitor(name)
         return float(self.sum(fem.assemble_scalar(self._form(f"monitor_{name}"))))
 
-    def monitor_gradient(self, name: str) -> tuple[np.ndarray, dict[str, float]]:
-        """Derivative of a functional in ``U`` and in each load."""
+    def monitor_gradient(
+        self, name: str, loads: Iterable[str] | None = None
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Derivative of a functional in ``U`` and in each load, or in those named."""
         self._require_monitor(name)
-        form = self.formulation.monitors[name]
-        key = f"gradient_{name}"
-        if key not in self._ufl:
-            self._ufl[key] = ufl.derivative(form, self.unknown, self.test)
-        return self._vector(key), self._scalar_derivatives(f"monitor_{name}", form)
+        return self.scalar_gradient(f"monitor_{name}", self.formulation.monitors[name], loads)
 
-    def _scalar_derivatives(self, key: str, form: ufl.Form) -> dict[str, float]:
-        """``∂/∂λ`` of a scalar form for every load (zero where it does not enter)."""
+    def scalar_gradient(
+        self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Derivative of a scalar form, known by a key, in ``U`` and in each load, or in those named."""
+        gradient = f"gradient_{key}"
+        if gradient not in self._ufl:
+            self._ufl[gradient] = ufl.derivative(form, self.unknown, self.test)
+        return self._vector(gradient), self._scalar_derivatives(key, form, loads)
+
+    def _scalar_derivatives(
+        self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
+    ) -> dict[str, float]:
+        """``∂/∂λ`` of a scalar form for every load or those named (zero where it does not enter)."""
         out = {}
-        for name, (_, variable) in self.formulation.loads.items():
-            derived = f"{key}_d_{name}"
+        for name in self.load_names if loads is None else loads:
+            derived = f"{key}_d_{self._aim(name)}"
             if derived not in self._ufl:
+                variable = self.formulation.loads[name][1]
                 self._ufl[derived] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
             empty = not self._ufl[derived].integrals()
             out[name] = 0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))

@@ -36,6 +36,22 @@ LABELS = {
     "rho": r"$\rho$",
     "eta": r"$\eta$",
     "Z": r"$Z$",
+    "X_contact": r"$X^*$",
+    "G": r"$G$",
+    "X_iso": r"$X_{iso}$",
+    "rho_contact": r"$\rho^*$",
+    "sigma": r"$\sigma$",
+    "X": r"$X$",
+    "t0": r"$t_0$",
+    "zw": r"$z_w$",
+    "V": r"$V$",
+    "Lambda": r"$\Lambda$",
+    "r_mid": r"$r_{mid}$",
+    "T1": r"$T_1$",
+    "T2": r"$T_2$",
+    "r": r"$r$",
+    "z": r"$z$",
+    "gw": r"$g_w$",
 }
 
 
@@ -49,6 +65,32 @@ class Curve:
     at: At | None = None
     y: str | None = None
     """Column drawn, where a panel shows several (``None``: the panel's own)."""
+    branch: str = "primary"
+    """Branch drawn and compared; a profile is of the branch of its state."""
+    asked: Mapping[str, float] | None = None
+    """Relative accuracy wanted of the columns of its table, where it is not the case's."""
+
+
+@dataclass(frozen=True)
+class Path:
+    """Where material points of a body go over a series of its states; drawn dotted."""
+
+    of: Spec
+    over: tuple[At, ...]
+    points: tuple[float, ...]
+    """Material coordinates, each of them one path."""
+
+
+@dataclass(frozen=True)
+class Dashed:
+    """Parts of profiles drawn dashed: where a column is below a value."""
+
+    column: str
+    below: float
+    full: str
+    """What full lines mean ..."""
+    dashed: str
+    """... and dashed ones."""
 
 
 @dataclass(frozen=True)
@@ -59,11 +101,27 @@ class Panel:
     x: Axis
     y: Axis
     curves: tuple[Curve, ...]
+    paths: tuple[Path, ...] = ()
     title: str = ""
-    markers: str = ""
-    """Kind of special point marked on the curves."""
+    level: float | None = None
+    """Height of a line across the panel, such as an undeformed substrate's."""
+    markers: str | tuple[str, ...] = ""
+    """Kind of special point marked on the curves, or several kinds."""
     mirrored: bool = False
     """Profiles of the half body drawn on the whole of it, as the paper does."""
+    note: str = ""
+    dashed: Dashed | None = None
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A deformed surface in space: a picture of one state, in which nothing is compared."""
+
+    name: str
+    of: Spec
+    at: At
+    axes: tuple[Axis, Axis, Axis]
+    title: str = ""
     note: str = ""
 
 
@@ -78,7 +136,7 @@ class Count:
 
 @dataclass(frozen=True)
 class Points:
-    """Special points held against a table with one row a point.
+    """Special points held against a table with one row a point (kind ``quantity``: the problem's quantities).
 
     The table's columns that are parameters of the problem select the solution, ``order`` the point on it.
     """
@@ -87,6 +145,24 @@ class Points:
     reference: str
     base: Spec
     parameters: tuple[str, ...]
+    asked: Mapping[str, float]
+    where: Mapping[str, float] = field(default_factory=dict)
+    """Values of columns of the table: only rows that have them are looked at."""
+    branch: str = ""
+    """Only points of this branch; empty for all."""
+
+
+@dataclass(frozen=True)
+class States:
+    """States held against a table with one row a state.
+
+    The table's columns that are parameters of the problem select the solution, ``at`` the state of it.
+    """
+
+    reference: str
+    base: Spec
+    parameters: tuple[str, ...]
+    at: At
     asked: Mapping[str, float]
 
 
@@ -144,6 +220,8 @@ class Printed:
     column: str
     source: str
     index: int = 0
+    misprint: str = ""
+    """What is wrong with it, where it is stated not to be reproduced."""
 
 
 @dataclass(frozen=True)
@@ -158,7 +236,44 @@ class PrintedExact:
     misprint: bool = False
 
 
-Check = Count | Points | Claim | Constant | Order | Printed | PrintedExact
+@dataclass(frozen=True)
+class PrintedInput:
+    """A printed number that is an input of a figure: what it implies, and whether that is a round value."""
+
+    what: str
+    printed: str
+    of: Spec
+    at: At
+    column: str
+    near: float
+    """Round value that ``column`` should have there, if the number was read off a computation ..."""
+    within: float
+    """... within this relative distance. Beyond it the printed number is not decoded."""
+    source: str
+    decoded: bool = True
+    """What is stated: that it is decoded, or that it is not."""
+
+
+@dataclass(frozen=True)
+class PrintedState:
+    """A printed number at which a figure shows a state: the state is there, on the branch the paper says."""
+
+    what: str
+    printed: str
+    of: Spec
+    at: At
+    column: str
+    """Whose value is printed; the state is asked for at it."""
+    shown: tuple[str, ...]
+    """Columns that tell in the ledger which state it is."""
+    n_negative: int
+    """Negative eigenvalues in the symmetric space, which tell the parts of the branch apart."""
+    source: str
+
+
+Check = (
+    Count | Points | States | Claim | Constant | Order | Printed | PrintedExact | PrintedInput | PrintedState
+)
 
 
 @dataclass(frozen=True)
@@ -168,6 +283,7 @@ class Case:
     title: str
     source: str
     panels: tuple[Panel, ...] = ()
+    surfaces: tuple[Surface, ...] = ()
     checks: tuple[Check, ...] = ()
     asked: Mapping[str, float] = field(default_factory=dict)
     """Relative accuracy wanted of each column of the curves' reference tables."""

@@ -10,7 +10,7 @@ from rich.table import Table
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification import references
 from weakforms.verification.compare import Verdicts
-from weakforms.verification.discovery import FoundCase, find_cases
+from weakforms.verification.discovery import FoundCase, among, find_cases
 from weakforms.verification.summary import plain_tex, scientific
 
 
@@ -65,7 +65,7 @@ def describe(name: str) -> dict[str, Any]:
     if name in problems:
         return _problem_facts(problems[name])
     known = [*problems, *(found.id for found in find_cases())]
-    raise InputError(f"unknown problem or case {name!r}; there are {', '.join(known)}")
+    raise InputError(f"unknown problem or case {name!r}; {among(name, known)}")
 
 
 def _problem_facts(problem: Any) -> dict[str, Any]:

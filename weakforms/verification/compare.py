@@ -13,6 +13,7 @@ from scipy.interpolate import make_interp_spline
 from weakforms.errors import InputError
 from weakforms.results import read_curve
 from weakforms.verification import references
+from weakforms.verification.curves import asked_of
 from weakforms.verification.discovery import FoundCase, get_case
 from weakforms.verification.outcome import Verdict
 from weakforms.verification.references import Reference
@@ -76,11 +77,12 @@ def compare(
         InputError: For an unknown case or curve, a wrong column, an abscissa that is not monotone.
     """
     found = get_case(case)
-    table = references.load_curve(found.paper, choose(found, name))
+    chosen = choose(found, name)
+    table = references.load_curve(found.paper, chosen)
     if accuracy is not None and not 0 < accuracy < 1:
         raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1")
     columns = read_curve(Path(curve)) if isinstance(curve, str | Path) else _columns(curve)
-    asked = dict.fromkeys(table.ordinates, accuracy) if accuracy is not None else found.case.asked
+    asked = dict.fromkeys(table.ordinates, accuracy) if accuracy is not None else _asked(found, chosen)
     x, keep, shared = _aligned(table, columns, asked)
     judged = [_judge(table, column, x, columns[column][keep], asked[column]) for column in shared]
     rows, whole = table.columns[table.abscissa], columns[table.abscissa]
@@ -96,6 +98,12 @@ def compare(
         unjudged_rows={column: unjudged for column, (_, unjudged) in zip(shared, judged, strict=True)},
         verdicts=tuple(verdict for verdict, _ in judged),
     )
+
+
+def _asked(found: FoundCase, reference: str) -> Mapping[str, float]:
+    """Accuracy the case asks of the curve with that table."""
+    curves = [curve for panel in found.case.panels for curve in panel.curves if curve.reference == reference]
+    return asked_of(curves[0], found.case)
 
 
 def choose(found: FoundCase, name: str | None) -> str:

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
+
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.results import SpecialPoint
 from weakforms.verification import references
 from weakforms.verification.bounds import Comparison, compare
-from weakforms.verification.case import LABELS, Case, Curve, Panel
-from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome, Verdict
+from weakforms.verification.case import LABELS, Case, Curve, Panel, Path
+from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome, PathOutcome, Verdict
 from weakforms.verification.references import Reference
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
@@ -42,13 +47,43 @@ def curve_wants(paper: int, curve: Curve) -> list[Wanted]:
     if table is None:
         return [(curve.of, None)]
     rows = table.columns[table.abscissa]
-    return [(curve.of, None), *((curve.of, At(table.abscissa, float(v))) for v in rows)]
+    return [(curve.of, None), *((curve.of, _row(curve, table, float(v))) for v in rows)]
 
 
 def profile_at(curve: Curve, table: Reference | None) -> At:
     """The state of a profile curve, sampled where its table has rows."""
     points = () if table is None else tuple(float(v) for v in table.columns[table.abscissa])
-    return At(curve.at.name, curve.at.value, curve.at.crossing, points)
+    if table is not None and table.meridian is not None:
+        return replace(curve.at, profile=points, theta=table.meridian)
+    return replace(curve.at, profile=points)
+
+
+def _row(curve: Curve, table: Reference, value: float) -> At:
+    """The state at a row of a curve's table."""
+    return At(table.abscissa, value, branch=curve.branch)
+
+
+def path_wants(path: Path) -> list[Wanted]:
+    """States along a path, sampled at its material points."""
+    return [(path.of, _on_path(path, at)) for at in path.over]
+
+
+def _on_path(path: Path, at: At) -> At:
+    return At(at.name, at.value, at.crossing, path.points, at.branch)
+
+
+def _draw_paths(panel: Panel, solutions: Solutions) -> list[PathOutcome]:
+    """Every material point's way through the states that could be solved."""
+    out = []
+    for path in panel.paths:
+        samples = [
+            [solutions.sampled(path.of, _on_path(path, at), name)[0] for name in (panel.x.name, panel.y.name)]
+            for at in path.over
+        ]
+        for i, point in enumerate(path.points):
+            x, y = ([float(sample[axis][i]) for sample in samples] for axis in (0, 1))
+            out.append(PathOutcome(point, x, y))
+    return out
 
 
 def names(paper: int, curve: Curve, case: Case) -> list[str]:
@@ -56,10 +91,15 @@ def names(paper: int, curve: Curve, case: Case) -> list[str]:
     table = reference_of(paper, curve)
     if table is None:
         return []
-    judged = [_name(table, column) for column in table.ordinates if column in case.asked]
+    judged = [_name(table, column) for column in table.ordinates if column in asked_of(curve, case)]
     if not judged:
         raise InputError(f"table {table.name}: the case states no accuracy for any of its columns")
     return judged
+
+
+def asked_of(curve: Curve, case: Case) -> Mapping[str, float]:
+    """Accuracy wanted of a curve's columns."""
+    return case.asked if curve.asked is None else curve.asked
 
 
 def _name(table: Reference, column: str) -> str:
@@ -70,17 +110,17 @@ def judge_curve(
     paper: int, curve: Curve, case: Case, solutions: Solutions
 ) -> tuple[list[Verdict], dict[str, Comparison]]:
     """One verdict for each column of the table that the case states an accuracy for."""
-    table = reference_of(paper, curve)
+    table, asked = reference_of(paper, curve), asked_of(curve, case)
     if table is None:
         return [], {}
     verdicts, found = [], {}
     for name in table.ordinates:
-        if name not in case.asked:
+        if name not in asked:
             continue
         values, uncertainty = _values(curve, table, name, solutions)
         comparison = compare(values, uncertainty, table.columns[name], table.uncertainty[name])
         found[name] = comparison
-        verdicts.append(_verdict(curve, table, name, comparison, case.asked[name]))
+        verdicts.append(_verdict(curve, table, name, comparison, asked[name]))
     return verdicts, found
 
 
@@ -90,7 +130,7 @@ def _values(
     if curve.at is not None:
         return solutions.sampled(curve.of, profile_at(curve, table), name)
     rows = [
-        solutions.quantity(curve.of, At(table.abscissa, float(v)), name)
+        solutions.quantity(curve.of, _row(curve, table, float(v)), name)
         for v in table.columns[table.abscissa]
     ]
     return np.array([q.value for q in rows]), np.array([q.uncertainty for q in rows])
@@ -129,8 +169,11 @@ def draw_panel(
         y_label=panel.y.tex,
         x_range=(panel.x.low, panel.x.high),
         y_range=(panel.y.low, panel.y.high),
+        level=panel.level,
         note=panel.note,
     )
+    if panel.dashed is not None:
+        outcome.full, outcome.dashed = panel.dashed.full, panel.dashed.dashed
     for curve in panel.curves:
         try:
             drawn = _draw(paper, panel, curve, solutions, comparisons.get(id(curve), {}))
@@ -139,6 +182,8 @@ def draw_panel(
             continue  # judged, and reported as an error, where the curve is compared
         outcome.curves.append(drawn)
         outcome.markers.extend(marks)
+    with suppress(ConvergenceError):  # so is a state that a path goes through
+        outcome.paths = _draw_paths(panel, solutions)
     return outcome
 
 
@@ -153,9 +198,10 @@ def _draw(
     table = reference_of(paper, curve)
     if curve.at is not None:
         columns = solutions.profile(curve.of, profile_at(curve, table)).columns
-        unstable: list[bool] = []
+        rule = panel.dashed
+        unstable = [] if rule is None else (columns[rule.column] < rule.below).tolist()
     else:
-        columns = solutions.branch(curve.of).columns
+        columns = _with_states(curve, table, solutions, (x, y))
         unstable = [bool(n) for n in columns["n_negative"]]
     xs, ys = columns[x], columns[y]
     if panel.mirrored:
@@ -182,6 +228,33 @@ def _draw(
     return outcome
 
 
+def _with_states(
+    curve: Curve, table: Reference | None, solutions: Solutions, names: tuple[str, ...]
+) -> dict[str, np.ndarray]:
+    """Columns of a branch to be drawn, and of the states solved for at the table's rows in between.
+
+    A branch traced in long steps would be drawn as a polygon beside its own states.
+    """
+    branch = solutions.branch(curve.of, curve.branch).columns
+    columns = {name: branch[name] for name in (*names, "n_negative")}
+    along = None if table is None else branch.get(table.abscissa)
+    if along is None or not (np.all(np.diff(along) > 0) or np.all(np.diff(along) < 0)):
+        return columns
+    rows = [_row(curve, table, float(v)) for v in table.columns[table.abscissa]]
+    try:
+        states = [solutions.state(curve.of, at).quantities for at in rows]
+    except ConvergenceError:  # judged, and reported, where the curve is compared
+        return columns
+    if any(name not in state for state in states for name in columns):
+        return columns
+    places = np.concatenate([along, table.columns[table.abscissa]])
+    order = np.argsort(places if along[-1] > along[0] else -places, kind="stable")
+    return {
+        name: np.concatenate([values, [state[name].value for state in states]])[order]
+        for name, values in columns.items()
+    }
+
+
 def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
     """A half profile from the mid-plane outwards, drawn from end to end as the paper does.
 
@@ -195,11 +268,15 @@ def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
 
 
 def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
-    if not panel.markers:
-        return []
-    points = solutions.points(curve.of, panel.markers)
-    name = panel.markers.replace("_", " ")
+    kinds = (panel.markers,) if isinstance(panel.markers, str) else panel.markers
+    points = [p for kind in filter(None, kinds) for p in solutions.points(curve.of, kind)]
     return [
-        Marker(panel.markers, name, point.values[panel.x.name], point.values[panel.y.name])
+        Marker(point.kind, _called(point), point.values[panel.x.name], point.values[panel.y.name])
         for point in points
+        if point.branch == curve.branch
     ]
+
+
+def _called(point: SpecialPoint) -> str:
+    """What a marker's label says; the legend tells the kinds apart."""
+    return f"n = {point.values['n']:g}" if "n" in point.values else point.kind.replace("_", " ")

@@ -5,7 +5,9 @@ from __future__ import annotations
 import importlib.util
 import re
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 
@@ -67,8 +69,14 @@ def get_case(name: str) -> FoundCase:
     """
     known = {found.id: found for found in find_cases()}
     if name not in known:
-        raise InputError(f"unknown case {name!r}; the cases are {', '.join(known)}")
+        raise InputError(f"unknown case {name!r}; {among(name, known)}")
     return known[name]
+
+
+def among(name: str, known: Iterable[str]) -> str:
+    """What to choose from instead: the names closest to a wrong one, in one short line."""
+    close = get_close_matches(name, list(known), n=5, cutoff=0.5)
+    return f"close to it: {', '.join(close)}; all: weakforms list" if close else "see: weakforms list"
 
 
 def select(paper: int | None = None, expression: str | None = None) -> list[FoundCase]:

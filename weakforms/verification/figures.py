@@ -56,7 +56,7 @@ def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = 
     """
     residuals = any(len(curve.residual) for curve in panel.curves)
     lower = 1.97 if residuals else 0.0
-    with _drawing(ident):
+    with drawing(ident):
         figure, keyed = _with_legend(_panel_keys(panel), WIDTH, 3.2 + FOOT, lower)
         place = (lower + keyed + FOOT, 3.2)
         axes = _axes(figure, *place, _math(panel.x_label), _math(panel.y_label))
@@ -65,11 +65,15 @@ def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = 
                 setter(*limits)
         for index, curve in enumerate(panel.curves):
             _draw_curve(axes, curve, index)
+        if panel.level is not None:
+            axes.axhline(panel.level, color=MUTED, lw=0.9, ls=DASHED, zorder=0)
+        for path in panel.paths:
+            axes.plot(path.x, path.y, ls=":", lw=0.9, color=MUTED, zorder=1)
         _draw_points(axes, panel)
         if residuals:
             _draw_residuals(_axes(figure, FOOT, 1.12), panel, verdicts)
         title = plain_tex(panel.title or panel.name)
-        return _svg(figure, ident, title, describe(panel, verdicts))
+        return svg(figure, ident, title, describe(panel, verdicts))
 
 
 def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
@@ -84,7 +88,7 @@ def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
     """
     keys = [_key(f"P{r.degree}", i, ls="") for i, r in enumerate(records)]
     lines = [_key("observed order", None), _key("expected order", None, ls=":")]
-    with _drawing(ident):
+    with drawing(ident):
         figure, keyed = _with_legend([keys, lines], NARROW, 2.4 + FOOT, 0)
         axes = _axes(figure, keyed + FOOT, 2.4, "cells", "relative error")
         axes.set(xscale="log", yscale="log")
@@ -97,11 +101,11 @@ def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
             axes.xaxis.set_major_formatter("{x:.0f}")
         axes.yaxis.set(minor_locator=NullLocator())
         quantity = plain_tex(records[0].quantity) if records else "nothing"
-        return _svg(figure, ident, f"Convergence of {quantity}", describe_histories(records))
+        return svg(figure, ident, f"Convergence of {quantity}", describe_histories(records))
 
 
 @contextmanager
-def _drawing(ident: str) -> Iterator[None]:
+def drawing(ident: str) -> Iterator[None]:
     """The report's style and nobody else's; quiet about glyphs that no font has."""
     style = ["default", LOOK["style"] | {"svg.hashsalt": ident}]
     with matplotlib.style.context(style), warnings.catch_warnings():
@@ -109,7 +113,8 @@ def _drawing(ident: str) -> Iterator[None]:
         yield
 
 
-def _svg(figure: Figure, ident: str, title: str, description: str) -> str:
+def svg(figure: Figure, ident: str, title: str, description: str) -> str:
+    """The figure as an ``<svg>`` element, named and described, its colours those of the page."""
     buffer = StringIO()
     figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
     colours = {value: f"--f-{name}" for name, value in LOOK["light"].items()}
@@ -137,9 +142,10 @@ def _panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
     curves = panel.curves
     named = [_key(_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
     if any(any(curve.unstable) for curve in curves):
-        keys = [_key("stable", None), _key("unstable", None, ls=DASHED)]
+        keys = [_key(panel.full, None), _key(panel.dashed, None, ls=DASHED)]
     else:
         keys = [_key("weak form", None)] * bool(curves)
+    keys += [_key("path of a material point", None, ls=":")] * bool(panel.paths)
     for kind in sorted({c.reference_kind for c in curves if c.reference_x}):
         keys.append(_key(_math(f"reference ({kind})".replace(" ()", "")), None, marker="o", ls=""))
     for kind in sorted({point.kind for point in panel.markers}):

@@ -9,7 +9,7 @@ import numpy as np
 from weakforms.results import SpecialPoint
 from weakforms.verification import references
 from weakforms.verification.bounds import compare
-from weakforms.verification.case import Check, Claim, Constant, Count, Order, Points
+from weakforms.verification.case import Check, Claim, Constant, Count, Order, Points, States
 from weakforms.verification.outcome import Convergence, Printed, Verdict
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
@@ -71,6 +71,8 @@ def _rows(check: Points, paper: int) -> list[tuple[Spec, int, int]]:
     table = references.load(paper, check.reference)
     out = []
     for row in range(len(table)):
+        if any(table.columns[name][row] != value for name, value in check.where.items()):
+            continue
         given = {name: float(table.columns[name][row]) for name in check.parameters}
         order = int(table.columns["order"][row]) if "order" in table.columns else 1
         out.append((check.base.at(**given), row, order - 1))
@@ -86,11 +88,17 @@ def _(check: Points, paper: int) -> list[Wanted]:
 def _(check: Points, paper: int) -> list[str]:
     rows = _rows(check, paper)
     return [
-        _point_name(check, f"{spec}[{index + 1}]", name) for spec, _, index in rows for name in check.asked
+        _point_name(check, _label(check, spec, index), name)
+        for spec, _, index in rows
+        for name in check.asked
     ]
 
 
-def _point_name(check: Points, label: str, name: str) -> str:
+def _label(check: Points, spec: Spec, index: int) -> str:
+    return f"{spec}[{', '.join([f'{k}={v:g}' for k, v in check.where.items()] + [str(index + 1)])}]"
+
+
+def _point_name(check: Points | States, label: str, name: str) -> str:
     return f"{check.reference}:{label}:{name}"
 
 
@@ -99,13 +107,19 @@ def _(check: Points, paper: int, solutions: Solutions) -> Judged:
     table = references.load(paper, check.reference)
     verdicts = []
     for spec, row, index in _rows(check, paper):
-        points, label = solutions.points(spec, check.kind), f"{spec}[{index + 1}]"
+        points, label = _selected(check, solutions.points(spec, check.kind)), _label(check, spec, index)
         for name in check.asked:
             if index < len(points):
                 verdicts.append(_point_verdict(check, table, points[index], label, name, row))
             else:
                 verdicts.append(_missing(check, label, name, len(points)))
     return verdicts, [], []
+
+
+def _selected(check: Points, points: list[SpecialPoint]) -> list[SpecialPoint]:
+    """The points that have the values the check is for (such as a wave number)."""
+    here = [p for p in points if check.branch in ("", p.branch)]
+    return [p for p in here if all(p.values.get(k, v) == v for k, v in check.where.items())]
 
 
 def _missing(check: Points, label: str, name: str, found: int) -> Verdict:
@@ -120,7 +134,7 @@ def _missing(check: Points, label: str, name: str, found: int) -> Verdict:
 
 
 def _point_verdict(
-    check: Points,
+    check: Points | States,
     table: references.Reference,
     point: SpecialPoint,
     label: str,
@@ -134,7 +148,7 @@ def _point_verdict(
         check=_point_name(check, label, name),
         kind="point",
         passed=found.passed(asked),
-        statement=f"{name} of {check.kind} of {label}",
+        statement=f"{name} of {point.kind} of {label}",
         detail=f"computed {point.values[name]:.12g}, reference {value:.12g}",
         error=float(found.error[0]),
         bound=float(found.bound[0]),
@@ -143,6 +157,37 @@ def _point_verdict(
         reference_uncertainty=found.reference_uncertainty,
         reference=table.name,
     )
+
+
+def _states(check: States, paper: int) -> list[tuple[Spec, int]]:
+    table = references.load(paper, check.reference)
+    return [
+        (check.base.at(**{name: float(table.columns[name][row]) for name in check.parameters}), row)
+        for row in range(len(table))
+    ]
+
+
+@wants.register
+def _(check: States, paper: int) -> list[Wanted]:
+    return [(spec, check.at) for spec, _ in _states(check, paper)]
+
+
+@names.register
+def _(check: States, paper: int) -> list[str]:
+    return [_point_name(check, str(spec), name) for spec, _ in _states(check, paper) for name in check.asked]
+
+
+@judge.register
+def _(check: States, paper: int, solutions: Solutions) -> Judged:
+    table = references.load(paper, check.reference)
+    verdicts = []
+    for spec, row in _states(check, paper):
+        quantities = solutions.state(spec, check.at).quantities
+        values = {name: quantities[name].value for name in check.asked}
+        spread = {name: quantities[name].uncertainty for name in check.asked}
+        point = SpecialPoint(f"state at {check.at}", check.at.branch, "", values, spread)
+        verdicts += [_point_verdict(check, table, point, str(spec), name, row) for name in check.asked]
+    return verdicts, [], []
 
 
 @wants.register

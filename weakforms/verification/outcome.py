@@ -52,7 +52,7 @@ class Printed:
     computed: float | None
     uncertainty: float | None
     status: str
-    """reproduced, misprint, or not recoverable."""
+    """reproduced, misprint, or an input of a figure that is decoded or not."""
     evidence: str = ""
     source: str = ""
     """Where in the paper."""
@@ -92,6 +92,15 @@ class Marker:
 
 
 @dataclass
+class PathOutcome:
+    """The path of a material point over a series of states."""
+
+    point: float
+    x: list[float]
+    y: list[float]
+
+
+@dataclass
 class PanelOutcome:
     """One panel of a figure on the thesis's axes (``x_range``/``y_range`` as printed there)."""
 
@@ -107,6 +116,27 @@ class PanelOutcome:
     curves: list[CurveOutcome] = field(default_factory=list)
     markers: list[Marker] = field(default_factory=list)
     note: str = ""
+    full: str = "stable"
+    """What full lines mean, and dashed ones, where there are any."""
+    dashed: str = "unstable"
+    paths: list[PathOutcome] = field(default_factory=list)
+    level: float | None = None
+    """Height of a dashed line across the panel."""
+
+
+@dataclass
+class SurfaceOutcome:
+    """A deformed surface in space."""
+
+    name: str
+    title: str
+    position: list[list[list[float]]]
+    """``x, y, z`` over the two coordinates of the surface."""
+    ranges: list[tuple[float, float]]
+    labels: list[str]
+    note: str = ""
+    curves: list[CurveOutcome] = field(default_factory=list)
+    """None: nothing is compared."""
 
 
 @dataclass
@@ -144,6 +174,7 @@ class CaseOutcome:
     seconds: float = 0.0
     solutions: list[dict[str, Any]] = field(default_factory=list)
     """Per solve: problem, parameters, numerics, provenance, file of the stored result."""
+    surfaces: list[SurfaceOutcome] = field(default_factory=list)
 
 
 @dataclass
@@ -188,9 +219,14 @@ def case_from_json(data: dict[str, Any]) -> CaseOutcome:
                     "y_range": tuple(item["y_range"]),
                     "curves": [CurveOutcome(**curve) for curve in item["curves"]],
                     "markers": [Marker(**marker) for marker in item["markers"]],
+                    "paths": [PathOutcome(**path) for path in item["paths"]],
                 }
             )
             for item in data["panels"]
+        ],
+        "surfaces": [
+            SurfaceOutcome(**{**item, "ranges": [tuple(pair) for pair in item["ranges"]]})
+            for item in data.get("surfaces", [])
         ],
         "printed": [Printed(**item) for item in data["printed"]],
         "convergence": [Convergence(**item) for item in data["convergence"]],

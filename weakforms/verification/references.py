@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,8 @@ class Reference:
     columns: dict[str, np.ndarray]
     uncertainty: dict[str, float]
     parameters: dict[str, Any]
+    meridian: float | None = None
+    """``Theta`` of all rows, where they are those of one meridian of a table over a surface."""
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values())))
@@ -44,11 +46,14 @@ class Reference:
 
 @cache
 def load(paper: int, name: str, root: Path = ROOT) -> Reference:
-    """The table ``reference_data/paperN/NAME``.
+    """The table ``reference_data/paperN/NAME``; of a table over a surface ``NAME@DEGREES`` is one meridian.
 
     Raises:
         InputError: When it is missing, incomplete, altered (by its checksum) or no table.
     """
+    whole, separator, degrees = name.partition("@")
+    if separator:
+        return _meridian(load(paper, whole, root), name, degrees)
     folder = root / "reference_data" / f"paper{paper}"
     facts = _facts(folder / f"{name}.toml")
     path = folder / f"{name}.csv"
@@ -77,6 +82,21 @@ def load(paper: int, name: str, root: Path = ROOT) -> Reference:
         uncertainty={column: _uncertainty(name, facts, column) for column in columns},
         parameters=dict(facts.get("parameters", {})),
     )
+
+
+def _meridian(table: Reference, name: str, degrees: str) -> Reference:
+    """The rows of a table at one ``Theta``, without that column."""
+    try:
+        theta = math.radians(float(degrees))
+    except ValueError:
+        raise InputError(f"reference table {name}: {degrees!r} is no number of degrees") from None
+    if "Theta" not in table.columns:
+        raise InputError(f"reference table {table.name} has no column Theta, and so no {name}")
+    rows = np.isclose(table.columns["Theta"], theta, rtol=0, atol=1e-9)
+    if not rows.any():
+        raise InputError(f"reference table {table.name} has no rows at Theta = {theta:g}")
+    columns = {k: values[rows] for k, values in table.columns.items() if k != "Theta"}
+    return replace(table, name=name, columns=columns, meridian=theta)
 
 
 def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:

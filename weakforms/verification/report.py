@@ -25,6 +25,7 @@ from weakforms.verification import summary
 from weakforms.verification.figures import LOOK, convergence_figure, panel_figure
 from weakforms.verification.junit import clean, junit_xml
 from weakforms.verification.outcome import SCHEMA, CaseOutcome, Convergence, RunOutcome, Verdict
+from weakforms.verification.surface_figures import surface_figure
 
 TEMPLATES = Path(__file__).parent / "templates"
 FOLDED = 30
@@ -215,6 +216,10 @@ def _case_view(case: CaseOutcome, taken: set[str]) -> dict[str, Any]:
         ident = _anchor(f"{anchor}:panel-{panel.name}", taken)
         drawing = Markup(panel_figure(panel, _anchor("f", taken), case.verdicts))
         figures.append({"panel": panel, "anchor": ident, "svg": drawing})
+    for surface in case.surfaces:
+        ident = _anchor(f"{anchor}:surface-{surface.name}", taken)
+        picture = Markup(surface_figure(surface, _anchor("f", taken)))
+        figures.append({"panel": surface, "anchor": ident, "svg": picture})
     histories = []
     for records in _by_quantity(case.convergence):
         drawing = Markup(convergence_figure(records, _anchor("f", taken)))

@@ -21,6 +21,7 @@ from weakforms.results.io import dumps, require_writable
 from weakforms.verification import (
     curves,
     ledger,  # noqa: F401  (registers its checks)
+    surfaces,
 )
 from weakforms.verification.curves import curve_wants, draw_panel, judge_curve
 from weakforms.verification.discovery import FoundCase
@@ -65,6 +66,10 @@ def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
     for panel in found.case.panels:
         for curve in panel.curves:
             out.extend(curve_wants(found.paper, curve))
+        for path in panel.paths:
+            out.extend(curves.path_wants(path))
+    for surface in found.case.surfaces:
+        out.extend(surfaces.surface_wants(surface))
     for check in found.case.checks:
         out.extend(wants(check, found.paper))
     return out
@@ -80,15 +85,15 @@ def check_ids(found: FoundCase) -> list[str]:
 
 def _merge(ats: list[At]) -> list[At]:
     """One request a state, sampled at the union of the points wanted of it."""
-    merged: dict[tuple[str, float, int], tuple[float, ...] | None] = {}
+    merged: dict[tuple[str, float, int, str], tuple[float, ...] | None] = {}
     for at in ats:
-        key = (at.name, at.value, at.crossing)
+        key = (at.name, at.value, at.crossing, at.branch)
         points = merged.get(key)
         if at.profile is not None:
             # An empty tuple asks for the problem's own points: they are added wherever a picture is drawn.
             points = tuple(sorted({*(points or ()), *at.profile}))
         merged[key] = points
-    return [At(*key, profile=points) for key, points in merged.items()]
+    return [At(*key[:3], profile=points, branch=key[3]) for key, points in merged.items()]
 
 
 # -- solving -------------------------------------------------------------------------------------
@@ -99,7 +104,7 @@ def solve_spec(spec: Spec, states: list[At]) -> Result:
     from weakforms import api
     from weakforms.problems.base import StateRequest
 
-    requests = [StateRequest(at.name, at.value, at.crossing, profile=at.profile) for at in states]
+    requests = [StateRequest(at.name, at.value, at.crossing, at.branch, at.profile) for at in states]
     return api.solve_requests(
         spec.problem,
         dict(spec.parameters),
@@ -234,6 +239,9 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
                 _add(outcome, verdicts)
         with _missed(outcome, [f"panel {panel.name}"], "curve"):
             outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
+    for surface in found.case.surfaces:
+        with _missed(outcome, [f"surface {surface.name}"], "field"):
+            outcome.surfaces.append(surfaces.draw_surface(surface, solutions))
     for check in found.case.checks:
         with _missed(outcome, names(check, found.paper), type(check).__name__.lower()):
             verdicts, printed, histories = judge(check, found.paper, solutions)

@@ -27,13 +27,24 @@ class Solutions:
             raise ConvergenceError(f"{spec} was not solved")
         return self._results[spec]
 
-    def branch(self, spec: Spec) -> Branch:
-        """The primary branch."""
-        return self.result(spec).branch()
+    def branch(self, spec: Spec, name: str = "primary") -> Branch:
+        """A branch by its name.
+
+        Raises:
+            ConvergenceError: When the solution has none of that name.
+        """
+        try:
+            return self.result(spec).branch(name)
+        except KeyError as error:
+            raise ConvergenceError(f"{spec}: {error.args[0]}") from error
 
     def points(self, spec: Spec, kind: str) -> list[SpecialPoint]:
-        """Special points of a kind in order."""
+        """Special points of a kind in order; ``quantity`` has one, the quantities of the whole problem."""
         result = self.result(spec)
+        if kind == "quantity":
+            known = {name: q for name, q in result.quantities.items() if q.uncertainty is not None}
+            values = {name: q.value for name, q in known.items()}
+            return [SpecialPoint(kind, "", "", values, {name: q.uncertainty for name, q in known.items()})]
         for failure in result.failures:
             if failure.what == "special points":
                 raise ConvergenceError(f"{spec}: {failure.reason}")
@@ -48,7 +59,8 @@ class Solutions:
         result = self.result(spec)
         for state in result.states:
             # Values went through JSON as Python floats: equality is exact.
-            if state.at == {at.name: at.value} and state.crossing == at.crossing:
+            same = state.crossing == at.crossing and state.branch == at.branch
+            if same and state.at == {at.name: at.value}:
                 return state
         reasons = [f.reason for f in result.failures if f.what == f"state at {at}"]
         raise ConvergenceError(f"{spec}: no state at {at}: {'; '.join(reasons) or 'not solved'}")
@@ -66,11 +78,25 @@ class Solutions:
         state = self.state(spec, at)
         if not state.fields:
             raise ConvergenceError(f"{spec}: state at {at} was stored without a profile")
-        return state.fields[0]
+        field = state.fields[0]
+        return field if at.theta is None else _meridian(field, at.theta)
 
     def sampled(self, spec: Spec, at: At, name: str) -> tuple[np.ndarray, float]:
         """A profile's column at the points ``at.profile`` and its uncertainty."""
         field = self.profile(spec, at)
         where = np.asarray(at.profile)
-        index = np.searchsorted(field.columns["Z"], where - 1e-12)
+        abscissa = next(iter(field.columns))  # a field's first column is what it is sampled over
+        index = np.searchsorted(field.columns[abscissa], where - 1e-12)
         return field.columns[name][index], field.uncertainty[name]
+
+
+def _meridian(field: Field, theta: float) -> Field:
+    """The rows of a surface's field on one meridian.
+
+    Raises:
+        ConvergenceError: When the field has none there.
+    """
+    rows = np.isclose(field.columns["Theta"], theta, rtol=0, atol=1e-9)
+    if not rows.any():
+        raise ConvergenceError(f"the {field.name} has no meridian at Theta = {theta:g}")
+    return Field(field.name, {k: v[rows] for k, v in field.columns.items()}, field.uncertainty)
