@@ -1,0 +1,116 @@
+"""Paper 1: the curves behind figures 3 to 10, over the pressure or the edge of the patch.
+
+First contact, frictionless and adhesive inflation, deflation; G = 0 all along adhesive inflation.
+"""
+
+from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular
+
+SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
+SLIP = {
+    s: circular(alpha=s[0], beta=s[1], contact="frictionless", p_end=8.0 if s[1] == 1 else 9.0) for s in SETS
+}
+ENDS = {(0, 1): 4.4, (0, 2): 5.9, (0.1, 1): 4.9, (0.1, 2): 9.0}
+STICK = {s: circular(alpha=s[0], beta=s[1], contact="adhesive", p_end=ENDS[s]) for s in SETS}
+DOWN = {
+    (0.1, 1): circular(alpha=0.1, beta=1, contact="adhesive", phase="deflation"),
+    (0.1, 2): circular(alpha=0.1, beta=2, contact="adhesive", phase="deflation", p_end=8.49),
+}
+
+
+def label(s: tuple[float, float]) -> str:
+    """Legend entry."""
+    return rf"$\alpha = {s[0]}$, $\beta = {s[1]}$"
+
+
+def no_release(solutions: Solutions) -> Finding:
+    """G along adhesive inflation."""
+    worst = max(float(abs(solutions.branch(spec).columns["G"]).max()) for spec in STICK.values())
+    return worst < 1e-8, f"largest |G| {worst:.1e}"
+
+
+def contact_later(solutions: Solutions) -> Finding:
+    """Pressure of first contact."""
+    p = {s: solutions.points(SLIP[s], "contact_onset")[0].values["p"] for s in SETS}
+    good = all(p[a, 2] > p[a, 1] for a in (0, 0.1)) and all(p[0.1, b] > p[0, b] for b in (1, 2))
+    return good, ", ".join(f"alpha = {a}, beta = {b}: {v:.6f}" for (a, b), v in p.items())
+
+
+def taut(solutions: Solutions) -> Finding:
+    """Smallest principal resultant anywhere along the branches."""
+    least = min(
+        float(solutions.branch(spec).columns["t_min"][1:].min())
+        for spec in (*SLIP.values(), *STICK.values(), *DOWN.values())
+    )
+    return least > 0, f"smallest resultant {least:.4f}"
+
+
+CASE = Case(
+    title="Contact: curves over pressure and edge of the patch",
+    source="Patil, DasGupta & Eriksson (2015), sections 5 and 6",
+    panels=(
+        Panel(
+            "frictionless",
+            x=Axis("p", 0, 9),
+            y=Axis("t0", 0, 0.7),
+            markers="contact_onset",
+            curves=tuple(
+                Curve(SLIP[s], label(s), reference=f"frictionless_alpha_{s[0]}_beta_{s[1]}") for s in SETS
+            ),
+        ),
+        Panel(
+            "adhesive",
+            x=Axis("p", 0, 9),
+            y=Axis("t0", 0, 0.7),
+            markers="contact_onset",
+            curves=tuple(
+                Curve(STICK[s], label(s), reference=f"adhesive_alpha_{s[0]}_beta_{s[1]}") for s in SETS
+            ),
+        ),
+        Panel(
+            "deflation",
+            x=Axis("p", 0, 9),
+            y=Axis("t0", 0, 0.7),
+            curves=tuple(
+                Curve(DOWN[s], label(s), reference=f"deflation_alpha_{s[0]}_beta_{s[1]}") for s in DOWN
+            ),
+        ),
+    ),
+    checks=(
+        Points(
+            "contact_onset",
+            reference="disk_contact_onset",
+            base=circular(contact="frictionless", p_end=12.0),
+            parameters=("alpha", "beta", "l"),
+            asked={"p": 1e-8, "lam_pole": 1e-8},
+        ),
+        Claim(
+            "no_release",
+            "nothing is released while the patch grows: G = 0",
+            tuple((s, None) for s in STICK.values()),
+            no_release,
+        ),
+        Claim(
+            "contact_later",
+            "first contact needs more pressure with pre-stretch and with the Mooney-Rivlin term",
+            tuple((s, None) for s in SLIP.values()),
+            contact_later,
+        ),
+        Claim(
+            "taut",
+            "both resultants stay positive: nothing wrinkles",
+            tuple((s, None) for s in (*SLIP.values(), *STICK.values(), *DOWN.values())),
+            taut,
+        ),
+    ),
+    asked={
+        "p": 1e-6,
+        "t0": 1e-6,
+        "lam_pole": 1e-6,
+        "rho_contact": 1e-6,
+        "X_contact": 1e-6,
+        "lam1_contact": 1e-5,
+        "lam1_contact_outer": 1e-5,
+        "sigma_pole": 1e-5,
+        "V": 1e-6,
+    },
+)

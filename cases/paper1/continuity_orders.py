@@ -1,0 +1,63 @@
+"""Paper 1: orders of continuity at the edge of the patch, measured, alpha = 0.1, beta = 1.
+
+Frictionless, the paper has lam1 in C1 and lam2 in C2; lam1 is smoother than that (lam1' holds the slope angle
+only, and its rate, like the pressure, is continuous). In adhesive inflation lam1 is C0 and lam2 C1; in
+adhesive deflation lam1 jumps and lam2 is C0.
+"""
+
+import numpy as np
+
+from weakforms import At, Case, Claim, Finding, Solutions, circular, continuity, reference
+
+WINDOW = 0.06
+STICK = circular(alpha=0.1, beta=1, contact="adhesive").on(degree=6)
+SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=5.0).on(degree=6)
+DOWN = STICK.at(phase="deflation")
+STUCK = float(reference(1, "deflation_alpha_0.1_beta_1").columns["X_contact"][0])
+KINDS = {
+    "frictionless": (SLIP, At("X_contact", 0.4), 0.4, {"lam1": 3, "lam2": 3}),
+    "adhesive_inflation": (STICK, At("X_contact", 0.34), 0.34, {"lam1": 1, "lam2": 2}),
+    "adhesive_deflation": (DOWN, At("p", 2.0), STUCK, {"lam1": 0, "lam2": 1}),
+}
+"""Solution, state, edge, and the first derivative that jumps."""
+
+
+def state(kind: str) -> At:
+    """The state with samples on both sides of the edge."""
+    _, at, edge, _ = KINDS[kind]
+    return At(at.name, at.value, profile=continuity.samples(edge, WINDOW))
+
+
+def as_stated(kind: str, solutions: Solutions) -> Finding:
+    """First derivatives that jump."""
+    spec, _, edge, expected = KINDS[kind]
+    at, good, found = state(kind), True, []
+    for name, order in expected.items():
+        values, _ = solutions.sampled(spec, at, name)
+        jumps = continuity.jumps(np.asarray(at.profile) - edge, values, WINDOW)
+        first, clear = continuity.first_jump(jumps)
+        good &= clear and first == order
+        found.append(f"{name}: derivative {first}, relative jumps " + ", ".join(f"{j:.0e}" for j in jumps))
+    return good, "; ".join(found)
+
+
+STATEMENTS = {
+    "frictionless": "frictionless: lam2 is C2, as stated; so is lam1, which is stated to be C1",
+    "adhesive_inflation": "adhesive inflation: lam1 is C0, lam2 is C1",
+    "adhesive_deflation": "adhesive deflation: lam1 jumps, lam2 is C0",
+}
+
+CASE = Case(
+    title="Orders of continuity at the edge of the patch",
+    source="Patil, DasGupta & Eriksson (2015), section 5",
+    checks=tuple(
+        Claim(
+            kind,
+            statement,
+            ((KINDS[kind][0], state(kind)),),
+            lambda solutions, kind=kind: as_stated(kind, solutions),
+        )
+        for kind, statement in STATEMENTS.items()
+    ),
+    quick=False,
+)

@@ -1,0 +1,162 @@
+"""Paper 1, figure 4: profiles and paths of material points in adhesive inflation.
+
+Both stretches of what has touched are locked, and the patch moves vertically as a whole ("locked"; the text's
+list of unknowns does not close the problem, the vertical balance of the whole patch does). (a) beta = 1, (b)
+beta = 2.
+"""
+
+import numpy as np
+
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Path,
+    PrintedInput,
+    Solutions,
+    Spec,
+    circular,
+)
+
+STICK = {
+    1: circular(alpha=0.1, beta=1, contact="adhesive"),
+    2: circular(alpha=0.1, beta=2, contact="adhesive", p_end=8.49),
+}
+FREE = {beta: circular(alpha=0.1, beta=beta) for beta in (1, 2)}
+SAME_STATE = {(2, 2.66): "fig03b_p_2.66", (2, 4.49): "fig03b_p_4.49"}
+FIRST_TOUCH = {1: 2.03, 2: 4.89}
+PRINTED = {1: (0.408, 2.094, 2.833, 3.477), 2: (2.66, 4.49, 6.16, 8.49)}
+PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+OVER = {
+    1: (0.1, 0.408, 0.8, 1.2, 1.6, 2.094, 2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477),
+    2: (0.8, 1.7, 2.66, 3.6, 4.49, 5.0, 5.4, 5.8, 6.16, 6.7, 7.3, 7.9, 8.49),
+}
+LATE = {1: (2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477), 2: (5.4, 5.8, 6.16, 6.7, 7.3, 7.9, 8.49)}
+
+
+def of(beta: int, p: float) -> Spec:
+    """The free membrane below the pressure of first contact, the constrained one above."""
+    return FREE[beta] if p < FIRST_TOUCH[beta] else STICK[beta]
+
+
+def samples(solutions: Solutions, beta: int, pressures: tuple[float, ...], name: str) -> np.ndarray:
+    """A column at the material points of the paths, one row a pressure."""
+    at = [At("p", p, profile=PATHS) for p in pressures]
+    return np.array([solutions.sampled(STICK[beta], a, name)[0] for a in at])
+
+
+def vertical(solutions: Solutions) -> Finding:
+    """Radius and stretches of points in contact while the pressure grows."""
+    spread, steps = 0.0, 0
+    for beta, pressures in LATE.items():
+        front = np.array([solutions.value(STICK[beta], At("p", p), "X_contact") for p in pressures])
+        for name in ("rho", "lam1", "lam2"):
+            values = samples(solutions, beta, pressures, name)
+            for i, x in enumerate(PATHS):
+                stuck = values[front > x + 0.01, i]
+                if len(stuck) > 1:
+                    spread, steps = max(spread, float(np.ptp(stuck))), steps + len(stuck) - 1
+    return spread < 1e-9, f"largest change of rho, lam1 or lam2 over {steps} steps: {spread:.1e}"
+
+
+def pole_frozen(solutions: Solutions) -> Finding:
+    """The stretch at the pole against its value at first contact."""
+    off = []
+    for beta, pressures in LATE.items():
+        (onset,) = solutions.points(STICK[beta], "contact_onset")
+        values = [solutions.quantity(STICK[beta], At("p", p), "lam_pole") for p in pressures]
+        bound = 2 * max(v.uncertainty for v in values) + 2 * onset.uncertainty["lam_pole"]
+        off.append((max(abs(v.value - onset.values["lam_pole"]) for v in values), bound))
+    return all(d <= b < 1e-6 for d, b in off), "; ".join(f"{d:.1e} within {b:.1e}" for d, b in off)
+
+
+def rise_to_the_edge(solutions: Solutions) -> Finding:
+    """Both stretches along the patch at the last pressure, between points 0.1 apart."""
+    least = np.inf
+    for beta, pressures in LATE.items():
+        edge = solutions.value(STICK[beta], At("p", pressures[-1], profile=PATHS), "X_contact")
+        inside = [i for i, x in enumerate(PATHS) if x < edge]
+        for name in ("lam1", "lam2"):
+            values = samples(solutions, beta, pressures[-1:], name)[0, inside]
+            least = min(least, float(np.diff(values).min()))
+    return least > 0, f"smallest increment: {least:.1e}"
+
+
+def inflexion(solutions: Solutions) -> Finding:
+    """Slope of the path of X = 0.6, which does not touch: it falls, then rises."""
+    rows, good = [], True
+    for beta, pressures in OVER.items():
+        rho, eta = (samples(solutions, beta, pressures, name)[:, PATHS.index(0.6)] for name in ("rho", "eta"))
+        slope = np.diff(eta) / np.diff(rho)
+        change = np.sign(np.diff(slope))
+        good &= change[0] == -1 and change[-1] == 1
+        rows.append(f"beta = {beta}: {slope[0]:.2f}, least {slope.min():.2f}, last {slope[-1]:.2f}")
+    return bool(good), "deta/drho of X = 0.6: " + "; ".join(rows)
+
+
+ALONG = tuple((STICK[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)
+
+CASE = Case(
+    title="Profiles and paths in adhesive inflation",
+    source="Patil, DasGupta & Eriksson (2015), figure 4",
+    panels=tuple(
+        Panel(
+            letter,
+            x=Axis("rho", 0, 1.2),
+            y=Axis("eta", 0, 1.0),
+            level=0.5,
+            title=f"beta = {beta}",
+            paths=(Path(STICK[beta], tuple(At("p", p) for p in OVER[beta]), PATHS),),
+            curves=tuple(
+                Curve(
+                    of(beta, p),
+                    f"$p = {p:g}$",
+                    reference=SAME_STATE.get((beta, p), f"fig04{letter}_p_{p:g}"),
+                    at=At("p", p),
+                )
+                for p in PRINTED[beta]
+            ),
+        )
+        for letter, beta in (("a", 1), ("b", 2))
+    ),
+    checks=(
+        Claim("vertical", "points in contact move vertically, their stretches frozen", ALONG, vertical),
+        Claim("pole_frozen", "the pole keeps the stretch it had at first contact", ALONG, pole_frozen),
+        Claim("rise_to_the_edge", "both stretches grow from the pole to the edge", ALONG, rise_to_the_edge),
+        PrintedInput(
+            "pressure 0.408 of figure 4a",
+            "0.408",
+            FREE[1],
+            At("p", 0.408),
+            "t0",
+            near=0.25,
+            within=3e-3,
+            source="legend of figure 4a",
+        ),
+        *(
+            PrintedInput(
+                f"pressure {p} of figure 4a",
+                str(p),
+                STICK[1],
+                At("p", p),
+                "t0",
+                near=near,
+                within=3e-3,
+                source="legend of figure 4a",
+                decoded=False,
+            )
+            for p, near in zip(PRINTED[1][1:], (0.51, 0.54, 0.57), strict=True)
+        ),
+        Claim(
+            "inflexion",
+            "paths of points outside, near the patch, first flatten, then steepen",
+            ALONG,
+            inflexion,
+        ),
+    ),
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4, "sigma": 1e-4},
+)

@@ -1,0 +1,100 @@
+"""Paper 1, figure 5: profiles and paths in adhesive deflation without peeling.
+
+The end of inflation is not printed; the last profile of figure 4 is taken: p = 3.477 (beta = 1) and 8.49
+(beta = 2).
+"""
+
+import numpy as np
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, circular
+
+DOWN = {
+    1: circular(alpha=0.1, beta=1, contact="adhesive", phase="deflation"),
+    2: circular(alpha=0.1, beta=2, contact="adhesive", phase="deflation", p_end=8.49),
+}
+PRINTED = {1: (0.6, 1.4, 2.4, 3.2), 2: (0.2, 2.2, 4.2, 6.43)}
+PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+OVER = {
+    1: (3.4, 3.2, 2.8, 2.4, 2.0, 1.7, 1.4, 1.0, 0.6),
+    2: (8.4, 7.5, 6.43, 5.3, 4.2, 3.2, 2.2, 1.2, 0.2),
+}
+
+
+def bulges(solutions: Solutions) -> Finding:
+    """Meridional curvature of the free part at the edge: positive at p = 2.4, negative at 1.4."""
+    high, low = (solutions.quantity(DOWN[1], At("p", p), "kappa") for p in (2.4, 1.4))
+    good = high.value > 2 * high.uncertainty and low.value < -2 * low.uncertainty
+    return good, f"kappa = {high.value:.4f} at p = 2.4, {low.value:.4f} at p = 1.4"
+
+
+def rigid(solutions: Solutions) -> Finding:
+    """sigma(X) - sigma(edge) at the same points of the patch, over the pressures."""
+    worst = 0.0
+    for beta, pressures in OVER.items():
+        front = solutions.value(DOWN[beta], At("p", pressures[0]), "X_contact")
+        inside = [i for i, x in enumerate(PATHS) if x < front - 0.01]
+        rows = []
+        for p in pressures:
+            at = At("p", p, profile=PATHS)
+            edge = solutions.value(DOWN[beta], at, "sigma_contact")
+            rows.append(solutions.sampled(DOWN[beta], at, "sigma")[0][inside] - edge)
+        worst = max(worst, float(np.ptp(np.array(rows), axis=0).max()))
+    return worst < 1e-8, f"largest change over the pressures: {worst:.1e}"
+
+
+def tensile_from_the_edge(solutions: Solutions) -> Finding:
+    """Share of the patch under tension as the pressure falls, and where it lies."""
+    shares, good = {}, True
+    for beta, pressures in OVER.items():
+        shares[beta] = []
+        for p in pressures:
+            at = At("p", p, profile=PATHS)
+            columns = solutions.profile(DOWN[beta], at).columns
+            sigma = columns["sigma"][columns["X"] < solutions.value(DOWN[beta], at, "X_contact")]
+            tensile = sigma > 0
+            good &= bool(np.all(np.diff(tensile.astype(int)) >= 0))  # the tensile points are the outer ones
+            shares[beta].append(float(tensile.mean()))
+        good &= bool(np.all(np.diff(shares[beta]) >= 0))
+    good &= shares[1][-1] == 1.0 and shares[1][0] < 1
+    return good, "; ".join(f"beta = {b}: " + ", ".join(f"{s:.2f}" for s in v) for b, v in shares.items())
+
+
+ALONG = tuple((DOWN[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)
+
+CASE = Case(
+    title="Profiles and paths in adhesive deflation",
+    source="Patil, DasGupta & Eriksson (2015), figure 5",
+    panels=tuple(
+        Panel(
+            letter,
+            x=Axis("rho", 0, 1.2),
+            y=Axis("eta", 0, 1.0),
+            level=0.5,
+            title=f"beta = {beta}",
+            paths=(Path(DOWN[beta], tuple(At("p", p) for p in OVER[beta]), PATHS),),
+            curves=tuple(
+                Curve(DOWN[beta], f"$p = {p:g}$", reference=f"fig05{letter}_p_{p:g}", at=At("p", p))
+                for p in PRINTED[beta]
+            ),
+        )
+        for letter, beta in (("a", 1), ("b", 2))
+    ),
+    checks=(
+        Claim(
+            "bulges",
+            "the free part's curvature at the edge changes sign between p = 2.4 and 1.4",
+            tuple((DOWN[1], At("p", p)) for p in (2.4, 1.4)),
+            bulges,
+        ),
+        Claim("rigid", "the patch moves rigidly: sigma - sigma(edge) does not change", ALONG, rigid),
+        Claim(
+            "tensile_from_the_edge",
+            "the contact stress turns tensile first at the edge; the tensile zone grows inwards, for "
+            "beta = 1 to "
+            "the whole patch",
+            ALONG,
+            tensile_from_the_edge,
+        ),
+    ),
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4, "sigma": 1e-4},
+)

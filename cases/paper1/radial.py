@@ -1,0 +1,50 @@
+"""Paper 1, section 3: the usual no-slip model, in which only the radius of a point sticks.
+
+The text says that both stretches are locked. Where only rho is, and the patch is in vertical equilibrium, the
+indentation is slightly *smaller* than without friction, against figure 6 and the abstract: the paper's patch
+is locked.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular
+
+ENDS = {1: 4.9, 2: 9.0}
+RADIAL = {b: circular(alpha=0.1, beta=b, contact="adhesive", adhesion="radial", p_end=ENDS[b]) for b in ENDS}
+SLIP = {b: circular(alpha=0.1, beta=b, contact="frictionless", p_end=9.0) for b in ENDS}
+PRESSURES = {1: (2.5, 3.0, 4.0), 2: (6.0, 7.0, 8.0)}
+
+
+def indents_less(solutions: Solutions) -> Finding:
+    """Pole height against frictionless at equal pressure."""
+    gaps = [
+        solutions.value(RADIAL[b], At("p", p), "t0") - solutions.value(SLIP[b], At("p", p), "t0")
+        for b, pressures in PRESSURES.items()
+        for p in pressures
+    ]
+    return min(gaps) > -0.01 and max(gaps) < 0, "t0 less frictionless: " + ", ".join(f"{g:.1e}" for g in gaps)
+
+
+CASE = Case(
+    title="Adhesion that locks the radius only",
+    source="Patil, DasGupta & Eriksson (2015), section 3",
+    panels=(
+        Panel(
+            "radial",
+            x=Axis("p", 0, 9),
+            y=Axis("t0", 0, 0.7),
+            markers="contact_onset",
+            curves=tuple(
+                Curve(RADIAL[b], rf"$\beta = {b}$", reference=f"adhesive_radial_alpha_0.1_beta_{b}")
+                for b in ENDS
+            ),
+        ),
+    ),
+    checks=(
+        Claim(
+            "indents_less",
+            "with the radius alone locked the indentation is slightly smaller than without friction",
+            tuple((of[b], At("p", p)) for of in (RADIAL, SLIP) for b, ps in PRESSURES.items() for p in ps),
+            indents_less,
+        ),
+    ),
+    asked={"p": 1e-6, "t0": 1e-6, "rho_contact": 1e-6, "lam1_contact": 1e-5, "sigma_pole": 1e-5, "V": 1e-6},
+)
