@@ -1,0 +1,136 @@
+"""Paper 4, figure 2: wrinkling function along the fluid-filled membrane, delta = 2, Case 1, Af = (Af)_c.
+
+(a) M = 0.5, lower end thin; (b) M = 1.5, upper end thin. Of the levels only zw = 7.44 is in the text; the
+others are chosen here. With the exact critical radius a taut sliver stands at the thin end at every level
+above 0, thinner than 1e-3 at low ones.
+"""
+
+import numpy as np
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_tube
+
+LEVELS = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
+TUBES = {M: wrinkled_tube(M=M, delta=2) for M in (0.5, 1.5)}
+EMPTY, PRINTED = At("zw", 0.0, profile=()), At("zw", 7.44, profile=())
+VERGE = 1e-9
+"""Deviation of gw from 1 within which no state is asserted."""
+
+
+def fronts(solutions: Solutions, M: float, level: float) -> list[float]:
+    """Fronts from the lower end."""
+    quantities = solutions.state(TUBES[M], At("zw", float(level))).quantities
+    return [q.value for name, q in quantities.items() if name.startswith("Z_front")]
+
+
+def unloaded(solutions: Solutions) -> Finding:
+    """Zero load: gw <= 1, equal to 1 at the thin end only; radius constant, ends not pulled sideways."""
+    good, rows = True, []
+    for M, thin in ((0.5, 0), (1.5, -1)):
+        columns = solutions.profile(TUBES[M], EMPTY).columns
+        gw, others = columns["gw"], np.delete(columns["gw"], thin)
+        off = np.ptp(columns["r"]) + np.abs(columns["slope"][[0, -1]]).max()
+        good &= bool(abs(gw[thin] - 1) < VERGE and others.max() < 1 - VERGE and off < 1e-10)
+        rows.append(f"M = {M}: gw = 1 {gw[thin] - 1:+.0e} at the thin end, {others.max():.6f} next to it")
+    return good, "; ".join(rows)
+
+
+def pattern(solutions: Solutions) -> Finding:
+    """M = 1.5, zw = 7.44: wrinkled, taut, wrinkled, taut from the bottom."""
+    found = fronts(solutions, 1.5, 7.44)
+    gw = solutions.profile(TUBES[1.5], PRINTED).columns["gw"]
+    return len(found) == 3 and gw[0] < 1 < gw[-1], f"fronts at Z = {', '.join(f'{z:.6f}' for z in found)}"
+
+
+def thin_end_taut(solutions: Solutions) -> Finding:
+    """At the thin end gw is above 1, at the thick end below 1, at every level from 3 on."""
+    ends = []
+    for M in TUBES:
+        for level in LEVELS[1:]:
+            gw = solutions.profile(TUBES[M], At("zw", float(level), profile=())).columns["gw"]
+            ends.append((gw[0], gw[-1]) if M < 1 else (gw[-1], gw[0]))
+    thin, thick = np.array(ends).T
+    return bool(thin.min() > 1 and thick.max() < 1), (
+        f"least gw at the thin end 1 + {thin.min() - 1:.1e}, largest at the thick end {thick.max():.4f}"
+    )
+
+
+def front_rises(solutions: Solutions) -> Finding:
+    """M = 0.5: one front, which moves up with the level."""
+    found = [fronts(solutions, 0.5, level) for level in LEVELS[1:]]
+    places = [row[0] for row in found]
+    return all(len(row) == 1 for row in found) and places == sorted(places), ", ".join(
+        f"{z:.4f}" for z in places
+    )
+
+
+def kink(solutions: Solutions) -> Finding:
+    """At each front gw is continuous and its slope is not (samples at 1e-4 and 2e-4 to each side)."""
+    good, rows = True, []
+    for z in PLACES:
+        at = At("zw", 7.44, profile=around(z))
+        gw, u = solutions.sampled(TUBES[1.5], at, "gw")
+        below, above = (gw[1] - gw[0]) / 1e-4, (gw[3] - gw[2]) / 1e-4
+        gap = abs((2 * gw[1] - gw[0]) - (2 * gw[2] - gw[3]))
+        good &= bool(gap < 1e-7 and abs(above - below) > 10 * u / 1e-4)
+        rows.append(f"Z = {z:.4f}: slopes {below:.5f}, {above:.5f}, gap {gap:.0e}")
+    return good, "; ".join(rows)
+
+
+def around(z: float) -> tuple[float, ...]:
+    """Two points to each side of a front."""
+    return tuple(z + d * 1e-4 for d in (-2, -1, 1, 2))
+
+
+PLACES = (1.511572660117, 5.069224906584, 7.595374980714)
+"""Fronts at zw = 7.44, M = 1.5, as the reference has them: where the kink is sampled."""
+
+STATES = tuple((TUBES[M], At("zw", float(v), profile=())) for M in TUBES for v in LEVELS)
+
+CASE = Case(
+    title="Wrinkling function under fluid, delta = 2",
+    source="Patil, Nordmark & Eriksson (2015), figure 2",
+    panels=tuple(
+        Panel(
+            name,
+            x=Axis("Z", 0, 8),
+            y=Axis("gw", 0.65, 1.4),
+            title=rf"$M = {M}$, $\delta = 2$",
+            curves=tuple(
+                Curve(
+                    TUBES[M],
+                    rf"$z_w = {v}$",
+                    reference=f"fig02_M_{M}_zw_{v}",
+                    at=At("zw", float(v), profile=()),
+                )
+                for v in LEVELS
+            ),
+        )
+        for name, M in (("a", 0.5), ("b", 1.5))
+    ),
+    checks=(
+        Claim(
+            "unloaded",
+            "without load gw <= 1 everywhere, with equality at the thin end; the radius is constant and the "
+            "disks feel no radial force",
+            tuple((TUBES[M], EMPTY) for M in TUBES),
+            unloaded,
+        ),
+        Claim(
+            "pattern",
+            "M = 1.5, delta = 2, zw = 7.44: two wrinkled and two taut zones in turn, wrinkled at the bottom",
+            ((TUBES[1.5], PRINTED),),
+            pattern,
+        ),
+        Claim("thin_end_taut", "the thin end is taut and the thick end wrinkled", STATES, thin_end_taut),
+        Claim(
+            "front_rises", "for M = 0.5 there is one front, which rises with the level", STATES, front_rises
+        ),
+        Claim(
+            "kink",
+            "gw is continuous at a front and has a kink there",
+            tuple((TUBES[1.5], At("zw", 7.44, profile=around(z))) for z in PLACES),
+            kink,
+        ),
+    ),
+    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "gw": 1e-6, "tension": 1e-6},
+)

@@ -1,0 +1,102 @@
+"""Paper 4, figure 5: wrinkling function along the gas-filled membrane, M = 0.5, Case 1, Af = (Af)_c.
+
+Of the pressures only p = 0.55 is in the text. M and 2 - M are mirror images under gas.
+"""
+
+import numpy as np
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_tube
+
+PRESSURES = (0, 0.05, 0.1, 0.2, 0.35, 0.45, 0.55)
+TUBES = {d: wrinkled_tube(M=0.5, delta=d, load="gas") for d in (2, 3)}
+MIRRORED = wrinkled_tube(M=1.5, delta=2, load="gas")
+ALIKE = At("p", 0.2, profile=tuple(np.linspace(0, 8, 81)))
+
+
+def states(pressures: tuple[float, ...]) -> tuple:
+    """States of both membranes."""
+    return tuple((TUBES[d], At("p", float(p), profile=())) for d in TUBES for p in pressures)
+
+
+def wrinkled_zone_shrinks(solutions: Solutions) -> Finding:
+    """One front, taut below it; the wrinkled share falls with p and stays above 0."""
+    good, rows = True, []
+    for d, spec in TUBES.items():
+        shares = []
+        for p in PRESSURES[1:]:
+            state = solutions.state(spec, At("p", p))
+            gw = state.fields[0].columns["gw"]
+            good &= gw[0] > 1 > gw[-1] and "Z_front_2" not in state.quantities
+            shares.append(state.quantities["wrinkled_fraction"].value)
+        good &= shares == sorted(shares, reverse=True) and shares[-1] > 0
+        rows.append(f"delta = {d}: " + ", ".join(f"{s:.4f}" for s in shares))
+    return bool(good), "; ".join(rows)
+
+
+def mirror_images(solutions: Solutions) -> Finding:
+    """The state of M = 1.5 turned upside down is that of M = 0.5, within twice the uncertainties."""
+    good, rows = True, []
+    for name in ("r", "lam1", "gw"):
+        a, u = solutions.sampled(TUBES[2], ALIKE, name)
+        b, v = solutions.sampled(MIRRORED, ALIKE, name)
+        error, bound = np.abs(a - b[::-1]).max(), 2 * np.hypot(u, v)
+        good &= bool(error <= bound <= 1e-6)
+        rows.append(f"{name}: {error:.0e} <= {bound:.0e}")
+    return good, "; ".join(rows)
+
+
+def hoop_changes_most(solutions: Solutions) -> Finding:
+    """Largest relative changes of the stretches from p = 0 to 0.3, delta = 2."""
+    states = [At("p", p, profile=ALIKE.profile) for p in (0.3, 0.0)]
+    hoop, along = (
+        np.abs(np.divide(*(solutions.sampled(TUBES[2], at, n)[0] for at in states)) - 1).max()
+        for n in ("lam2", "lam1")
+    )
+    return bool(hoop > 0.4 and along < 0.02), f"hoop {100 * hoop:.2f} %, meridional {100 * along:.2f} %"
+
+
+CASE = Case(
+    title="Wrinkling function under gas",
+    source="Patil, Nordmark & Eriksson (2015), figure 5",
+    panels=tuple(
+        Panel(
+            name,
+            x=Axis("Z", 0, 8),
+            y=Axis("gw", 0.6, 1.6 if d == 2 else 4),
+            title=rf"$M = 0.5$, $\delta = {d}$",
+            curves=tuple(
+                Curve(
+                    TUBES[d],
+                    rf"$p = {p}$",
+                    reference=f"fig05_delta_{d}_p_{p}" if p else None,
+                    at=At("p", float(p), profile=()),
+                )
+                for p in PRESSURES
+            ),
+            note="Without load the state is that of figures 2 and 3.",
+        )
+        for name, d in (("a", 2), ("b", 3))
+    ),
+    checks=(
+        Claim(
+            "wrinkled_zone_shrinks",
+            "for 0 < p <= 0.55 the thin side is taut and the thick one wrinkled; the wrinkled zone shrinks "
+            "with p and does not vanish",
+            states(PRESSURES[1:]),
+            wrinkled_zone_shrinks,
+        ),
+        Claim(
+            "mirror_images",
+            "under gas M and 2 - M give mirror images",
+            ((TUBES[2], ALIKE), (MIRRORED, ALIKE)),
+            mirror_images,
+        ),
+        Claim(
+            "hoop_changes_most",
+            "the hoop stretch changes much faster with pressure than the meridional one",
+            tuple((TUBES[2], At("p", p, profile=ALIKE.profile)) for p in (0.0, 0.3)),
+            hoop_changes_most,
+        ),
+    ),
+    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "gw": 1e-6, "tension": 1e-6},
+)

@@ -1,0 +1,95 @@
+"""Paper 4, figure 10: wrinkling function in Case 2 (disks of radius Ao), under gas (a) and fluid (b).
+
+M = 0.5, delta = 2, and M = 0.3, delta = 3. Of the loads none is in the text. Without load a zone in the
+middle is wrinkled and both ends are taut; it vanishes at a very small pressure, or at a moderate level.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, wrinkled_tube
+
+DATA = {2: 0.5, 3: 0.3}
+PRESSURES, LEVELS = (0, 0.001, 0.002, 0.005, 0.05, 0.2), (0, 2, 4, 6, 8, 12)
+GAS = {d: wrinkled_tube(M=M, delta=d, load="gas", Af=1) for d, M in DATA.items()}
+FLUID = {d: wrinkled_tube(M=M, delta=d, Af=1) for d, M in DATA.items()}
+EMPTY = At("p", 0.0, profile=())
+
+
+def wrinkled_middle(solutions: Solutions) -> Finding:
+    """Taut, wrinkled, taut without load."""
+    good, rows = True, []
+    for d in DATA:
+        state = solutions.state(GAS[d], EMPTY)
+        gw = state.fields[0].columns["gw"]
+        fronts = [q.value for name, q in state.quantities.items() if name.startswith("Z_front")]
+        good &= gw[0] > 1 and gw[-1] > 1 and len(fronts) == 2
+        rows.append(f"delta = {d}: " + ", ".join(f"{z:.5f}" for z in fronts))
+    return bool(good), "; ".join(rows)
+
+
+def vanishes(solutions: Solutions) -> Finding:
+    """The wrinkled zone closes at a pressure of a few 1e-3 and at a level within the height."""
+    gas = [solutions.points(GAS[d], "zone_closing")[0].values["p"] for d in DATA]
+    fluid = [solutions.points(FLUID[d], "zone_closing")[0].values["zw"] for d in DATA]
+    good = max(gas) < 5e-3 and all(0 < v < 8 * d for v, d in zip(fluid, DATA, strict=True))
+    return good, ", ".join(f"p = {v:.7f}" for v in gas) + "; " + ", ".join(f"zw = {v:.6f}" for v in fluid)
+
+
+def curves(spec: dict, d: int, control: str, loads: tuple, table: str) -> tuple[Curve, ...]:
+    """One curve a load."""
+    label = "p" if control == "p" else "z_w"
+    return tuple(
+        Curve(
+            spec[d],
+            rf"${label} = {v}$",
+            reference=f"{table}_delta_{d}_{control}_{v}" if v or control == "p" else None,
+            at=At(control, float(v), profile=()),
+        )
+        for v in loads
+    )
+
+
+CASE = Case(
+    title="Disks attached before stretching",
+    source="Patil, Nordmark & Eriksson (2015), figure 10",
+    panels=tuple(
+        Panel(
+            f"{name}, delta = {d}{part}",
+            x=Axis("Z", *x),
+            y=Axis("gw", *y),
+            title=rf"$M = {M}$, $\delta = {d}$, $A_f = A_o$",
+            curves=curves(GAS, d, "p", PRESSURES, "fig10a")
+            if name == "a"
+            else curves(FLUID, d, "zw", LEVELS, "fig10b"),
+            note="Without load the state is that of panel (a)." if name == "b" else "",
+        )
+        for name in "ab"
+        for d, M in DATA.items()
+        for part, x, y in (("", (0, 8), (0.9, 2)), (", inset", (2.5, 6), (0.99, 1.03)))
+        if part == "" or name == "b"
+    ),
+    checks=(
+        Claim(
+            "wrinkled_middle",
+            "without load the middle is wrinkled and both ends are taut",
+            tuple((GAS[d], EMPTY) for d in DATA),
+            wrinkled_middle,
+        ),
+        Claim(
+            "vanishes",
+            "the wrinkled zone vanishes at a very small pressure, and under fluid at a moderate level",
+            tuple((spec[d], None) for spec in (GAS, FLUID) for d in DATA),
+            vanishes,
+        ),
+        *(
+            Points(
+                "zone_closing",
+                reference="case2_vanishing",
+                base=base,
+                parameters=("M", "delta"),
+                where={"fluid": fluid},
+                asked={"load": 1e-5, "Z": 1e-5},
+            )
+            for fluid, base in ((0.0, wrinkled_tube(load="gas", Af=1)), (1.0, wrinkled_tube(Af=1)))
+        ),
+    ),
+    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "gw": 1e-6, "tension": 1e-6},
+)

@@ -1,0 +1,44 @@
+"""Paper 4, figure 11: wrinkling function in Case 2, thickness varying little, M = 0.9, delta = 2.
+
+No wrinkling at any pressure, not even without load.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_tube
+
+TUBE = wrinkled_tube(M=0.9, delta=2, load="gas", Af=1)
+PRESSURES = (0, 0.05, 0.1, 0.2)
+
+
+def taut(solutions: Solutions) -> Finding:
+    """Least gw at each pressure."""
+    least = [solutions.value(TUBE, At("p", float(p)), "gw_min") for p in PRESSURES]
+    return min(least) > 1, ", ".join(
+        f"p = {p}: 1 {g - 1:+.2e}" for p, g in zip(PRESSURES, least, strict=True)
+    )
+
+
+CASE = Case(
+    title="Case 2 without wrinkling",
+    source="Patil, Nordmark & Eriksson (2015), figure 11",
+    panels=(
+        Panel(
+            "11",
+            x=Axis("Z", 0, 8),
+            y=Axis("gw", 0.95, 1.6),
+            title=r"$M = 0.9$, $\delta = 2$, $A_f = A_o$",
+            curves=tuple(
+                Curve(TUBE, rf"$p = {p}$", reference=f"fig11_p_{p}", at=At("p", float(p), profile=()))
+                for p in PRESSURES
+            ),
+        ),
+    ),
+    checks=(
+        Claim(
+            "taut",
+            "with M = 0.9 in Case 2 the membrane is taut everywhere at every pressure",
+            tuple((TUBE, At("p", float(p))) for p in PRESSURES),
+            taut,
+        ),
+    ),
+    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "gw": 1e-6, "tension": 1e-6},
+)

@@ -1,0 +1,120 @@
+"""Paper 4, table 1: energy of a sheet in its four states, and the modified deformation gradient beside it.
+
+Both forms, differentiated by UFL, against the printed formulas; the first derivatives are continuous where
+the states meet, the second ones jump.
+"""
+
+import numpy as np
+
+from weakforms import Case, Claim, Finding, Solutions, Spec, wrinkled_material
+
+C2 = 0.01
+SAMPLES = {
+    "taut": ((1.5, 1.2), (2.0, 0.9), (0.95, 1.3), (1.05, 1.05)),
+    "tension along 1": ((1.5, 0.5), (2.5, 0.05), (1.01, 0.6)),
+    "tension along 2": ((0.5, 1.5), (0.05, 2.5), (0.6, 1.01)),
+    "slack": ((0.9, 0.8), (0.3, 0.99), (0.05, 0.05)),
+}
+NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
+NEAR = 1e-7
+"""Distance from the curves on which states meet at which continuity is looked at."""
+MEETING = {
+    "taut / tension along 1": lambda e: (1.5, 1.5**-0.5 * (1 + e)),
+    "taut / tension along 2": lambda e: (1.5**-0.5 * (1 + e), 1.5),
+    "tension along 1 / slack": lambda e: (1 + e, 0.7),
+    "tension along 2 / slack": lambda e: (0.7, 1 + e),
+}
+
+
+def sheet(stretches: tuple[float, float], energy: str = "relaxed") -> Spec:
+    """The solution at two stretches."""
+    return wrinkled_material(l1=stretches[0], l2=stretches[1], c2=C2, energy=energy)
+
+
+def found(solutions: Solutions, stretches: tuple[float, float], energy: str = "relaxed") -> np.ndarray:
+    """Energy, stresses and tangent."""
+    quantities = solutions.result(sheet(stretches, energy)).quantities
+    return np.array([quantities[name].value for name in NAMES])
+
+
+def full(a: float, b: float) -> tuple[float, ...]:
+    """Mooney-Rivlin energy of the taut state, with its derivatives written out."""
+    j = (a * b) ** 2
+    return (
+        a**2 + b**2 + 1 / j - 3 + C2 * (1 / a**2 + 1 / b**2 + j - 3),
+        2 * (a - 1 / (a * j) + C2 * (a * b**2 - 1 / a**3)),
+        2 * (b - 1 / (b * j) + C2 * (a**2 * b - 1 / b**3)),
+        2 * (1 + 3 / (a**2 * j) + C2 * (b**2 + 3 / a**4)),
+        4 / (a * b * j) + 4 * C2 * a * b,
+        2 * (1 + 3 / (b**2 * j) + C2 * (a**2 + 3 / b**4)),
+    )
+
+
+def uniaxial(a: float) -> tuple[float, float, float]:
+    """Energy of the wrinkled state and two derivatives."""
+    return (
+        a**2 + 2 / a - 3 + C2 * (2 * a + 1 / a**2 - 3),
+        2 * (a - 1 / a**2 + C2 * (1 - 1 / a**3)),
+        2 + 4 / a**3 + 6 * C2 / a**4,
+    )
+
+
+def printed(state: str, a: float, b: float) -> tuple[float, ...]:
+    """The table's energy in a state."""
+    if state == "taut":
+        return full(a, b)
+    if state == "tension along 1":
+        w, w1, w11 = uniaxial(a)
+        return w, w1, 0, w11, 0, 0
+    if state == "tension along 2":
+        w, w2, w22 = uniaxial(b)
+        return w, 0, w2, 0, 0, w22
+    return (0,) * 6
+
+
+def as_printed(solutions: Solutions, energy: str) -> Finding:
+    """Largest relative difference from the printed formulas in each state."""
+    rows = {}
+    for state, points in SAMPLES.items():
+        pairs = [(found(solutions, p, energy), np.array(printed(state, *p))) for p in points]
+        rows[state] = max(np.abs(a - b).max() / max(1.0, np.abs(b).max()) for a, b in pairs)
+    return max(rows.values()) < 1e-12, ", ".join(f"{state}: {error:.0e}" for state, error in rows.items())
+
+
+def smooth(solutions: Solutions) -> Finding:
+    """Jumps across the curves where states meet: none in W and its slopes, some in the tangent."""
+    good, rows = True, []
+    for name, point in MEETING.items():
+        below, above = (found(solutions, point(e)) for e in (-NEAR, NEAR))
+        jump = np.abs(above - below)
+        good &= bool(jump[:3].max() < 50 * NEAR and jump[3:].max() > 0.5)
+        rows.append(f"{name}: {jump[:3].max():.0e}, tangent {jump[3:].max():.2f}")
+    return good, "; ".join(rows)
+
+
+POINTS = [p for points in SAMPLES.values() for p in points]
+
+CASE = Case(
+    title="States of a sheet and their energies",
+    source="Patil, Nordmark & Eriksson (2015), table 1",
+    checks=(
+        Claim(
+            "state_table",
+            "energy, stresses and tangent in all four states are the table's",
+            tuple((sheet(p), None) for p in POINTS),
+            lambda solutions: as_printed(solutions, "relaxed"),
+        ),
+        Claim(
+            "modified_gradient",
+            "the modified deformation gradient gives the same in all four states",
+            tuple((sheet(p, "modified_gradient"), None) for p in POINTS),
+            lambda solutions: as_printed(solutions, "modified_gradient"),
+        ),
+        Claim(
+            "smooth",
+            "energy and stresses are continuous where states meet, the tangent is not",
+            tuple((sheet(point(e)), None) for point in MEETING.values() for e in (-NEAR, NEAR)),
+            smooth,
+        ),
+    ),
+)

@@ -1,0 +1,61 @@
+"""Paper 4, section on case 2: thickness ratios beyond which the unloaded membrane wrinkles.
+
+Printed as "M < 0.75 or M > 1.25" (delta = 2) and "M < 0.4 or M > 1.6" (delta = 3): read off a grid. They
+are the roots of min gw = 1 in M on the taut solution, and depend on the length and on c2.
+"""
+
+from weakforms import (
+    At,
+    Case,
+    Claim,
+    Finding,
+    Points,
+    Printed,
+    Solutions,
+    wrinkled_tube,
+    wrinkled_tube_threshold,
+)
+
+GRID = "the text's M lies on a grid of 0.05; the threshold itself is 0.015 nearer to 0 or 2"
+ROWS = ((2, False, "0.75", GRID), (2, True, "1.25", GRID), (3, False, "0.4", ""), (3, True, "1.6", ""))
+ON_GRID = wrinkled_tube(M=0.75, delta=2, load="gas", Af=1)
+EMPTY = At("p", 0.0)
+
+
+def still_taut(solutions: Solutions) -> Finding:
+    """M = 0.75, delta = 2, without load: least gw."""
+    q = solutions.quantity(ON_GRID, EMPTY, "gw_min")
+    return 0 < q.value - 1 - 2 * q.uncertainty < 1e-4, f"least gw = 1 {q.value - 1:+.2e}"
+
+
+CASE = Case(
+    title="Thickness ratios at which the unloaded membrane begins to wrinkle",
+    source="Patil, Nordmark & Eriksson (2015), section on case 2",
+    checks=(
+        Points(
+            "quantity",
+            reference="thresholds",
+            base=wrinkled_tube_threshold(),
+            parameters=("delta", "c2", "L", "upper"),
+            asked={"M": 1e-5, "Z": 1e-5},
+        ),
+        *(
+            Printed(
+                f"threshold of M {'above' if upper else 'below'} 1 for delta = {delta}",
+                printed,
+                of=wrinkled_tube_threshold(delta=delta, upper=upper),
+                kind="quantity",
+                column="M",
+                source="section on case 2",
+                misprint=reason,
+            )
+            for delta, upper, printed, reason in ROWS
+        ),
+        Claim(
+            "still_taut",
+            "at the printed threshold M = 0.75, delta = 2 the membrane is still taut everywhere",
+            ((ON_GRID, EMPTY),),
+            still_taut,
+        ),
+    ),
+)

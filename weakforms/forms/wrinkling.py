@@ -1,0 +1,139 @@
+r"""Wrinkled membranes: relaxed energies, and the modified deformation gradient, of any principal-stretch law.
+
+A sheet that cannot bear compression folds where a stress would become negative. With a law ``w(l1, l2)`` of
+an isotropic incompressible sheet (:mod:`weakforms.forms.materials`) and the larger stretch ``l1``, the width
+at which uniaxial tension leaves it is the natural one, :math:`l_2 = l_1^{-1/2}`, whatever the law (equal
+transverse stretches), so the energy of the wrinkled state is :math:`w_r(l) = w(l, l^{-1/2})` and the sheet
+is taut where :math:`l_2 > l_1^{-1/2}` (Patil, Nordmark & Eriksson 2015, section 2 and table 1; Pipkin 1986).
+
+All energies here have continuous first derivatives; the second ones jump where the state changes. States are
+chosen by ``conditional`` *around* smooth branches: UFL then differentiates the branches only, which is exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ufl import And, conditional, det, gt, inv, max_value, sqrt, tr
+from ufl.core.expr import Expr
+
+Law = Callable[[Expr, Expr], Expr]
+"""Energy per reference volume as a function of the two principal stretches."""
+
+TINY = 1e-6
+"""Stretch below which a branch that is not used is evaluated here instead, to stay finite."""
+
+COALESCENCE = 1e-7
+"""Difference of the squared principal stretches below which they count as equal."""
+
+
+def natural_width(l1: Expr) -> Expr:
+    r"""Transverse stretch in uniaxial tension, :math:`l_1^{-1/2}`: the width below which a sheet wrinkles."""
+    return 1 / sqrt(l1)
+
+
+def wrinkling_function(lam1: Expr, lam2: Expr) -> Expr:
+    r""":math:`g_w = \lambda_2\sqrt{\lambda_1}`: taut above 1, wrinkled (tension along 1) below."""
+    return lam2 * sqrt(lam1)
+
+
+def relaxed(law: Law) -> Callable[[Expr], Expr]:
+    r"""Energy of the wrinkled state, :math:`w_r(l) = w(l, l^{-1/2})`, a function of one stretch."""
+    return lambda l1: law(l1, natural_width(l1))
+
+
+def tension_field(law: Law) -> Law:
+    r"""Relaxed energy by the state table: taut, wrinkled either way, or slack.
+
+    ===================  =========================================  ===============
+    state                criterion                                  energy
+    ===================  =========================================  ===============
+    taut                 l1 > l2^(-1/2) and l2 > l1^(-1/2)          w(l1, l2)
+    tension along 1      l1 > 1 and l2 <= l1^(-1/2)                 w_r(l1)
+    tension along 2      l2 > 1 and l1 <= l2^(-1/2)                 w_r(l2)
+    slack                l1 <= 1 and l2 <= 1                        0
+    ===================  =========================================  ===============
+
+    (Patil, Nordmark & Eriksson 2015, table 1.)
+    """
+
+    def energy(l1: Expr, l2: Expr) -> Expr:
+        a, b = max_value(l1, TINY), max_value(l2, TINY)
+        wrinkled = relaxed(law)
+        taut = And(gt(b * sqrt(a), 1), gt(a * sqrt(b), 1))
+        slackened = conditional(gt(b, 1), wrinkled(b), 0.0)
+        return conditional(taut, law(a, b), conditional(gt(a, 1), wrinkled(a), slackened))
+
+    return energy
+
+
+def modified_gradient(law: Law) -> Law:
+    r"""Full energy of a modified deformation gradient that leaves no compression (Roddeman's).
+
+    :math:`\tilde F = (I + \beta\, n_2\otimes n_2) F` widens the wrinkled direction, ``beta >= 0``, until the
+    stress across the wrinkles vanishes; for an isotropic incompressible sheet
+
+    .. math:: \tilde l_2 = (1+\beta)\, l_2 = \max(l_2, \tilde l_1^{-1/2}), \qquad \tilde l_1 = \max(l_1, 1)
+
+    with ``l1`` the larger stretch (Patil, Nordmark & Eriksson 2015, section 2.3). The same function as
+    :func:`tension_field` by another way.
+    """
+
+    def energy(l1: Expr, l2: Expr) -> Expr:
+        first = gt(l1, l2)  # one condition for both: where the stretches are equal, each is one of them
+        along = max_value(conditional(first, l1, l2), 1.0)
+        across = conditional(first, l2, l1)
+        return law(along, max_value(across, natural_width(along)))
+
+    return energy
+
+
+def principal_stretches(c: Expr) -> tuple[Expr, Expr]:
+    r"""Principal stretches ``l1 >= l2`` from the right Cauchy-Green tensor of a surface, 2 x 2.
+
+    .. math:: l_{1,2}^2 = \tfrac12\Big(I \pm \sqrt{\max(I^2 - 4D, \epsilon^2)}\Big), \qquad
+              I = \mathrm{tr}\,C,\quad D = \det C
+
+    The floor keeps derivatives finite where the stretches coincide; a membrane is taut or slack there, and
+    :func:`surface_tension_field` uses neither stretch then.
+    """
+    trace, area = tr(c), det(c)
+    spread = sqrt(max_value(trace**2 - 4 * area, COALESCENCE**2))
+    return sqrt((trace + spread) / 2), sqrt(max_value((trace - spread) / 2, TINY**2))
+
+
+def surface_tension_field(c: Expr, taut: Callable[[Expr, Expr], Expr], law: Law) -> Expr:
+    r"""Relaxed energy of a membrane without symmetry, from the right Cauchy-Green tensor.
+
+    Taut iff :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`); else wrinkled with :math:`w_r(l_1)` where
+    :math:`l_1 > 1`; else slack.
+
+    Args:
+        c: Right Cauchy-Green tensor in an orthonormal frame of the reference surface, 2 x 2.
+        taut: Energy of the taut state as a function of ``tr C`` and ``det C``: no principal stretches, so it
+            is smooth where they coincide.
+        law: The same energy as a function of the principal stretches.
+    """
+    l1, l2 = principal_stretches(c)
+    area = max_value(det(c), TINY**2)
+    slackened = conditional(gt(l1, 1), relaxed(law)(l1), 0.0)
+    return conditional(gt(area * l2**2, 1), taut(tr(c), area), slackened)
+
+
+def mooney_rivlin_invariants(trace: Expr, area: Expr, alpha: Expr) -> Expr:
+    r"""Mooney-Rivlin energy of a surface over ``C1`` without principal stretches.
+
+    .. math:: w = I + 1/D - 3 + \alpha\,(I/D + D - 3), \qquad I = \mathrm{tr}\,C,\quad D = \det C
+    """
+    return trace + 1 / area - 3 + alpha * (trace / area + area - 3)
+
+
+def metric(tangents: Expr, reference: Expr) -> Expr:
+    r"""Right Cauchy-Green tensor :math:`G^{-1/2} F^T F\, G^{-1/2}` for a diagonal reference metric.
+
+    Args:
+        tangents: ``F``, 3 x 2: derivatives of the deformed position along the two coordinates.
+        reference: ``G^{1/2}``, 2 x 2 diagonal: lengths of the reference surface's own tangents.
+    """
+    scaled = tangents * inv(reference)
+    return scaled.T * scaled
