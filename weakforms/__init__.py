@@ -7,6 +7,7 @@ from weakforms.errors import (
     InputError,
     WeakformsError,
 )
+from weakforms.verification import continuity
 from weakforms.verification.case import (
     Axis,
     Case,
@@ -14,17 +15,38 @@ from weakforms.verification.case import (
     Constant,
     Count,
     Curve,
+    Dashed,
     Finding,
     Order,
     Panel,
+    Path,
     Points,
     Printed,
     PrintedExact,
+    PrintedInput,
+    PrintedState,
+    States,
+    Surface,
 )
 from weakforms.verification.compare import compare
 from weakforms.verification.references import load as reference
 from weakforms.verification.solutions import Solutions
-from weakforms.verification.specs import At, Spec, tube, tube_fold, tube_scheme
+from weakforms.verification.specs import (
+    At,
+    Spec,
+    circular,
+    circular_scheme,
+    fluid_tube,
+    fluid_tube_coincidence,
+    fluid_tube_surface,
+    tube,
+    tube_fold,
+    tube_scheme,
+    wrinkled_material,
+    wrinkled_sheet,
+    wrinkled_tube,
+    wrinkled_tube_threshold,
+)
 
 __version__ = "0.1.0"
 
@@ -37,22 +59,38 @@ __all__ = [
     "ConvergenceError",
     "Count",
     "Curve",
+    "Dashed",
     "EnvironmentLackError",
     "Finding",
     "InputError",
     "Order",
     "Panel",
+    "Path",
     "Points",
     "Printed",
     "PrintedExact",
+    "PrintedInput",
+    "PrintedState",
     "Solutions",
     "Spec",
+    "States",
+    "Surface",
     "WeakformsError",
     "cases",
+    "circular",
+    "circular_scheme",
     "compare",
+    "continuity",
+    "fluid_tube",
+    "fluid_tube_coincidence",
+    "fluid_tube_surface",
     "reference",
     "solve",
     "tube",
     "tube_fold",
     "tube_scheme",
+    "wrinkled_material",
+    "wrinkled_sheet",
+    "wrinkled_tube",
+    "wrinkled_tube_threshold",
 ]

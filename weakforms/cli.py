@@ -110,6 +110,24 @@ def solve(
 
 
 @app.command()
+def shape(
+    result: Annotated[Path, typer.Argument(metavar="RESULT.json", help="What solve --out wrote.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The shape: .vtu (with its fields) or .stl.")],
+    branch: Annotated[str, typer.Option(help="Of a state on which branch; default: any.")] = "",
+    state: Annotated[int, typer.Option(min=1, help="Which of them.")] = 1,
+) -> None:
+    """Deformed shape of a state of a result, for other tools."""
+    from weakforms.results import load_result
+    from weakforms.results.io import require_place_for
+    from weakforms.shapes import require_shape_name, shown_state, write_shape
+
+    require_shape_name(file)
+    shown = shown_state(load_result(result), branch, state)
+    require_place_for(file)
+    write_shape(file, shown.fields[0])
+
+
+@app.command()
 def check(
     names: Annotated[list[str], typer.Argument(metavar="CASE...", help="Ids of cases.")],
     out: Out = Path("out"),

@@ -1,0 +1,26 @@
+"""Paper 3: the pre-stretches at which the first bifurcation overtakes the limit point.
+
+The paper remarks that for larger and for very low pre-stretch the limit point no longer comes first. Where
+the order changes, one state is both; it is solved for with the pre-stretch one more unknown.
+"""
+
+from weakforms import Case, Points, fluid_tube_coincidence
+
+ASKED = {"delta": 1e-7, "zw": 1e-7, "V": 1e-7, "r_mid": 1e-7}
+RANGES = {8: (3, 5), 24: (1.1, 1.5)}
+
+CASE = Case(
+    title="Where limit point and bifurcation coincide",
+    source="Patil, Nordmark & Eriksson (2015), section 10.1",
+    checks=tuple(
+        Points(
+            "quantity",
+            "coincidence",
+            fluid_tube_coincidence(gamma=0.116, delta_low=low, delta_high=high),
+            ("L",),
+            ASKED,
+            where={"L": float(length)},
+        )
+        for length, (low, high) in RANGES.items()
+    ),
+)

@@ -1,0 +1,78 @@
+"""Paper 3, figure 4: the response for fluids of half, one and two times the density of water, delta = 2.
+
+The aspect ratio is not printed; both of figure 2 are shown.
+"""
+
+from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, fluid_tube
+
+LENGTHS, GAMMAS = (8, 24), (0.058, 0.116, 0.232)
+TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGTHS for g in GAMMAS}
+
+
+def critical(solutions: Solutions, length: int, kind: str) -> list[float]:
+    """Levels at the first critical points of a kind, by density."""
+    found = []
+    for gamma in GAMMAS:
+        points = solutions.points(TUBES[length, gamma], kind)
+        found.append(next(p.values["zw"] for p in points if p.values.get("n", 1) == 1))
+    return found
+
+
+def lighter_is_higher(solutions: Solutions) -> Finding:
+    """Both critical levels fall with the density."""
+    good, rows = True, []
+    for length in LENGTHS:
+        for kind in ("limit_point", "bifurcation_point"):
+            levels = critical(solutions, length, kind)
+            good &= levels[0] > levels[1] > levels[2]
+            rows.append(f"L = {length}, {kind}: " + " > ".join(f"{zw:.5f}" for zw in levels))
+    return good, "; ".join(rows)
+
+
+def density_fills(solutions: Solutions) -> Finding:
+    """Whether the limit point of the short tube is over-filled, by density."""
+    levels = critical(solutions, 8, "limit_point")
+    return levels[1] > 8 > levels[2], "limit levels of L = 8: " + ", ".join(f"{zw:.5f}" for zw in levels)
+
+
+EVERY = tuple((tube, None) for tube in TUBES.values())
+
+CASE = Case(
+    title="Response for other fluid densities",
+    source="Patil, Nordmark & Eriksson (2015), figure 4",
+    panels=tuple(
+        Panel(
+            f"L_{length}",
+            x=Axis("zw", 0, 15),
+            y=Axis("r_mid", low, high),
+            title=rf"$L/A = {length}$, $\delta = 2$",
+            markers=("limit_point", "bifurcation_point"),
+            note="The aspect ratio and the axes of this figure are not printed.",
+            curves=tuple(
+                Curve(
+                    TUBES[length, g],
+                    rf"$\rho g A^2/\mu H = {g}$",
+                    reference=f"primary_L_{length}_delta_2" + ("" if g == 0.116 else f"_gamma_{g}"),
+                )
+                for g in GAMMAS
+            ),
+        )
+        for length, low, high in ((8, 0.5, 5), (24, 0.6, 0.9))
+    ),
+    checks=(
+        Claim(
+            "lighter_is_higher",
+            "halving the density raises the levels of limit point and bifurcation, doubling lowers them",
+            EVERY,
+            lighter_is_higher,
+        ),
+        Claim(
+            "density_fills",
+            "whether the limit point is reached over-filled depends on the density too: with twice that of "
+            "water the tube of L/A = 8 is partially filled there",
+            EVERY,
+            density_fills,
+        ),
+    ),
+    asked={"zw": 1e-7, "r_mid": 1e-7},
+)

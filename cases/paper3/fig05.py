@@ -1,0 +1,135 @@
+"""Paper 3, figure 5: principal stress resultants along the tube on the primary branch.
+
+The levels and the pre-stretch of the figure are not recoverable; here delta = 2, levels before the limit
+point and past it. The axial coordinate is the material one; the current height is drawn beside it.
+"""
+
+import numpy as np
+
+from weakforms import At, Axis, Case, Claim, Constant, Curve, Finding, Panel, Solutions, fluid_tube
+
+LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
+TUBES = {length: fluid_tube(L=length, delta=2, gamma=0.116) for length in LENGTHS}
+EVERY = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
+LEVELS = {8: (2, 4, 6, 7, 8, 8.2), 24: (2, 4, 6, 7, 8)}
+PAST = {8: (8.2, 8), 24: (8.3, 8)}
+TENSE = tuple(At(name, value, profile=()) for name, value in (("zw", 2.0), ("zw", 6.0), ("limit_point", 1.0)))
+MIDDLE = tuple(At("zw", float(zw)) for zw in LEVELS[24])
+HEIGHT = {8: 4, 24: 10}
+"""The material point at ``l/4`` or ``l/10`` stands at a height of about 2."""
+RISING = tuple(At("zw", zw) for zw in (3.5, 4.5, 5.5, 6.5, 7.5))
+
+
+def states(length: int) -> list[tuple[str, At, str]]:
+    """Name, state and legend of the profiles of a tube."""
+    before = [(f"zw_{zw}", At("zw", float(zw)), rf"$z_w = {zw}$") for zw in LEVELS[length]]
+    return before + [
+        (f"zw_{zw}_post", At("zw", float(zw), crossing=2), rf"$z_w = {zw}$, past") for zw in PAST[length]
+    ]
+
+
+def at_height(length: int, delta: float, at: At) -> At:
+    """The state sampled at the material point of the statement."""
+    return At(at.name, at.value, at.crossing, (length / delta / HEIGHT[length],))
+
+
+def resultants(solutions: Solutions, length: int, delta: float, name: str) -> list[float]:
+    """A resultant at the material point over rising levels up to the limit point."""
+    ats = (*RISING, At("limit_point", 1.0))
+    return [
+        float(solutions.sampled(EVERY[length, delta], at_height(length, delta, at), name)[0][0]) for at in ats
+    ]
+
+
+def grows_and_falls(solutions: Solutions) -> Finding:
+    """T2 rises and T1 falls with the level at the material point."""
+    good, rows = True, []
+    for length, delta in EVERY:
+        t1, t2 = (resultants(solutions, length, delta, name) for name in ("T1", "T2"))
+        good &= bool(np.all(np.diff(t2) > 0) and np.all(np.diff(t1) < 0))
+        rows.append(
+            f"L = {length}, delta = {delta}: T1 {t1[0]:.3f} to {t1[-1]:.3f}, T2 {t2[0]:.3f} to {t2[-1]:.3f}"
+        )
+    return good, "; ".join(rows)
+
+
+def no_wrinkling(solutions: Solutions) -> Finding:
+    """Smallest resultants along the tube, against their uncertainty."""
+    good, rows = True, []
+    for (length, delta), tube in EVERY.items():
+        for at in TENSE:
+            field = solutions.profile(tube, at)
+            t1, t2 = field.columns["T1"].min(), field.columns["T2"].min()
+            good &= bool(t1 > field.uncertainty["T1"] and t2 > -2 * field.uncertainty["T2"])
+        rows.append(f"L = {length}, delta = {delta}: T1 > {t1:.3g}, T2 > {t2:.2g} at the limit point")
+    return good, "; ".join(rows)
+
+
+def low_and_constant(solutions: Solutions) -> Finding:
+    """In the dry middle of the long tube the circumferential resultant is all but zero."""
+    values = [solutions.value(TUBES[24], at, "T2_mid") for at in MIDDLE]
+    return min(values) > 0 and max(values) < 3e-3, "T2 at mid height: " + ", ".join(
+        f"{v:.3g}" for v in values
+    )
+
+
+def panels() -> tuple[Panel, ...]:
+    """Both resultants over both axial coordinates for both tubes."""
+    out = []
+    for name, length in (("a", 8), ("b", 24)):
+        for column, high in (("T1", 4), ("T2", 1)):
+            for axis, end in (("Z", length / 2), ("z", length)):
+                out.append(
+                    Panel(
+                        f"{name}_{column}_{axis}",
+                        x=Axis(axis, 0, end),
+                        y=Axis(column, 0, high),
+                        title=rf"$L/A = {length}$, $\delta = 2$",
+                        note="The axes of this figure are not recoverable. Past: after the limit point.",
+                        curves=tuple(
+                            Curve(TUBES[length], label, reference=f"fig05{name}_{key}", at=at, y=column)
+                            for key, at, label in states(length)
+                        ),
+                    )
+                )
+    return tuple(out)
+
+
+CASE = Case(
+    title="Principal stress resultants on the primary branch",
+    source="Patil, Nordmark & Eriksson (2015), figure 5",
+    panels=panels(),
+    checks=(
+        *(
+            Constant("H", tube, at, 1e-5, "w - lam1 w_,1 is constant along the membrane, wet or dry")
+            for tube in TUBES.values()
+            for at in (At("zw", 6.0, profile=()), At("limit_point", 1.0, profile=()))
+        ),
+        Claim(
+            "grows_and_falls",
+            "with the level the circumferential resultant grows and the meridional one falls, at a material "
+            "point of height about 2 from zw = 3.5 to the limit point (not at every point of the tube, as "
+            "the "
+            "paper says)",
+            tuple(
+                (tube, at_height(length, d, at))
+                for (length, d), tube in EVERY.items()
+                for at in (*RISING, At("limit_point", 1.0))
+            ),
+            grows_and_falls,
+        ),
+        Claim(
+            "no_wrinkling",
+            "no resultant is negative on the primary branch: the membrane does not wrinkle",
+            tuple((tube, at) for tube in EVERY.values() for at in TENSE),
+            no_wrinkling,
+        ),
+        Claim(
+            "low_and_constant",
+            "L/A = 24: the circumferential resultant near the centre stays low, but not negative",
+            tuple((TUBES[24], at) for at in MIDDLE),
+            low_and_constant,
+        ),
+    ),
+    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "T1": 1e-5, "T2": 1e-5},
+)

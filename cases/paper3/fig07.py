@@ -1,0 +1,101 @@
+"""Paper 3, figure 7: axisymmetric profiles of the long tube before and after the limit point.
+
+The pre-stretch is not printed. It is taken as delta = 2: zw = 8.356 lies just below that tube's limit level,
+and the tube with delta = 3 never reaches it.
+"""
+
+from itertools import pairwise
+
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    PrintedState,
+    Solutions,
+    Surface,
+    fluid_tube,
+)
+
+TUBE, OTHER = (fluid_tube(L=24, delta=d, gamma=0.116) for d in (2, 3))
+BEFORE, AFTER = At("zw", 7.1019), At("zw", 8.356, crossing=2)
+SHOWN = {"a": (BEFORE, "before the limit point, $z_w = 7.1019$"), "b": (AFTER, "after it, $z_w = 8.356$")}
+LATER = (At("limit_point", 1.0, profile=()), *(At("V", v, profile=()) for v in (80.0, 100.0, 120.0)))
+AXES = (Axis("x", -3, 3), Axis("y", -3, 3), Axis("z", 0, 24))
+
+
+def delta_2_is_meant(solutions: Solutions) -> Finding:
+    """8.356 against the limit levels of two pre-stretches."""
+    two, three = (solutions.points(tube, "limit_point")[0].values["zw"] for tube in (TUBE, OTHER))
+    return three < 8.356 < two, f"limit levels: {two:.6f} (delta = 2), {three:.6f} (delta = 3)"
+
+
+def goes_down(solutions: Solutions) -> Finding:
+    """Past the limit point: level, largest radius, the height at which it lies, the radius at the surface."""
+    rows = []
+    for at in LATER:
+        state = solutions.state(TUBE, at)
+        columns = state.fields[0].columns
+        widest = columns["z"][columns["r"].argmax()]
+        rows.append([*(state.quantities[n].value for n in ("zw", "r_max", "r_front")), widest])
+    good = all(b[0] < a[0] and b[1] > a[1] for a, b in pairwise(rows)) and rows[-1][3] < rows[0][3]
+    return good, "zw, r_max, r at the free surface, height of r_max: " + "; ".join(
+        ", ".join(f"{v:.4f}" for v in row) for row in rows
+    )
+
+
+CASE = Case(
+    title="Axisymmetric profiles before and after the limit point",
+    source="Patil, Nordmark & Eriksson (2015), figure 7",
+    panels=(
+        Panel(
+            "profiles",
+            x=Axis("r", 0, 3),
+            y=Axis("z", 0, 24),
+            title=r"$L/A = 24$, $\delta = 2$",
+            note="The meridians of the two surfaces.",
+            curves=tuple(
+                Curve(TUBE, label, reference=f"fig07{name}", at=at) for name, (at, label) in SHOWN.items()
+            ),
+        ),
+    ),
+    surfaces=tuple(Surface(name, TUBE, at, AXES, title=label) for name, (at, label) in SHOWN.items()),
+    checks=(
+        Claim(
+            "delta_2_is_meant",
+            "zw = 8.356 is below the limit level of delta = 2 and above that of delta = 3",
+            ((TUBE, None), (OTHER, None)),
+            delta_2_is_meant,
+        ),
+        Claim(
+            "goes_down",
+            "after the limit point the level recedes while the bulge grows and moves down",
+            tuple((TUBE, at) for at in LATER),
+            goes_down,
+        ),
+        PrintedState(
+            "zw",
+            "7.1019",
+            of=TUBE,
+            at=BEFORE,
+            column="zw",
+            shown=("V", "r_max"),
+            n_negative=0,
+            source="figure 7(a), before the limit point",
+        ),
+        PrintedState(
+            "zw after the limit",
+            "8.356",
+            of=TUBE,
+            at=AFTER,
+            column="zw",
+            shown=("V", "r_max"),
+            n_negative=1,
+            source="figure 7(b), after the limit point",
+        ),
+    ),
+    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "T1": 1e-5, "T2": 1e-5},
+)

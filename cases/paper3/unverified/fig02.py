@@ -1,0 +1,141 @@
+"""Paper 3, figure 2: mid-height radius against fluid level, for two aspect ratios and three pre-stretches.
+
+The level has a maximum along the branch, so the curves are compared over the volume, which rises all along
+it.
+Dashed: unstable under level control against axisymmetric perturbations.
+"""
+
+from weakforms import (
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    PrintedExact,
+    Solutions,
+    fluid_tube,
+)
+
+LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
+TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
+BENT = {(length, d): fluid_tube(L=length, delta=d, secondary=True) for length in LENGTHS for d in STRETCHES}
+EVERY = tuple((tube, None) for tube in TUBES.values())
+BOTH = ("limit_point", "bifurcation_point")
+
+SIDES = ("0", "pi")
+BENT_ASKED = {
+    "V": 1e-5,
+    "r_mid": 1e-5,
+    "r_mid_pi": 1e-5,
+    **{f"{name}_quarter_{side}": 1e-5 for name in "xz" for side in SIDES},
+    **{f"{name}_quarter_{side}": 1e-4 for name in ("T1", "T2") for side in SIDES},
+    "Pi": 1e-6,
+    "Lambda_1": 1e-4,
+    "Lambda_2": 1e-4,
+    "Lambda_3": 1e-4,
+    "Lambda_breaking": 1e-5,
+}
+"""Accuracy asked of the secondary branch, solved on the whole surface."""
+
+
+def first(solutions: Solutions, tube, kind: str, name: str) -> float:  # noqa: ANN001
+    """A column at the first special point of a kind (of one wave, for bifurcations)."""
+    points = [p for p in solutions.points(tube, kind) if p.values.get("n", 1) == 1]
+    return points[0].values[name]
+
+
+def limit_first(solutions: Solutions) -> Finding:
+    """Volumes at the limit point and at the first bifurcation."""
+    volumes = {key: tuple(first(solutions, tube, kind, "V") for kind in BOTH) for key, tube in TUBES.items()}
+    return all(a < b for a, b in volumes.values()), "V at limit and bifurcation: " + "; ".join(
+        f"L = {key[0]}, delta = {key[1]}: {a:.3f} < {b:.3f}" for key, (a, b) in volumes.items()
+    )
+
+
+def filled_or_not(solutions: Solutions) -> Finding:
+    """Limit levels against the length."""
+    levels = {key: first(solutions, tube, "limit_point", "zw") for key, tube in TUBES.items()}
+    good = all((zw > key[0]) == (key[0] == 8) for key, zw in levels.items())
+    return good, "; ".join(f"L = {k[0]}, delta = {k[1]}: {zw:.6f}" for k, zw in levels.items())
+
+
+def one_maximum(solutions: Solutions) -> Finding:
+    """The level rises, then falls; the volume rises all along."""
+    turns, rising = [], True
+    for tube in TUBES.values():
+        columns = solutions.branch(tube).columns
+        steps = columns["zw"][1:] - columns["zw"][:-1]
+        turns.append(int(((steps[1:] > 0) != (steps[:-1] > 0)).sum()))
+        rising &= bool((columns["V"][1:] > columns["V"][:-1]).all())
+    return rising and turns == [1] * len(turns), f"turns of zw: {turns}; V strictly increasing: {rising}"
+
+
+CASE = Case(
+    title="Response diagrams: mid-height radius against fluid level",
+    source="Patil, Nordmark & Eriksson (2015), figure 2",
+    panels=tuple(
+        Panel(
+            name,
+            x=Axis("zw", 0, 10),
+            y=Axis("r_mid", low, high),
+            title=rf"$L/A = {length}$",
+            markers=BOTH,
+            note="The printed axes are not recoverable from the text; the ranges are chosen here.",
+            curves=tuple(
+                Curve(TUBES[length, d], rf"$\delta = {d}$", reference=f"primary_L_{length}_delta_{d}")
+                for d in STRETCHES
+            )
+            + tuple(
+                Curve(
+                    BENT[length, d],
+                    rf"$\delta = {d}$, secondary",
+                    reference=f"secondary_L_{length}_delta_{d}",
+                    branch="secondary",
+                    asked=BENT_ASKED,
+                )
+                for d in STRETCHES
+            ),
+        )
+        for name, length, low, high in (("a", 8, 0.5, 4), ("b", 24, 0.5, 1.4))
+    ),
+    checks=(
+        Claim(
+            "limit_first",
+            "for these pre-stretches the limit point comes before the first bifurcation on the path",
+            EVERY,
+            limit_first,
+        ),
+        Claim(
+            "filled_or_not",
+            "L/A = 8: the limit point is reached over-filled (zw > L); L/A = 24: partially filled (zw < L)",
+            EVERY,
+            filled_or_not,
+        ),
+        Claim(
+            "one_maximum",
+            "the level has exactly one maximum on the primary branch, the volume none",
+            EVERY,
+            one_maximum,
+        ),
+        PrintedExact(
+            "rho g A^2/(mu H)",
+            "0.1160",
+            exact=1000 * 9.81 * 0.02**2 / (0.4225e6 * 0.08e-3),
+            evidence="the printed A, H, mu and water give 3.924/33.8 = 0.116095: cut off, not rounded; "
+            "all figures are computed with 0.116",
+            source="captions of figures 2 and 3",
+            misprint=True,
+        ),
+    ),
+    asked={
+        "zw": 1e-7,
+        "r_mid": 1e-7,
+        "r_max": 1e-7,
+        "Pi": 1e-7,
+        "T1_ring": 1e-5,
+        "T2_ring": 1e-5,
+        "T1_mid": 1e-5,
+        "T2_mid": 1e-4,
+    },
+)

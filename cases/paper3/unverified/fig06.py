@@ -1,0 +1,70 @@
+"""Paper 3, figure 6: principal stress resultants on the secondary branch at zw = 7.779, three meridians.
+
+Neither the length nor the pre-stretch is printed. L = 24 is meant: figure 8(b) has that level, and the paper
+says of this figure that T2 is constant and low from the centre to the top; delta = 2 is assumed. The level is
+reached on the secondary branch of the short tube as well; it is shown as an extra.
+
+On the two meridians of the plane of symmetry the principal directions are the meridian's and the
+circumference's. T1 >= T2 belongs to the larger stretch.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, fluid_tube
+
+TUBES = {24: fluid_tube(L=24, delta=2, secondary=True), 8: fluid_tube(L=8, delta=2, secondary=True)}
+TABLES = {24: "fig06", 8: "fig06_L_8"}
+BENT = At("zw", 7.779, branch="secondary", profile=())
+MERIDIANS = {0: r"$\Theta = 0$", 90: r"$\Theta = \pi/2$", 180: r"$\Theta = \pi$"}
+RANGES = {"T1": (0, 2.5), "T2": (0, 1.2)}
+
+
+def no_wrinkles(solutions: Solutions) -> Finding:
+    """Smallest principal resultant anywhere, against its uncertainty."""
+    rows = {length: solutions.quantity(tube, BENT, "T_min") for length, tube in TUBES.items()}
+    good = all(q.value > q.uncertainty for q in rows.values())
+    return good, "; ".join(f"L = {k}: {q.value:.3g} +- {q.uncertainty:.1g}" for k, q in rows.items())
+
+
+def low_above(solutions: Solutions) -> Finding:
+    """T2 of the long tube from its middle to near the upper ring, against its largest value."""
+    columns = solutions.profile(TUBES[24], BENT).columns
+    above = (columns["Z"] > 6) & (columns["Z"] < 11)
+    ratio = columns["T2"][above].max() / columns["T2"].max()
+    return ratio < 0.1, f"largest T2 there is {ratio:.3f} of the largest anywhere"
+
+
+CASE = Case(
+    title="Stress resultants on the secondary branch",
+    source="Patil, Nordmark & Eriksson (2015), figure 6",
+    panels=tuple(
+        Panel(
+            f"{letter}, L = {length}" if length == 24 else f"extra {letter}, L = {length}",
+            x=Axis("Z", 0, length / 2),
+            y=Axis(name, *RANGES[name]),
+            title=rf"$L/A = {length}$, $\delta = 2$, $z_w = 7.779$",
+            note=""
+            if length == 24
+            else "Not in the paper: the short tube's secondary branch has this level as well.",
+            curves=tuple(
+                Curve(tube, label, reference=f"{TABLES[length]}@{degrees}", at=BENT, y=name)
+                for degrees, label in MERIDIANS.items()
+            ),
+        )
+        for length, tube in TUBES.items()
+        for letter, name in (("a", "T1"), ("b", "T2"))
+    ),
+    checks=(
+        Claim(
+            "no_wrinkles",
+            "both principal resultants are positive everywhere on the secondary branch",
+            tuple((tube, BENT) for tube in TUBES.values()),
+            no_wrinkles,
+        ),
+        Claim(
+            "low_above",
+            "T2 of the long tube is low from the centre to the top",
+            ((TUBES[24], BENT),),
+            low_above,
+        ),
+    ),
+    asked={"x": 1e-5, "y": 1e-5, "z": 1e-5, "r": 1e-5, "lam1": 1e-4, "lam2": 1e-4, "T1": 1e-4, "T2": 1e-4},
+)

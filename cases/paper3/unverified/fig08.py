@@ -1,0 +1,82 @@
+"""Paper 3, figure 8: bent shapes on the secondary branch, L = 8 at zw = 7.336 and L = 24 at zw = 7.779.
+
+delta = 2 is printed for (a) and assumed for (b). The bulge is at Theta = 0, and the membrane hangs below the
+lower ring. The paper shows half of each surface; the mirror-symmetric half is what is solved.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, Surface, fluid_tube
+
+SHORT, LONG = (fluid_tube(L=length, delta=2, secondary=True) for length in (8, 24))
+SHOWN = {
+    "a": (SHORT, At("zw", 7.336, branch="secondary", profile=()), 8, "z_w = 7.336"),
+    "b": (LONG, At("zw", 7.779, branch="secondary", profile=()), 24, "z_w = 7.779"),
+}
+MERIDIANS = (0, 30, 60, 90, 120, 150, 180)
+BOTH = tuple((of, at) for of, at, _, _ in SHOWN.values())
+
+
+def values(solutions: Solutions, name: str) -> list[float]:
+    """A quantity of both states."""
+    return [solutions.value(of, at, name) for of, at in BOTH]
+
+
+def bulges_and_hangs(solutions: Solutions) -> Finding:
+    """Radii at mid-length on both sides, and the lowest point."""
+    front, back, low = (values(solutions, name) for name in ("r_mid", "r_mid_pi", "z_min"))
+    good = all(a > b and z < 0 for a, b, z in zip(front, back, low, strict=True))
+    return good, "; ".join(
+        f"r(0) = {a:.4f}, r(pi) = {b:.4f}, z_min = {z:.4f}" for a, b, z in zip(front, back, low, strict=True)
+    )
+
+
+def unstable(solutions: Solutions) -> Finding:
+    """Negative eigenvalues at fixed level."""
+    counts = [values(solutions, name) for name in ("n_negative", "n_negative_breaking")]
+    lowest = values(solutions, "Lambda_1")
+    return counts == [[1, 1], [0, 0]], f"counts {counts}, Lambda_1 = " + ", ".join(f"{v:.4f}" for v in lowest)
+
+
+CASE = Case(
+    title="Bent shapes on the secondary branch",
+    source="Patil, Nordmark & Eriksson (2015), figure 8",
+    panels=tuple(
+        Panel(
+            f"meridians of {name}",
+            x=Axis("x", -2.5, 5),
+            y=Axis("z", -2, top),
+            title=rf"$L/A = {top}$, $\delta = 2$, ${level}$",
+            note="Meridians seen along y, every 30 degrees from the bulge's side.",
+            curves=tuple(
+                Curve(of, rf"$\Theta = {d}°$", reference=f"fig08{name}@{d}", at=at) for d in MERIDIANS
+            ),
+        )
+        for name, (of, at, top, level) in SHOWN.items()
+    ),
+    surfaces=tuple(
+        Surface(
+            name,
+            of,
+            at,
+            (Axis("x", -3, 5), Axis("y", 0, 3), Axis("z", -2, top)),
+            title=rf"$L/A = {top}$, $\delta = 2$, ${level}$",
+            note="Half of the surface, as the paper shows it.",
+        )
+        for name, (of, at, top, level) in SHOWN.items()
+    ),
+    checks=(
+        Claim(
+            "bulges_and_hangs",
+            "the bulge is at Theta = 0, and the membrane hangs below the lower ring",
+            BOTH,
+            bulges_and_hangs,
+        ),
+        Claim(
+            "unstable",
+            "both states are unstable under level control: one negative eigenvalue, mirror-symmetric; "
+            "none among displacements that break the symmetry",
+            BOTH,
+            unstable,
+        ),
+    ),
+    asked={"x": 1e-5, "y": 1e-5, "z": 1e-5, "r": 1e-5, "lam1": 1e-4, "lam2": 1e-4, "T1": 1e-4, "T2": 1e-4},
+)

@@ -1,0 +1,256 @@
+"""Problem ``fluid_tube``: parameters, and a solve that answers requests."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar, Self
+
+import numpy as np
+from mpi4py import MPI
+from pydantic import Field, model_validator
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, sample_points
+from weakforms.problems.fluid_tube import TubeData
+from weakforms.problems.fluid_tube_path import STEP, ZW_END, FluidPath
+from weakforms.problems.fluid_tube_secondary import COLUMNS as SECONDARY_COLUMNS
+from weakforms.problems.fluid_tube_secondary import DERIVED_COLUMNS, secondary_family
+from weakforms.problems.fluid_tube_secondary import SCALES as SECONDARY_SCALES
+from weakforms.problems.path import Family, MeshNumerics, PathProblem
+from weakforms.results import Failure, Result
+from weakforms.solvers.modal import ModalBranch, ModalFamily
+from weakforms.solvers.pieces import Piece, PiecewiseFamily
+
+SOURCE = "Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016"
+
+MOST_WAVES = 6
+"""Largest wave number one may ask for."""
+
+SCALES = {
+    "length": "A, radius of the disks and of the stress-free tube",
+    "L": "stretched length over A",
+    "delta": "axial pre-stretch, 1; the stress-free tube is L/delta long",
+    "gamma": "rho g A^2/(mu H), H the thickness of the stress-free tube",
+    "alpha": "second Mooney-Rivlin constant over the first; 0 is neo-Hookean",
+    "zw": "level of the free surface above the lower disk, or static head over a full tube, over A",
+    "V": "volume of the liquid over A^3",
+    "Pi": "total potential at fixed level over mu H A^2",
+    "r_mid": "radius at Z = L/(2 delta) over A",
+    "r_max": "largest radius over A",
+    "r_front": "radius at the free surface over A; none over a full tube",
+    "Z_front": "Z of the free surface over A",
+    "T1_ring": "meridional Cauchy resultant at the rings over mu H",
+    "T2_ring": "circumferential Cauchy resultant at the rings over mu H",
+    "T1_mid": "meridional Cauchy resultant at Z = L/(2 delta) over mu H",
+    "T2_mid": "circumferential Cauchy resultant at Z = L/(2 delta) over mu H",
+    **{
+        f"Lambda_n{n}": "lowest eigenvalue at fixed level against int |dx|^2 dZ dTheta, "
+        + ("axisymmetric without torsion" if n == 0 else f"{n} wave{'s' if n > 1 else ''} around")
+        for n in range(MOST_WAVES + 1)
+    },
+    "Lambda_torsion": "the same for axisymmetric torsion",
+    "LambdaV_n0": "lowest axisymmetric eigenvalue at fixed volume",
+    "Z": "axial coordinate on the stress-free tube from the lower disk over A",
+    "r": "radius over A",
+    "z": "height over A",
+    "lam1": "meridional stretch, 1",
+    "lam2": "circumferential stretch, 1",
+    "T1": "meridional Cauchy resultant over mu H",
+    "T2": "circumferential Cauchy resultant over mu H",
+    "H": "w - lam1 w_,1, constant along the membrane, over mu H",
+    **SECONDARY_SCALES,
+}
+
+ENERGY = (
+    "Pi/(mu H A^2) = int_0^{L/delta} int_0^{2 pi} [ (I1 - 3 + alpha (I2 - 3))/2 - P(z) (x e_x + y e_y).N/2 ] "
+    "dTheta dZ,  P = gamma max(zw - z, 0),  N = x_Theta x x_Z;  typed as its first variation, "
+    "w_a.v_Z + w_b.v_Theta - P v.N"
+)
+
+CAPS = {"r_mid": 4.0, "r_max": 4.0, **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 2.0)}
+"""Highest orders of convergence that uncertainties reckon with at material points, which lie now here, now
+there in a cell that follows the front: the order is the elements', the error's size is any."""
+
+TORN = "Z_front", "r_front"
+"""Columns of a partially filled tube only."""
+
+
+class FluidTubeNumerics(MeshNumerics):
+    """Meshes of the tube: ``cells`` on the finest, half of them on each side of the front."""
+
+    degree: int = Field(5, ge=2, le=6, description="polynomial degree of the unknowns")
+    cells: int = Field(128, ge=16, le=20_000, description="cells on the finest mesh")
+    grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at rings and front")
+    step: float = Field(STEP, ge=0.02, le=1, description="largest arc-length step")
+    secondary_cells: int = Field(32, ge=8, le=128, description="cells along the surface, and around its half")
+    secondary_degree: int = Field(4, ge=2, le=5, description="polynomial degree on the surface")
+    secondary_levels: int = Field(3, ge=2, le=4, description="meshes of the surface, each twice as fine")
+    secondary_step: float = Field(0.1, ge=0.01, le=0.5, description="largest step on the secondary branch")
+    secondary_end: float = Field(
+        0.9, ge=0.8, lt=1, description="fraction of the level at the bifurcation at which that branch ends"
+    )
+
+    @model_validator(mode="after")
+    def _nested_surface(self) -> Self:
+        coarsest = 4 * 2 ** (self.secondary_levels - 1)
+        if self.secondary_cells % coarsest:
+            raise ValueError(
+                f"secondary_cells must be a multiple of {coarsest} for {self.secondary_levels} levels"
+            )
+        return self
+
+
+class FluidTubeParameters(Parameters):
+    """The tube and its liquid."""
+
+    L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
+    delta: float = Field(2.0, gt=1, le=10, description="axial pre-stretch")
+    gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
+    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    n_max: int = Field(3, ge=1, le=MOST_WAVES, description="largest wave number whose stability is judged")
+    zw_end: float = Field(
+        ZW_END, ge=0.3, lt=1, description="fraction of the highest level at which the branch ends"
+    )
+    secondary: bool = Field(False, description="solve the secondary branch too")
+
+
+class FluidTube(PathProblem):
+    """A pre-stretched cylindrical membrane that holds a liquid, under level control."""
+
+    name: ClassVar[str] = "fluid_tube"
+    title: ClassVar[str] = "Fluid-loaded pre-stretched cylindrical membrane"
+    paper: ClassVar[int] = 3
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = ENERGY
+    scales: ClassVar[dict[str, str]] = SCALES
+    parameters = FluidTubeParameters
+    numerics = FluidTubeNumerics
+    columns = (
+        "zw",
+        "V",
+        "Pi",
+        "r_mid",
+        "r_max",
+        "r_front",
+        "Z_front",
+        "T1_ring",
+        "T2_ring",
+        "T1_mid",
+        "T2_mid",
+        *(f"Lambda_n{n}" for n in range(MOST_WAVES + 1)),
+        "Lambda_torsion",
+        "LambdaV_n0",
+        *SECONDARY_COLUMNS,
+        *DERIVED_COLUMNS,
+        "n_negative",
+        "residual",
+        "iterations",
+    )
+    derived = DERIVED_COLUMNS
+    special_points = ("limit_point", "bifurcation_point")
+    branches = ("primary", "secondary")
+    control: ClassVar[str] = "zw (past its maximum compare over V, which rises all along the primary branch)"
+
+    def check(self, parameters: FluidTubeParameters, requests: Requests) -> None:
+        """Refuse what the ranges of single parameters cannot.
+
+        Raises:
+            InputError: For a state nobody could solve for.
+        """
+        check_requests(self, requests)
+        for wanted in requests.states:
+            if wanted.name == "zw" and wanted.value < 0:
+                raise InputError(f"fluid_tube: zw = {wanted.value:g} is below the tube; allowed: zw >= 0")
+            waves = wanted.name.removeprefix("Lambda_n")
+            if waves.isdigit() and int(waves) > parameters.n_max:
+                raise InputError(
+                    f"fluid_tube: {wanted.name} is not computed; allowed: n up to n_max = {parameters.n_max}"
+                )
+            if wanted.branch == "secondary" and not parameters.secondary:
+                raise InputError("fluid_tube: the secondary branch is solved with secondary = true only")
+
+    def families(
+        self,
+        parameters: FluidTubeParameters,
+        numerics: FluidTubeNumerics,
+        _requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress,
+    ) -> dict[str, Family]:
+        """The primary branch on all meshes, and the secondary one if it is wanted."""
+        found: dict[str, Family] = {"primary": primary_family(parameters, numerics, comm, progress)}
+        if parameters.secondary:
+            found["secondary"] = secondary_family(parameters, numerics, comm, progress)
+        return found
+
+    def points(self, parameters: FluidTubeParameters) -> np.ndarray:
+        """61 points from the lower ring to the upper one."""
+        return np.linspace(0, parameters.L / parameters.delta, 61)
+
+    def _result(self, parameters: Parameters, numerics: MeshNumerics) -> Result:
+        result = super()._result(parameters, numerics)
+        result.numerics["quadrature_degree"] = 4 * numerics.degree
+        return result
+
+    def _answer(
+        self,
+        result: Result,
+        families: dict[str, Family],
+        requests: Requests,
+        default_points: np.ndarray,
+        progress: Progress,
+    ) -> None:
+        """As for any problem; with the secondary branch, a state is given on every branch that has it."""
+        super()._answer(result, families, replace(requests, states=()), default_points, progress)
+        for i, wanted in enumerate(requests.states):
+            progress("states", i, len(requests.states))
+            points = sample_points(wanted.profile, default_points)
+            names = list(families) if wanted.branch == "primary" else [wanted.branch]
+            missing = []
+            for name in names:
+                try:
+                    state = families[name].state(wanted.name, wanted.value, wanted.crossing, points)
+                    result.states.append(state)
+                except InputError as error:
+                    missing.append(f"{name} branch: {error}")
+                except ConvergenceError as error:
+                    what = f"state at {wanted.name} = {wanted.value:g}"
+                    result.failures.append(Failure(what, f"{name} branch: {error}"))
+            if len(missing) == len(names):
+                raise InputError(f"fluid_tube: {'; '.join(missing)}")
+
+
+def primary_family(
+    parameters: FluidTubeParameters, numerics: FluidTubeNumerics, comm: MPI.Intracomm, progress: Progress
+) -> PiecewiseFamily:
+    """The primary branch on all meshes: dry, partially filled, full, partially filled again."""
+    paths = []
+    for level, cells in enumerate(numerics.meshes):
+        progress("primary branch", level, numerics.levels)
+        data = TubeData(
+            parameters.L,
+            parameters.delta,
+            parameters.gamma,
+            parameters.alpha,
+            cells // 2,
+            numerics.degree,
+            numerics.grading,
+        )
+        paths.append(FluidPath(comm, data, parameters.n_max, parameters.zw_end, numerics.step))
+    counts = [len(path.pieces) for path in paths]
+    if len(set(counts)) > 1:
+        raise ConvergenceError(f"fluid_tube: pieces of the primary branch depend on the mesh: {counts}")
+
+    def family(k: int) -> ModalFamily:
+        def make(level: int) -> ModalBranch:
+            return paths[level].pieces[k]
+
+        return ModalFamily(make, numerics.levels, 2 * numerics.degree, across=("zw", "V"), caps=CAPS)
+
+    length = parameters.L / parameters.delta
+    dry, full = dict(zip(TORN, (0.0, 1.0), strict=True)), dict(zip(TORN, (length, np.nan), strict=True))
+    fixed = [dry if k == 0 else full if k % 2 == 0 else {} for k in range(counts[0])]
+    return PiecewiseFamily([Piece(family(k), given) for k, given in enumerate(fixed)])
+
+
+registry.add(FluidTube())

@@ -1,0 +1,131 @@
+"""Meshes of cylindrical sheets, made by gmsh: transfinite, uniform around, graded along."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import ModuleType
+
+import gmsh
+import numpy as np
+from dolfinx import mesh as dmesh
+from dolfinx.io import gmshio
+from mpi4py import MPI
+
+SURFACE = 1
+"""Tag of the physical group that gmsh hands over."""
+
+
+def heights(cells: int, length: float) -> np.ndarray:
+    """Nodes along a sheet: half of the cells on the lowest quarter, a quarter of them on the next one.
+
+    A smooth map of equidistant nodes, so that doubling the cells refines every one of them; ``length/4`` and
+    ``length/2`` are nodes.
+
+    Args:
+        cells: Number of cells, a multiple of four.
+        length: Of the sheet.
+    """
+    if cells % 4:
+        raise ValueError(f"cells = {cells} along the sheet must be a multiple of 4")
+    xi = np.linspace(0, 1, cells + 1)
+    return length * (xi / 2 + 2 / 3 * xi * (xi - 1 / 2) + 4 / 3 * xi * (xi - 1 / 2) * (xi - 3 / 4))
+
+
+def flat_sheet(comm: MPI.Intracomm, nodes: np.ndarray, around: int) -> dmesh.Mesh:
+    """Quadrilaterals on ``[0, Z_end] x [0, pi]``, half the circumference unrolled: ``(Z, Theta)``.
+
+    Args:
+        comm: Ranks that share the mesh; gmsh runs on the first of them.
+        nodes: ``Z`` of the nodes, from 0.
+        around: Cells over the half circumference, all of one width.
+    """
+    with _gmsh(comm) as model:
+        if model is not None:
+            base = [model.geo.addPoint(0, theta, 0) for theta in (0.0, np.pi)]
+            line = model.geo.addLine(*base)
+            model.geo.mesh.setTransfiniteCurve(line, around + 1)
+            _extrude(model, [line], nodes, (1, 0, 0))
+        return _shared(comm, model, 2)
+
+
+def prism(comm: MPI.Intracomm, nodes: np.ndarray, angles: np.ndarray) -> dmesh.Mesh:
+    """Quadrilaterals on a prism that closes on itself, each face isometric to its strip of the cylinder.
+
+    The edges stand at the material angles ``angles`` and a face is as wide as the strip's arc is long, so
+    that a cell is exactly the rectangle of ``(Z, Theta)`` it stands for. The edges lie on one circle, its
+    radius being found from the closing condition.
+
+    Args:
+        comm: Ranks that share the mesh; gmsh runs on the first of them.
+        nodes: ``Z`` of the nodes, from 0.
+        angles: ``Theta`` of the edges, ascending from 0, the last below ``2 pi``.
+    """
+    corners = polygon(np.diff([*angles, angles[0] + 2 * np.pi]))
+    with _gmsh(comm) as model:
+        if model is not None:
+            points = [model.geo.addPoint(x, y, 0) for x, y in corners]
+            pairs = zip(points, [*points[1:], points[0]], strict=True)
+            lines = [model.geo.addLine(a, b) for a, b in pairs]
+            for line in lines:
+                model.geo.mesh.setTransfiniteCurve(line, 2)
+            _extrude(model, lines, nodes, (0, 0, 1))
+        return _shared(comm, model, 3)
+
+
+def polygon(sides: np.ndarray) -> np.ndarray:
+    """Corners, shape ``(n, 2)``, of the polygon with given sides and its corners on a circle about 0.
+
+    The first corner lies on the ``x`` axis; the circle holds the middle of the polygon.
+    """
+    sides = np.asarray(sides, dtype=float)
+    low, high = sides.max() / 2, sides.sum()
+
+    def excess(radius: float) -> float:
+        return float(np.sum(2 * np.arcsin(sides / (2 * radius))) - 2 * np.pi)
+
+    for _ in range(200):  # the excess falls with the radius
+        middle = (low + high) / 2
+        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+    turn = np.concatenate([[0.0], np.cumsum(2 * np.arcsin(sides / (2 * low)))[:-1]])
+    return low * np.column_stack([np.cos(turn), np.sin(turn)])
+
+
+def _extrude(model: ModuleType, lines: list[int], nodes: np.ndarray, axis: tuple[int, int, int]) -> None:
+    """Sweep lines along an axis into rows of quadrilaterals that end at given nodes."""
+    length = nodes[-1] - nodes[0]
+    layers = ((nodes[1:] - nodes[0]) / length).tolist()
+    swept = model.geo.extrude(
+        [(1, line) for line in lines],
+        *(length * component for component in axis),
+        numElements=[1] * len(layers),
+        heights=layers,
+        recombine=True,
+    )
+    model.geo.synchronize()
+    model.addPhysicalGroup(2, [tag for dimension, tag in swept if dimension == 2], SURFACE)
+    model.mesh.generate(2)
+
+
+@contextmanager
+def _gmsh(comm: MPI.Intracomm) -> Iterator[ModuleType | None]:
+    """A gmsh model on the first rank, and nothing on the others."""
+    if comm.rank:
+        yield None
+        return
+    mine = not gmsh.isInitialized()
+    if mine:
+        gmsh.initialize(interruptible=False)
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.model.add("sheet")
+    try:
+        yield gmsh.model
+    finally:
+        gmsh.model.remove()
+        if mine:
+            gmsh.finalize()
+
+
+def _shared(comm: MPI.Intracomm, model: ModuleType | None, dimension: int) -> dmesh.Mesh:
+    mesh, *_ = gmshio.model_to_mesh(model, comm, 0, gdim=dimension)
+    return mesh
