@@ -19,16 +19,24 @@ CurveLike = str | Path | Mapping[str, Sequence[float]]
 
 @pytest.fixture(scope="session")
 def weakforms_check() -> Callable[..., Verdicts]:
-    """``weakforms_check(case, curve, name=None, accuracy=None)``: fails with the table of verdicts."""
+    """``weakforms_check(case, curve, name=None, accuracy=None)``: fails with the table of verdicts.
+
+    Everything that :func:`weakforms.compare` takes, it takes too.
+    """
     from weakforms.errors import InputError
     from weakforms.verification.compare import compare
 
     def check(
-        case: str, curve: CurveLike, name: str | None = None, accuracy: float | None = None
+        case: str,
+        curve: CurveLike,
+        name: str | None = None,
+        accuracy: float | None = None,
+        columns: Mapping[str, str] | None = None,
+        constants: Mapping[str, float] | None = None,
     ) -> Verdicts:
         __tracebackhide__ = True
         try:
-            verdicts = compare(case, curve, name, accuracy)
+            verdicts = compare(case, curve, name, accuracy, columns, constants)
         except InputError as error:
             pytest.fail(f"nothing was compared: {error}", pytrace=False)
         if not verdicts.passed:

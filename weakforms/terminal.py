@@ -35,13 +35,18 @@ def request(
         if not isinstance(data[key], dict):
             raise InputError(f"request {spec}: {key!r} must be an object of names and values")
     return {
-        "parameters": data.get("parameters", {}) | dict(_pairs("--set", sets)),
-        "numerics": data.get("numerics", {}) | dict(_pairs("--mesh", mesh)),
-        "at": [*data.get("at", {}).items(), *_pairs("--at", at)],
+        "parameters": data.get("parameters", {}) | dict(pairs("--set", sets)),
+        "numerics": data.get("numerics", {}) | dict(pairs("--mesh", mesh)),
+        "at": [*data.get("at", {}).items(), *pairs("--at", at)],
     }
 
 
-def _pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:
+def pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:
+    """Names and values of a repeatable option.
+
+    Raises:
+        InputError: For an item that is no ``NAME=VALUE``.
+    """
     pairs = []
     for item in given or []:
         name, equals, value = item.partition("=")
@@ -75,9 +80,10 @@ def progress_bar() -> Any:
     """A bar on a terminal, nothing elsewhere; yields the callback solvers report to."""
     from rich.progress import (
         BarColumn,
-        MofNCompleteColumn,
         Progress,
+        TaskProgressColumn,
         TextColumn,
+        TimeElapsedColumn,
         TimeRemainingColumn,
     )
 
@@ -85,13 +91,16 @@ def progress_bar() -> Any:
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
-        MofNCompleteColumn(),
+        TaskProgressColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left:"),
         TimeRemainingColumn(),
     )
     if not screen.is_terminal or rank() != 0:
         yield lambda _what, _done, _total: None
         return
-    with Progress(*columns, console=screen, transient=True) as bar:
+    # One solution may take minutes: the speed is that of the last hour, not of the last 30 s.
+    with Progress(*columns, console=screen, transient=True, speed_estimate_period=3600) as bar:
         task = bar.add_task("starting", total=None)
 
         def report(what: str, done: int, total: int) -> None:

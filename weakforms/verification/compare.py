@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
-from pathlib import Path
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from weakforms.errors import InputError
-from weakforms.results import read_curve
 from weakforms.verification import references
+from weakforms.verification.case import LABELS, Curve, Panel
 from weakforms.verification.curves import asked_of
 from weakforms.verification.discovery import FoundCase, get_case
-from weakforms.verification.outcome import Verdict
+from weakforms.verification.foreign import CurveLike, foreign_columns
+from weakforms.verification.outcome import CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.references import Reference
 
 SCHEMA = "weakforms.verdicts/1"
+STATED = (
+    *("check", "kind", "passed", "statement", "detail", "error", "bound", "asked"),
+    *("reference_uncertainty", "where", "reference"),
+)
+"""What the JSON of a verdict on a curve says: of the curve's own uncertainty nothing is known."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +44,8 @@ class Verdicts:
     unjudged_rows: dict[str, int]
     """Per column: rows between the table's, where it is too coarse to judge to the accuracy asked."""
     verdicts: tuple[Verdict, ...]
+    pictures: tuple[PanelOutcome, ...]
+    """One a verdict: the curve, the table, and the error of every row with its bound."""
 
     @property
     def passed(self) -> bool:
@@ -50,15 +58,22 @@ class Verdicts:
         return self.covered != self.table or any(self.unjudged_rows.values())
 
     def to_json(self) -> dict[str, Any]:
-        """JSON object of schema ``weakforms.verdicts/1``."""
-        return {"schema": SCHEMA, "passed": self.passed, "partial": self.partial, **asdict(self)}
+        """JSON object of schema ``weakforms.verdicts/1``, without the pictures."""
+        shown = {
+            f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("pictures", "verdicts")
+        }
+        verdicts = [{name: getattr(verdict, name) for name in STATED} for verdict in self.verdicts]
+        head = {"schema": SCHEMA, "passed": self.passed, "partial": self.partial}
+        return json.loads(json.dumps({**head, **shown, "verdicts": verdicts}))
 
 
 def compare(
     case: str,
-    curve: str | Path | Mapping[str, Sequence[float]],
+    curve: CurveLike,
     name: str | None = None,
     accuracy: float | None = None,
+    columns: Mapping[str, str] | None = None,
+    constants: Mapping[str, float] | None = None,
 ) -> Verdicts:
     """Hold a curve against the reference table of a case.
 
@@ -72,6 +87,9 @@ def compare(
         curve: A CSV or JSON file, or columns by name; must hold the table's abscissa, monotone.
         name: Which table of the case, where it has several.
         accuracy: Relative accuracy the curve claims; by default what the case asks of our own.
+        columns: The curve's own names by the table's, such as ``{"p": "pressure"}``.
+        constants: Where the curve has units: radius, modulus and thickness that the paper scales with,
+            such as ``{"R_f": 0.02, "C1": 2e5, "h_o": 1e-4}``.
 
     Raises:
         InputError: For an unknown case or curve, a wrong column, an abscissa that is not monotone.
@@ -81,11 +99,12 @@ def compare(
     table = references.load_curve(found.paper, chosen)
     if accuracy is not None and not 0 < accuracy < 1:
         raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and 1")
-    columns = read_curve(Path(curve)) if isinstance(curve, str | Path) else _columns(curve)
-    asked = dict.fromkeys(table.ordinates, accuracy) if accuracy is not None else _asked(found, chosen)
-    x, keep, shared = _aligned(table, columns, asked)
-    judged = [_judge(table, column, x, columns[column][keep], asked[column]) for column in shared]
-    rows, whole = table.columns[table.abscissa], columns[table.abscissa]
+    drawn = _drawn(found, chosen)
+    asked = _accuracies(found, table, drawn[0][1], accuracy)
+    own = foreign_columns(curve, list(table.columns), columns, constants, drawn[0][1].of.problem)
+    x, keep, shared = _aligned(table, own, asked)
+    judged = [_judge(table, column, x, own[column][keep], asked[column]) for column in shared]
+    rows, whole = table.columns[table.abscissa], own[table.abscissa]
     low, high = float(rows.min()), float(rows.max())
     return Verdicts(
         case=found.id,
@@ -95,15 +114,28 @@ def compare(
         table=(low, high),
         rows=len(x),
         ignored_rows=int(np.sum(~keep)),
-        unjudged_rows={column: unjudged for column, (_, unjudged) in zip(shared, judged, strict=True)},
-        verdicts=tuple(verdict for verdict, _ in judged),
+        unjudged_rows={column: j.unjudged for column, j in zip(shared, judged, strict=True)},
+        verdicts=tuple(j.verdict for j in judged),
+        pictures=tuple(
+            _picture(table, column, own, j, [panel for panel, _ in drawn])
+            for column, j in zip(shared, judged, strict=True)
+        ),
     )
 
 
-def _asked(found: FoundCase, reference: str) -> Mapping[str, float]:
-    """Accuracy the case asks of the curve with that table."""
-    curves = [curve for panel in found.case.panels for curve in panel.curves if curve.reference == reference]
-    return asked_of(curves[0], found.case)
+def _drawn(found: FoundCase, reference: str) -> list[tuple[Panel, Curve]]:
+    """Where the case draws that table."""
+    panels = found.case.panels
+    return [(panel, curve) for panel in panels for curve in panel.curves if curve.reference == reference]
+
+
+def _accuracies(
+    found: FoundCase, table: Reference, curve: Curve, accuracy: float | None
+) -> Mapping[str, float]:
+    """Accuracy wanted of each column: what was claimed, or what the case asks of its own curve."""
+    if accuracy is not None:
+        return dict.fromkeys(table.ordinates, accuracy)
+    return asked_of(curve, found.case)
 
 
 def choose(found: FoundCase, name: str | None) -> str:
@@ -125,21 +157,6 @@ def choose(found: FoundCase, name: str | None) -> str:
         problem = f"unknown curve {name!r}" if name else "which curve?"
         raise InputError(f"{found.id}: {problem}; it has {', '.join(names) or 'none'}")
     return name
-
-
-def _columns(curve: Mapping[str, Sequence[float]]) -> dict[str, np.ndarray]:
-    out = {}
-    for name, values in curve.items():
-        try:
-            array = np.asarray(values, dtype=float)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise InputError(f"column {name!r}: {error}") from error
-        if array.ndim != 1 or not len(array) or not np.all(np.isfinite(array)):
-            raise InputError(f"column {name!r} must be a list of finite numbers")
-        out[str(name)] = array
-    if len({len(values) for values in out.values()}) > 1:
-        raise InputError("the curve's columns differ in length")
-    return out
 
 
 def _aligned(
@@ -191,10 +208,20 @@ def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[n
     return quintic(x), np.where(np.isin(x, rows), 0.0, bound[interval])
 
 
-def _judge(
-    table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float
-) -> tuple[Verdict, int]:
-    """Verdict on a column, and the number of rows the table is too coarse to judge."""
+@dataclass(frozen=True)
+class _Judged:
+    """What comes of one column."""
+
+    verdict: Verdict
+    unjudged: int
+    """Rows the table is too coarse to judge."""
+    x: np.ndarray
+    error: np.ndarray
+    bound: np.ndarray
+
+
+def _judge(table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float) -> _Judged:
+    """Verdict on a column, with the error and the bound of every row."""
     expected, slack = interpolated(table.columns[table.abscissa], table.columns[column], x)
     scale = float(np.max(np.abs(table.columns[column]))) or 1.0
     known = np.hypot(table.uncertainty[column], slack)
@@ -223,4 +250,49 @@ def _judge(
         where=f"{table.abscissa} = {x[i]:g}",
         reference=table.name,
     )
-    return verdict, unjudged
+    return _Judged(verdict, unjudged, x, error, bound)
+
+
+def _picture(
+    table: Reference, column: str, own: Mapping[str, np.ndarray], judged: _Judged, panels: Sequence[Panel]
+) -> PanelOutcome:
+    """The column over the table's abscissa; on the paper's axes, where the case draws just that."""
+    over = table.abscissa
+    paper = next((p for p in panels if (p.x.name, p.y.name) == (over, column)), None)
+    labels = [LABELS.get(name, name.replace("_", " ")) for name in (over, column)]
+    ranges = [_range(table.columns[name], own[name]) for name in (over, column)]
+    if paper is not None:
+        ranges = [(axis.low, axis.high) for axis in (paper.x, paper.y)]
+    return PanelOutcome(
+        name=column,
+        title=f"{column} of the curve against {table.name}",
+        x=over,
+        y=column,
+        x_label=labels[0],
+        y_label=labels[1],
+        x_range=ranges[0],
+        y_range=ranges[1],
+        drawn="the curve",
+        curves=[
+            CurveOutcome(
+                name=table.name,
+                label=table.name,
+                x=own[over].tolist(),
+                y=own[column].tolist(),
+                reference_name=table.name,
+                reference_kind=table.kind,
+                reference_x=table.columns[over].tolist(),
+                reference_y=table.columns[column].tolist(),
+                residual_abscissa=over,
+                residual_x=judged.x.tolist(),
+                residual=judged.error.tolist(),
+                residual_bound=judged.bound.tolist(),
+            )
+        ],
+    )
+
+
+def _range(*columns: np.ndarray) -> tuple[float, float]:
+    values = np.concatenate(columns)
+    margin = 0.03 * float(np.ptp(values))
+    return float(values.min()) - margin, float(values.max()) + margin

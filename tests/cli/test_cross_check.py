@@ -1,0 +1,218 @@
+"""Other programs' doors: renamed and dimensional curves, verdict pages, folders of requests."""
+
+import json
+import math
+import os
+from xml.etree import ElementTree
+
+import jsonschema
+import numpy as np
+import pytest
+
+from weakforms import dimensional, nondimensional
+from weakforms.errors import InputError
+from weakforms.problems import registry
+from weakforms.scaling import SCALINGS
+from weakforms.verification import references
+from weakforms.verification.compare import compare
+from weakforms.verification.requests import schema
+
+CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
+CONSTANTS = {"R_f": 0.02, "C1": 2.1e5, "h_o": 1.5e-4}
+
+
+def table(**factors: float) -> dict[str, np.ndarray]:
+    columns = references.load(2, CURVE).columns
+    return {name: columns[name] * factors.get(name, 1.0) for name in ("u_max", "p")}
+
+
+def as_csv(path, columns):
+    rows = zip(*columns.values(), strict=True)
+    path.write_text("\n".join([",".join(columns), *(",".join(repr(float(v)) for v in row) for row in rows)]))
+    return path
+
+
+# -- names and units -----------------------------------------------------------------------------
+
+
+def test_columns_of_other_names(weakforms, tmp_path):
+    columns = table()
+    file = as_csv(tmp_path / "c.csv", {"Pressure": columns["p"], "bulge": columns["u_max"]})
+    words = ("compare", CASE, file, "--curve", CURVE, "--map", "p=Pressure", "--map", "u_max=bulge")
+    assert weakforms(*words).status == 0
+    swapped = weakforms(*words[:-3], "p=bulge", "--map", "u_max=Pressure")
+    assert swapped.status in (1, 2)
+
+
+@pytest.mark.parametrize(
+    ("mapping", "said"),
+    [
+        ("q=Pressure", "the table has no 'q'; it has u_max, p"),
+        ("p=nothing", "the curve has no column 'nothing'; it has Pressure, bulge"),
+        ("p", "--map 'p': NAME=VALUE is wanted"),
+    ],
+)
+def test_a_wrong_map_is_named(weakforms, tmp_path, mapping, said):
+    file = as_csv(tmp_path / "c.csv", {"Pressure": table()["p"], "bulge": table()["u_max"]})
+    called = weakforms("compare", CASE, file, "--curve", CURVE, "--map", mapping)
+    assert (called.status, called.err.count("\n")) == (2, 1)
+    assert said in called.err
+
+
+def test_a_curve_with_units(weakforms, tmp_path):
+    metres_and_pascals = dimensional("tube", table(), **CONSTANTS)
+    assert metres_and_pascals["p"][5] == pytest.approx(table()["p"][5] * 2.1e5 * 1.5e-4 / 0.02, rel=1e-15)
+    file = as_csv(tmp_path / "c.csv", metres_and_pascals)
+    words = ["compare", CASE, file, "--curve", CURVE]
+    assert weakforms(*words).status != 0
+    given = [word for name, value in CONSTANTS.items() for word in ("--constant", f"{name}={value}")]
+    assert weakforms(*words, *given).status == 0
+    assert weakforms(*words, *given[:-1], "h_o=1.6e-4").status == 1
+
+
+@pytest.mark.parametrize(
+    ("constants", "said"),
+    [
+        ({"R_f": 0.02, "C1": 2e5}, "constant h_o is missing"),
+        (CONSTANTS | {"h_o": 0.0}, "h_o = 0 must be positive"),
+        (CONSTANTS | {"h_o": math.nan}, "h_o = nan must be positive"),
+        (CONSTANTS | {"h": 1.0}, "no constant 'h'; its scaling takes R_f, C1, h_o"),
+        (CONSTANTS | {"h_o": "thin"}, "h_o = 'thin' is not a number"),
+    ],
+)
+def test_a_wrong_constant_is_named(constants, said):
+    with pytest.raises(InputError, match=said):
+        compare(CASE, table(), CURVE, constants=constants)
+
+
+def test_there_and_back():
+    columns = {name: np.linspace(0.1, 2.0, 5) for name in SCALINGS["tube"].kinds} | {"lam1": np.ones(5)}
+    back = nondimensional("tube", dimensional("tube", columns, **CONSTANTS), **CONSTANTS)
+    for name, values in columns.items():
+        np.testing.assert_allclose(back[name], values, rtol=1e-14)
+
+
+ENDINGS = {
+    "length": "over {length}",
+    "curvature": "times {length}",
+    "pressure": "{length}/({modulus} {thickness})",
+    "resultant": "over {modulus} {thickness}",
+    "force": "over {modulus} {thickness} {length}",
+    "volume": "{length}^3",
+    "energy": "{modulus} {thickness} {length}^2",
+}
+
+
+SAID_OTHERWISE = ("X = beta x", "smallest X", "X of the contact", "Z of the contact", "the same", "gw = 1")
+
+
+@pytest.mark.parametrize("problem", SCALINGS)
+def test_scalings_are_those_the_problem_states(problem):
+    scaling, stated = SCALINGS[problem], registry.get(problem).scales
+    symbols = {"length": scaling.length, "modulus": scaling.modulus, "thickness": scaling.thickness}
+    for name in {*registry.get(problem).columns, *scaling.kinds} & set(stated):
+        text = stated[name]
+        kind = scaling.kinds.get(name, "number")
+        if kind == "number":
+            assert f"over {scaling.length}" not in text, name
+            assert scaling.modulus not in text.split(), name
+        else:
+            ending = ENDINGS[kind].format(**symbols)
+            assert ending in text or any(word in text for word in SAID_OTHERWISE), (name, text)
+        if kind in ("volume", "energy"):
+            assert ("2 pi" in text) == (scaling.turn != 1), name
+
+
+# -- the verdict as files ------------------------------------------------------------------------
+
+
+def test_a_page_of_the_verdict(weakforms, tmp_path):
+    file = as_csv(tmp_path / "c.csv", table(p=1 + 1e-4))
+    out = tmp_path / "verdict"
+    called = weakforms("compare", CASE, file, "--curve", CURVE, "--out", out)
+    assert called.status == 1
+    assert sorted(path.name for path in out.iterdir()) == ["index.html", "p.svg", "verdicts.json"]
+    data = json.loads((out / "verdicts.json").read_text())
+    jsonschema.validate(data, schema("verdicts"))
+    assert data["verdicts"][0]["where"].startswith("u_max = ")
+    ElementTree.parse(out / "p.svg")
+    page = (out / "index.html").read_text()
+    assert "<svg" in page
+    assert "failed" in page
+    assert "<script" not in page
+
+
+def test_a_page_that_cannot_be_written(weakforms, tmp_path):
+    (tmp_path / "taken").write_text("")
+    file = as_csv(tmp_path / "c.csv", table())
+    called = weakforms("compare", CASE, file, "--curve", CURVE, "--out", tmp_path / "taken")
+    assert (called.status, called.err.count("\n")) == (2, 1)
+
+
+# -- folders of requests -------------------------------------------------------------------------
+
+
+@pytest.fixture
+def requests(tmp_path):
+    folder = tmp_path / "requests"
+    folder.mkdir()
+    as_csv(folder / "curve.csv", table())
+    curve = {name: values.tolist() for name, values in table(p=1 + 1e-3).items()}
+    written = {
+        "good": {"case": CASE, "curve": "curve.csv", "name": CURVE},
+        "bad": {"case": CASE, "curve": curve, "name": CURVE},
+        "solved": {"problem": "tube", "parameters": {"alpha": 0.2}, "at": {"u_max": 1.0}},
+        "unknown": {"problem": "cube"},
+        "escaping": {"case": CASE, "curve": "../secret.csv", "name": CURVE},
+        "mixed": {"problem": "tube", "curve": curve},
+    }
+    for name, data in written.items():
+        (folder / f"{name}.json").write_text(json.dumps(data))
+    (folder / "broken.json").write_text("{")
+    return folder
+
+
+STATUS = {"good": 0, "bad": 1, "solved": 0, "unknown": 2, "escaping": 2, "mixed": 2, "broken": 2}
+
+
+def test_a_folder_of_requests(weakforms, requests, solves):
+    called = weakforms("batch", requests)
+    assert (called.status, called.err) == (2, "")
+    lines = dict(line.split(":", 1) for line in called.out.splitlines())
+    assert {name: int(text.split()[0]) for name, text in lines.items()} == STATUS
+    assert solves == ["tube"]
+    for name, status in STATUS.items():
+        data = json.loads((requests / "results" / f"{name}.json").read_text())
+        kind = data["schema"].removeprefix("weakforms.").removesuffix("/1")
+        assert kind == ("error" if status == 2 else "result" if name == "solved" else "verdicts")
+        if kind != "result":
+            jsonschema.validate(data, schema(kind))
+        if kind == "error":
+            assert data["exit_status"] == status
+        if name == "mixed":
+            assert "either a problem, or a case and a curve" in data["message"]
+
+
+def test_resume_answers_only_what_is_missing_or_newer(weakforms, requests, solves):
+    weakforms("batch", requests)
+    (requests / "results" / "good.json").write_text("{}")
+    assert weakforms("batch", requests, "--resume").status == 2
+    assert solves == ["tube"]
+    assert json.loads((requests / "results" / "good.json").read_text())["passed"]
+    os.utime(requests / "solved.json", (4e9, 4e9))
+    weakforms("batch", requests, "--resume")
+    assert solves == ["tube", "tube"]
+
+
+@pytest.mark.parametrize("what", ["missing", "empty", "itself", "file"])
+def test_a_folder_that_will_not_do(weakforms, tmp_path, requests, what):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "file").write_text("")
+    words = {"itself": (requests, "--out", requests)}.get(what, (tmp_path / what,))
+    called = weakforms("batch", *words)
+    assert (called.status, called.out, called.err.count("\n")) == (2, "", 1)
+
+
+def test_schemas_are_sound():
+    for name in ("request", "verdicts", "error"):
+        jsonschema.Draft202012Validator.check_schema(schema(name))

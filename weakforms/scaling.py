@@ -1,0 +1,212 @@
+"""Numbers with units in, the papers' numbers without units out, and back.
+
+Every paper divides lengths by one radius and forces per length by one stiffness; what else it scales follows.
+A code that computes in metres and pascals states that radius, thickness and modulus, and its columns
+are divided by what belongs to them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from weakforms.errors import InputError
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """What the columns of a problem are multiples of."""
+
+    length: str
+    """Constant that lengths are divided by."""
+    modulus: str
+    """Constant whose product with ``thickness`` forces per length are divided by."""
+    thickness: str
+    kinds: Mapping[str, str]
+    """Per column one of :data:`KINDS`; a column that is not listed has no unit."""
+    turn: float = 1.0
+    """Energies and volumes are divided by this too: ``2 pi`` where they count a radian."""
+
+    @property
+    def constants(self) -> tuple[str, str, str]:
+        """Names of the constants, all in units of one system."""
+        return self.length, self.modulus, self.thickness
+
+    def unit(self, column: str, constants: Mapping[str, float]) -> float:
+        """What one unit of a column is, with the constants' values.
+
+        Raises:
+            InputError: For a constant that is missing, unknown, not a number or not positive.
+        """
+        kind = self.kinds.get(column, "number")
+        length, modulus, thickness = (_constant(name, constants, self) for name in self.constants)
+        powers, turned = KINDS[kind]
+        return length ** powers[0] * (modulus * thickness) ** powers[1] * (self.turn if turned else 1.0)
+
+
+KINDS: dict[str, tuple[tuple[int, int], bool]] = {
+    "number": ((0, 0), False),
+    "length": ((1, 0), False),
+    "curvature": ((-1, 0), False),
+    "pressure": ((-1, 1), False),
+    "resultant": ((0, 1), False),
+    "force": ((1, 1), False),
+    "volume": ((3, 0), True),
+    "energy": ((2, 1), True),
+}
+"""Powers of the length and of modulus times thickness, and whether ``turn`` comes with it."""
+
+
+def _of(**columns: str) -> dict[str, str]:
+    return {name: kind for kind, names in columns.items() for name in names.split()}
+
+
+_TUBE = Scaling(
+    "R_f",
+    "C1",
+    "h_o",
+    _of(
+        pressure="p f_t f_k traction_front traction_max spring_max",
+        length="u_max Z rho eta Z_front contact_length",
+        resultant="t1_mid t1 t2 line_force line_force_membrane t2_min",
+        curvature="kappa",
+        volume="V",
+        energy="Pi",
+    ),
+    2 * math.pi,
+)
+_CIRCULAR = Scaling(
+    "R_f",
+    "C1",
+    "h",
+    _of(
+        pressure="p sigma sigma_pole sigma_contact",
+        length="t0 X X_contact X_iso rho_contact rho eta",
+        resultant="t_min G G_difference t1 t2",
+        curvature="kappa",
+        volume="V",
+        energy="Pi",
+    ),
+    2 * math.pi,
+)
+_FLUID_TUBE = Scaling(
+    "A",
+    "mu",
+    "H",
+    _of(
+        length="zw r_mid r_max r_front Z_front r_mid_pi x_quarter_0 x_quarter_pi z_quarter_0 z_quarter_pi "
+        "z_min Z r z x y",
+        resultant="T1_ring T2_ring T1_mid T2_mid T1 T2 T_min T1_quarter_0 T1_quarter_pi T2_quarter_0 "
+        "T2_quarter_pi",
+        volume="V",
+        energy="Pi",
+    ),
+)
+_WRINKLED = Scaling(
+    "Ao",
+    "C1",
+    "h",
+    _of(
+        pressure="p",
+        length="zw r_max Z r z Z_front_1 Z_front_2 Z_front_3 Af_critical",
+        resultant="N tension axial",
+        volume="V",
+        energy="Pi",
+    ),
+    2 * math.pi,
+)
+
+_SPHERE = Scaling("r_o", "S", "h_o", _of(pressure="P", resultant="Pi"))
+_HEMISPHERE = Scaling(
+    "Ao",
+    "C1",
+    "h",
+    _of(
+        length="zw z_pole r_max r z",
+        force="N",
+        resultant="tension axial",
+        volume="V",
+        energy="Pi",
+    ),
+    2 * math.pi,
+)
+
+SCALINGS: dict[str, Scaling] = {
+    "circular": _CIRCULAR,
+    "circular_scheme": _CIRCULAR,
+    "tube": _TUBE,
+    "tube_fold": _TUBE,
+    "tube_scheme": _TUBE,
+    "fluid_tube": _FLUID_TUBE,
+    "wrinkled_tube": _WRINKLED,
+    "hemisphere": _HEMISPHERE,
+    "sphere": _SPHERE,
+}
+"""By problem; a test holds them against the scalings that the problems state."""
+
+
+def _constant(name: str, constants: Mapping[str, float], scaling: Scaling) -> float:
+    if name not in constants:
+        raise InputError(
+            f"the constant {name} is missing: lengths are divided by {scaling.length}, forces per length by "
+            f"{scaling.modulus} {scaling.thickness}"
+        )
+    try:
+        value = float(constants[name])
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"constant {name} = {str(constants[name])[:40]!r} is not a number") from None
+    if not 0 < value < math.inf:
+        raise InputError(f"constant {name} = {value:g} must be positive and finite")
+    return value
+
+
+def scaling_of(problem: str) -> Scaling:
+    """Scaling of a problem.
+
+    Raises:
+        InputError: When none is known.
+    """
+    if problem not in SCALINGS:
+        raise InputError(f"no scaling is known of problem {problem!r}; known: {', '.join(SCALINGS)}")
+    return SCALINGS[problem]
+
+
+def nondimensional(
+    problem: str, columns: Mapping[str, Sequence[float]], **constants: float
+) -> dict[str, np.ndarray]:
+    """Columns with units as the paper's numbers: each divided by its unit.
+
+    Args:
+        problem: Whose scaling, such as ``"tube"``.
+        columns: By the problem's names; names that are not a column's are left as they are.
+        **constants: Radius, modulus and thickness by the paper's symbols, such as ``R_f``, ``C1``, ``h_o``.
+
+    Raises:
+        InputError: For a problem without a scaling, or a constant missing, unknown or not positive.
+    """
+    return _converted(problem, columns, constants, -1)
+
+
+def dimensional(
+    problem: str, columns: Mapping[str, Sequence[float]], **constants: float
+) -> dict[str, np.ndarray]:
+    """The paper's numbers with units: the inverse of :func:`nondimensional`."""
+    return _converted(problem, columns, constants, 1)
+
+
+def _converted(
+    problem: str, columns: Mapping[str, Sequence[float]], constants: Mapping[str, float], power: int
+) -> dict[str, np.ndarray]:
+    scaling = scaling_of(problem)
+    unknown = sorted(set(constants) - set(scaling.constants))
+    if unknown:
+        raise InputError(
+            f"{problem} has no constant {unknown[0]!r}; its scaling takes {', '.join(scaling.constants)}"
+        )
+    return {
+        name: np.asarray(values, dtype=float) * scaling.unit(name, constants) ** power
+        for name, values in columns.items()
+    }
