@@ -15,7 +15,7 @@ import time  # noqa: E402
 from pathlib import Path  # noqa: E402
 
 from reference_data.solvers.registry import tables  # noqa: E402
-from reference_data.solvers.tables import write  # noqa: E402
+from reference_data.solvers.tables import folder_of, write  # noqa: E402
 
 
 def parser() -> argparse.ArgumentParser:
@@ -46,7 +46,7 @@ def main(argv: list[str] | None = None) -> int:
             print(f"unknown table '{name}'{hint} (--list names them all)", file=sys.stderr)
             return 2
     if args.list:
-        print("\n".join(f"paper{paper}  {name}" for name, (paper, _) in known.items()))
+        print("\n".join(f"{folder_of(paper)}  {name}" for name, (paper, _) in known.items()))
         return 0
     wanted = args.names or (list(known) if args.all or args.paper is not None else [])
     if not wanted:

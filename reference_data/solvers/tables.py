@@ -59,7 +59,7 @@ class Table:
     """A table and its documentation."""
 
     name: str
-    paper: int
+    paper: int | str
     title: str
     source: str
     method: str
@@ -175,12 +175,17 @@ def toml_text(table: Table, sha256: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def folder_of(paper: int | str) -> str:
+    """Folder of a paper's tables; a group that belongs to no paper is its own."""
+    return f"paper{paper}" if isinstance(paper, int) else paper
+
+
 def write(table: Table, root: Path) -> Path:
-    """Write NAME.csv and NAME.toml under root/paperN; each appears only when complete."""
+    """Write NAME.csv and NAME.toml under root/paperN, or its group; each appears only when complete."""
     for c in table.columns:
         if not np.all(np.isfinite(c.values)):
             raise ValueError(f"table {table.name}, column {c.name}: not a finite number")
-    folder = root / f"paper{table.paper}"
+    folder = root / folder_of(table.paper)
     folder.mkdir(parents=True, exist_ok=True)
     data = csv_text(table).encode()
     texts = {"csv": data, "toml": toml_text(table, hashlib.sha256(data).hexdigest()).encode()}

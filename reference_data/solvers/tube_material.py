@@ -42,7 +42,12 @@ class Tube:
 
 
 def energy(l1: Any, l2: Any, alpha: float) -> Any:
-    """Strain energy w(l1, l2) over C1 h_o."""
+    """Strain energy w(l1, l2) over C1 h_o.
+
+    Here and below ``alpha`` may be another law in place of C2/C1 (``material_laws``).
+    """
+    if not isinstance(alpha, float | int):
+        return alpha.energy(l1, l2)
     a, b, c = l1 * l1, l2 * l2, l1 * l1 * l2 * l2
     return a + b + 1 / c - 3 + alpha * (1 / a + 1 / b + c - 3)
 
@@ -52,18 +57,24 @@ def slope(l1: Any, l2: Any, alpha: float) -> Any:
 
     w is symmetric: ``slope(l2, l1, alpha)`` is the derivative with respect to the second.
     """
+    if not isinstance(alpha, float | int):
+        return alpha.slope(l1, l2)
     cube = l1 * l1 * l1
     return 2 * (l1 - 1 / (cube * l2 * l2)) + 2 * alpha * (l1 * l2 * l2 - 1 / cube)
 
 
 def curvature(l1: Any, l2: Any, alpha: float) -> Any:
     """Second derivative of w with respect to its first stretch (second: swap arguments)."""
+    if not isinstance(alpha, float | int):
+        return alpha.curvature(l1, l2)
     fourth = l1 * l1 * l1 * l1
     return 2 + 6 / (fourth * l2 * l2) + 2 * alpha * (l2 * l2 + 3 / fourth)
 
 
 def mixed(l1: Any, l2: Any, alpha: float) -> Any:
     """Mixed second derivative of w."""
+    if not isinstance(alpha, float | int):
+        return alpha.mixed(l1, l2)
     c = l1 * l2
     return 4 / (c * c * c) + 4 * alpha * c
 

@@ -15,10 +15,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ufl import And, conditional, det, gt, inv, max_value, sqrt, tr
+from ufl.conditional import Condition
 from ufl.core.expr import Expr
 
 Law = Callable[[Expr, Expr], Expr]
 """Energy per reference volume as a function of the two principal stretches."""
+
+Width = Callable[[Expr], Expr]
+"""Transverse stretch in uniaxial tension as a function of the stretch along it."""
 
 TINY = 1e-6
 """Stretch below which a branch that is not used is evaluated here instead, to stay finite."""
@@ -37,12 +41,24 @@ def wrinkling_function(lam1: Expr, lam2: Expr) -> Expr:
     return lam2 * sqrt(lam1)
 
 
-def relaxed(law: Law) -> Callable[[Expr], Expr]:
-    r"""Energy of the wrinkled state, :math:`w_r(l) = w(l, l^{-1/2})`, a function of one stretch."""
-    return lambda l1: law(l1, natural_width(l1))
+def relaxed(law: Law, width: Width = natural_width) -> Callable[[Expr], Expr]:
+    r"""Energy of the wrinkled state, :math:`w_r(l) = w(l, l^{-1/2})`, a function of one stretch.
+
+    Args:
+        law: Full energy.
+        width: Width in uniaxial tension, where the law is not of an incompressible material.
+    """
+    return lambda l1: law(l1, width(l1))
 
 
-def tension_field(law: Law) -> Law:
+def taut_state(l1: Expr, l2: Expr, width: Width = natural_width) -> Condition:
+    r"""Whether neither stress is negative: :math:`l_1 > l_2^{-1/2}` and :math:`l_2 > l_1^{-1/2}`."""
+    if width is natural_width:
+        return And(gt(l2 * sqrt(l1), 1), gt(l1 * sqrt(l2), 1))
+    return And(gt(l2, width(l1)), gt(l1, width(l2)))
+
+
+def tension_field(law: Law, width: Width = natural_width) -> Law:
     r"""Relaxed energy by the state table: taut, wrinkled either way, or slack.
 
     ===================  =========================================  ===============
@@ -54,20 +70,20 @@ def tension_field(law: Law) -> Law:
     slack                l1 <= 1 and l2 <= 1                        0
     ===================  =========================================  ===============
 
-    (Patil, Nordmark & Eriksson 2015, table 1.)
+    (Patil, Nordmark & Eriksson 2015, table 1.) A law of a compressible material has another ``width``.
     """
 
     def energy(l1: Expr, l2: Expr) -> Expr:
         a, b = max_value(l1, TINY), max_value(l2, TINY)
-        wrinkled = relaxed(law)
-        taut = And(gt(b * sqrt(a), 1), gt(a * sqrt(b), 1))
+        wrinkled = relaxed(law, width)
+        taut = taut_state(a, b, width)
         slackened = conditional(gt(b, 1), wrinkled(b), 0.0)
         return conditional(taut, law(a, b), conditional(gt(a, 1), wrinkled(a), slackened))
 
     return energy
 
 
-def modified_gradient(law: Law) -> Law:
+def modified_gradient(law: Law, width: Width = natural_width) -> Law:
     r"""Full energy of a modified deformation gradient that leaves no compression (Roddeman's).
 
     :math:`\tilde F = (I + \beta\, n_2\otimes n_2) F` widens the wrinkled direction, ``beta >= 0``, until the
@@ -83,7 +99,7 @@ def modified_gradient(law: Law) -> Law:
         first = gt(l1, l2)  # one condition for both: where the stretches are equal, each is one of them
         along = max_value(conditional(first, l1, l2), 1.0)
         across = conditional(first, l2, l1)
-        return law(along, max_value(across, natural_width(along)))
+        return law(along, max_value(across, width(along)))
 
     return energy
 

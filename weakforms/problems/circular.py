@@ -25,8 +25,9 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Slope, Stretches, disk_stretches
 from weakforms.forms.loads import bed_potential, enclosed_volume, gas_potential
-from weakforms.forms.materials import mooney_rivlin, stress_resultants
+from weakforms.forms.materials import stress_resultants
 from weakforms.forms.series import chebyshev_series
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import tag_points
 from weakforms.solvers.system import Formulation, System
 
@@ -43,6 +44,13 @@ class DiskData:
     l: float  # noqa: E741  (the paper's symbol)
     cells: int
     degree: int
+    material: Chosen | None = None
+    """Law of the membrane; by default the paper's, with ``alpha``."""
+
+    @property
+    def chosen(self) -> Chosen:
+        """The law."""
+        return self.material or mooney_rivlin_of(self.alpha)
 
     @property
     def edge(self) -> float:
@@ -104,9 +112,8 @@ class DiskModel:
         lengths = {"lam2": terms + 1, "depth": terms + 1, "moment": 2 * terms}
         self.series = {name: fem.Constant(self.mesh, np.zeros(n)) for name, n in lengths.items()}
         span = bond.span if bond else 1.0
-        self.alpha, self.l, self.end, self.span = (
-            fem.Constant(self.mesh, value) for value in (data.alpha, data.l, data.edge, span)
-        )
+        self.law = data.chosen.law(self.mesh)
+        self.l, self.end, self.span = (fem.Constant(self.mesh, value) for value in (data.l, data.edge, span))
         self.patch = fem.Function(fem.functionspace(self.mesh, ("DG", 0)))
         cells = dmesh.locate_entities(self.mesh, 1, lambda x: x[0] <= 1.0 + 1e-12)
         self.patch.x.array[cells] = 1.0
@@ -182,7 +189,7 @@ class DiskModel:
         """
         g = self.geometry
         p, k = self.loads["p"][1], self.loads["k"][1]
-        energy = mooney_rivlin(g.stretches.lam1, g.stretches.lam2, self.alpha) * g.x
+        energy = self.law(g.stretches.lam1, g.stretches.lam2) * g.x
         energy += gas_potential(g.rho, Slope(-g.eta_slope), p)
         energy += bed_potential(g.rho, g.rho_slope, g.eta - self.l, k, self._in_patch(1.0, 0.0))
         return energy * g.jacobian
@@ -255,7 +262,7 @@ class DiskModel:
 
     def _resultants(self) -> tuple[Expr, Expr]:
         stretches = self.geometry.stretches
-        return stress_resultants(lambda a, b: mooney_rivlin(a, b, self.alpha), stretches.lam1, stretches.lam2)
+        return stress_resultants(self.law, stretches.lam1, stretches.lam2)
 
     def _front_monitors(self, t1: Expr, t2: Expr, sigma: Expr) -> dict[str, ufl.Form]:
         """One-sided values at the front."""
@@ -301,7 +308,7 @@ class DiskModel:
         Hui 2010) and the energy of the springs released.
         """
         g = self.geometry
-        energy = mooney_rivlin(g.stretches.lam1, g.stretches.lam2, self.alpha)
+        energy = self.law(g.stretches.lam1, g.stretches.lam2)
         k = self.loads["k"][1]
         (w_c, l1_c, r_c, e_c), (w_o, l1_o, r_o, e_o) = (
             [self._side(v, patch) for v in (energy, g.stretches.lam1, g.rho_slope, g.eta_slope)]

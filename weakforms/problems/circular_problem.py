@@ -11,10 +11,11 @@ from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import InputError
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry
+from weakforms.problems.base import Progress, Requests, check_requests, registry
 from weakforms.problems.circular import DiskData
 from weakforms.problems.circular_peeling import PeelingBranch, PeelingFamily
 from weakforms.problems.circular_runs import DiskRun
+from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.results import SpecialPoint
 from weakforms.solvers.branch import SolutionCurve
@@ -67,7 +68,7 @@ SCALES = {
 ENERGY = (
     "Pi/(2 pi C1 h R_f^2) = int_0^{1/beta} [ W(lam1, lam2) x + (p/2) rho^2 eta' "
     "+ (k/2) chi (eta - l)^2 rho rho' ] dx,  rho = x lam2,  lam1 = sqrt(rho'^2 + eta'^2),  "
-    "W = I1 - 3 + alpha (I2 - 3)"
+    "W = I1 - 3 + alpha (I2 - 3), or that of another model (weakforms show material; its S for C1)"
 )
 
 PATCH_COLUMNS = (
@@ -103,10 +104,12 @@ class CircularNumerics(MeshNumerics):
     step: float = Field(0.06, ge=0.01, le=0.5, description="largest arc-length step")
 
 
-class CircularParameters(Parameters):
+class CircularParameters(MaterialChoice):
     """The disk and its substrate."""
 
-    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    ratio: ClassVar[str] = "alpha"
+
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
     k: float = Field(50.0, gt=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h)")
     l: float = Field(0.5, gt=0.06, le=5, description="height of the substrate L/R_f")  # noqa: E741
@@ -264,7 +267,8 @@ def _onset(runs: list[DiskRun]) -> SpecialPoint:
 
 
 def _data(parameters: CircularParameters, cells: int, degree: int) -> DiskData:
-    return DiskData(parameters.alpha, parameters.beta, parameters.k, parameters.l, cells, degree)
+    ends = cells, degree, parameters.material
+    return DiskData(parameters.alpha, parameters.beta, parameters.k, parameters.l, *ends)
 
 
 @lru_cache(maxsize=9)

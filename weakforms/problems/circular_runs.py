@@ -11,6 +11,8 @@ from scipy.interpolate import CubicSpline
 from weakforms.errors import InputError
 from weakforms.problems.circular import Bond, DiskData, DiskModel
 from weakforms.problems.circular_history import History
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.material_point import evaluated
 from weakforms.solvers.branch import EquilibriumBranch, FittedBranch, Solved
 from weakforms.solvers.constraints import Held
 from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl
@@ -68,7 +70,7 @@ class DiskRun:
         return EquilibriumBranch(continuation, "p", start, stop=lambda q: q.monitors["t0"] > t_end)
 
     def _first_guess(self, state: State) -> State:
-        u, p = parabola(self._radii(state), self.data.alpha, self.data.beta)
+        u, p = parabola(self._radii(state), self.data.chosen, self.data.beta)
         return State(u, state.loads | {"p": p})
 
     def _radii(self, state: State) -> np.ndarray:
@@ -203,12 +205,12 @@ class DiskRun:
         return StepControl(first=self.step / fraction, largest=self.step)
 
 
-def parabola(x: np.ndarray, alpha: float, beta: float) -> tuple[np.ndarray, float]:
+def parabola(x: np.ndarray, law: Chosen, beta: float) -> tuple[np.ndarray, float]:
     """A first state of pole height ``FIRST_T0``, slightly stretched, and the pressure its tension carries.
 
     Args:
         x: Radius of every degree of freedom, ``lam2`` and ``eta`` in turn.
-        alpha: C2/C1.
+        law: The membrane's.
         beta: Pre-stretch.
     """
     lam = beta + 0.3 * FIRST_T0**2
@@ -216,7 +218,7 @@ def parabola(x: np.ndarray, alpha: float, beta: float) -> tuple[np.ndarray, floa
     u = np.empty_like(x)
     u[0::2] = beta + (lam - beta) * (1 - square[0::2])
     u[1::2] = FIRST_T0 * (1 - square[1::2])
-    tension = 2 * (lam - 1 / lam**5) * (1 + alpha * lam**2)
+    tension = evaluated(law, lam, lam)["W1"]
     return u, 4 * FIRST_T0 * tension / beta
 
 

@@ -40,6 +40,7 @@ from weakforms.problems.base import (
 )
 from weakforms.problems.circular_problem import ENERGY, SCALES, SOURCE
 from weakforms.problems.circular_runs import FIRST_T0, parabola
+from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.meshes import graded_interval, tag_points
 from weakforms.results import Quantity, Result
 from weakforms.solvers.constraints import Held
@@ -136,7 +137,7 @@ class FixedDisk:
         state = self.system.state()
         x = np.empty(len(state.u))
         x[self.order], x[self.order + 1] = self.x, self.x
-        u, p = parabola(x, given.alpha, given.beta)
+        u, p = parabola(x, mooney_rivlin_of(given.alpha), given.beta)
         state = State(u, {"p": p})
         for t0 in np.linspace(FIRST_T0, given.l, 10):
             state, _ = solver.solve(state, [Held("t0", float(t0))])

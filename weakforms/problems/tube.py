@@ -20,7 +20,9 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Stretches, tube_stretches
 from weakforms.forms.loads import enclosed_volume, gas_potential
-from weakforms.forms.materials import mooney_rivlin, stress_resultants
+from weakforms.forms.materials import stress_resultants
+from weakforms.forms.wrinkling import Law
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import graded_interval, tag_points
 from weakforms.solvers.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.constraints import Fold, Held
@@ -51,7 +53,7 @@ class TubeMesh:
     full: bool = False
 
 
-def potential(rho: Expr, eta: Expr, p: Expr, alpha: Expr, delta1: Expr) -> Expr:
+def potential(rho: Expr, eta: Expr, p: Expr, law: Law, delta1: Expr) -> Expr:
     r"""Total potential per meridian coordinate ``Z`` and per :math:`2\pi C_1 h_o R_f^2`.
 
     .. math:: \Pi/2\pi = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
@@ -60,30 +62,32 @@ def potential(rho: Expr, eta: Expr, p: Expr, alpha: Expr, delta1: Expr) -> Expr:
     (equation 8 of the paper without substrate; ``r0 dz = dZ/sqrt(delta1)``).
     """
     stretches = tube_stretches(rho, eta, delta1)
-    energy = mooney_rivlin(stretches.lam1, stretches.lam2, alpha)
+    energy = law(stretches.lam1, stretches.lam2)
     return energy / ufl.sqrt(delta1) + gas_potential(rho, eta, p)
 
 
-def formulation(comm: MPI.Intracomm, alpha: float, delta1: float, lf: float, at: TubeMesh) -> Formulation:
-    """Weak form of free inflation, with the pressure and the pre-stretch as loads."""
+def formulation(
+    comm: MPI.Intracomm, material: Chosen | float, delta1: float, lf: float, at: TubeMesh
+) -> Formulation:
+    """Weak form of free inflation, with the pressure and the pre-stretch as loads.
+
+    A number for a material is the C2/C1 of the paper's own.
+    """
     half = lf / 2
     mesh = graded_interval(comm, at.cells, half, at.grading, mirrored=at.full)
     space = fem.functionspace(mesh, basix.ufl.element("Lagrange", "interval", at.degree, shape=(2,)))
     unknown = fem.Function(space, name="tube")
     unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), x[0]]))
     rho, eta = unknown
-    constants = {
-        name: fem.Constant(mesh, value) for name, value in (("p", 0.0), ("delta1", delta1), ("alpha", alpha))
-    }
+    constants = {name: fem.Constant(mesh, value) for name, value in (("p", 0.0), ("delta1", delta1))}
     loads = {name: (constants[name], ufl.variable(constants[name])) for name in ("p", "delta1")}
     p, d1 = (variable for _, variable in loads.values())
+    law = (material if isinstance(material, Chosen) else mooney_rivlin_of(material)).law(mesh)
 
     dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 2 * at.degree + 2})
-    energy = potential(rho, eta, p, constants["alpha"], d1) * dx
+    energy = potential(rho, eta, p, law, d1) * dx
     stretches = tube_stretches(rho, eta, d1)
-    t1, _ = stress_resultants(
-        lambda l1, l2: mooney_rivlin(l1, l2, constants["alpha"]), stretches.lam1, stretches.lam2
-    )
+    t1, _ = stress_resultants(law, stretches.lam1, stretches.lam2)
     middle = _midplane(mesh, at.full)
     return Formulation(
         unknown=unknown,
@@ -98,20 +102,18 @@ def formulation(comm: MPI.Intracomm, alpha: float, delta1: float, lf: float, at:
             "V": enclosed_volume(rho, eta) * dx,
             "Pi": energy,
         },
-        profile=_profile(unknown, stretches, p, d1, constants["alpha"]),
+        profile=_profile(unknown, stretches, p, d1, law),
     )
 
 
-def _profile(
-    unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr, alpha: Expr
-) -> dict[str, Expr]:
+def _profile(unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr, law: Law) -> dict[str, Expr]:
     r"""Columns along the meridian, among them the two first integrals of free inflation.
 
     .. math:: F = r_0 w_{,1}\cos\beta - \tfrac12 p\rho^2, \qquad H = w - \lambda_1 w_{,1}
     """
     rho, eta = unknown
     lam1, lam2 = stretches.lam1, stretches.lam2
-    t1, t2 = stress_resultants(lambda a, b: mooney_rivlin(a, b, alpha), lam1, lam2)
+    t1, t2 = stress_resultants(law, lam1, lam2)
     w1 = t1 * lam2
     return {
         "rho": rho,
@@ -121,7 +123,7 @@ def _profile(
         "t1": t1,
         "t2": t2,
         "F_axial": ufl.sqrt(delta1) * w1 * stretches.cos_beta - p * rho**2 / 2,
-        "H": mooney_rivlin(lam1, lam2, alpha) - lam1 * w1,
+        "H": law(lam1, lam2) - lam1 * w1,
     }
 
 

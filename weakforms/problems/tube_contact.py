@@ -23,7 +23,8 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Slope, tube_stretches
 from weakforms.forms.loads import enclosed_volume, gas_potential, substrate_potential
-from weakforms.forms.materials import mooney_rivlin, stress_resultants
+from weakforms.forms.materials import stress_resultants
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import tag_points
 from weakforms.solvers.system import Formulation, System
 
@@ -51,6 +52,8 @@ class ContactData:
     """The series is over ``Z`` in ``[0, span]``."""
     unilateral: bool = False
     """The spring of a stuck patch pushes only."""
+    material: Chosen | None = None
+    """Law of the membrane; by default the paper's, with ``alpha``."""
 
 
 def two_part_mesh(comm: MPI.Intracomm, cells: int, grading: float) -> Mesh:
@@ -157,12 +160,11 @@ class ContactModel:
         if data.unilateral:
             contact = contact * ufl.conditional(ufl.gt(rho, data.s), 1.0, 0.0)
         dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2 * data.degree + 4})
-        density = mooney_rivlin(stretches.lam1, stretches.lam2, data.alpha) / ufl.sqrt(delta1) * jacobian
+        law = (data.material or mooney_rivlin_of(data.alpha)).law(self.mesh)
+        density = law(stretches.lam1, stretches.lam2) / ufl.sqrt(delta1) * jacobian
         density += gas_potential(rho, axial, p) + substrate_potential(rho, axial, k, data.s, contact)
         energy = density * dx
-        t1, t2 = stress_resultants(
-            lambda a, b: mooney_rivlin(a, b, data.alpha), stretches.lam1, stretches.lam2
-        )
+        t1, t2 = stress_resultants(law, stretches.lam1, stretches.lam2)
         membrane = ufl.sqrt(delta1) * t1 * stretches.lam2 * stretches.cos_beta
         spring = (rho - data.s) + (rho - data.s) ** 2 / (2 * rho)
         force = membrane - p * rho**2 / 2 + k * contact * rho * (rho - data.s) ** 2 / 2
@@ -228,8 +230,7 @@ class ContactModel:
                 "f_t": self._in_patch(f_t, 0.0),
                 "f_k": f_k,
                 "F_axial": force,
-                "H": mooney_rivlin(stretches.lam1, stretches.lam2, data.alpha)
-                - stretches.lam1 * t1 * stretches.lam2,
+                "H": law(stretches.lam1, stretches.lam2) - stretches.lam1 * t1 * stretches.lam2,
             },
         )
 

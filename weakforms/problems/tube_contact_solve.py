@@ -82,6 +82,7 @@ def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: M
         cells=numerics.meshes[level] // 2,
         degree=numerics.degree,
         grading=numerics.grading,
+        material=parameters.material,
         unilateral=parameters.phase == "deflation" and parameters.spring == "unilateral",
     )
     return ContactRun(comm, data, parameters.p_end, numerics.step, FIRST_TERMS + MORE_TERMS * level)

@@ -10,7 +10,8 @@ from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import InputError
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry
+from weakforms.problems.base import Progress, Requests, check_requests, registry
+from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, MaterialChoice
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.problems.tube import TubeMesh, fold_line, formulation, free_branch
 from weakforms.problems.tube_contact_solve import contact_family
@@ -59,7 +60,7 @@ ENERGY = (
     "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z "
     "+ (k/2) chi rho (rho - s)^2 eta_Z ] dZ,  "
     "lam1 = delta1 sqrt(rho_Z^2 + eta_Z^2),  lam2 = rho/sqrt(delta1),  "
-    "w = I1 - 3 + alpha (I2 - 3)"
+    "w = I1 - 3 + alpha (I2 - 3), or that of another model (weakforms show material; its S for C1)"
 )
 
 
@@ -83,10 +84,12 @@ class TubeNumerics(MeshNumerics):
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
 
 
-class TubeParameters(Parameters):
+class TubeParameters(MaterialChoice):
     """The tube and its substrate."""
 
-    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    ratio: ClassVar[str] = "alpha"
+
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")
     lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
     k: float = Field(20.0, ge=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h_o)")
@@ -181,14 +184,16 @@ def branch_maker(
             numerics.grading,
             full=parameters.extent == "full",
         )
-        system = System(formulation(comm, parameters.alpha, parameters.delta1, parameters.lf, at))
+        system = System(formulation(comm, parameters.material, parameters.delta1, parameters.lf, at))
         return free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
 
     return make
 
 
-class TubeFoldParameters(Parameters):
+class TubeFoldParameters(MaterialChoice):
     """Free tube whose limit points are followed in the pre-stretch."""
+
+    ratio: ClassVar[str] = "alpha"
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
     lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
@@ -225,14 +230,15 @@ class TubeFold(PathProblem):
         progress: Progress,
     ) -> dict[str, Family]:
         """The first limit point at ``delta1 = 1``, followed on all meshes."""
-        tube = TubeParameters(alpha=parameters.alpha, lf=parameters.lf, u_end=parameters.u_end)
+        given = parameters.model_dump()
+        tube = TubeParameters(**{n: v for n, v in given.items() if n != "delta1_end"})
         branch = branch_maker(tube, numerics, comm, progress)
 
         def make(level: int) -> SolutionCurve:
             equilibria = branch(level)
             if not len(equilibria.turns()):
                 raise InputError(
-                    f"tube_fold: at alpha = {parameters.alpha:g}, lf = {parameters.lf:g} the unstretched "
+                    f"tube_fold: at {_named(parameters.material)}, lf = {parameters.lf:g} the unstretched "
                     f"tube has no limit point up to u_max = {parameters.u_end:g}: no fold line starts there"
                 )
             return fold_line(equilibria, parameters.delta1_end, numerics.step)
@@ -244,6 +250,12 @@ class TubeFold(PathProblem):
     def points(self, parameters: TubeFoldParameters) -> np.ndarray:
         """61 points from the mid-plane to the disk."""
         return np.linspace(0, parameters.lf / 2, 61)
+
+
+def _named(chosen: Chosen) -> str:
+    """A law and its constants, for people."""
+    model = () if chosen.model == MOONEY_RIVLIN else (f"model = {chosen.model}",)
+    return ", ".join((*model, *(f"{name} = {value:g}" for name, value in chosen.constants)))
 
 
 registry.add(Tube())

@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from weakforms.errors import EnvironmentLackError, InputError
-from weakforms.verification import references
+from weakforms.verification import gallery, references
 from weakforms.verification.compare import Verdicts
 from weakforms.verification.discovery import FoundCase, among, find_cases
 from weakforms.verification.summary import plain_tex, scientific
@@ -75,6 +75,9 @@ def _problem_facts(problem: Any) -> dict[str, Any]:
         "title": problem.title,
         "source": problem.source,
         "energy": problem.energy,
+        "weak_form": gallery.weak_form(problem.name),
+        "example": gallery.example(problem.name),
+        "command": gallery.command(problem.name),
         "control": problem.control,
         "parameters": _fields(problem.parameters),
         "numerics": _fields(problem.numerics),
@@ -82,7 +85,31 @@ def _problem_facts(problem: Any) -> dict[str, Any]:
         "special_points": list(problem.special_points),
         "branches": list(problem.branches),
         "scales": problem.scales,
+        **_law_facts(getattr(problem, "materials", {})),
     }
+
+
+def _law_facts(materials: dict[str, Any]) -> dict[str, Any]:
+    """The laws a problem is there to show, with constants and sources."""
+    if not materials:
+        return {}
+    laws = [
+        {
+            "name": m.name,
+            "title": m.title,
+            "kind": m.kind,
+            "energy": m.text,
+            "source": m.source,
+            "stress": m.scale,
+            "incompressible": m.incompressible,
+            "constants": [
+                {"name": n, "default": c.default, "allowed": c.allowed, "description": c.meaning}
+                for n, c in m.constants.items()
+            ],
+        }
+        for m in materials.values()
+    ]
+    return {"materials": laws}
 
 
 def _fields(model: Any) -> list[dict[str, Any]]:
@@ -146,7 +173,9 @@ def print_description(facts: dict[str, Any], console: Console) -> None:
     if facts["kind"] == "case":
         _print_case(facts, console)
         return
-    console.print(f"\n{facts['energy']}\n")
+    console.print(f"\n{facts['energy']}\n", markup=False)
+    console.print(f"weak form: {facts['weak_form']}\n", markup=False)
+    console.print("example:\n  " + "\n  ".join(facts["example"]) + "\n", markup=False, soft_wrap=True)
     for title in ("parameters", "numerics"):
         table = Table("name", "default", "allowed", "meaning", title=title, title_justify="left")
         for row in facts[title]:
@@ -155,10 +184,23 @@ def print_description(facts: dict[str, Any], console: Console) -> None:
     console.print(f"control: {facts['control']}")
     console.print(f"columns: {', '.join(facts['columns'])}")
     console.print(f"special points: {', '.join(facts['special_points'])}")
+    _print_laws(facts.get("materials", []), console)
     scales = Table("name", "scaling", title="scales", title_justify="left")
     for name, text in facts["scales"].items():
         scales.add_row(name, text)
     console.print(scales)
+
+
+def _print_laws(laws: list[dict[str, Any]], console: Console) -> None:
+    for law in laws:
+        console.print(
+            f"\nmodel = {law['name']}: {law['title']} ({law['kind']})", markup=False, soft_wrap=True
+        )
+        for name in ("energy", "source", "stress"):
+            console.print(f"  {name}: {law[name]}", markup=False, soft_wrap=True)
+        for c in law["constants"]:
+            text = f"    {c['name']} = {c['default']:g}, allowed {c['allowed']}: {c['description']}"
+            console.print(text, markup=False, soft_wrap=True)
 
 
 def _print_case(facts: dict[str, Any], console: Console) -> None:

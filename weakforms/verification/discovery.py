@@ -13,7 +13,10 @@ from pathlib import Path
 
 from weakforms.errors import InputError
 from weakforms.verification.case import Case
-from weakforms.verification.references import ROOT
+from weakforms.verification.references import ROOT, folder_of
+
+GROUPS = ("materials", "closed_form")
+"""Folders of cases, and of reference tables, that belong to no paper."""
 
 
 @dataclass(frozen=True)
@@ -21,10 +24,16 @@ class FoundCase:
     """A case with its place: ``cases/paper2/fig03.py`` is ``paper2.fig03``."""
 
     id: str
-    paper: int
+    paper: int | str
+    """Number of the paper, or the name of the group of a case that belongs to none."""
     path: Path
     case: Case
     description: str
+
+    @property
+    def group(self) -> str:
+        """Its folder, such as ``paper2`` or ``materials``."""
+        return folder_of(self.paper)
 
     @property
     def words(self) -> str:
@@ -34,7 +43,7 @@ class FoundCase:
 
 @cache
 def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
-    """All cases in the order of papers and names.
+    """All cases in the order of papers and names, then those of no paper.
 
     Raises:
         InputError: When a case file does not define ``CASE``.
@@ -43,11 +52,15 @@ def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
     for path in sorted((root / "cases").glob("paper[1-5]/*.py")):
         if not path.stem.startswith("_"):
             found.append(_load(path, int(path.parent.name.removeprefix("paper"))))
-    return tuple(sorted(found, key=lambda item: (item.paper, item.id)))
+    found.sort(key=lambda item: (item.paper, item.id))
+    for group in GROUPS:
+        paths = sorted((root / "cases" / group).glob("*.py"))
+        found += [_load(path, group) for path in paths if not path.stem.startswith("_")]
+    return tuple(found)
 
 
-def _load(path: Path, paper: int) -> FoundCase:
-    name = f"weakforms_cases.paper{paper}.{path.stem}"
+def _load(path: Path, paper: int | str) -> FoundCase:
+    name = f"weakforms_cases.{folder_of(paper)}.{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
@@ -58,7 +71,7 @@ def _load(path: Path, paper: int) -> FoundCase:
     case = getattr(module, "CASE", None)
     if not isinstance(case, Case):
         raise InputError(f"case file {path} defines no CASE")
-    return FoundCase(f"paper{paper}.{path.stem}", paper, path, case, (module.__doc__ or "").strip())
+    return FoundCase(f"{folder_of(paper)}.{path.stem}", paper, path, case, (module.__doc__ or "").strip())
 
 
 def get_case(name: str) -> FoundCase:

@@ -44,8 +44,13 @@ class Reference:
         return [name for name in self.columns if name != self.abscissa]
 
 
+def folder_of(paper: int | str) -> str:
+    """Folder of a paper's cases and tables; a group that belongs to no paper is its own."""
+    return f"paper{paper}" if isinstance(paper, int) else paper
+
+
 @cache
-def load(paper: int, name: str, root: Path = ROOT) -> Reference:
+def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
     """The table ``reference_data/paperN/NAME``; of a table over a surface ``NAME@DEGREES`` is one meridian.
 
     Raises:
@@ -54,7 +59,7 @@ def load(paper: int, name: str, root: Path = ROOT) -> Reference:
     whole, separator, degrees = name.partition("@")
     if separator:
         return _meridian(load(paper, whole, root), name, degrees)
-    folder = root / "reference_data" / f"paper{paper}"
+    folder = root / "reference_data" / folder_of(paper)
     facts = _facts(folder / f"{name}.toml")
     path = folder / f"{name}.csv"
     try:
@@ -111,7 +116,7 @@ def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:
     return float(value)
 
 
-def load_curve(paper: int, name: str) -> Reference:
+def load_curve(paper: int | str, name: str) -> Reference:
     """A table whose abscissa rises, or falls, from row to row.
 
     Raises:

@@ -1,0 +1,181 @@
+"""The five conditions of section 3.1.1 on a strain energy, and the laws that fail them.
+
+Saint Venant-Kirchhoff's energy stays finite as a stretch goes to zero (condition 5), and its stress in
+compression comes back to zero; the harmonic material's energy becomes negative in large equibiaxial
+stretches (condition 1). Both failures are stated here: a change that hid them would fail this case.
+"""
+
+import numpy as np
+
+from weakforms import Case, Claim, Finding, Solutions, homogeneous, material
+
+GROWING = (
+    "neo_hookean",
+    "mooney_rivlin",
+    "rivlin",
+    "ogden",
+    "biderman",
+    "rivlin_saunders",
+    "beda_chevalier",
+    "varga",
+)
+LIMITED = {"three_chain": 5.1, "arruda_boyce": 6.2, "gent": 7.0}
+"""Laws of limited extensibility and an equibiaxial stretch near its limit."""
+ALL = (*GROWING, *LIMITED, "saint_venant_kirchhoff", "harmonic")
+SMALL, LARGE = (1e-1, 1e-2, 1e-3), (10.0, 30.0, 90.0)
+REST = {m: material(model=m, l1=1.0, l2=1.0) for m in ALL}
+THIN = {m: [material(model=m, l1=x, l2=1.0) for x in SMALL] for m in (*GROWING, "saint_venant_kirchhoff")}
+LONG = {m: [material(model=m, l1=x, l2=1.0) for x in LARGE] for m in GROWING}
+NEAR = {m: [material(model=m, l1=x, l2=x) for x in (0.6 * end, 0.9 * end, end)] for m, end in LIMITED.items()}
+SWOLLEN = [material(model="harmonic", l1=x, l2=x) for x in (2.0, 7.0)]
+PRESSED = homogeneous(model="saint_venant_kirchhoff", loading="uniaxial", lam_end=0.3)
+
+
+def energy(solutions: Solutions, spec: object) -> float:
+    """``W``."""
+    return solutions.result(spec).quantities["W"].value
+
+
+def rest(solutions: Solutions) -> Finding:
+    """Energy and stresses of all laws at rest."""
+    worst = max(
+        abs(solutions.result(spec).quantities[n].value) for spec in REST.values() for n in ("W", "W1", "W2")
+    )
+    return worst < 1e-13, f"{len(REST)} laws, largest of W, W1, W2: {worst:.1e}"
+
+
+def grows(solutions: Solutions) -> Finding:
+    """Energies towards vanishing and towards infinite stretches."""
+    good, rows = True, []
+    for series in (THIN, LONG):
+        for model in GROWING:
+            w = [energy(solutions, spec) for spec in series[model]]
+            # A power law: by at least its square root each time a stretch is divided by ten, or tripled.
+            good &= bool(w[0] > 0 and w[1] > 1.5 * w[0] and w[2] > 1.5 * w[1])
+            rows.append(f"{model} {w[2]:.2g}")
+    return good, "last energies: " + ", ".join(rows)
+
+
+def locks(solutions: Solutions) -> Finding:
+    """Stresses near full extension."""
+    rows, good = [], True
+    for model, specs in NEAR.items():
+        w1 = [solutions.result(spec).quantities["W1"].value for spec in specs]
+        good &= bool(w1[2] - w1[1] > 3 * (w1[1] - w1[0]) > 0)
+        rows.append(f"{model}: W1 = " + ", ".join(f"{x:.3g}" for x in w1))
+    return good, "; ".join(rows)
+
+
+def kirchhoff_stays_finite(solutions: Solutions) -> Finding:
+    """Condition 5 does not hold: the energy tends to a number as l1 goes to zero."""
+    w = [energy(solutions, spec) for spec in THIN["saint_venant_kirchhoff"]]
+    limit = 2.0 / (1 - 0.5) / 4  # Y/(2 (1 - nu^2)) E1^2 at E1 = -1/2, by hand
+    return bool(abs(w[2] - limit) < 1e-5 and abs(w[2] - w[1]) < 1e-3), f"W = {w}, limit {limit}"
+
+
+def kirchhoff_gives_way(solutions: Solutions) -> Finding:
+    """In compression the stress has a limit point at lam = 1/sqrt(3)."""
+    found = solutions.points(PRESSED, "limit_point")
+    lam = [point.values["lam"] for point in found]
+    return len(lam) == 1 and abs(lam[0] - 3**-0.5) < 1e-9, f"limit points at lam = {lam}"
+
+
+def harmonic_is_negative(solutions: Solutions) -> Finding:
+    """Condition 1 holds at l1 = l2 = 2 and fails at 7."""
+    w = [energy(solutions, spec) for spec in SWOLLEN]
+    return bool(w[0] > 0 > w[1]), f"W = {w[0]:.6g} at 2, {w[1]:.6g} at 7"
+
+
+def moduli() -> dict[str, float]:
+    """Small-strain shear moduli over S, in closed form."""
+    y = 0.6  # inverse Langevin function of 1/sqrt(26.5), by Newton's method
+    x = 26.5**-0.5
+    for _ in range(50):
+        y -= (1 / np.tanh(y) - 1 / y - x) / (1 / y**2 - 1 / np.sinh(y) ** 2)
+    bend = 1 / (1 / y**2 - 1 / np.sinh(y) ** 2)
+    return {
+        "neo_hookean": 2.0,
+        "mooney_rivlin": 2 * 1.1,
+        "rivlin": 2 * 1.1,
+        "ogden": (1.491 * 1.3 + 0.003 * 5 + 0.023 * 2) / 2,
+        "biderman": 2 * 1.1,
+        "rivlin_saunders": 2 * 1.2,
+        "three_chain": 2 * (y / x + bend) / 6,
+        "arruda_boyce": 2 * y / (3 * x),
+        "beda_chevalier": 2 * (1 + 2.36 / 3) + 1e-3 * 5 / 2,
+        "varga": 2.0,
+        "gent": 2.0,
+    }
+
+
+def small_strains(solutions: Solutions) -> Finding:
+    """W11 = W22 = 4 mu, W12 = 2 mu at rest; 3 mu, 6 mu, 4 mu are the slopes of the three tests."""
+    worst = 0.0
+    for model, mu in moduli().items():
+        q = {n: v.value for n, v in solutions.result(REST[model]).quantities.items()}
+        slopes = (
+            q["W11"] - q["W12"] ** 2 / q["W22"] - 3 * mu,  # uniaxial: no stress across
+            q["W11"] + q["W12"] - 6 * mu,  # equibiaxial
+            q["W11"] - 4 * mu,  # pure shear
+            q["W22"] - 4 * mu,
+        )
+        worst = max(worst, *(abs(s) / mu for s in slopes))
+    nu, f2 = 0.5, 2.0
+    for model, mu, poisson in (
+        ("saint_venant_kirchhoff", 2.0, nu),
+        ("harmonic", 2.0, (f2 - 1) / (2 * f2 - 1)),
+    ):
+        q = {n: v.value for n, v in solutions.result(REST[model]).quantities.items()}
+        stiff = 2 * mu / (1 - poisson)
+        worst = max(worst, abs(q["W11"] / stiff - 1), abs(q["W12"] / (poisson * stiff) - 1))
+    return worst < 1e-12, f"{len(REST)} laws, largest relative difference {worst:.1e}"
+
+
+CASE = Case(
+    title="Admissible strain energies, and two that are not",
+    source="Patil (2016), section 3.1.1",
+    checks=(
+        Claim(
+            "rest",
+            "condition 4: no energy and no stress at rest, every law",
+            tuple((s, None) for s in REST.values()),
+            rest,
+        ),
+        Claim(
+            "growth",
+            "condition 5: the energy goes to infinity with vanishing and with infinite stretches",
+            tuple((s, None) for series in (THIN, LONG) for m in GROWING for s in series[m]),
+            grows,
+        ),
+        Claim(
+            "locking",
+            "condition 5: laws of limited extensibility stiffen without bound before their limit",
+            tuple((s, None) for specs in NEAR.values() for s in specs),
+            locks,
+        ),
+        Claim(
+            "kirchhoff_condition_5",
+            "Saint Venant-Kirchhoff FAILS condition 5: its energy stays finite as a stretch vanishes",
+            tuple((s, None) for s in THIN["saint_venant_kirchhoff"]),
+            kirchhoff_stays_finite,
+        ),
+        Claim(
+            "kirchhoff_compression",
+            "Saint Venant-Kirchhoff gives way in uniaxial compression, at lam = 1/sqrt(3)",
+            ((PRESSED, None),),
+            kirchhoff_gives_way,
+        ),
+        Claim(
+            "harmonic_condition_1",
+            "the harmonic material with a quadratic f FAILS condition 1 in large equibiaxial stretches",
+            tuple((s, None) for s in SWOLLEN),
+            harmonic_is_negative,
+        ),
+        Claim(
+            "small_strains",
+            "small strains: slopes 3 mu, 6 mu and 4 mu of the three tests, Poisson's ratio of the others",
+            tuple((s, None) for s in REST.values()),
+            small_strains,
+        ),
+    ),
+)

@@ -1,0 +1,59 @@
+"""The circular membrane of paper 1 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's."""
+
+from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, circular
+
+MODELS = ("ogden", "gent", "arruda_boyce")
+DISKS = {m: circular(model=m, t_end=2.1) for m in MODELS}
+CONTACT = {m: circular(model=m, contact="frictionless", p_end=2.9) for m in ("gent", "arruda_boyce")}
+DEEP = At("p", 2.8)
+
+
+def contact(solutions: Solutions) -> Finding:
+    """Front and contact stress of the pole at p = 2.8."""
+    good, rows = True, []
+    for model, spec in CONTACT.items():
+        state = solutions.state(spec, DEEP).quantities
+        onset = solutions.points(spec, "contact_onset")
+        front, stress = state["X_contact"], state["sigma_pole"]
+        good &= len(onset) == 1 and 0 < front.value < 1 and front.uncertainty < 1e-6 and stress.value < 0
+        rows.append(f"{model}: first touch at p = {onset[0].values['p']:.6f}, front at X = {front.value:.6f}")
+    return bool(good), "; ".join(rows)
+
+
+CASE = Case(
+    title="The circular membrane of paper 1 with other laws",
+    source="the problem of Patil, DasGupta & Eriksson (2015) with laws of the thesis's chapter 3",
+    panels=(
+        Panel(
+            "p",
+            x=Axis("p", 0, 5),
+            y=Axis("t0", 0, 2),
+            markers="limit_point",
+            note="Not a figure of the paper.",
+            curves=tuple(
+                Curve(spec, m.replace("_", " "), reference=f"disk_{m}") for m, spec in DISKS.items()
+            ),
+        ),
+    ),
+    checks=(
+        Count("limit_point", dict.fromkeys(DISKS.values(), 1), "one maximum of the pressure up to t0 = 2.1"),
+        *(
+            Points(
+                "limit_point",
+                reference=f"disk_limits_{m}",
+                base=spec,
+                parameters=(),
+                asked={"p": 1e-7, "t0": 1e-6, "lam_pole": 1e-6},
+            )
+            for m, spec in DISKS.items()
+            if m != "arruda_boyce"  # its curve is compared, through the maximum and beyond
+        ),
+        Claim(
+            "contact",
+            "frictionless contact begins once and spreads, the substrate pushing, with these laws too",
+            tuple((spec, DEEP) for spec in CONTACT.values()),
+            contact,
+        ),
+    ),
+    asked={"p": 1e-7, "lam_pole": 1e-7, "V": 1e-7, "lam1_rim": 1e-6},
+)

@@ -1,0 +1,95 @@
+"""The tube of paper 2 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's.
+
+Branch, limit points and stability against the paper's reference codes, which have laws of their own.
+"""
+
+from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, tube
+
+MODELS = ("ogden", "gent", "arruda_boyce")
+TUBES = {m: tube(model=m) for m in MODELS}
+CONTACT = tube(model="gent", contact="frictionless", p_end=1.8)
+DEEP = At("p", 1.8, profile=())
+FIRST, LATER = At("u_max", 0.5, profile=()), At("u_max", 2.0, profile=())
+
+
+def stable_before(solutions: Solutions) -> Finding:
+    """Negative eigenvalues before and behind the first limit point."""
+    counts = {
+        m: [int(solutions.value(spec, at, "n_negative")) for at in (FIRST, LATER)]
+        for m, spec in TUBES.items()
+    }
+    return all(c == [0, 1] for c in counts.values()), ", ".join(f"{m}: {c}" for m, c in counts.items())
+
+
+def integrals(solutions: Solutions) -> Finding:
+    """Axial force and Hamiltonian along the meridian of each law at u_max = 2."""
+    good, rows = True, []
+    for model, spec in TUBES.items():
+        field = solutions.profile(spec, LATER)
+        for name in ("F_axial", "H"):
+            values = field.columns[name]
+            spread, bound = float(values.max() - values.min()), 2 * field.uncertainty[name]
+            good &= spread <= bound < 1e-4 * abs(values).max()
+            rows.append(f"{model} {name} {spread:.0e} (bound {bound:.0e} of {abs(values).max():.1f})")
+    return bool(good), "spread: " + ", ".join(rows)
+
+
+def contact_balance(solutions: Solutions) -> Finding:
+    """Frictionless contact leaves the axial force constant, patch or not."""
+    field = solutions.profile(CONTACT, DEEP)
+    values = field.columns["F_axial"]
+    spread, bound = float(values.max() - values.min()), 2 * field.uncertainty["F_axial"]
+    length = solutions.value(CONTACT, DEEP, "contact_length")
+    return bool(spread <= bound < 1e-4 * abs(values).max() and length > 0), (
+        f"contact length {length:.6f}, spread {spread:.1e}, bound {bound:.1e}"
+    )
+
+
+CASE = Case(
+    title="The tube of paper 2 with other laws",
+    source="the problem of Patil, Nordmark & Eriksson (2014) with laws of the thesis's chapter 3",
+    panels=(
+        Panel(
+            "p",
+            x=Axis("p", 0, 2),
+            y=Axis("u_max", 0, 5),
+            markers="limit_point",
+            note="Not a figure of the paper.",
+            curves=tuple(
+                Curve(spec, m.replace("_", " "), reference=f"tube_{m}") for m, spec in TUBES.items()
+            ),
+        ),
+    ),
+    checks=(
+        Count("limit_point", dict.fromkeys(TUBES.values(), 2), "a maximum and a minimum of the pressure"),
+        *(
+            Points(
+                "limit_point",
+                reference=f"tube_limits_{m}",
+                base=spec,
+                parameters=(),
+                asked={"p": 1e-7, "u_max": 1e-5},
+            )
+            for m, spec in TUBES.items()
+        ),
+        Claim(
+            "stability",
+            "stable under pressure control before the first limit point, one negative eigenvalue behind it",
+            tuple((spec, at) for spec in TUBES.values() for at in (FIRST, LATER)),
+            stable_before,
+        ),
+        Claim(
+            "integrals",
+            "both first integrals of the meridian are constant, whatever the law",
+            tuple((spec, LATER) for spec in TUBES.values()),
+            integrals,
+        ),
+        Claim(
+            "contact",
+            "frictionless contact of a tube of Gent's rubber keeps the axial force constant",
+            ((CONTACT, DEEP),),
+            contact_balance,
+        ),
+    ),
+    asked={"p": 1e-6, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+)

@@ -1,0 +1,114 @@
+"""Parameters of any problem that choose the law of its membrane: ``model`` and that law's constants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
+
+from dolfinx import fem
+from dolfinx.mesh import Mesh
+from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
+from ufl.core.expr import Expr
+
+from weakforms.forms.materials import MATERIALS, Material
+from weakforms.problems.base import Parameters, TogetherError
+
+MOONEY_RIVLIN = "mooney_rivlin"
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A law with the values of its constants; can be told from others, and kept, as a value."""
+
+    model: str
+    constants: tuple[tuple[str, float], ...]
+
+    @property
+    def material(self) -> Material:
+        """The law's entry in the catalogue."""
+        return MATERIALS[self.model]
+
+    def on(self, mesh: Mesh) -> dict[str, fem.Constant]:
+        """The constants as those of a form, so that forms are compiled once a law."""
+        return {name: fem.Constant(mesh, value) for name, value in self.constants}
+
+    def law(self, mesh: Mesh) -> Callable[[Expr, Expr], Expr]:
+        """The energy as a function of the two principal stretches."""
+        return self.material.energy(self.on(mesh))
+
+
+def mooney_rivlin_of(ratio: float) -> Chosen:
+    """The papers' own law."""
+    return Chosen(MOONEY_RIVLIN, (("alpha", float(ratio)),))
+
+
+class MaterialChoice(Parameters):
+    """``model`` and its constants, which are set by their own names beside the other parameters.
+
+    A subclass whose problem has always been that of a Mooney-Rivlin membrane names in ``ratio`` its parameter
+    C2/C1; it stands for that law's constant then. In a result the constants stand among the parameters.
+    """
+
+    ratio: ClassVar[str] = ""
+
+    model: Literal[*MATERIALS] = Field(MOONEY_RIVLIN, description="law: see weakforms show material")
+    constants: tuple[tuple[str, float], ...] = Field(
+        (), description="constants of the law, each set by its own name"
+    )
+
+    @classmethod
+    def further(cls) -> frozenset[str]:
+        """The constants of every law."""
+        return frozenset(name for material in MATERIALS.values() for name in material.constants)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _collect(cls, given: Any) -> Any:
+        """Constants by name into one value, each in its range, all admitted together."""
+        name = given.get("model", MOONEY_RIVLIN) if isinstance(given, Mapping) else None
+        if not isinstance(name, str) or name not in MATERIALS:
+            return given  # refused by the field's own check
+        material = MATERIALS[name]
+        if "constants" in given:
+            raise TogetherError("set the constants by their own names, not by 'constants'")
+        own = {n: c for n, c in material.constants.items() if material.name != MOONEY_RIVLIN or not cls.ratio}
+        fields = set(cls.model_fields) - ({cls.ratio} if material.name != MOONEY_RIVLIN else set())
+        rest = {name: value for name, value in given.items() if name in fields}
+        for name in given:
+            if name not in own and name not in fields:
+                known = ", ".join(own) or cls.ratio or "none"
+                raise TogetherError(f"{name} is no constant of model = {material.name!r}, which has: {known}")
+        values = {
+            name: _value(name, given.get(name, c.default), c.allowed, c.contains) for name, c in own.items()
+        }
+        wrong = material.refusal(values) if values else ""
+        if wrong:
+            raise TogetherError(f"model = {material.name!r}: {wrong}")
+        return {**rest, "constants": tuple(values.items())}
+
+    @model_serializer(mode="wrap")
+    def _flat(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """As it is given: constants by name, and without the ratio of a law that is not used."""
+        data = handler(self)
+        constants = dict(data.pop("constants"))
+        if self.model != MOONEY_RIVLIN:
+            data.pop(self.ratio, None)
+        return {**data, **constants}
+
+    @property
+    def material(self) -> Chosen:
+        """The law chosen."""
+        if self.model == MOONEY_RIVLIN and self.ratio:
+            return mooney_rivlin_of(getattr(self, self.ratio))
+        return Chosen(self.model, self.constants)
+
+
+def _value(name: str, given: Any, allowed: str, contains: Callable[[float], bool]) -> float:
+    try:
+        value = float(given if not isinstance(given, bool) else "no number")
+    except (TypeError, ValueError):
+        value = float("nan")
+    if not contains(value):
+        raise TogetherError(f"{name} = {given!r}: a number {allowed} is wanted")
+    return value

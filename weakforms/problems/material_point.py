@@ -1,0 +1,80 @@
+"""A law at a point: energy, stresses and tangent at two stretches, by the forms' own expressions."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+
+from weakforms.forms.materials import MATERIALS
+from weakforms.forms.wrinkling import modified_gradient, taut_state, tension_field
+from weakforms.problems.material_choice import Chosen
+
+NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
+
+STATES = ("slack", "tension along 1", "tension along 2", "taut")
+"""States of a sheet, by their number."""
+
+
+class MaterialPoint:
+    """One law, compiled once: constants and stretches are data."""
+
+    def __init__(self, model: str) -> None:
+        self._mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
+        material = MATERIALS[model]
+        self._constants = {n: fem.Constant(self._mesh, c.default) for n, c in material.constants.items()}
+        self._stretches = fem.Constant(self._mesh, np.ones(2))
+        law, width = material.energy(self._constants), material.natural_width(self._constants)
+        l1, l2 = (ufl.variable(self._stretches[i]) for i in range(2))
+        self._energies = {
+            "full": law(l1, l2),
+            "relaxed": tension_field(law, width)(l1, l2),
+            "modified_gradient": modified_gradient(law, width)(l1, l2),
+        }
+        state = ufl.conditional(ufl.gt(l2, 1), 2.0, 0.0)
+        state = ufl.conditional(ufl.gt(l1, 1), 1.0, state)
+        self._state = ufl.conditional(taut_state(l1, l2, width), 3.0, state)
+        self._variables = l1, l2
+        self._compiled: dict[str, fem.Expression] = {}
+
+    def _expression(self, energy: str) -> fem.Expression:
+        if energy not in self._compiled:
+            l1, l2 = self._variables
+            w = self._energies[energy]
+            first = [ufl.diff(w, l1), ufl.diff(w, l2)]
+            second = [ufl.diff(first[0], l1), ufl.diff(first[0], l2), ufl.diff(first[1], l2)]
+            values = [w, *first, *second, self._state]
+            self._compiled[energy] = fem.Expression(ufl.as_vector(values), np.array([[0.5]]))
+        return self._compiled[energy]
+
+    def __call__(
+        self, constants: tuple[tuple[str, float], ...], l1: float, l2: float, energy: str = "full"
+    ) -> dict[str, float]:
+        """Energy, first and second derivatives, and the state's number.
+
+        Args:
+            constants: Of the law, all of them.
+            l1: Principal stretch 1.
+            l2: Principal stretch 2.
+            energy: ``full``, ``relaxed`` or ``modified_gradient``.
+        """
+        for name, value in constants:
+            self._constants[name].value = value
+        self._stretches.value[:] = l1, l2
+        values = self._expression(energy).eval(self._mesh, np.array([0], dtype=np.int32)).ravel()
+        return dict(zip((*NAMES, "state"), values.tolist(), strict=True))
+
+
+@lru_cache(maxsize=len(MATERIALS))
+def point_of(model: str) -> MaterialPoint:
+    """The compiled law of that name."""
+    return MaterialPoint(model)
+
+
+def evaluated(chosen: Chosen, l1: float, l2: float, energy: str = "full") -> dict[str, float]:
+    """A law with its constants at two stretches (see :class:`MaterialPoint`)."""
+    return point_of(chosen.model)(chosen.constants, l1, l2, energy)
