@@ -117,6 +117,8 @@ CASE = Case(
                 for at in (*RISING, At("limit_point", 1.0))
             ),
             grows_and_falls,
+            differs="the text says that with the level the circumferential resultant grows and the "
+            "meridional one falls; that holds at the material points looked at here, not everywhere",
         ),
         Claim(
             "no_wrinkling",

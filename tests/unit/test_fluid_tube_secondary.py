@@ -7,13 +7,18 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from weakforms import InputError
+from weakforms import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.base import Requests, silent, validated
-from weakforms.problems.fluid_tube_critical import first_bifurcation
+from weakforms.problems.fluid_tube_bent_stability import SHIFT
+from weakforms.problems.fluid_tube_branching import position
+from weakforms.problems.fluid_tube_critical import PrimaryBranch, first_bifurcation
 from weakforms.problems.fluid_tube_secondary import THETAS, secondary_family
 from weakforms.results import Field, Result
 from weakforms.shapes import shape_mesh, shown_state, surface, write_shape
+from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.stability import Mode, Stability
+from weakforms.solvers.system import State
 
 pytestmark = pytest.mark.paper3
 PROBLEM = registry.get("fluid_tube")
@@ -84,6 +89,55 @@ def test_the_turn_of_the_pattern_is_a_zero_eigenvalue(state):
     assert values["n_negative"] == 1
     assert values["Lambda_1"] < 0 < values["Lambda_2"] < values["Lambda_3"]
     assert values["n_negative_breaking"] == 0
+
+
+def test_the_turns_zero_is_no_negative_eigenvalue_whatever_its_sign(family):
+    """By inertia alone it would be one where round-off makes it negative: it is known by its vector."""
+    solved, stability = family.fine.at("zw", ZW), family.fine.stability
+    values = stability.spectra(solved.state)
+    between = values["Lambda_breaking"] / 2
+    assert stability.breaks.about(solved.state, between, 1)[1] == 1, "nothing but the turn"
+    assert stability.breaks.about(solved.state, -SHIFT, 1)[1] == 0
+    for sign in (-1, 1):  # the sign that round-off would give it
+        stability.breaks = Turned(stability.model.breaking, sign * 1e-9)
+        assert stability.spectra(solved.state)["n_negative_breaking"] == 0
+        assert stability.spectra(solved.state)["Lambda_rotation"] == sign * 1e-9
+    stability.breaks = Turned(stability.model.breaking, -5e-3)
+    with pytest.raises(ConvergenceError, match="is no zero mode"):
+        stability.spectra(solved.state)
+    stability.breaks = Stability(stability.model.breaking)
+
+
+class Turned(Stability):
+    """With another value for the eigenvalue next to zero."""
+
+    def __init__(self, system, value):
+        super().__init__(system)
+        self.value = value
+
+    def about(self, state, target, count):  # noqa: D102
+        modes, below = super().about(state, target, count)
+        nearest = min(modes, key=lambda mode: abs(mode.eigenvalue))
+        return [Mode(self.value, m.vector) if m is nearest else m for m in modes], below
+
+
+def test_an_instability_that_breaks_the_symmetry_is_counted(family):
+    """Axisymmetric states past the bifurcation have one: a negative eigenvalue, not the turn's zero."""
+    level = family.fine
+    points = np.linspace(0, LENGTH, 121)
+    state = PrimaryBranch(MPI.COMM_SELF, 8.0, 2.0).at("V", 140.0, points)
+    guess = State(level.model.interpolated(position(state)), {"zw": state.values["zw"]})
+    found, _ = ExtendedNewton(level.model.system).solve(guess)
+    _, below = level.stability.breaks.about(found, -1e-4, 3)
+    assert below == 1
+    with pytest.raises(ConvergenceError, match="is no zero mode"):
+        level.stability.spectra(found)
+
+
+def test_points_of_a_curve_are_not_judged_for_stability(family):
+    plain = family.state("zw", ZW)
+    assert "Lambda_1" not in plain.quantities
+    assert plain.fields == ()
 
 
 def test_the_negative_eigenvalue_stays_under_volume_control(state):
@@ -158,7 +212,7 @@ def test_a_meridian_is_revolved():
 @pytest.mark.parametrize(
     ("name", "columns", "words"),
     [
-        ("a.ply", {"r": [1.0], "z": [0.0]}, "must end in .vtu or .stl"),
+        ("a.ply", {"r": [1.0], "z": [0.0]}, "must end in .vtu, .xdmf, .stl"),
         ("a.vtu", {"p": [1.0]}, "is no surface"),
         ("no/where/a.vtu", {"r": [1.0, 1.0], "z": [0.0, 1.0]}, "cannot write"),
     ],
@@ -177,6 +231,7 @@ def test_a_shape_that_cannot_be_written_is_refused(name, columns, words, tmp_pat
     [
         ({"secondary_cells": 20}, "secondary_cells must be a multiple of 16"),
         ({"secondary_end": 0.5}, "secondary_end"),
+        ({"secondary_around": 10}, "secondary_around must be a multiple of 4"),
     ],
 )
 def test_bad_numerics_are_refused(numerics, words):

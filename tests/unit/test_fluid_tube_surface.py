@@ -17,13 +17,14 @@ from weakforms.forms.fluid import (
     submerged_flux,
 )
 from weakforms.problems.fluid_tube import TubeData
-from weakforms.problems.fluid_tube_branching import position, primary_segment
+from weakforms.problems.fluid_tube_branching import bifurcation_on, position
 from weakforms.problems.fluid_tube_critical import PrimaryBranch
 from weakforms.problems.fluid_tube_path import FluidPath
 from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
 from weakforms.problems.meshes_surface import flat_sheet, heights, polygon, prism
 from weakforms.solvers.newton import ExtendedNewton
 from weakforms.solvers.stability import Stability
+from weakforms.solvers.system import State
 
 pytestmark = pytest.mark.paper3
 GAMMA, L, DELTA = 0.116, 8.0, 2.0
@@ -77,7 +78,8 @@ def test_sheet_is_uniform_around_and_refined_from_the_top_down():
     assert np.diff(np.unique(x[:, 1])) == pytest.approx(np.pi / 6)
     assert sheet.topology.index_map(2).size_global == 96
     assert {1.0, 2.0} <= set(nodes.tolist()), "a quarter and half of the length are nodes"
-    assert np.diff(nodes)[-1] > 2 * np.diff(nodes)[0]
+    assert np.diff(nodes)[-1] > 1.5 * np.diff(nodes)[0]
+    assert np.diff(nodes)[-1] < np.diff(nodes)[12], "finer again towards the upper ring"
     assert heights(32, 4.0)[::2] == pytest.approx(nodes)
     with pytest.raises(ValueError, match="multiple of 4"):
         heights(6, 1.0)
@@ -190,6 +192,14 @@ def test_points_read_the_position_they_name(model):
     assert row @ free == pytest.approx(values["r_mid"], rel=1e-12), "linear in the position"
 
 
+def test_a_spline_of_the_position_is_a_guess_for_another_mesh(model):
+    put(model, 5.0)
+    other = SurfaceModel(ONE, data(cells=16, around=8, degree=4))
+    put(other, 5.0)
+    exact = other.system.owned().copy()
+    assert other.interpolated(model.shape()) == pytest.approx(exact, abs=2e-3)
+
+
 # -- against the axisymmetric side ---------------------------------------------------------------
 
 
@@ -212,11 +222,32 @@ def test_spectrum_about_an_axisymmetric_state_is_that_of_the_waves(primary):
     assert min(abs(np.array(breaks) - columns["Lambda_n0"])) > 1e-2
 
 
+def test_eigenvalues_about_a_target_are_those_of_the_spectrum(primary):
+    model = SurfaceModel(ONE, data(cells=12, around=6, degree=3))
+    state = primary.at("V", 140.0, np.linspace(0, L / DELTA, 121))
+    guess = State(model.interpolated(position(state)), {"zw": state.values["zw"]})
+    found, _ = ExtendedNewton(model.system).solve(guess)
+    stability = Stability(model.system)
+    lowest = stability.spectrum(found, 4)
+    assert lowest.n_negative == 2, "past the limit point and the bifurcation"
+    modes, below = stability.about(found, 0.0, 4)
+    assert below == 2
+    assert sorted(mode.eigenvalue for mode in modes)[-1] > 0
+    _, between = stability.about(found, (lowest.eigenvalues[2] + lowest.eigenvalues[3]) / 2, 1)
+    assert between == 3
+    (first, *_), _ = stability.about(found, 1.5 * lowest.eigenvalues[0], 1)
+    assert first.eigenvalue == pytest.approx(lowest.eigenvalues[0], rel=1e-9)
+    rest = model.system.multiply(model.system.mass, first.vector)
+    assert model.system.dot(rest, first.vector) == pytest.approx(1)
+
+
 def test_bifurcation_on_the_surface_is_the_axisymmetric_one(primary):
     begin = primary.bifurcation(np.linspace(0, L / DELTA, 121))
     model = SurfaceModel(ONE, data(cells=12, around=6, degree=4))
-    (point,) = primary_segment(model, primary, begin).special()
+    point, mode, beside = bifurcation_on(model, primary, begin)
     assert point.kind == "bifurcation_point"
+    assert beside == 1, "past the limit point of the level"
+    assert model.system.dot(mode, model.system.mass_times(mode)) == pytest.approx(1)
     assert point.state.loads["zw"] == pytest.approx(begin.values["zw"], rel=1e-6)
     assert point.values["V"] == pytest.approx(begin.values["V"], rel=1e-5)
 

@@ -3,22 +3,20 @@ r"""Paper 3: where the secondary branch starts, and the branch on one mesh.
 It starts at the first ``n = 1`` bifurcation point of the primary branch, by injecting the null vector found
 on the mesh of the whole surface itself, and is followed by arc-length: neither ``zw`` nor ``r_mid`` need be
 monotone. The axisymmetric side gives only guesses (a state and a mode as columns over ``Z``).
-
-Stability is judged in the whole space, split by the mirror plane: displacements that keep the plane (C1v) and
-displacements that break it. Among the latter the turn of the pattern about the axis,
-:math:`e_z \times x - x_{,\Theta}`, is an exact zero, so that its computed eigenvalue measures the error.
 """
 
 from __future__ import annotations
 
-import dolfinx.fem.petsc as fem_petsc
+from functools import cached_property
+
 import numpy as np
-from dolfinx import fem
 from mpi4py import MPI
-from petsc4py import PETSc
-from scipy.interpolate import CubicSpline
+from numpy.polynomial import chebyshev
+from scipy.interpolate import BarycentricInterpolator, CubicSpline
+from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.fluid_tube_bent_stability import BentStability
 from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.fluid_tube_surface import Shape, SurfaceData, SurfaceModel
 from weakforms.solvers.branch import EquilibriumBranch, Solved
@@ -26,12 +24,18 @@ from weakforms.solvers.constraints import Held, Plane
 from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.newton import RESIDUAL_LIMIT, ExtendedNewton, SolveRecord
-from weakforms.solvers.stability import Stability
+from weakforms.solvers.stability import Mode, Stability
 from weakforms.solvers.system import State
 
-SEGMENT = 0.03
-"""The primary branch is followed on the surface from this fraction of ``V`` before its bifurcation to as much
-after it."""
+NODES, SPAN = 4, 0.005
+"""Volumes over which a mesh's own bifurcation is interpolated: a Chebyshev grid within this fraction of the
+axisymmetric one's. Four nodes leave an error of ``SPAN^4``."""
+
+LOOKED_AT = 6
+"""Eigenvalues near zero among which that of the axisymmetric branch's mode is found."""
+
+BESIDE = 1e-3
+"""Distance from zero at which the singular tangent is factorised for its null vector."""
 
 READINGS = 121
 """Material points ``Z`` over which axisymmetric guesses are splined."""
@@ -42,11 +46,12 @@ AMPLITUDES = (0.02, 0.04, 0.06, 0.08)
 LIKENESS = 0.9
 """Least overlap of the surface's null vector with the axisymmetric branch's mode."""
 
-CORRECTIONS = 3
-"""Newton steps that make an equilibrium of an interpolated bifurcation point."""
+CORRECTIONS, EQUILIBRIUM = 3, 1e-11
+"""Newton steps, at most, that make an equilibrium of an interpolated bifurcation point, and the residual at
+which there is nothing left to mend."""
 
-NEAR = 6
-"""Eigenvalues near zero looked at for the turn of the pattern."""
+ASTRAY = 0.05
+"""Root mean square distance from a coarser mesh's state beyond which a solution is another one."""
 
 
 # -- where it starts -----------------------------------------------------------------------------
@@ -87,16 +92,56 @@ def turned(shape: Shape) -> Shape:
     return mode
 
 
-def primary_segment(model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState) -> EquilibriumBranch:
-    """The primary branch on the surface's own mesh, a little way to both sides of the bifurcation."""
-    volume = at.values["V"]
-    begin = primary.at("V", (1 - SEGMENT) * volume, at.Z)
-    solver = ExtendedNewton(model.system, ["zw"])
-    continuation = Continuation(solver, control=StepControl(first=0.1, largest=0.5, predictor_error=2e-2))
-    guess = State(model.interpolated(position(begin)), {"zw": begin.values["zw"]})
-    start = continuation.start(guess, Held("V", (1 - SEGMENT) * volume), towards={"V": 1.0})
-    end = (1 + SEGMENT) * volume
-    return EquilibriumBranch(continuation, "zw", start, stop=lambda point: point.monitors["V"] > end)
+def bifurcation_on(
+    model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState
+) -> tuple[Solved, np.ndarray, int]:
+    """The bifurcation on the surface's own mesh: state, null vector, and negative eigenvalues beside it.
+
+    At the point itself even the bordered matrix is singular (the null vector breaks the symmetry of the
+    branch): the eigenvalue, the columns and the state are interpolated from axisymmetric states around it,
+    solved for at given volumes.
+
+    Raises:
+        ConvergenceError: When the mode's eigenvalue has no zero there, or the null vector is not that mode.
+    """
+    system, volume = model.system, at.values["V"]
+    like = model.interpolated(displacement(at))
+    like /= np.sqrt(system.dot(like, system.mass_times(like)))
+    solver, stability = ExtendedNewton(system, ["zw"]), Stability(system)
+
+    def overlap(mode: Mode) -> float:
+        return system.dot(like, system.mass_times(mode.vector))
+
+    along, states, eigenvalues, counts = chebyshev.chebpts1(NODES), [], [], []
+    for s in along:
+        begin = primary.at("V", volume * (1 + SPAN * s), at.Z)
+        guess = State(model.interpolated(position(begin)), {"zw": begin.values["zw"]})
+        state, _ = solver.solve(guess, [Held("V", begin.values["V"])], chord=True)
+        modes, negative = stability.about(state, 0.0, LOOKED_AT)
+        critical = max(modes, key=lambda mode: abs(overlap(mode)))
+        system.set_state(state.u, state.loads)
+        states.append(Solved({"zw": state.loads["zw"], **system.monitors()}, state))
+        eigenvalues.append(critical.eigenvalue)
+        counts.append(negative - int(critical.eigenvalue < 0))
+    if eigenvalues[0] * eigenvalues[-1] > 0 or len(set(counts)) > 1:
+        raise ConvergenceError(
+            f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
+            f"negative ones beside them {counts}"
+        )
+    zero = brentq(BarycentricInterpolator(along, eigenvalues), -1.0, 1.0, xtol=1e-14)
+
+    def at_zero(values: list) -> np.ndarray:
+        return BarycentricInterpolator(along, np.array(values))(zero)
+
+    state = State(
+        at_zero([s.state.u for s in states]), {"zw": float(at_zero([s.values["zw"] for s in states]))}
+    )
+    values = {name: float(at_zero([s.values[name] for s in states])) for name in states[0].values}
+    modes, _ = stability.about(state, -BESIDE, LOOKED_AT)
+    mode = max(modes, key=lambda mode: abs(overlap(mode)))
+    if abs(overlap(mode)) < LIKENESS:
+        raise ConvergenceError("the null vector on the surface is not the axisymmetric branch's mode")
+    return Solved(values, state, "bifurcation_point"), np.sign(overlap(mode)) * mode.vector, counts[0]
 
 
 def secondary_branch(
@@ -116,23 +161,7 @@ def secondary_branch(
     """
     model = SurfaceModel(comm, data)
     begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
-    segment = primary_segment(model, primary, begin)
-    if segment.stalled:
-        raise ConvergenceError(f"primary branch on the surface: {segment.stalled}")
-    like = model.interpolated(displacement(begin))
-    system = model.system
-    like /= np.sqrt(system.dot(like, system.mass_times(like)))
-    found = [solved for solved in segment.special() if solved.kind == "bifurcation_point"]
-    for solved in found:
-        mode = Stability(system).modes(solved.state, 1)[0]
-        overlap = system.dot(like, system.mass_times(mode.vector))
-        if abs(overlap) > LIKENESS:
-            count = min(segment.points[0].n_negative, segment.points[-1].n_negative)
-            return SecondaryBranch(model, solved, np.sign(overlap) * mode.vector, count, step, end)
-    raise ConvergenceError(
-        f"the surface has {len(found)} bifurcation points near that of the axisymmetric branch, "
-        "none of them with its mode"
-    )
+    return SecondaryBranch(model, *bifurcation_on(model, primary, begin), step, end)
 
 
 class SecondaryBranch(EquilibriumBranch):
@@ -159,6 +188,7 @@ class SecondaryBranch(EquilibriumBranch):
         self.model, self.bifurcation, self.mode = model, bifurcation, mode
         self.size = float(np.sqrt(2 * np.pi * model.data.length))
         """Norm of a displacement of root mean square one."""
+        self.stability = BentStability(model)
         control = StepControl(first=step * self.size / 2, largest=step * self.size, predictor_error=2e-2)
         solver = ExtendedNewton(model.system, ["zw"])
         continuation = Continuation(solver, control=control)
@@ -178,23 +208,21 @@ class SecondaryBranch(EquilibriumBranch):
         """
         state, system = self.bifurcation.state.copy(), self.model.system
         across = system.mass_times(self.mode)
-        norms = []
-        for _ in range(CORRECTIONS):
+        norms: list[float] = []
+        for step in range(CORRECTIONS + 1):
             system.set_state(state.u, state.loads)
             residual = system.residual()
             norms.append(float(np.sqrt(system.dot(residual, residual))))
+            if step == CORRECTIONS or norms[-1] < EQUILIBRIUM:
+                break
             factor.update()
             bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
-            step, _ = bordered.solve(-residual, np.zeros(1))
-            state.u += step
-        system.set_state(state.u, state.loads)
-        residual = system.residual()
-        norms.append(float(np.sqrt(system.dot(residual, residual))))
+            state.u += bordered.solve(-residual, np.zeros(1))[0]
         if not norms[-1] < RESIDUAL_LIMIT:
             raise ConvergenceError(f"the bifurcation point has a residual of {norms[-1]:.1e}")
         values = self.bifurcation.values | system.monitors()
         self.bifurcation = Solved(values, state, self.bifurcation.kind)
-        record = SolveRecord("corrected", CORRECTIONS, CORRECTIONS, tuple(norms))
+        record = SolveRecord("corrected", len(norms) - 1, len(norms) - 1, tuple(norms))
         direction = Tangent(self.mode, {"zw": 0.0})
         return CurvePoint(state, direction, 0.0, n_negative, record, system.monitors())
 
@@ -203,6 +231,25 @@ class SecondaryBranch(EquilibriumBranch):
         if like.arclength == 0.0:
             return self.bifurcation
         return super().at_position(like, rates, near)
+
+    def at_guess(self, guess: State, name: str, value: float) -> Solved:
+        """The state at which a column has a value, from one of another mesh.
+
+        One factorisation is enough unless there are eigenvalues next to zero (wrinkles where the membrane is
+        compressed), that the other mesh has not.
+
+        Raises:
+            ConvergenceError: When it does not converge, or not to the same state.
+        """
+        held = [Held(name, value)]
+        try:
+            state, _ = self.solver.solve(guess, held, chord=True)
+        except ConvergenceError:
+            state, _ = self.solver.solve(guess, held)
+        gap = self.continuation.distance(state, guess) / self.size
+        if gap > ASTRAY:
+            raise ConvergenceError(f"{name} = {value:g}: converged {gap:.2g} away from another mesh's state")
+        return Solved(self._values(state), state)
 
     def special(self) -> list[Solved]:
         """The bifurcation point it begins at, then what any branch may have."""
@@ -218,14 +265,22 @@ class SecondaryBranch(EquilibriumBranch):
         guess = State(base.u + offset * self.mode, base.loads)
         return self._solve(guess, Plane(row, {}, self.system.dot(row, base.u) + offset))
 
-    def initial(self) -> dict[str, float]:
+    @cached_property
+    def _small(self) -> list[dict[str, float]]:
+        """Columns of the states at the small amplitudes."""
+        return [self.at_amplitude(a).values for a in AMPLITUDES]
+
+    def initial(self, count: int = len(AMPLITUDES)) -> dict[str, float]:
         """Slopes at the bifurcation and its ``zw`` from the branch alone.
 
         ``zw`` and ``V`` are even in the amplitude, and the half turn that takes one amplitude to its negative
         swaps ``r_mid`` and ``r_mid_pi``: polynomials in the square of the amplitude through a few small ones.
+
+        Args:
+            count: How many of :data:`AMPLITUDES` to use.
         """
-        amplitudes = np.array(AMPLITUDES)
-        states = [self.at_amplitude(a).values for a in amplitudes]
+        amplitudes = np.array(AMPLITUDES[:count])
+        states = self._small[:count]
         squares = amplitudes**2
 
         def lowest(values: list[float] | np.ndarray) -> np.ndarray:
@@ -242,63 +297,3 @@ class SecondaryBranch(EquilibriumBranch):
             "dzw_dr2": float(zw_2 / squares[-1] / slope**2),
             "dr_mean_dzw": float(mean_2 / zw_2),
         }
-
-    # -- stability ---------------------------------------------------------------------------------
-
-    def spectra(self, state: State, critical: float) -> dict[str, float]:
-        """Eigenvalues and counts of negative ones: C1v at fixed level and volume, and symmetry-breaking.
-
-        Args:
-            state: An equilibrium.
-            critical: Magnitude up to which an eigenvalue is a special point's own zero.
-
-        Raises:
-            ConvergenceError: When counts by inertia and by SLEPc disagree.
-        """
-        lowest = Stability(self.system).spectrum(state, 3, critical)
-        out: dict[str, float] = {f"Lambda_{i + 1}": value for i, value in enumerate(lowest.eigenvalues[:3])}
-        out["n_negative"] = lowest.n_negative
-        if not critical:
-            gamma, zw = self.model.data.gamma, state.loads["zw"]
-            self.system.set_state(state.u, state.loads)
-            border = self.system.load_derivative("zw") / gamma
-            area = self.system.monitor_gradient("V")[1]["zw"] if zw < self.model.data.L else 0.0
-            volume = Stability(self.system).bordered(state, border, area / gamma)
-            out["LambdaV_1"], out["n_negative_V"] = volume.eigenvalues[0], volume.n_negative
-        return out | self._breaking(state, critical)
-
-    def _breaking(self, state: State, critical: float) -> dict[str, float]:
-        """Symmetry-breaking eigenvalues, the turn of the pattern apart."""
-        system = self.model.breaking
-        modes = Stability(system).modes(state, NEAR)
-        turn = self._turn(state)
-        overlaps = [abs(system.dot(turn, mode.vector)) for mode in modes]
-        rotation = modes[int(np.argmax(overlaps))].eigenvalue
-        others = sorted(mode.eigenvalue for i, mode in enumerate(modes) if i != int(np.argmax(overlaps)))
-        # The turn's zero has no sign: a shift of half the next one's size leaves it out of the count.
-        system.set_state(state.u, state.loads)
-        system.tangent()
-        system.matrix.axpy(min(map(abs, others)) / 2, system.mass)
-        factor = Factorization(system)
-        factor.refactor()
-        negative = factor.negative_count()
-        if negative != sum(value < 0 for value in others):
-            raise ConvergenceError(
-                f"stability: inertia counts {negative} negative symmetry-breaking eigenvalues, "
-                f"SLEPc finds {sum(value < 0 for value in others)}"
-            )
-        return {
-            "Lambda_breaking": others[0],
-            "Lambda_rotation": rotation,
-            "n_negative_breaking": negative,
-        }
-
-    def _turn(self, state: State) -> np.ndarray:
-        """Inner products with the displacement that turns the pattern."""
-        system = self.model.breaking
-        system.set_state(state.u, state.loads)
-        vector = fem_petsc.assemble_vector(fem.form(self.model.rotation()))
-        vector.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
-        turn = vector.array.copy()
-        turn[system.bc_dofs] = 0.0
-        return turn

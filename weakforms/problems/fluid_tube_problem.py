@@ -82,7 +82,10 @@ class FluidTubeNumerics(MeshNumerics):
     cells: int = Field(128, ge=16, le=20_000, description="cells on the finest mesh")
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at rings and front")
     step: float = Field(STEP, ge=0.02, le=1, description="largest arc-length step")
-    secondary_cells: int = Field(32, ge=8, le=128, description="cells along the surface, and around its half")
+    secondary_cells: int = Field(32, ge=8, le=128, description="cells along the surface")
+    secondary_around: int | None = Field(
+        None, ge=4, le=128, description="cells around its half; by default as many as along, half for L > 12"
+    )
     secondary_degree: int = Field(4, ge=2, le=5, description="polynomial degree on the surface")
     secondary_levels: int = Field(3, ge=2, le=4, description="meshes of the surface, each twice as fine")
     secondary_step: float = Field(0.1, ge=0.01, le=0.5, description="largest step on the secondary branch")
@@ -96,6 +99,10 @@ class FluidTubeNumerics(MeshNumerics):
         if self.secondary_cells % coarsest:
             raise ValueError(
                 f"secondary_cells must be a multiple of {coarsest} for {self.secondary_levels} levels"
+            )
+        if self.secondary_around is not None and self.secondary_around % (coarsest // 4):
+            raise ValueError(
+                f"secondary_around must be a multiple of {coarsest // 4} for {self.secondary_levels} levels"
             )
         return self
 

@@ -6,6 +6,8 @@ See :mod:`weakforms.problems.fluid_tube_branching` for where it starts and how i
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,21 +15,31 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.base import Progress
-from weakforms.problems.fluid_tube_branching import SecondaryBranch, secondary_branch
+from weakforms.problems.fluid_tube_branching import AMPLITUDES, SecondaryBranch, secondary_branch
 from weakforms.problems.fluid_tube_critical import PrimaryBranch
 from weakforms.problems.fluid_tube_surface import SurfaceData
 from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.branch import Solved
 from weakforms.solvers.family import BranchFamily
 from weakforms.solvers.refinement import estimate, estimate_in_norm
+from weakforms.solvers.system import State
 
 if TYPE_CHECKING:
     from weakforms.problems.fluid_tube_problem import FluidTubeNumerics, FluidTubeParameters
 
-CAP = 3.0
-"""Highest order of convergence the uncertainties reckon with. The free surface cuts cells: the position's
-third derivative jumps inside them, and the quadrature of the load's kink leaves an error of second order and
-irregular sign that shows on fine meshes only."""
+CAP, GUARD = 2.0, 4.0
+"""Orders of convergence the uncertainties reckon with. The free surface cuts cells: the position's third
+derivative jumps inside them, and the quadrature of the load's kink leaves an error of second order and
+irregular sign that shows on fine meshes only. On coarse ones it falls at the degree or faster."""
+
+SHARED_GUARD = 6.0
+"""The same for several points' positions together, whose largest difference does not vanish by accident."""
+
+FIELD_CAP, FIELD_GUARD = 3.0, 8.0
+"""The same for a whole field, whose largest difference does not vanish by accident."""
+
+SLENDER = 12.0
+"""Length above which half as many cells around as along are enough."""
 
 GRID = (161, 97)
 """Points along and around of the grid on which the smallest values on a surface are looked for."""
@@ -40,6 +52,9 @@ COLUMNS = (
     *(f"{name}_quarter_{side}" for name in ("x", "z", "T1", "T2") for side in ("0", "pi")),
 )
 """Columns of the secondary branch that the primary one has not."""
+
+POSITIONS = ("r_mid", *(name for name in COLUMNS if name[0] in "rxz"))
+"""Columns that are coordinates of points on the membrane."""
 
 DERIVED_COLUMNS = (
     "z_min",
@@ -98,8 +113,7 @@ def secondary_family(
 ) -> SecondaryFamily:
     """The secondary branch from its bifurcation point on all meshes.
 
-    Reads ``secondary_cells``, ``secondary_degree``, ``secondary_levels``, ``secondary_step`` and
-    ``secondary_end`` of the numerics.
+    Reads the numerics whose names begin with ``secondary``.
 
     Raises:
         ConvergenceError: When the primary branch has no ``n = 1`` bifurcation point, or no branch is found
@@ -109,17 +123,26 @@ def secondary_family(
 
     def make(level: int) -> SecondaryBranch:
         progress("secondary branch", level, numerics.secondary_levels)
-        cells = numerics.secondary_cells // 2 ** (numerics.secondary_levels - 1 - level)
-        data = surface_data(parameters, cells, numerics.secondary_degree)
+        coarser = 2 ** (numerics.secondary_levels - 1 - level)
+        data = SurfaceData(
+            parameters.L,
+            parameters.delta,
+            parameters.gamma,
+            parameters.alpha,
+            numerics.secondary_cells // coarser,
+            around(parameters.L, numerics) // coarser,
+            numerics.secondary_degree,
+        )
         return secondary_branch(comm, data, primary, numerics.secondary_step, numerics.secondary_end)
 
     return SecondaryFamily(make, numerics.secondary_levels, CAP, ("zw", "r_mid"), "secondary")
 
 
-def surface_data(parameters: FluidTubeParameters, cells: int, degree: int) -> SurfaceData:
-    """The surface of a tube with so many cells along it, and on half its circumference."""
-    given = parameters.L, parameters.delta, parameters.gamma, parameters.alpha
-    return SurfaceData(*given, cells, cells, degree)
+def around(length: float, numerics: FluidTubeNumerics) -> int:
+    """Cells over half the circumference on the finest mesh: as asked for, or fewer on a slender tube."""
+    if numerics.secondary_around is not None:
+        return numerics.secondary_around
+    return numerics.secondary_cells // (1 if length <= SLENDER else 2)
 
 
 class SecondaryFamily(BranchFamily):
@@ -127,26 +150,52 @@ class SecondaryFamily(BranchFamily):
 
     fine: SecondaryBranch
     levels: list[SecondaryBranch]
+    judges_points = False
 
     def special_points(self) -> list[SpecialPoint]:
         """As for any branch; the bifurcation point carries the branch's initial slopes."""
         points = super().special_points()
         slopes = [level.initial() for level in self.levels]
+        fewer = self.fine.initial(len(AMPLITUDES) - 1)  # for the error of the extrapolation
         for name in SLOPES:
-            found = estimate([s[name] for s in slopes], self.cap)
+            found = estimate([s[name] for s in slopes], CAP, GUARD)
             points[0].values[name] = float(found.value)
-            points[0].uncertainty[name] = float(found.uncertainty)
+            missed = abs(fewer[name] - slopes[-1][name])
+            points[0].uncertainty[name] = float(found.uncertainty) + missed
         points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
         return points
+
+    def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
+        """On the coarsest mesh by the branch traced there; every other mesh starts from the one before.
+
+        Where that does not lead to the same state, its own trace does.
+        """
+        solved = [self.levels[0].at(name, value, crossing)]
+        for below, level in pairwise(self.levels):
+            state = solved[-1].state
+            below.system.set_state(state.u, state.loads)
+            guess = State(level.model.interpolated(below.model.shape()), dict(state.loads))
+            try:
+                solved.append(level.at_guess(guess, name, value))
+            except ConvergenceError:
+                solved.append(level.at(name, value, crossing))
+        return solved
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """Eigenvalues with uncertainties; the two finest meshes must count the same negative ones.
 
         The coarsest one is there for the order of convergence: on a long tube it is too coarse for the dry
-        part.
+        part. Where the membrane is compressed it wrinkles as finely as a mesh can show: but for the lowest
+        eigenvalue at fixed level, far below the wrinkles', nothing there converges, and nothing is given.
         """
-        spectra = [level.spectra(s.state, critical) for level, s in zip(self.levels, solved, strict=True)]
         out = self._lowest(solved)
+        least = out["T_min"]
+        if least.value + least.uncertainty < 0:
+            lowest = [level.stability.lowest(s.state) for level, s in zip(self.levels, solved, strict=True)]
+            return out | {"Lambda_1": self._quantity(lowest)}
+        spectra = [
+            level.stability.spectra(s.state, critical) for level, s in zip(self.levels, solved, strict=True)
+        ]
         for name in spectra[-1]:
             values = [spectrum[name] for spectrum in spectra]
             if not name.startswith("n_negative"):
@@ -157,13 +206,42 @@ class SecondaryFamily(BranchFamily):
                 out[name] = Quantity(values[-1])
         return out
 
+    def _quantity(self, values: list[float], name: str = "") -> Quantity:
+        found = estimate(values, CAP, GUARD)
+        order = float(found.order)
+        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
+
+    def _columns(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
+        """Points of one surface have one uncertainty of position: one's alone may vanish by accident."""
+        out = super()._columns(solved)
+        shared = estimate_in_norm(
+            [np.array([s.values[n] for n in POSITIONS]) for s in solved], CAP, SHARED_GUARD
+        )
+        return out | {name: Quantity(out[name].value, shared, out[name].order) for name in POSITIONS}
+
+    def _locate(self) -> list[tuple[Solved, ...]]:
+        """On a compressed membrane, whose inertia depends on the mesh, the beginning only."""
+        if self.compressed:
+            return [tuple(level.bifurcation for level in self.levels)]
+        return super()._locate()
+
+    @cached_property
+    def compressed(self) -> bool:
+        """Whether a resultant is negative on the branch: wrinkles there are as fine as a mesh can show."""
+        points = [Solved({}, point.state) for point in self.fine.points]
+        return min(self._sampled(-1, p, self._grid())["T2"].min() for p in points) < 0
+
+    def _grid(self) -> np.ndarray:
+        """Points finer than the meshes, shape ``(n, 2)``."""
+        z, theta = np.linspace(0, self.fine.model.data.length, GRID[0]), np.linspace(0, np.pi, GRID[1])
+        return np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
+
     def _lowest(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
         """Lowest point and smallest resultant, from a grid finer than the meshes and a parabola there.
 
         What twice as coarse a grid would have found is taken for the error of that, besides the meshes'.
         """
-        z, theta = np.linspace(0, self.fine.model.data.length, GRID[0]), np.linspace(0, np.pi, GRID[1])
-        places = np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
+        places = self._grid()
         found: dict[str, list[tuple[float, float]]] = {"z_min": [], "T_min": []}
         for k in range(len(self.levels)):
             sampled = self._sampled(k, solved[k], places)
@@ -184,14 +262,15 @@ class SecondaryFamily(BranchFamily):
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         """Over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""
-        z, theta = (part.ravel() for part in np.meshgrid(points, THETAS, indexing="ij"))
+        heights = np.unique(np.round(points, 12))  # several figures' points, equal but for round-off
+        z, theta = (part.ravel() for part in np.meshgrid(heights, THETAS, indexing="ij"))
         grid = np.column_stack([z, theta])
         samples = [self._sampled(k, s, grid) for k, s in enumerate(solved)]
         columns: dict[str, np.ndarray] = {"Z": z, "Theta": theta}
         uncertainty = {"Z": 0.0, "Theta": 0.0}
         for name in samples[-1]:
             columns[name] = samples[-1][name]
-            uncertainty[name] = estimate_in_norm([sample[name] for sample in samples], self.cap)
+            uncertainty[name] = estimate_in_norm([sample[name] for sample in samples], FIELD_CAP, FIELD_GUARD)
         return Field("profile", columns, uncertainty)
 
 

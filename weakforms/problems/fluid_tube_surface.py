@@ -33,6 +33,7 @@ import ufl
 from dolfinx import fem
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
+from scipy.interpolate import RectBivariateSpline
 from ufl.core.expr import Expr
 
 from weakforms.forms.fluid import (
@@ -43,10 +44,17 @@ from weakforms.forms.fluid import (
 )
 from weakforms.problems.edge_points import EdgePoints
 from weakforms.problems.meshes_surface import flat_sheet, heights, polygon, prism
+from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.system import Formulation, System
 
 READ = {"mid": 1 / 2, "quarter": 1 / 4}
 """Heights of the points that columns show, over the length of the stress-free tube."""
+
+SUBDIVIDED = 4
+"""Intervals of the spline's grid in each cell."""
+
+RULES = 3, 5, 16
+"""Quadrature degrees over that of the elements: membrane, liquid, and its volume, assembled once a state."""
 
 SIDES = {"0": 0.0, "pi": np.pi}
 """Meridians they lie on."""
@@ -113,11 +121,12 @@ class SurfaceModel:
         self.unknown.interpolate(self._over(_cylinder(data.delta)))
         self._rings = fem.Function(self.space)
         self._rings.interpolate(self._over(_cylinder(data.delta)))
+        self._grid: Sampler | None = None
         self._points = None if data.full else self._edge_points(nodes)
         # The load's kink at the free surface lies inside cells: its quadrature is what limits the accuracy.
         self.dx, self._wet, self._wet_once = (
             ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": times * data.degree})
-            for times in (3, 5, 16)
+            for times in RULES
         )
         conditions = self._ring_conditions()
         mirrored = [] if data.full else self._mirror_conditions((1,))
@@ -178,6 +187,18 @@ class SurfaceModel:
         function.interpolate(self._over(shape))
         return function.x.array[: self.system.size].copy()
 
+    def shape(self) -> Shape:
+        """The position held on half the circumference, as a spline: a guess for another mesh."""
+        z = heights(SUBDIVIDED * self.data.cells, self.data.length)
+        theta = np.linspace(0, np.pi, SUBDIVIDED * self.data.around + 1)
+        if self._grid is None:
+            places = np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
+            position = {name: self.unknown[i] for i, name in enumerate("xyz")}
+            self._grid = Sampler(self.unknown, position, places)
+        found = self._grid()
+        parts = [RectBivariateSpline(z, theta, found[name].reshape(len(z), -1)) for name in "xyz"]
+        return lambda s, t: np.vstack([part.ev(s, t) for part in parts])
+
     # -- forms -----------------------------------------------------------------------------------
 
     def energy(self, position: Expr) -> ufl.Form:
@@ -206,7 +227,7 @@ class SurfaceModel:
             residual=residual,
             loads=loads,
             bcs=conditions,
-            mass=self.copies * ufl.inner(trial, test) * self.dx,
+            mass=self.product(trial, test),
             monitors={
                 "V": (base - self.copies * submerged_flux(at, self.zw, 1)) * self._wet_once,
                 "Pi": energy + potential * self.dx,
@@ -241,11 +262,14 @@ class SurfaceModel:
         whole = self.formulation
         return Formulation(self.unknown, whole.residual, whole.loads, conditions, whole.mass, monitors={})
 
-    def rotation(self) -> ufl.Form:
-        """``int v . (e_z x x - x_,Theta)``: the displacement that turns a state's pattern about the axis."""
+    def turn(self) -> Expr:
+        """``e_z x x - x_,Theta``: the displacement that turns a state's pattern about the axis."""
         at = self.surface(self.unknown)
-        turned = ufl.as_vector([-at.x[1], at.x[0], 0]) - at.b
-        return self.copies * ufl.inner(turned, ufl.TestFunction(self.space)) * self.dx
+        return ufl.as_vector([-at.x[1], at.x[0], 0]) - at.b
+
+    def product(self, u: Expr, v: Expr) -> ufl.Form:
+        """Inner product of two displacements on the whole circumference."""
+        return self.copies * ufl.inner(u, v) * self.dx
 
     # -- points that columns show ----------------------------------------------------------------
 

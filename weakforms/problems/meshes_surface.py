@@ -16,11 +16,16 @@ SURFACE = 1
 """Tag of the physical group that gmsh hands over."""
 
 
+TOP = 0.4
+"""Grading of the upper half of a sheet towards its end: the last cell is smaller than the mean by this."""
+
+
 def heights(cells: int, length: float) -> np.ndarray:
     """Nodes along a sheet: half of the cells on the lowest quarter, a quarter of them on the next one.
 
-    A smooth map of equidistant nodes, so that doubling the cells refines every one of them; ``length/4`` and
-    ``length/2`` are nodes.
+    Smooth maps of equidistant nodes on the lower half and on the upper one, which is graded towards the upper
+    ring's boundary layer; so that doubling the cells refines every one of them. ``length/4`` and ``length/2``
+    are nodes.
 
     Args:
         cells: Number of cells, a multiple of four.
@@ -29,7 +34,9 @@ def heights(cells: int, length: float) -> np.ndarray:
     if cells % 4:
         raise ValueError(f"cells = {cells} along the sheet must be a multiple of 4")
     xi = np.linspace(0, 1, cells + 1)
-    return length * (xi / 2 + 2 / 3 * xi * (xi - 1 / 2) + 4 / 3 * xi * (xi - 1 / 2) * (xi - 3 / 4))
+    low = xi / 2 + 2 / 3 * xi * (xi - 1 / 2) + 4 / 3 * xi * (xi - 1 / 2) * (xi - 3 / 4)
+    t = 4 * xi - 3
+    return length * np.where(t < 0, low, (1 + t + TOP * t * (1 - t)) / 2)
 
 
 def flat_sheet(comm: MPI.Intracomm, nodes: np.ndarray, around: int) -> dmesh.Mesh:

@@ -35,6 +35,9 @@ class BranchFamily:
         name: Name of the branch.
     """
 
+    judges_points = True
+    """Whether a state without a profile, a mere point of a curve, is judged for stability too."""
+
     def __init__(
         self,
         make: Callable[[int], SolutionCurve],
@@ -140,11 +143,20 @@ class BranchFamily:
                 raise InputError(f"{name} = {value:g}: this branch has {len(points)} of them")
             solved = points[int(value) - 1]
         else:
-            solved = [level.at(name, value, crossing) for level in self.levels]
-        quantities = {k: self._quantity([s.values[k] for s in solved], k) for k in self.fine.shown}
-        quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
+            solved = self._at(name, value, crossing)
+        quantities = self._columns(solved)
+        if profile is not None or self.judges_points:
+            quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)
+
+    def _columns(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
+        """The finest mesh's columns with their uncertainties."""
+        return {k: self._quantity([s.values[k] for s in solved], k) for k in self.fine.shown}
+
+    def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
+        """The state on every mesh, coarse to fine."""
+        return [level.at(name, value, crossing) for level in self.levels]
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia.

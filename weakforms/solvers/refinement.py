@@ -26,7 +26,9 @@ class Estimate:
     order: np.ndarray
 
 
-def estimate(levels: list[np.ndarray | float], cap: float | np.ndarray) -> Estimate:
+def estimate(
+    levels: list[np.ndarray | float], cap: float | np.ndarray, guard: float | None = None
+) -> Estimate:
     r"""Grid convergence estimate from values on meshes of widths ``h``, ``h/2``, ``h/4``...
 
     With the last differences :math:`d_1, d_2`, the observed order is :math:`q = \log_2 |d_1/d_2|`, kept
@@ -41,6 +43,8 @@ def estimate(levels: list[np.ndarray | float], cap: float | np.ndarray) -> Estim
         levels: Values from coarse to fine, scalars or arrays of one shape; two or more.
         cap: Highest order the method can have (twice the degree for energies and limit loads, the degree for
             derivatives at a point); one number or one a value.
+        guard: Order at which ``d_1`` is taken to fall, where that is not ``cap``: where an error of low order
+            shows on fine meshes only, the coarse ones' falls faster.
 
     Raises:
         ValueError: With fewer than two meshes: one mesh has no uncertainty.
@@ -58,12 +62,12 @@ def estimate(levels: list[np.ndarray | float], cap: float | np.ndarray) -> Estim
     order = np.log2(np.maximum(first, tiny) / np.maximum(last, tiny))
     used = np.clip(order, 1.0, cap)
     safety = np.where(order >= 1.0, SAFETY, SAFETY_UNRESOLVED)
-    left = np.maximum(last, first / 2.0**cap)
+    left = np.maximum(last, first / 2.0 ** (cap if guard is None else guard))
     observed = np.where(last > floor, order, np.nan)
     return Estimate(fine, safety * left / (2.0**used - 1.0) + floor, observed)
 
 
-def estimate_in_norm(levels: list[np.ndarray], cap: float) -> float:
+def estimate_in_norm(levels: list[np.ndarray], cap: float, guard: float | None = None) -> float:
     r"""One uncertainty for a whole field: :func:`estimate` with differences in the maximum norm.
 
     Point by point differences of two meshes oscillate within cells and pass through zero anywhere, so that
@@ -72,8 +76,9 @@ def estimate_in_norm(levels: list[np.ndarray], cap: float) -> float:
     Args:
         levels: Values at the same points from coarse to fine; two or more.
         cap: Highest order the method can have.
+        guard: As for :func:`estimate`.
     """
     values = [np.asarray(level, dtype=float) for level in levels]
     steps = [float(np.max(np.abs(b - a))) for a, b in pairwise(values)]
     like = [sum(steps[k:]) for k in range(len(values))]  # scalars with these differences, 0 on the finest
-    return float(estimate(like, cap).uncertainty)
+    return float(estimate(like, cap, guard).uncertainty)

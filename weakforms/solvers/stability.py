@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -15,6 +16,9 @@ from weakforms.solvers.system import State, System
 
 LOWEST = -1e6
 """Eigenvalue below which none is looked for."""
+
+BESIDE = 1e-4
+"""Relative distance from a known eigenvalue at which its mode is looked for."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,8 @@ class Stability:
             self.system.matrix.axpy(shift, self.system.mass)
         self.factor.refactor()
         negative = self.factor.negative_count()
-        wanted = max(count, negative + 1)
+        # A body of one freedom has one eigenvalue.
+        wanted = min(max(count, negative + 1), self.system.matrix.getSize()[0])
         for extra in (0, wanted):
             values = self._eigenvalues(wanted + extra)
             if int(np.sum(values < 0)) == negative:
@@ -176,16 +181,87 @@ class Stability:
             eps.solve()
             if eps.getConverged() < count:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {count} eigenvalues")
-            vector, _ = self.system.matrix.createVecs()
-            found = []
-            for i in range(eps.getConverged()):
-                value = eps.getEigenpair(i, vector).real
-                found.append(self._mode(value, vector.array.copy()))
+            found = self._pairs(eps)
         except PETSc.Error as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
         finally:
             _destroy(eps)
         return sorted(found, key=lambda mode: abs(mode.eigenvalue))
+
+    def mode_at(self, state: State, eigenvalue: float) -> Mode:
+        """The mode of an eigenvalue known already, such as the lowest.
+
+        The target lies a little below it, off the singular matrix.
+
+        Raises:
+            ConvergenceError: When none converges.
+        """
+        self.system.set_state(state.u, state.loads)
+        self.system.tangent()
+        eps = self._solver(1, eigenvalue - BESIDE * max(1.0, abs(eigenvalue)))
+        try:
+            eps.solve()
+            if eps.getConverged() < 1:
+                raise ConvergenceError(f"SLEPc converged to no mode near {eigenvalue:.6g}")
+            vector, _ = self.system.matrix.createVecs()
+            return self._mode(eps.getEigenpair(0, vector).real, vector.array.copy())
+        except PETSc.Error as error:
+            raise ConvergenceError(f"SLEPc failed: {error}") from error
+        finally:
+            _destroy(eps)
+
+    def about(self, state: State, target: float, count: int) -> tuple[list[Mode], int]:
+        r"""Eigenvalues about a target, and how many lie below it, from one factorisation of ``K - target M``.
+
+        SLEPc solves with the very factors that the inertia is counted from: on large meshes a factorisation
+        is what a spectrum costs. The eigenvalues are Rayleigh quotients, and do not suffer from a factor
+        that is nearly singular.
+
+        Args:
+            state: An equilibrium.
+            target: No eigenvalue itself, to more than round-off.
+            count: Modes wanted at least, nearest to the target first.
+
+        Raises:
+            ConvergenceError: When fewer converge, or the factorisation fails.
+        """
+        self.system.set_state(state.u, state.loads)
+        matrix = self.system.tangent()
+        if target:
+            matrix.axpy(-target, self.system.mass)
+        self.factor.refactor()
+        below = self.factor.negative_count()
+        found = [self._improved(mode, target) for mode in self._with_factor(count)]
+        return sorted(found, key=lambda mode: abs(mode.eigenvalue - target)), below
+
+    def _with_factor(self, count: int) -> list[Mode]:
+        """Modes nearest to zero of the matrix as it stands and is factorised."""
+        eps = self._solver(count)
+        pc = eps.getST().getKSP().getPC()
+        pc.setType("python")
+        pc.setPythonContext(_Inverse(self.factor.solve))
+        try:
+            eps.solve()
+            if eps.getConverged() < count:
+                raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {count} eigenvalues")
+            return self._pairs(eps)
+        except PETSc.Error as error:
+            raise ConvergenceError(f"SLEPc failed: {error}") from error
+        finally:
+            _destroy(eps)
+
+    def _pairs(self, eps: SLEPc.EPS) -> list[Mode]:
+        vector, _ = self.system.matrix.createVecs()
+        found = []
+        for i in range(eps.getConverged()):
+            value = eps.getEigenpair(i, vector).real
+            found.append(self._mode(value, vector.array.copy()))
+        return found
+
+    def _improved(self, mode: Mode, target: float) -> Mode:
+        """With its Rayleigh quotient; the matrix is ``K - target M``."""
+        product = self.system.multiply(self.system.matrix, mode.vector)
+        return Mode(self.system.dot(mode.vector, product) + target, mode.vector)
 
     def _mode(self, eigenvalue: float, vector: np.ndarray) -> Mode:
         length = np.sqrt(self.system.dot(vector, self.system.mass_times(vector)))
@@ -198,7 +274,7 @@ class Stability:
         if inverse is not None:
             pc = eps.getST().getKSP().getPC()
             pc.setType("python")
-            pc.setPythonContext(_BorderedInverse(inverse))
+            pc.setPythonContext(_Inverse(lambda rhs: inverse.solve(rhs, np.zeros(1))[0]))
         try:
             eps.solve()
             if eps.getConverged() < wanted:
@@ -216,12 +292,12 @@ def _destroy(eps: SLEPc.EPS) -> None:
         eps.destroy()
 
 
-class _BorderedInverse:
-    """Preconditioner that is the solver: the first block of a bordered system."""
+class _Inverse:
+    """Preconditioner that is the solver."""
 
-    def __init__(self, bordered: BorderedMatrix) -> None:
-        self._bordered = bordered
+    def __init__(self, solve: Callable[[np.ndarray], np.ndarray]) -> None:
+        self._solve = solve
 
     def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
-        """``out = (K + b bᵀ/c)⁻¹ rhs``."""
-        out.array_w[:], _ = self._bordered.solve(rhs.array_r.copy(), np.zeros(1))
+        """``out`` is the solution for ``rhs``."""
+        out.array_w[:] = self._solve(rhs.array_r.copy())

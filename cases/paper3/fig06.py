@@ -66,5 +66,5 @@ CASE = Case(
             low_above,
         ),
     ),
-    asked={"x": 1e-5, "y": 1e-5, "z": 1e-5, "r": 1e-5, "lam1": 1e-4, "lam2": 1e-4, "T1": 1e-4, "T2": 1e-4},
+    asked={"z": 1e-5, "lam1": 1e-3, "lam2": 1e-3, "T1": 1e-3, "T2": 1e-3},
 )

@@ -4,7 +4,19 @@ delta = 2 is printed for (a) and assumed for (b). The bulge is at Theta = 0, and
 lower ring. The paper shows half of each surface; the mirror-symmetric half is what is solved.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, Surface, fluid_tube
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    PrintedState,
+    Solutions,
+    Surface,
+    fluid_tube,
+)
 
 SHORT, LONG = (fluid_tube(L=length, delta=2, secondary=True) for length in (8, 24))
 SHOWN = {
@@ -77,6 +89,19 @@ CASE = Case(
             BOTH,
             unstable,
         ),
+        *(
+            PrintedState(
+                f"zw, secondary, L = {top}",
+                printed,
+                of=of,
+                at=at,
+                column="zw",
+                shown=("V", "r_mid", "r_mid_pi", "z_min"),
+                n_negative=1,
+                source=f"figure 8({name})",
+            )
+            for (name, (of, at, top, _)), printed in zip(SHOWN.items(), ("7.336", "7.779"), strict=True)
+        ),
     ),
-    asked={"x": 1e-5, "y": 1e-5, "z": 1e-5, "r": 1e-5, "lam1": 1e-4, "lam2": 1e-4, "T1": 1e-4, "T2": 1e-4},
+    asked={"x": 1e-4, "y": 1e-4, "z": 1e-5, "lam1": 1e-3, "lam2": 1e-3, "T1": 1e-3, "T2": 1e-3},
 )
