@@ -160,6 +160,8 @@ CASE = Case(
             "at a front r'' and z'' jump in the ratio r' : z', so the jump of r'' is the smaller by far",
             tuple((spec, jumps_at(kind)) for kind, (spec, _, _) in FRONTS.items()),
             jumps,
+            differs="the text has u in C2 and w in C1 at a front; the second derivatives of both jump, in "
+            "the ratio r' : z', so that of u is small where the meridian is steep, and not zero",
         ),
     ),
 )

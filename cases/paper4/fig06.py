@@ -165,7 +165,14 @@ CASE = Case(
             ),
             one_crest,
         ),
-        Claim("window", "the window of pressures with two crests", COUNTED, window),
+        Claim(
+            "window",
+            "the window of pressures with two crests",
+            COUNTED,
+            window,
+            differs="the text has two crests and a trough under gas; they are there in a window of pressures "
+            "only, with one crest below and above it",
+        ),
         Claim(
             "at_crests",
             "crests and troughs are where the reference has them",
@@ -181,6 +188,8 @@ CASE = Case(
                 for p in (*PRESSURES[1:], CROSSING.columns["p"][0])
             ),
             grows_with_stretch,
+            differs="the text has the radial expansion grow with the pre-stretch; relative to the disks it "
+            "does at every pressure, the radius itself only from p = 0.42 on",
         ),
     ),
     asked={"r": 1e-6, "z": 1e-6},

@@ -1,7 +1,8 @@
 """Paper 4, figure 7: profiles with almost uniform thickness under fluid, delta = 2, zw = 4.5, M = 0.99 and 1.
 
-A uniform membrane is on the verge of wrinkling without load and never wrinkles under it; in its dry part gw
-- 1 decays to 1e-9 and below, so gw > 1 - 1e-7 is what is tested.
+A uniform membrane is on the verge of wrinkling without load and does not wrinkle under a fluid; in its dry
+part gw - 1 decays to 1e-9 and below, so gw > 1 - 1e-7 is what is tested. Under gas it wrinkles after all, at
+both disks, shortly before the limit pressure.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, wrinkled_tube
@@ -13,12 +14,26 @@ OTHERS = (0.1, 0.7, 0.9, 1.1, 1.9)
 UNEVEN = {M: wrinkled_tube(M=M, delta=2) for M in OTHERS}
 SMALL_DISKS = wrinkled_tube(M=1, delta=2, load="gas", Af=0.6)
 INFLATED = At("p", 0.2, profile=())
+UNIFORM_GAS = wrinkled_tube(M=1, delta=2, load="gas", load_end=1.1)
+FAR_INFLATED = tuple(At("p", v, profile=()) for v in (0.9, 1.02))
 
 
 def uniform_is_taut(solutions: Solutions) -> Finding:
     """M = 1: least gw at some levels."""
     lowest = min(solutions.profile(TUBES[1], at).columns["gw"].min() for at in LOADED)
     return lowest > 1 - 1e-7, f"least gw = 1 {lowest - 1:+.1e}"
+
+
+def uniform_wrinkles_at_last(solutions: Solutions) -> Finding:
+    """M = 1 under gas: taut at p = 0.9; wrinkled zones open at both ends before the limit point."""
+    gw = [solutions.profile(UNIFORM_GAS, at).columns["gw"] for at in FAR_INFLATED]
+    opened = solutions.points(UNIFORM_GAS, "zone_opening")
+    limit = solutions.points(UNIFORM_GAS, "limit_point")[0].values["p"]
+    p = [point.values["p"] for point in opened]
+    wrinkled = all(point.values["state"] == -1 for point in opened)
+    good = wrinkled and len(p) == 2 and abs(p[0] - p[1]) <= 2 * opened[0].uncertainty["p"] + 1e-12
+    good &= 0.9 < p[0] < 1.02 < limit and gw[0].min() > 1 and gw[1][0] < 1 and gw[1][-1] < 1
+    return bool(good), f"zones open at p = {p[0]:.8f}; limit point at p = {limit:.8f}"
 
 
 def almost_uniform_wrinkles(solutions: Solutions) -> Finding:
@@ -66,9 +81,15 @@ CASE = Case(
     checks=(
         Claim(
             "uniform_is_taut",
-            "a membrane of uniform thickness does not wrinkle at any load",
+            "a membrane of uniform thickness does not wrinkle under a fluid",
             tuple((TUBES[1], at) for at in LOADED),
             uniform_is_taut,
+        ),
+        Claim(
+            "uniform_wrinkles_at_last",
+            "beyond the paper's pressures, under gas, a uniform membrane too wrinkles at both disks",
+            tuple((UNIFORM_GAS, at) for at in FAR_INFLATED),
+            uniform_wrinkles_at_last,
         ),
         Claim(
             "almost_uniform_wrinkles",

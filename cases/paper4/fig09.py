@@ -79,6 +79,8 @@ CASE = Case(
             "without load the hoop stress is negative everywhere for delta = 2, almost everywhere for 3",
             tuple((STANDARD[d], EMPTY) for d in STANDARD),
             compressed,
+            differs="the text has gw below 1 everywhere without load; for delta = 3 part of the thin half "
+            "has gw slightly above 1",
         ),
         Claim(
             "against_relaxed",

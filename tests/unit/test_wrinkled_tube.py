@@ -164,7 +164,7 @@ def test_another_body_solves_too():
         length=lambda q: 2 * q["L"],
         radius=lambda _s, _q: 2.0,
         thickness=lambda s, q: q["M"] + (1 - q["M"]) * s / q["L"],
-        shape=lambda s, q: (2 * q["Af"], q["delta"] * s * (1 + 0.05 * (1 - s / (2 * q["L"])))),
+        shape=lambda s, q: (q["Af"], q["delta"] * s * (1 + 0.05 * (1 - s / (2 * q["L"])))),
         easy=(("M", 1.0),),
     )
     values = {**VALUES, "Af": 0.5, "M": 0.7}

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
+
+import ufl
 
 SHARED = ("p", "zw", "gamma", "c2", "residual_stiffness")
 """Parameters every body has: gas pressure, level and weight of the liquid, C2/C1, the homotopy's ``eps``."""
@@ -27,11 +30,13 @@ class Body:
     thickness: Callable[[Any, Values], Any]
     """Thickness ``H(S)`` over its mean."""
     shape: Callable[[Any, Values], tuple[Any, Any]]
-    """``(r, z)`` that displacements are counted from; it has the values prescribed at the ends."""
+    """``(r/R, z)`` that the unknowns are counted from; it has the values prescribed at the ends."""
     held: tuple[tuple[bool, bool], tuple[bool, bool]] = ((True, True), (True, True))
-    """Whether ``r`` and ``z`` are held at the first and at the last end."""
+    """Whether ``r`` and ``z`` are held at the first and at the last end; at a pole ``r`` is 0 anyhow."""
     easy: tuple[tuple[str, float], ...] = ()
     """Parameters at which the shape is near an unloaded state: where the walk to any other begins."""
+    pole: bool = False
+    """Whether the first end lies on the axis."""
 
 
 def _cylinder_thickness(s: Any, q: Values) -> Any:
@@ -58,3 +63,19 @@ CYLINDER = Body(
     easy=(("M", 1.0),),
 )
 """Paper 4: lengths over the undeformed radius; both ends held at radius ``Af`` and stretched by ``delta``."""
+
+DEEPER = 1.02
+"""Depth of the hemisphere's shape: no Newton step could be relative to a displacement of zero."""
+
+HEMISPHERE = Body(
+    name="hemisphere",
+    parameters=(),
+    length=lambda _q: math.pi / 2,
+    radius=lambda t, _q: ufl.sin(t),
+    thickness=lambda _t, _q: 1.0,
+    shape=lambda t, _q: (1.0, -DEEPER * ufl.cos(t)),
+    held=((False, False), (True, True)),
+    pole=True,
+)
+"""Paper 5: hangs from its equator, lengths over its radius; ``S = t`` is the angle from the pole, ``z``
+counts from the equator's plane upwards."""

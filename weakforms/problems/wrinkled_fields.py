@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import ufl
 from mpi4py import MPI
+from ufl.core.expr import Expr
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled_model import TAUT, WRINKLED, WrinkledModel
@@ -27,13 +28,19 @@ FINE, ZOOMS, CANDIDATES = 24, 6, 3
 
 
 class Meridian:
-    """Expressions of a model's unknown as polynomials on each cell, sampled the same on every rank."""
+    """Expressions of a model's unknown as polynomials on each cell, sampled the same on every rank.
 
-    def __init__(self, model: WrinkledModel) -> None:
+    Args:
+        model: Whose.
+        expressions: Which; by default the unknown's components ``u``, ``w`` and the profile.
+    """
+
+    def __init__(self, model: WrinkledModel, expressions: Mapping[str, Expr] | None = None) -> None:
         self.model = model
-        x = ufl.SpatialCoordinate(model.mesh)[0]
-        profile = model.system.formulation.profile
-        columns = {"x": x, "u": model.unknown[0], "w": model.unknown[1], **profile}
+        if expressions is None:
+            profile = model.system.formulation.profile
+            expressions = {"u": model.unknown[0], "w": model.unknown[1], **profile}
+        columns = {"x": ufl.SpatialCoordinate(model.mesh)[0], **expressions}
         self.names = tuple(columns)
         self._interpolant = Interpolant(model.unknown, columns)
         self._local = model.mesh.topology.index_map(1).size_local

@@ -1,36 +1,26 @@
-"""States of a wrinkled membrane on meshes fitted to its zones, and on a plain mesh to begin with."""
+"""States of a wrinkled membrane on meshes fitted to its zones."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.wrinkled_body import Body
 from weakforms.problems.wrinkled_fields import Zones, zones
-from weakforms.problems.wrinkled_model import BY_STATE, DRY, TAUT, WRINKLED, WrinkledModel
+from weakforms.problems.wrinkled_model import BY_STATE, WrinkledModel
+from weakforms.problems.wrinkled_start import VERGE, VERGE_FITTED, PlainMembrane
 from weakforms.problems.wrinkled_state import (
-    BLOCKS,
     AtBreak,
     Held,
     Layout,
-    Mesh,
     Touch,
     model_on,
     solver_of,
 )
-from weakforms.solvers.newton import Constraint, SolveRecord
+from weakforms.solvers.newton import Constraint
 from weakforms.solvers.system import State
-
-HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)
-"""Residual hoop stiffness of wrinkled zones on the way to none."""
-
-VERGE, VERGE_FITTED = 1e-7, 1e-10
-"""Deviation of ``gw`` from 1 that is none, on a plain mesh and on a fitted one."""
 
 THINNEST, SLIVER = 1e-8, 1e-6
 """Zones thinner than this fraction of the length are left out; the second where round-off in a thin zone's
@@ -39,9 +29,6 @@ block keeps Newton's method from converging. Nothing else feels them."""
 COARSE, PASSES = 1e-3, 2
 """Zones thinner than this fraction of the length get no break points before the fronts are unknowns; and how
 often break points are put where the last solution shows fronts before that."""
-
-WALK = 0.1
-"""Largest step of a parameter on the way from an easy membrane to the one wanted."""
 
 ATTEMPTS = 8
 """Patterns of zones tried for one state."""
@@ -54,123 +41,8 @@ PLACE = 1e-7
 """What that may leave in the place."""
 
 
-class Membrane:
-    """One membrane at given parameters; its states on a plain mesh and on fitted ones.
-
-    Args:
-        comm: Ranks.
-        body: Geometry and thickness.
-        values: Parameters: the body's, ``c2``, ``gamma``.
-        liquid: Whether ``zw`` is the load, or ``p``.
-        cells: Cells a block on each mesh, coarse to fine.
-        degree: Of the elements.
-        energy: See :class:`WrinkledModel`.
-    """
-
-    def __init__(
-        self,
-        comm: MPI.Intracomm,
-        body: Body,
-        values: Mapping[str, float],
-        liquid: bool,
-        cells: Sequence[int],
-        degree: int,
-        energy: str,
-    ) -> None:
-        self.body, self.liquid, self.energy = body, liquid, energy
-        self.values = {"gamma": 0.0, "c2": 0.0, "residual_stiffness": 0.0, "p": 0.0, "zw": 0.0, **values}
-        self.length = float(body.length(self.values))
-        self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy) for n in cells]
-        self.control = "zw" if liquid else "p"
-
-    # -- plain mesh ----------------------------------------------------------------------------
-
-    @property
-    def plain_model(self) -> WrinkledModel:
-        """The finest mesh with equal blocks; its state is put into it before anything is done with it."""
-        return model_on(self.meshes[-1], BLOCKS)
-
-    def prepare(self) -> State:
-        """Undisplaced state of the plain mesh, its model made ready for solves on it (models are shared)."""
-        model = self.plain_model
-        breaks = np.linspace(0.0, self.length, BLOCKS + 1)
-        model.mark(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
-        loads = {name: float(self.values[name]) for name in model.loads if name in self.values}
-        loads |= {f"b{k}": float(breaks[k]) for k in range(1, BLOCKS)}
-        model.system.set_loads(loads)
-        model.system.update_mass()
-        return State(np.zeros(model.system.size), loads)
-
-    def by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
-        """State of the plain mesh at a load, from the unloaded membrane wrinkled all over.
-
-        The hoop stiffness of wrinkled zones is left in place at first and taken away step by step. Without
-        that Newton's method finds nothing, or an equilibrium turned inside out.
-
-        Raises:
-            ConvergenceError: When a step does not converge.
-        """
-        folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
-        undisplaced = self.prepare()
-        state = self._moved(folded, self.plain_model, self.plain_model.breaks_of(undisplaced.loads))
-        self.prepare()
-        state.loads[self.control] = load
-        solver = solver_of(self.plain_model, ())
-        if self.energy == "standard":
-            return solver.solve(state)
-        if load == 0.0:
-            with suppress(ConvergenceError):  # on disks that are not too large this is the solution already
-                return solver.solve(state)
-        for eps in HOMOTOPY:
-            state.loads["residual_stiffness"] = eps
-            state, record = solver.solve(state)
-        return state, record
-
-    def plain(self, state: State) -> Held:
-        """A state of the plain mesh with the zones it shows."""
-        model = self.plain_model
-        wet = np.full(BLOCKS, BY_STATE if self.liquid else DRY)
-        held = Held(model, state, Zones(TAUT, ()), None, np.full(BLOCKS, BY_STATE), wet)
-        held.zones = zones(held.put(), state.loads, VERGE, self.liquid)
-        return held
-
-    def unloaded(self, level: int, state: float) -> Held:
-        """The unloaded membrane on one mesh, taken for taut or for wrinkled all over.
-
-        Walks there from the parameters the body calls easy, in steps of at most :data:`WALK`.
-
-        Args:
-            level: Which mesh.
-            state: ``TAUT`` or ``WRINKLED``.
-
-        Raises:
-            ConvergenceError: When a step does not converge.
-        """
-        easy = dict(self.body.easy)
-        goal = {name: self.values[name] for name in easy}
-        far = max((abs(goal[name] - easy[name]) for name in easy), default=0.0)
-        steps = max(1, int(np.ceil(far / WALK)))
-        held = None
-        try:
-            for share in np.arange(0 if far else steps, steps + 1) / steps:
-                self.values |= {n: float(easy[n] + share * (goal[n] - easy[n])) for n in easy}
-                held = self.unloaded_from(level, state, held)
-        finally:
-            self.values |= goal
-        return held
-
-    def unloaded_from(self, level: int, state: float, start: Held | None) -> Held:
-        """The same from a state of neighbouring parameters, or from the undisplaced one."""
-        undisplaced = self.prepare()
-        begin = self.plain(undisplaced)
-        if start is not None:
-            begin = replace(start, state=State(start.state.u, start.state.loads | self._own(undisplaced)))
-        return self.fit(level, begin, Zones(state, ()), (), free=())
-
-    def _own(self, state: State) -> dict[str, float]:
-        return {name: value for name, value in state.loads.items() if name in self.values}
-
-    # -- fitted meshes -------------------------------------------------------------------------
+class Membrane(PlainMembrane):
+    """One membrane at given parameters; its states on a plain mesh and on fitted ones."""
 
     def fitted(self, start: Held, constraint: Constraint, fine_only: bool = False) -> list[Held]:
         """The state selected by a constraint on the control, on every mesh, coarse to fine, or on the finest.
@@ -178,14 +50,16 @@ class Membrane:
         Raises:
             ConvergenceError: When no pattern of zones is found that the solution shows itself.
         """
-        try:
-            return self._fitted(start, constraint, THINNEST, fine_only)
-        except ConvergenceError:
-            return self._fitted(start, constraint, SLIVER, fine_only)
-
-    def _fitted(self, start: Held, constraint: Constraint, thinnest: float, fine_only: bool) -> list[Held]:
-        fine = self._pattern(start, constraint, thinnest)
-        return [fine] if fine_only else [*self.others(fine, constraint), fine]
+        ways = [(THINNEST, True), (SLIVER, True)]
+        if start.layout is not None:  # fitted already: its own zones may do where a plain mesh does not
+            ways.append((THINNEST, False))
+        for thinnest, adapt in ways:
+            try:
+                fine = self._pattern(start, constraint, thinnest, adapt)
+                return [fine] if fine_only else [*self.others(fine, constraint), fine]
+            except ConvergenceError as error:
+                last = error
+        raise last
 
     def others(self, fine: Held, constraint: Constraint) -> list[Held]:
         """A state of the finest mesh on the coarser ones."""
@@ -198,9 +72,9 @@ class Membrane:
             held.slivers = own if len(own) == len(fine.slivers) else nothing
         return out
 
-    def _pattern(self, start: Held, constraint: Constraint, thinnest: float) -> Held:
+    def _pattern(self, start: Held, constraint: Constraint, thinnest: float, adapt: bool) -> Held:
         """Solve on the finest mesh with the zones the last solution shows until they are its own."""
-        held = self._adapted(start, constraint)
+        held = self._adapted(start, constraint) if adapt else start
         wanted, last = self._thick(held.zones, thinnest), "none tried"
         for _ in range(ATTEMPTS):
             try:
@@ -213,6 +87,8 @@ class Membrane:
             shown = zones(held.put(), held.state.loads, VERGE_FITTED, self.liquid)
             found = self._thick(shown, thinnest)
             if found.kind == held.zones.kind:
+                if self.near_fronts and found.fronts:
+                    held = self.fit(len(self.meshes) - 1, held, held.zones, (constraint,), graded=True)
                 held.slivers = found.left_out_of(shown)
                 return held
             wanted = found
@@ -250,6 +126,7 @@ class Membrane:
         free: Sequence[str] | None = None,
         touch: Touch | None = None,
         same: bool = False,
+        graded: bool = False,
     ) -> Held:
         """Solve on one mesh with its break points at the fronts and at the surface.
 
@@ -261,11 +138,13 @@ class Membrane:
             free: Unknown loads besides the break points; by default the control.
             touch: A point where ``gw`` just touches 1, an equation more.
             same: Keep the blocks of the state to start from: meshes of one state are to be nested.
+            graded: Make blocks short near fronts.
 
         Raises:
             ConvergenceError: When it does not converge, or break points pass each other.
         """
-        layout = Layout.of(wanted, self.length, () if touch is None or touch.at_end else (touch.at,))
+        extra = () if touch is None or touch.at_end else (touch.at,)
+        layout = Layout.of(wanted, self.length, extra, self.near_fronts if graded else ())
         if same:
             layout = replace(start.layout, breaks=start.model.breaks_of(start.state.loads))
         model = model_on(self.meshes[level], len(layout.breaks) - 1)
@@ -282,8 +161,15 @@ class Membrane:
                 own.append(AtBreak(model, "gw_slope", node, target=0.0))
                 nodes.append(node)
         scalars = (*((self.control,) if free is None else free), *(f"b{k}" for k in nodes))
-        stol = 1e-10 if touch is None or touch.at_end else FLAT
-        state, record = solver_of(model, scalars, stol).solve(guess, [*constraints, *own])
+        sharp = touch is None or touch.at_end
+        try:
+            tight = solver_of(model, scalars, 1e-10 if sharp else FLAT)
+            state, record = tight.solve(guess, [*constraints, *own])
+        except ConvergenceError:
+            if not (sharp and self.near_fronts and layout.fronts):
+                raise
+            # A front at which ``gw`` passes 1 at a flat angle, as where a zone has just opened.
+            state, record = solver_of(model, scalars, FLAT).solve(guess, [*constraints, *own])
         breaks = model.breaks_of(state.loads)
         if np.diff(breaks).min() <= 0:
             raise ConvergenceError("fronts passed each other")

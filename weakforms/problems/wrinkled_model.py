@@ -6,8 +6,8 @@ block is smooth, and a front or the surface of the liquid is a break point, a sc
 equation. Unmarked, the state is chosen point by point by a ``conditional``. Both are the same compiled
 form.
 
-The unknown is the displacement from a given shape, so that all Dirichlet values are zero and every parameter
-is a constant of the form.
+The unknown is the departure of ``(r/R, z)`` from a given shape: Dirichlet values are zero, every parameter is
+a constant of the form, and nothing is divided by ``R``, which is 0 at a pole.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ class WrinkledModel:
 
     # -- the form ------------------------------------------------------------------------------
 
-    def _marked(self, name: str, by_state: Expr) -> Expr:
+    def marked(self, name: str, by_state: Expr) -> Expr:
         """Positive where a block is marked so, or by the state where it is not marked."""
         mark = self._by_cell[name]
         return ufl.gt(mark + (1 - abs(mark)) * by_state, 0.0)
@@ -177,18 +177,19 @@ class WrinkledModel:
         width = cell["width"] + self._rate * cell["width_rate"]
         s = cell["left"] + self._rate * cell["left_rate"] + width * (x - cell["block"])
         along = ufl.variable(s)
-        shape = self.body.shape(along, q)
-        r0, z0 = (ufl.as_ufl(part) for part in shape)
+        radius = ufl.as_ufl(self.body.radius(along, q))
+        hoop, z0 = (ufl.as_ufl(part) for part in self.body.shape(along, q))
         u, w = self.unknown
-        r, z = r0 + u, z0 + w
-        r_s = ufl.diff(r0, along) + u.dx(0) / width
+        lam2, z = hoop + u, z0 + w
+        r = radius * lam2
+        r_s = ufl.diff(radius, along) * lam2 + radius * (ufl.diff(hoop, along) + u.dx(0) / width)
         z_s = ufl.diff(z0, along) + w.dx(0) / width
         lam1 = ufl.sqrt(r_s**2 + z_s**2)
-        lam2 = r / self.body.radius(s, q)
-        pressure = q["p"] + ufl.conditional(self._marked("wet", q["zw"] - z), q["gamma"] * (q["zw"] - z), 0.0)
-        weight = self.body.thickness(s, q) * self.body.radius(s, q)
+        pressure = q["p"] + ufl.conditional(self.marked("wet", q["zw"] - z), q["gamma"] * (q["zw"] - z), 0.0)
+        weight = self.body.thickness(along, q) * radius
         return {
-            "S": s,
+            "S": along,
+            "radius": radius,
             "width": width,
             "r": r,
             "z": z,
@@ -206,7 +207,7 @@ class WrinkledModel:
         full = lambda a, b: mooney_rivlin(a, b, self.q["c2"])  # noqa: E731
         if self.energy == "standard":
             return full(lam1, lam2)
-        taut = self._marked("taut", wrinkling_function(lam1, lam2) - 1 + ON_THE_VERGE)
+        taut = self.marked("taut", wrinkling_function(lam1, lam2) - 1 + ON_THE_VERGE)
         eps = self.q["residual_stiffness"]
         if self.energy == "modified_gradient":
             widened = full(lam1, ufl.conditional(taut, lam2, natural_width(lam1)))
@@ -239,21 +240,24 @@ class WrinkledModel:
         dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 4 * self.degree})
         strain = e["weight"] * self.law(e["lam1"], e["lam2"])
         volume = r**2 * z_s / 2
-        wet = self._marked("wet", q["zw"] - z)
+        wet = self.marked("wet", q["zw"] - z)
         liquid = liquid_potential(r, r_s, z, q["zw"], q["gamma"], wet)
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         tension = self.tension()
-        lower = ufl.Measure("ds", self.mesh, subdomain_data=self.tags)(LOWER)
+        ends = ufl.Measure("ds", self.mesh, subdomain_data=self.tags)
         return Formulation(
             unknown=self.unknown,
             residual=ufl.derivative((strain - q["p"] * volume + liquid) * width * dx, self.unknown, test),
             loads=self.loads,
             bcs=self._conditions(),
-            mass=ufl.inner(trial, test) * e["weight"] * width * dx,
+            mass=(e["radius"] ** 2 * trial[0] * test[0] + trial[1] * test[1]) * e["weight"] * width * dx,
             monitors={
                 "V": volume * width * dx,
                 "Pi": (strain - e["pressure"] * volume) * width * dx,
-                "N": tension * lower,
+                "N": tension * ends(UPPER if self.body.pole else LOWER),
+                **(
+                    {"z_pole": z * ends(LOWER), "lam_pole": e["lam2"] * ends(LOWER)} if self.body.pole else {}
+                ),
                 "gw": self.point(e["gw"]),
                 "gw_slope": self.point(e["gw"].dx(0) / width),
                 "z": self.point(z),
@@ -267,11 +271,12 @@ class WrinkledModel:
     def _profile(self, tension: Expr) -> dict[str, Expr]:
         e = self.expressions
         axial = tension * e["z_s"] / e["lam1"] - e["pressure"] * e["r"] ** 2 / 2
+        slope = {} if self.body.pole else {"slope": e["r_s"] / e["z_s"]}  # horizontal at a pole
         return {
             **{name: e[name] for name in ("r", "z", "lam1", "lam2", "gw")},
             "tension": tension,
             "axial": axial,
-            "slope": e["r_s"] / e["z_s"],
+            **slope,
         }
 
     def _conditions(self) -> list[fem.DirichletBC]:

@@ -18,6 +18,9 @@ from weakforms.solvers.system import State
 BLOCKS = 10
 """Blocks of a mesh; more where more break points need them."""
 
+GROWTH = 4.0
+"""How many times as long as its neighbour a block may be where meshes are graded to fronts."""
+
 NEAR_DISKS = (1 / 32, 1 / 8, 7 / 8, 31 / 32)
 """Shares of the length at which blocks end besides, to resolve the layers at the ends."""
 
@@ -125,6 +128,26 @@ class Touch:
     at_end: bool
 
 
+def _graded(breaks: list[float]) -> list[float]:
+    """The same with blocks divided so that none is longer than :data:`GROWTH` times a neighbour."""
+    breaks = list(breaks)
+    k = 0
+    while k < len(breaks) - 1:
+        length = breaks[k + 1] - breaks[k]
+        low = breaks[k] - breaks[k - 1] if k > 0 else np.inf
+        high = breaks[k + 2] - breaks[k + 1] if k + 2 < len(breaks) else np.inf
+        if length <= GROWTH * min(low, high) * (1 + 1e-9):
+            k += 1
+        elif length <= 2 * GROWTH * min(low, high):
+            breaks.insert(k + 1, breaks[k] + length / 2)
+            k = max(k - 1, 0)
+        else:
+            at = breaks[k] + GROWTH * low if low <= high else breaks[k + 1] - GROWTH * high
+            breaks.insert(k + 1, at)
+            k = max(k - 1, 0)
+    return breaks
+
+
 @dataclass(frozen=True)
 class Layout:
     """Break points of a fitted mesh, which of them are unknowns, and the marks of its blocks."""
@@ -136,10 +159,25 @@ class Layout:
     wet: np.ndarray
 
     @classmethod
-    def of(cls, found: Zones, length: float, extra: Sequence[float] = ()) -> Layout:
-        """Fronts, surface and further points, the longest blocks halved until there are enough."""
+    def of(
+        cls, found: Zones, length: float, extra: Sequence[float] = (), near_fronts: Sequence[float] = ()
+    ) -> Layout:
+        """Fronts, surface and further points, the longest blocks halved until there are enough.
+
+        Args:
+            found: Zones.
+            length: Of the meridian.
+            extra: Points that are to be break points.
+            near_fronts: Distances from fronts at which blocks end besides, ascending.
+        """
         given = [*found.fronts, *([] if found.surface is None else [found.surface]), *extra]
         breaks = [0.0, *sorted(given), length]
+        for distance in near_fronts:
+            for point in (f + side * distance for f in found.fronts for side in (-1, 1)):
+                if 0 < point < length and np.abs(np.array(breaks) - point).min() > distance / 2:
+                    breaks = sorted([*breaks, point])
+        if near_fronts:
+            breaks = _graded(breaks)
         for share in NEAR_DISKS:
             point = share * length
             if np.abs(np.array(breaks) - point).min() > 0.5 * min(point, length - point):

@@ -1,6 +1,7 @@
-"""Problem ``wrinkled_tube`` (Paper 4).
+"""Problem ``wrinkled_tube`` (Papers 4 and 5).
 
-Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10. Lengths are divided by the undeformed
+Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10; its stability to waves around the axis,
+the same authors (2016), J. Mech. Phys. Solids 94, 298-315. Lengths are divided by the undeformed
 radius ``Ao``, the thickness by its mean ``h``, energies by ``2 pi C1 h Ao^2``; ``Z`` in ``[0, L]`` is the
 material coordinate from the lower end.
 """
@@ -17,10 +18,12 @@ from pydantic import BeforeValidator, Field
 from weakforms.errors import InputError
 from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, silent
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
+from weakforms.problems.wave_numbers import WaveNumbers
 from weakforms.problems.wrinkled_body import CYLINDER
 from weakforms.problems.wrinkled_branch import WrinkledBranch
 from weakforms.problems.wrinkled_critical import critical_radius
 from weakforms.problems.wrinkled_fit import Membrane
+from weakforms.problems.wrinkled_readings import Readings
 from weakforms.results import Quantity, Result
 from weakforms.solvers.provenance import provenance
 from weakforms.solvers.refinement import Estimate
@@ -66,6 +69,14 @@ SCALES = {
     "axial": "N cos(phi) - P r^2/2 over C1 h: constant under gas, and where a fluid does not reach",
     "slope": "dr/dz of the meridian",
     "eigenvalue_1": "lowest eigenvalue of the second variation at fixed load, axisymmetric, against the mass",
+    "n": "waves around the axis",
+    "beta": "bending stiffness over H^3 and C1 h Ao^2: (2/3)(1 + c2)(h/Ao)^2 for an isotropic sheet",
+    "direction": "of a change of stability: 1 where waves set in along the branch, -1 where they vanish",
+    "Lambda": "Lambda_nN_k: k-th lowest eigenvalue for N waves, d2Pi = Lambda M, M = int H R |dx|^2, over "
+    "C1/(rho_m Ao^2)",
+    "meridional": "mode along the meridian, int H R |dx|^2 dS = 1",
+    "circumferential": "mode around the axis (a length)",
+    "normal": "mode along the outward normal",
     "Af_critical": "largest radius of the disks with gw <= 1 everywhere at zero load, over Ao",
 }
 
@@ -88,6 +99,11 @@ def _radius(value: object) -> object:
     if not 0 < radius <= 3:
         raise ValueError("'critical' or a number above 0 and up to 3 is wanted")
     return radius
+
+
+NEAR_FRONTS = (0.02, 0.1, 0.4)
+"""Distances from fronts, over Ao, within which cells are smaller where short waves are judged: they decay
+from the front into a taut zone over ``1/n``."""
 
 
 class WrinkledNumerics(MeshNumerics):
@@ -115,6 +131,13 @@ class WrinkledParameters(Parameters):
         "relaxed", description="treatment of wrinkling: two forms of the same, or none"
     )
     load_end: float | None = Field(None, gt=0, le=100, description="load at which the branch ends")
+    n: WaveNumbers = Field((), description="numbers of waves around whose stability is judged, such as 20,50")
+    beta: float = Field(
+        0.0,
+        ge=0,
+        le=1,
+        description="bending stiffness that waves meet besides, over C1 h Ao^2 H^3 (beyond the paper)",
+    )
     volume_end: float = Field(
         30.0, gt=1, le=1000, description="volume over the unloaded one at which it ends at the latest"
     )
@@ -151,7 +174,7 @@ class WrinkledTube(PathProblem):
         "iterations",
     )
     derived = ("wrinkled_fraction", "r_max", "gw_max", "gw_min")
-    special_points = ("limit_point", "zone_opening", "zone_closing", "front")
+    special_points = ("limit_point", "zone_opening", "zone_closing", "stability_change", "front")
     branches = ("primary",)
     control: ClassVar[str] = "zw (load = fluid) or p (gas); past a limit load compare over V, which rises"
 
@@ -224,7 +247,8 @@ class WrinkledTube(PathProblem):
         wanted = [r.value for r in requests.states if r.name == parameters.control]
         end = max([parameters.load_end or LOAD_END[parameters.load], *wanted])
         membrane = wrinkled_membrane(parameters, numerics, comm, critical)
-        return WrinkledBranch(membrane, end, parameters.volume_end, numerics.step, 2 * numerics.degree)
+        readings = Readings(membrane, 2 * numerics.degree, parameters.n, beta=parameters.beta)
+        return WrinkledBranch(membrane, end, parameters.volume_end, numerics.step, readings)
 
     def points(self, parameters: WrinkledParameters) -> np.ndarray:
         """161 points from end to end."""
@@ -259,7 +283,8 @@ def wrinkled_membrane(
     liquid = parameters.load == "fluid"
     if liquid:
         values["gamma"] = parameters.gamma or PAPER_GAMMA
-    return Membrane(comm, CYLINDER, values, liquid, numerics.meshes, numerics.degree, parameters.energy)
+    near = NEAR_FRONTS if parameters.n else ()
+    return Membrane(comm, CYLINDER, values, liquid, numerics.meshes, numerics.degree, parameters.energy, near)
 
 
 def quantity(found: Estimate) -> Quantity:

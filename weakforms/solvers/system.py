@@ -92,7 +92,8 @@ class System:
 
         self.vec = self.unknown.x.petsc_vec.duplicate()
         self.size = self.vec.getLocalSize()
-        owned = [dofs[:count] for dofs, count in (bc.dof_indices() for bc in formulation.bcs)]
+        # The number of owned ones that dof_indices gives counts ghosts where dofs are given in blocks.
+        owned = [dofs[dofs < self.size] for dofs, _count in (bc.dof_indices() for bc in formulation.bcs)]
         self.bc_dofs = np.concatenate(owned) if owned else np.empty(0, dtype=np.int32)
         fem_petsc.set_bc(self.vec, formulation.bcs)
         self._bc_values = self.vec.array[self.bc_dofs].copy()

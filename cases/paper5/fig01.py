@@ -1,0 +1,121 @@
+"""Paper 5, figure 1: the four states of a sheet over its stretches, 0 to 5, and where they meet.
+
+The states are bounded by lam2 = lam1^(-1/2), lam1 = lam2^(-1/2) and lam = 1. Energy and stresses are
+continuous across every boundary, the tangent is not. The paper's appendix: the modified deformation gradient
+gives the same energy.
+"""
+
+import numpy as np
+
+from weakforms import Case, Claim, Finding, Solutions, Spec, wrinkled_material
+
+LAWS = (0.01, 0.0)
+NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
+NEAR = 1e-7
+"""Relative distance from a boundary at which both sides are looked at."""
+ALONG = (1.2, 2.0, 3.5, 5.0)
+"""Larger stretch of the points looked at ..."""
+ACROSS = (0.2, 0.5, 0.9)
+"""... and the smaller one where the sheet is on the verge of going slack."""
+BOUNDARIES = {
+    "A/B": [lambda e, v=v: (v, v**-0.5 * (1 + e)) for v in ALONG],
+    "A/C": [lambda e, v=v: (v**-0.5 * (1 + e), v) for v in ALONG],
+    "B/D": [lambda e, v=v: (1 + e, v) for v in ACROSS],
+    "C/D": [lambda e, v=v: (v, 1 + e) for v in ACROSS],
+}
+
+
+def sheet(stretches: tuple[float, float], c2: float, energy: str = "relaxed") -> Spec:
+    """The solution at two stretches."""
+    return wrinkled_material(l1=stretches[0], l2=stretches[1], c2=c2, energy=energy)
+
+
+def found(solutions: Solutions, spec: Spec) -> np.ndarray:
+    """Energy, stresses and tangent."""
+    quantities = solutions.result(spec).quantities
+    return np.array([quantities[name].value for name in NAMES])
+
+
+def pairs(solutions: Solutions, points: list) -> list[np.ndarray]:
+    """Jumps across the boundary at its points, for both laws, over the larger side."""
+    out = []
+    for point in points:
+        for c2 in LAWS:
+            below, above = (found(solutions, sheet(point(side * NEAR), c2)) for side in (-1, 1))
+            out.append(np.abs(above - below) / np.maximum(1.0, np.abs(above)))
+    return out
+
+
+def continuous(solutions: Solutions) -> Finding:
+    """Largest jump of energy and stresses over each boundary, least one of the tangent."""
+    good, rows = True, []
+    for name, points in BOUNDARIES.items():
+        jumps = pairs(solutions, points)
+        smooth = max(j[:3].max() for j in jumps)
+        rough = min(j[3:].max() for j in jumps)
+        good &= bool(smooth < 50 * NEAR and rough > 0.1)
+        rows.append(f"{name}: {smooth:.0e}, {rough:.2f}")
+    return good, "; ".join(rows)
+
+
+def stresses(solutions: Solutions) -> Finding:
+    """Stresses on both sides: both above 0 in A, one of them 0 in B and C, both 0 in D."""
+    wrong = []
+    expected = {
+        "A/B": ((1, 0), (1, 1)),
+        "A/C": ((0, 1), (1, 1)),
+        "B/D": ((0, 0), (1, 0)),
+        "C/D": ((0, 0), (0, 1)),
+    }
+    for name, points in BOUNDARIES.items():
+        for point in points:
+            for side, signs in zip((-1, 1), expected[name], strict=True):
+                values = found(solutions, sheet(point(side * NEAR), LAWS[0]))[1:3]
+                if [int(v > 0) for v in values] != list(signs):
+                    wrong.append(f"{name} {point(side * NEAR)}: {values}")
+    return not wrong, "; ".join(wrong) or f"{2 * sum(map(len, BOUNDARIES.values()))} points"
+
+
+def same_by_modified_gradient(solutions: Solutions) -> Finding:
+    """Largest difference of the two forms on both sides of every boundary."""
+    worst = 0.0
+    for points in BOUNDARIES.values():
+        for point in points:
+            for side in (-1, 1):
+                one, two = (
+                    found(solutions, sheet(point(side * NEAR), LAWS[0], energy))
+                    for energy in ("relaxed", "modified_gradient")
+                )
+                worst = max(worst, float(np.abs(one - two).max() / max(1.0, np.abs(one).max())))
+    return worst < 1e-12, f"{worst:.0e}"
+
+
+POINTS = [point(side * NEAR) for points in BOUNDARIES.values() for point in points for side in (-1, 1)]
+BOTH = tuple((sheet(p, c2), None) for p in POINTS for c2 in LAWS)
+MODIFIED = tuple((sheet(p, LAWS[0], "modified_gradient"), None) for p in POINTS)
+
+CASE = Case(
+    title="States of a sheet",
+    source="Patil, Nordmark & Eriksson (2016), figure 1 and appendix",
+    checks=(
+        Claim(
+            "continuous",
+            "energy and stresses are continuous where two states meet, the tangent is not",
+            BOTH,
+            continuous,
+        ),
+        Claim(
+            "stresses",
+            "A taut, B and C in tension one way, D without stress, bounded by lam2 = lam1^(-1/2), "
+            "lam1 = lam2^(-1/2) and lam = 1",
+            BOTH,
+            stresses,
+        ),
+        Claim(
+            "same_by_modified_gradient",
+            "the modified deformation gradient gives the relaxed energy (appendix)",
+            (*BOTH, *MODIFIED),
+            same_by_modified_gradient,
+        ),
+    ),
+)

@@ -1,0 +1,149 @@
+"""Paper 5, figure 9: wrinkling function of the liquid-filled hemisphere along its meridian.
+
+At low levels the hemisphere is wrinkled below and above the level, at high ones nowhere. Next to the equator
+(where lam2 = 1 and lam1 > 1) and at the pole it is always taut. The levels are chosen here. "High" means
+about -0.55 and up: the branch has its highest level at -0.478.
+"""
+
+import math
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, hemisphere
+
+BOWL = hemisphere(low_end=-1.16, past=0.2)
+LEVELS = (-1.1, -0.9, -0.7, -0.6, -0.52)
+HIGH = At("zw", -0.5, profile=())
+
+
+def at(level: float) -> At:
+    """The state at a level with its profile."""
+    return At("zw", float(level), profile=())
+
+
+def fronts(solutions: Solutions, state: At) -> list[float]:
+    """Fronts from the pole."""
+    found = solutions.state(BOWL, state).quantities
+    return [q.value for name, q in found.items() if name.startswith("t_front")]
+
+
+def around_the_level(solutions: Solutions) -> Finding:
+    """Fronts and level at each level: one wrinkled zone around it."""
+    good, rows = True, []
+    for level in (v for v in LEVELS if v < -0.56):
+        found, place = fronts(solutions, at(level)), solutions.value(BOWL, at(level), "t_level")
+        good &= len(found) == 2 and found[0] < place < found[-1]
+        rows.append(f"zw = {level}: {', '.join(f'{t:.4f}' for t in found)}, level at {place:.4f}")
+    return good, "; ".join(rows)
+
+
+def taut_at_high_levels(solutions: Solutions) -> Finding:
+    """Least gw at zw = -0.5, and the level at which the wrinkled zone closes."""
+    least = solutions.value(BOWL, HIGH, "gw_min")
+    (closing,) = solutions.points(BOWL, "zone_closing")
+    good = least > 1 and closing.values["state"] == -1
+    return good, f"{least:.6f}; closes at zw = {closing.values['zw']:.8f}"
+
+
+def taut_ends(solutions: Solutions) -> Finding:
+    """Least gw at the pole and at the equator."""
+    ends = [solutions.profile(BOWL, at(v)).columns["gw"][[0, -1]] for v in LEVELS]
+    least = [float(min(e[k] for e in ends)) for k in (0, 1)]
+    return min(least) > 1, f"{least[0]:.6f}, {least[1]:.6f}"
+
+
+def limit(solutions: Solutions) -> Finding:
+    """Highest level, and the depth of an empty sheet that hangs as a cone, below all levels."""
+    (point,) = solutions.points(BOWL, "limit_point")
+    cone = -math.sqrt(math.pi**2 / 4 - 1)
+    zw = point.values["zw"]
+    columns = solutions.branch(BOWL).columns
+    past = columns["n_negative"][columns["V"] > point.values["V"]]
+    before = columns["n_negative"][columns["V"] < point.values["V"]]
+    good = cone < columns["z_pole"][0] and abs(zw + 0.478) < 5e-4 and set(before) == {0} and set(past) == {1}
+    return bool(good), f"zw = {zw:.9f}; cone {cone:.4f}, empty sheet's pole near {columns['z_pole'][0]:.4f}"
+
+
+CASE = Case(
+    title="Wrinkling function of the hemisphere",
+    source="Patil, Nordmark & Eriksson (2016), figure 9",
+    panels=(
+        Panel(
+            "gw",
+            x=Axis("t", 0, 1.6),
+            y=Axis("gw", 0.6, 1.6),
+            curves=tuple(
+                Curve(BOWL, rf"$z_w = {v}$", reference=f"gw_hemisphere_zw_{v}", at=at(v)) for v in LEVELS
+            ),
+        ),
+        *(
+            Panel(
+                name,
+                x=Axis("zw" if upward else "z_pole", *x),
+                y=Axis(y, *limits, label=label),
+                note="Not a figure of the paper. The table of fronts is compared at its levels."
+                if name == "fronts"
+                else "Not a figure of the paper.",
+                curves=(Curve(BOWL, label, reference=table),),
+            )
+            for name, upward, x, y, limits, label, table in (
+                (
+                    "branch",
+                    True,
+                    (-1.2, -0.4),
+                    "z_pole",
+                    (-1.6, -1.1),
+                    "height of the pole",
+                    "hemisphere_branch",
+                ),
+                (
+                    "fronts",
+                    True,
+                    (-1.2, -0.5),
+                    "t_level",
+                    (0, 1.6),
+                    "level on the meridian",
+                    "hemisphere_fronts",
+                ),
+                ("past", False, (-2.2, -1.4), "zw", (-0.8, -0.4), "level", "hemisphere_past_limit"),
+            )
+        ),
+    ),
+    checks=(
+        Claim(
+            "around_the_level",
+            "at low levels the hemisphere is wrinkled below and above the level",
+            tuple((BOWL, at(v)) for v in LEVELS),
+            around_the_level,
+        ),
+        Claim(
+            "taut_at_high_levels",
+            "at high levels nothing is wrinkled",
+            ((BOWL, HIGH), (BOWL, None)),
+            taut_at_high_levels,
+        ),
+        Claim(
+            "taut_ends",
+            "pole and equator are taut at every level",
+            tuple((BOWL, at(v)) for v in LEVELS),
+            taut_ends,
+        ),
+        Claim(
+            "limit",
+            "the branch has a highest level, beyond which an axisymmetric eigenvalue is negative",
+            ((BOWL, None),),
+            limit,
+        ),
+        Points(
+            "limit_point",
+            reference="hemisphere_limit",
+            base=BOWL,
+            parameters=(),
+            asked={"zw": 1e-7, "z_pole": 1e-6, "V": 1e-6},
+        ),
+    ),
+    asked={
+        "gw": 1e-6,
+        **dict.fromkeys(("z_pole", "lam_pole", "V", "t_level", "zw"), 1e-6),
+        "t_front_1": 1e-6,
+        "t_front_2": 1e-6,
+    },
+)

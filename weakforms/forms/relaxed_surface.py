@@ -1,0 +1,130 @@
+r"""A membrane of flat three-node triangles: stretches of each triangle, relaxed energy, load of a fluid.
+
+The reference surface is the mesh itself. With the Jacobian ``J = dX/dxi`` (3 x 2) of a triangle and the
+deformed tangents ``F = dx/dxi`` the reference and deformed metrics are ``G = J^T J`` and ``g = F^T F``, and
+
+.. math:: C = G^{-1} g
+
+has the trace, the determinant and the eigenvalues (squared principal stretches) of the surface's right
+Cauchy-Green tensor, whatever the frame (Patil, Nordmark & Eriksson 2016, section 2).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ufl import Jacobian, conditional, cross, det, dot, grad, gt, inv, sqrt, tr
+from ufl.core.expr import Expr
+
+from weakforms.forms.materials import mooney_rivlin
+from weakforms.forms.wrinkling import (
+    mooney_rivlin_invariants,
+    principal_stretches,
+    surface_tension_field,
+)
+
+MIDPOINTS = {
+    "quadrature_rule": "custom",
+    "quadrature_points": ((0.5, 0.0), (0.5, 0.5), (0.0, 0.5)),
+    "quadrature_weights": (1 / 6, 1 / 6, 1 / 6),
+    "quadrature_degree": 2,
+}
+"""Edge-midpoint rule on a triangle, exact for polynomials of degree 2: metadata of a measure."""
+
+TAUT, WRINKLED, SLACK = 1.0, 0.0, -1.0
+"""What :func:`state` says of a triangle."""
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Tangents of the reference and the deformed surface in the reference coordinates of a triangle."""
+
+    reference: Expr
+    """``J = dX/dxi``, 3 x 2."""
+    deformed: Expr
+    """``F = dx/dxi``, 3 x 2."""
+
+    @classmethod
+    def of(cls, position: Expr, domain: object) -> Patch:
+        """Tangents of a position over the reference surface ``domain`` (its mesh)."""
+        jacobian = Jacobian(domain)
+        return cls(jacobian, dot(grad(position), jacobian))
+
+    def cauchy_green(self) -> Expr:
+        """``G^{-1} g``, 2 x 2; it need not be symmetric."""
+        metric = dot(self.reference.T, self.reference)
+        return dot(inv(metric), dot(self.deformed.T, self.deformed))
+
+    def area_vector(self) -> Expr:
+        r"""Deformed normal times area per reference area, :math:`N = (x_{,1}\times x_{,2})/\sqrt{\det G}`.
+
+        It points to the side from which the triangle's vertices are seen counterclockwise.
+        """
+        area = sqrt(det(dot(self.reference.T, self.reference)))
+        return cross(self.deformed[:, 0], self.deformed[:, 1]) / area
+
+
+def relaxed_energy(c: Expr, c2: Expr | float) -> Expr:
+    r"""Relaxed Mooney-Rivlin energy over ``C1`` per reference volume, all states of the sheet.
+
+    .. math:: W = \begin{cases}
+        I + 1/D - 3 + c_2 (I/D + D - 3) & \lambda_1 \lambda_2^2 > 1 \text{ (taut)}\\
+        \lambda_1^2 + 2/\lambda_1 - 3 + c_2 (2\lambda_1 + \lambda_1^{-2} - 3) & \lambda_1 > 1
+        \text{ (wrinkled)}\\ 0 & \text{(slack)} \end{cases}
+
+    with :math:`I = \mathrm{tr}\,C`, :math:`D = \det C` and :math:`\lambda_1 \ge \lambda_2`, whichever way the
+    tension runs.
+    """
+    return surface_tension_field(
+        c,
+        lambda trace, area: mooney_rivlin_invariants(trace, area, c2),
+        lambda a, b: mooney_rivlin(a, b, c2),
+    )
+
+
+def full_energy(c: Expr, c2: Expr | float) -> Expr:
+    """The same without relaxation: compression is borne."""
+    return mooney_rivlin_invariants(tr(c), det(c), c2)
+
+
+def state(c: Expr) -> Expr:
+    """:data:`TAUT`, :data:`WRINKLED` or :data:`SLACK`, by the same conditions as the energy."""
+    l1, l2 = principal_stretches(c)
+    lax = conditional(gt(l1, 1), WRINKLED, SLACK)
+    return conditional(gt(det(c) * l2**2, 1), TAUT, lax)
+
+
+def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
+    r"""Potential :math:`\Phi` of a pressure that depends on the height, :math:`\Phi' = -P`.
+
+    .. math:: P = p + \gamma (z_w - z)_+, \qquad \Phi = -p z + \tfrac12 \gamma (z_w - z)_+^2
+
+    Its second derivative is a bounded step: differentiated twice, nothing is lost at the level.
+    """
+    return -p * z + conditional(gt(zw, z), gamma * (zw - z) ** 2 / 2, 0.0)
+
+
+def pressure_potential(z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
+    r"""Potential :math:`\Phi(z)\,N_z` of gas and liquid inside a surface, per reference area.
+
+    :math:`-\int P\,\mathrm dV = \oint \Phi N_z\,\mathrm dA` as :math:`\nabla\cdot(\Phi e_z) = -P`; what held
+    edges are closed with adds a constant. Exact for a polyhedron under gas; under a liquid up to quadrature.
+
+    Args:
+        z: Height.
+        normal: Outward normal times area per reference area.
+        p: Gas pressure.
+        zw: Level of the liquid.
+        gamma: Its weight.
+    """
+    return head(z, p, zw, gamma) * normal[2]
+
+
+def printed_potential(at: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
+    r"""The same by the horizontal flux, :math:`-\tfrac12 P (x N_x + y N_y)`, as the paper writes it.
+
+    The second variation of this one has a line term at the level, which differentiation of the
+    :func:`ufl.conditional` leaves out; it is for the sensitivity of a result to the choice only.
+    """
+    pressure = p + conditional(gt(zw, at[2]), gamma * (zw - at[2]), 0.0)
+    return -pressure * (at[0] * normal[0] + at[1] * normal[1]) / 2

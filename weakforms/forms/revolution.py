@@ -1,0 +1,164 @@
+r"""Second variation of a relaxed membrane of revolution, by wave number around its axis.
+
+The energy of the *perturbed* surface is written down, at an angle ``Theta``; everything else is its
+derivative. Being quadratic in ``cos(n Theta)`` and ``sin(n Theta)``, whose squares have the same mean and
+whose product has none, the second variation integrated over ``Theta`` is ``pi`` times the sum of its values
+at the two angles ``n Theta = 0`` and ``pi/2`` (:data:`ANGLES`).
+
+A perturbation is the vector ``u cos(n Theta) e_r + q sin(n Theta) e_theta + w cos(n Theta) e_z``; with the
+paper's angle ``v``, ``q = r v``. Both have the same second variation at an equilibrium, and this one is
+regular at a pole. Lengths over ``Ao``, energies over ``C1 h Ao^2`` (Patil, Nordmark & Eriksson 2016,
+J. Mech. Phys. Solids 94, 298-315).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ufl import as_matrix, conditional, diff, dot, sqrt, tr, variable
+from ufl.conditional import Condition
+from ufl.core.expr import Expr
+
+from weakforms.forms.fluid import Surface, harmonic, normal
+from weakforms.forms.wrinkling import COALESCENCE, Law, mooney_rivlin_invariants, relaxed
+
+ANGLES = ((1.0, 0.0), (0.0, 1.0))
+"""``(cos, sin)`` of the two angles that stand for the mean over ``Theta``."""
+
+
+def gradient_tensor(at: Surface, radius: Expr) -> Expr:
+    r"""Right Cauchy-Green tensor of a surface in the orthonormal frame of its reference, 2 x 2.
+
+    .. math:: C = \begin{pmatrix} g_{11} & g_{12}/R \\ g_{12}/R & g_{22}/R^2 \end{pmatrix}
+
+    Args:
+        at: The deformed surface.
+        radius: ``R(S)`` of the reference surface.
+    """
+    a, b = at.a, at.b / radius
+    return as_matrix([[dot(a, a), dot(a, b)], [dot(a, b), dot(b, b)]])
+
+
+def strain_energy(c: Expr, taut: Condition, law: Law, c2: Expr) -> Expr:
+    r"""Energy per reference volume over ``C1``: full where taut, relaxed with tension along 1 elsewhere.
+
+    .. math:: U_F = I + 1/D - 3 + a\,(I/D + D - 3), \qquad U_R = w(\lambda_1, \lambda_1^{-1/2})
+
+    with ``I = tr C``, ``D = det C``: the taut state needs no principal stretches and is smooth where they
+    coincide. Where a point is taut is *given*: a front that moves with the perturbation changes the energy at
+    third order only, because its first derivatives are continuous there. :data:`COALESCENCE` keeps what is
+    not used finite where the stretches coincide, and changes the rest by its square.
+
+    Args:
+        c: Right Cauchy-Green tensor, :func:`gradient_tensor`.
+        taut: Where it is taut, held fixed.
+        law: Mooney-Rivlin energy as a function of the principal stretches ...
+        c2: ... with this ``C2/C1``.
+    """
+    area = c[0, 0] * c[1, 1] - c[0, 1] ** 2
+    spread = sqrt((c[0, 0] - c[1, 1]) ** 2 + 4 * c[0, 1] ** 2 + COALESCENCE**2)
+    stretch = sqrt((tr(c) + spread) / 2)
+    return conditional(taut, mooney_rivlin_invariants(tr(c), area, c2), relaxed(law)(stretch))
+
+
+def gas_energy(at: Surface, p: Expr) -> Expr:
+    r"""Potential of a gas, :math:`-\tfrac12 p\,(x e_x + y e_y)\cdot N`: minus pressure times volume."""
+    out = normal(at)
+    return -p * (at.x[0] * out[0] + at.x[1] * out[1]) / 2
+
+
+def liquid_energy(at: Surface, level: Expr, gamma: Expr, wet: Condition) -> Expr:
+    r"""Potential of a liquid of a given level, up to a constant (the edges being held).
+
+    .. math:: \Phi(z)\, N_z, \qquad \Phi = \tfrac12\gamma\,(z_w - z)_+^2,
+              \qquad N_z = -r\,(r'\theta_{,\Theta} - r_{,\Theta}\theta')
+
+    It has two derivatives in ``z`` but for a step. The printed form ``-p(z) r^2 z'/2`` has a kink there, and
+    differentiated twice it needs a line term at the free surface, which is lost in the paper's equations 22
+    to 25 as in automatic differentiation.
+
+    Args:
+        at: The deformed surface.
+        level: Level ``z_w``.
+        gamma: ``rho g Ao^2/(C1 h)``.
+        wet: Where it is wet, held fixed.
+    """
+    return conditional(wet, gamma, 0.0) * (level - at.x[2]) ** 2 / 2 * normal(at)[2]
+
+
+def around(base: Surface, parts: tuple[Expr, ...], slopes: tuple[Expr, ...], n: Expr) -> list[Surface]:
+    """A surface of revolution displaced by a harmonic, at both of the :data:`ANGLES`.
+
+    Args:
+        base: The axisymmetric surface.
+        parts: ``(u, q, w)`` over ``S``.
+        slopes: Their derivatives.
+        n: Wave number; any real number.
+    """
+    return [base + harmonic(parts, slopes, n, c, s) for c, s in ANGLES]
+
+
+def second_order(energy: Callable[[Expr], Expr], zero: Expr) -> Expr:
+    r"""Second derivative at 0 of an energy along a *given* perturbation, :math:`\mathrm d^2/\mathrm de^2`.
+
+    Args:
+        energy: Of the amplitude ``e``.
+        zero: A constant that is 0, in the place of ``e``.
+    """
+    e = variable(zero)
+    return diff(diff(energy(e), e), e)
+
+
+def hoop_bending(base: Surface, parts: tuple[Expr, ...], slopes: tuple[Expr, ...], n: Expr) -> Expr:
+    r"""Change of the circumferential curvature to first order, over the reference metric.
+
+    .. math:: k_{22} = \frac{ z_0'\big[-(n^2+1)u - 2nq + \tfrac{r_0 r_0'}{j^2} u'\big]
+              - r_0'\big[-n^2 w + \tfrac{r_0 r_0'}{j^2} w'\big] }{j}, \qquad j = \lambda_1
+
+    times :math:`\cos n\Theta / R^2`, the factor :math:`R^{-2}` left to the caller. It holds first derivatives
+    only. A sheet with the energy :math:`\tfrac12\int D k_{22}^2` of this *incremental* curvature has the
+    membrane's own equilibrium.
+
+    Args:
+        base: The axisymmetric surface.
+        parts: ``(u, q, w)`` over ``S``.
+        slopes: Their derivatives.
+        n: Wave number.
+    """
+    (u, q, w), (u_s, _, w_s) = parts, slopes
+    r, r_s, z_s = base.x[0], base.a[0], base.a[2]
+    square = r_s**2 + z_s**2
+    turn = r * r_s / square
+    radial = -(n**2 + 1) * u - 2 * n * q + turn * u_s
+    axial = -(n**2) * w + turn * w_s
+    return (z_s * radial - r_s * axial) / square**0.5
+
+
+def meridional_bending(
+    base: Surface, parts: tuple[Expr, ...], slopes: tuple[Expr, ...], second: tuple[Expr, ...], n: Expr
+) -> tuple[Expr, Expr, Expr]:
+    r"""Changes of meridional curvature and twist to first order, and the meridian's rotation.
+
+    .. math:: k_{11} = \frac{z_0'(u'' - \tfrac{j'}{j} u') - r_0'(w'' - \tfrac{j'}{j} w')}{j}, \quad
+              R\,k_{12} = \frac{z_0'\big[-n u' - q' + \tfrac{r_0'}{r_0}(n u + q)\big]
+              - r_0'\big[-n w' + \tfrac{r_0'}{r_0} n w\big]}{j}, \quad
+              \varphi = \frac{z_0' u' - r_0' w'}{j}
+
+    times ``cos``, ``sin`` and ``cos`` of ``n Theta``; the factor ``1/R`` of the twist is left to the caller.
+
+    Args:
+        base: The axisymmetric surface.
+        parts: ``(u, q, w)`` over ``S``.
+        slopes: Their derivatives.
+        second: ``(r0'', z0'', u'', w'')``.
+        n: Wave number.
+    """
+    (u, q, w), (u_s, q_s, w_s) = parts, slopes
+    r, r_s, z_s = base.x[0], base.a[0], base.a[2]
+    r_ss, z_ss, u_ss, w_ss = second
+    j = sqrt(r_s**2 + z_s**2)
+    stretching = (r_s * r_ss + z_s * z_ss) / j**2
+    k11 = (z_s * (u_ss - stretching * u_s) - r_s * (w_ss - stretching * w_s)) / j
+    turn = r_s / r
+    twist = z_s * (-n * u_s - q_s + turn * (n * u + q)) - r_s * (-n * w_s + turn * n * w)
+    return k11, twist / j, (z_s * u_s - r_s * w_s) / j

@@ -1,0 +1,110 @@
+"""Whether a triangulation is a surface that a membrane of revolution can be made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from weakforms.errors import InputError
+
+Refuse = Callable[[str], None]
+
+COINCIDENT = 1e-6
+"""Distance, over the size of the surface, within which two nodes are the same point."""
+
+FLAT = 1e-12
+"""Area of a triangle, over the square of the surface's size, that is none."""
+
+ROUND = 1e-3
+"""Spread of radius and height of an edge, over the size of the surface, up to which it is a circle."""
+
+
+def edges_of(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges as pairs of nodes in ascending order, ``(k, 2)``, and how many triangles each has."""
+    return np.unique(np.sort(_directed(triangles), axis=1), axis=0, return_counts=True)
+
+
+def _directed(triangles: np.ndarray) -> np.ndarray:
+    return np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+
+
+def require_surface(points: np.ndarray, triangles: np.ndarray, name: str) -> None:
+    """Refuse what is no connected, oriented surface whose edges are circles about the ``z`` axis.
+
+    Args:
+        points: Nodes, ``(n, 3)``, each of them used.
+        triangles: ``(m, 3)``.
+        name: Of the file, for the message.
+
+    Raises:
+        InputError: Naming what is wrong, where, and what is allowed.
+    """
+
+    def refuse(what: str) -> None:
+        raise InputError(f"surface: geometry = {name}: {what}")
+
+    if not np.isfinite(points).all():
+        refuse("a coordinate is not a finite number")
+    size = float(np.ptp(points, axis=0).max())
+    pairs = cKDTree(points).query_pairs(COINCIDENT * size, output_type="ndarray")
+    if len(pairs):
+        a, b = pairs[0]
+        refuse(f"{len(pairs)} duplicate nodes, the first {_at(points[b])} ({a} and {b}); merge them")
+    _require_triangles(points, triangles, size, refuse)
+    edges, count = edges_of(triangles)
+    if count.max() > 2:
+        a, b = edges[np.argmax(count)]
+        refuse(
+            f"not a manifold: the edge from {_at(points[a])} to {_at(points[b])} has {count.max()} "
+            "triangles; allowed: 1 or 2"
+        )
+    directed, times = np.unique(_directed(triangles), axis=0, return_counts=True)
+    if times.max() > 1:
+        a, b = directed[np.argmax(times)]
+        refuse(
+            f"{np.sum(times > 1)} edges are passed in the same direction by both their triangles, the first "
+            f"{_at(points[a])}; orient all triangles alike"
+        )
+    graph = coo_matrix((np.ones(len(edges)), edges.T), shape=(len(points),) * 2)
+    parts, _ = connected_components(graph, directed=False)
+    if parts > 1:
+        refuse(f"it has {parts} parts that do not hang together; allowed: 1")
+    _require_clamped(points, edges[count == 1], size, refuse)
+
+
+def _require_triangles(points: np.ndarray, triangles: np.ndarray, size: float, refuse: Refuse) -> None:
+    same = len(triangles) - len(np.unique(np.sort(triangles, axis=1), axis=0))
+    if same:
+        refuse(f"{same} duplicate triangles; allowed: none")
+    corners = points[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    flat = np.flatnonzero(np.linalg.norm(normal, axis=1) < 2 * FLAT * size**2)
+    if len(flat):
+        refuse(f"{len(flat)} triangles without area, the first {_at(corners[flat[0], 0])}; allowed: none")
+
+
+def _require_clamped(points: np.ndarray, boundary: np.ndarray, size: float, refuse: Refuse) -> None:
+    """Every edge of the surface is a circle about the axis, and there are one or two."""
+    if not len(boundary):
+        refuse("it is closed and has no edge to be clamped at; allowed: one or two edges")
+    nodes, ends = np.unique(boundary, return_inverse=True)
+    graph = coo_matrix((np.ones(len(boundary)), ends.reshape(-1, 2).T), shape=(len(nodes),) * 2)
+    parts, which = connected_components(graph, directed=False)
+    if parts > 2:
+        refuse(f"it has {parts} edges; allowed: one or two")
+    for part in range(parts):
+        x, y, z = points[nodes[which == part]].T
+        spread = max(np.ptp(np.hypot(x, y)), np.ptp(z)) / size
+        if spread > ROUND:
+            refuse(
+                f"an edge is no circle about the z axis: its radius or height varies by {spread:.1e} "
+                f"of the size; allowed: {ROUND:g}"
+            )
+
+
+def _at(point: np.ndarray) -> str:
+    return "at ({:.6g}, {:.6g}, {:.6g})".format(*point)
