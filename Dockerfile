@@ -1,7 +1,8 @@
 # Three stages:
 #   deps   Debian's DOLFINx, PETSc, SLEPc and the ordinary Python packages; no line of this tree.
 #          `./run` works in it with the tree mounted. Its tag is a hash of the text of this stage.
-#   lint   deps and ruff, which Debian does not have; only `./run lint` needs it.
+#   lint   deps, a browser that opens and prints the report, and ruff, which Debian does not have;
+#          only `./run test`, `./run lint` and `./run report --pdf` need it.
 #   final  deps and this package, with a warm JIT cache: `docker run IMAGE verify`.
 
 FROM debian:trixie-slim AS deps
@@ -48,6 +49,12 @@ ENV WEAKFORMS_IN_IMAGE=1 \
     PRTE_MCA_hwloc_default_binding_policy=none
 
 FROM deps AS lint
+RUN apt-get -o Acquire::Retries=3 update \
+ && DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 install -y --no-install-recommends \
+        chromium-headless-shell \
+ && apt-get clean \
+ && rm -rf /var/lib/apt/lists/*
+
 # A certificate bundle may be handed in for networks that have their own authority.
 RUN --mount=type=secret,id=ca,target=/run/secrets/ca \
     if [ -s /run/secrets/ca ]; then export PIP_CERT=/run/secrets/ca; fi; \

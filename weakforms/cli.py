@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from weakforms.errors import InputError
-from weakforms.terminal import complain, console, guarded, print_json, progress_bar, rank, request
+from weakforms.terminal import complain, console, guarded, pairs, print_json, progress_bar, rank, request
 
 app = typer.Typer(
     name="weakforms",
@@ -112,7 +112,9 @@ def solve(
 @app.command()
 def shape(
     result: Annotated[Path, typer.Argument(metavar="RESULT.json", help="What solve --out wrote.")],
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="The shape: .vtu (with its fields) or .stl.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="The shape: .vtu or .xdmf (with fields), or .stl.")
+    ],
     branch: Annotated[str, typer.Option(help="Of a state on which branch; default: any.")] = "",
     state: Annotated[int, typer.Option(min=1, help="Which of them.")] = 1,
 ) -> None:
@@ -124,7 +126,7 @@ def shape(
     require_shape_name(file)
     shown = shown_state(load_result(result), branch, state)
     require_place_for(file)
-    write_shape(file, shown.fields[0])
+    write_shape(file, *shown.fields)
 
 
 @app.command()
@@ -171,16 +173,25 @@ def verify(
 def report(
     folder: Annotated[Path, typer.Argument(help="Output folder of a run.")],
     out: Annotated[Path | None, typer.Option(help="Folder for the report; default: its old place.")] = None,
+    as_pdf: Annotated[
+        bool, typer.Option("--pdf", help="Print it as report.pdf as well; a browser does that.")
+    ] = False,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
+    from weakforms.verification import pdf
     from weakforms.verification.report import load_run, write_report
     from weakforms.verification.summary import print_summary
 
+    if as_pdf:
+        pdf.browser()
     stored = folder / "report" if os.path.isdir(folder / "report") else folder
     run = load_run(stored)
-    page = write_report(run, out or stored)
+    written = [write_report(run, out or stored)]
+    if as_pdf:
+        written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))
     print_summary(run, console())
-    console().print(f"report: {page}", soft_wrap=True)
+    for path in written:
+        console().print(f"report: {path}", soft_wrap=True)
 
 
 @app.command()
@@ -192,13 +203,33 @@ def compare(
         float | None,
         typer.Option(help="Relative accuracy the curve claims; default: what the case asks."),
     ] = None,
+    names: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--map", metavar="OURS=THEIRS", help="A column's name in the file, where it is another."
+        ),
+    ] = None,
+    constants: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--constant", metavar="NAME=VALUE", help="Radius, modulus, thickness of a curve with units."
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for verdicts.json, the pictures and a page of both.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Hold somebody else's curve against the reference."""
     from weakforms.verification.catalogue import print_verdicts
     from weakforms.verification.compare import compare as compare_curve
 
-    verdicts = compare_curve(case, file, curve, accuracy)
+    given = dict(pairs("--map", names)), dict(pairs("--constant", constants))
+    verdicts = compare_curve(case, file, curve, accuracy, *given)
+    if out is not None:
+        from weakforms.verification.verdict_page import write_verdicts
+
+        write_verdicts(verdicts, out)
     if as_json:
         print_json(verdicts.to_json())
     else:
@@ -208,26 +239,83 @@ def compare(
 
 
 @app.command()
-def bench(as_json: Json = False) -> None:
-    """Time and memory by stage, for fixed problems."""
-    from weakforms.verification.bench import print_bench, run_bench
+def batch(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder of request files, *.json.")],
+    out: Annotated[Path | None, typer.Option(help="Folder for the answers; default: DIR/results.")] = None,
+    resume: Resume = False,
+) -> None:
+    """Answer a folder of requests: solutions and verdicts, one file each."""
+    from weakforms.verification.requests import run_batch
 
     with progress_bar() as progress:
-        table = run_bench(progress)
+        answers = run_batch(folder, out, resume, rank() == 0, progress)
+    for found in answers if rank() == 0 else ():
+        console().print(
+            f"{found.name}: {found.status} {found.message}".rstrip(), markup=False, soft_wrap=True
+        )
+    worst = max(found.status for found in answers)
+    if worst:
+        raise typer.Exit(worst)
+
+
+@app.command()
+def bench(
+    only: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Only this problem; may be repeated.")
+    ] = None,
+    cold: Annotated[bool, typer.Option(help="Start without compiled forms too; takes minutes.")] = True,
+    as_json: Json = False,
+    surface: Annotated[
+        int, typer.Option(min=0, max=2_000_000, help="Refine the triangulated tube up to so many unknowns.")
+    ] = 0,
+) -> None:
+    """Time and memory by stage for fixed problems, cold and warm."""
+    from weakforms import api
+    from weakforms.verification.bench import print_bench, run_bench
+    from weakforms.verification.bench_surface import print_surface_bench, run_surface_bench
+
+    api.require_environment()
+    with progress_bar() as progress:
+        if surface:
+            table = run_surface_bench(surface, progress)
+        else:
+            table = run_bench(progress, tuple(only or ()), cold)
     if rank() != 0:
         return
     if as_json:
         print_json(table)
+    elif surface:
+        print_surface_bench(table, console())
     else:
         print_bench(table, console())
 
 
+@app.command()
+def docs(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the pages.")] = Path("out/docs"),
+    jobs: Jobs = 1,
+    pictures: Annotated[bool, typer.Option(help="Solve the problems' examples for their pictures.")] = True,
+) -> None:
+    """Write the documentation as static pages: guides, a page a problem, cases, API."""
+    from weakforms import api
+
+    api.require_environment()
+    from weakforms.docs.site import write_docs
+
+    with progress_bar() as progress:
+        page = write_docs(out, jobs, pictures, lambda done, total, what: progress(what, done, total))
+    console().print(f"documentation: {page}", soft_wrap=True)
+
+
 @app.command(hidden=True)
 def warm() -> None:
-    """Compile every form once, so that the image holds a warm cache."""
-    from weakforms.verification.bench import run_bench
+    """Solve the problems of the benchmark once, so that the image holds their compiled forms."""
+    import time
 
-    run_bench()
+    from weakforms.verification.bench import measure
+
+    for name in ("tube", "bent", "surface-small"):
+        measure(name, time.time(), only_start=True)
 
 
 # -- shared by the verbs -------------------------------------------------------------------------
@@ -241,17 +329,21 @@ def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int
 
     api.require_environment()
     first = rank() == 0
-    with progress_bar() as progress:
-        run = runner.verify(
-            cases,
-            out,
-            profile,
-            selection,
-            jobs=jobs,
-            resume=resume,
-            writes=first,
-            report=lambda done, total, what: progress(what, done, total),
-        )
+    try:
+        with progress_bar() as progress:
+            run = runner.verify(
+                cases,
+                out,
+                profile,
+                selection,
+                jobs=jobs,
+                resume=resume,
+                writes=first,
+                report=lambda done, total, what: progress(what, done, total),
+            )
+    except KeyboardInterrupt:
+        complain("interrupted; the same with --resume goes on from what is solved")
+        raise typer.Exit(130) from None
     if first:
         page = write_report(run, out / "report")
         print_summary(run, console())

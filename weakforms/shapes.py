@@ -1,4 +1,4 @@
-"""Deformed shapes as files other tools read, by meshio: VTU with the fields on it, or STL."""
+"""Deformed shapes as files other tools read, by meshio: VTU or XDMF with the fields on it, or STL."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ from weakforms.results.model import State
 if TYPE_CHECKING:
     import meshio
 
-SUFFIXES = (".vtu", ".stl")
+SUFFIXES = (".vtu", ".xdmf", ".stl")
+
+TRIANGLES = "triangles"
+"""Field that says which points of the field before it are corners of triangles."""
 
 TURNS = 73
 """Meridians of a surface of revolution, the first and last the same."""
@@ -29,7 +32,7 @@ def require_shape_name(path: Path) -> None:
         InputError: When it does not.
     """
     if Path(path).suffix.lower() not in SUFFIXES:
-        raise InputError(f"cannot write a shape to {path}: the name must end in {' or '.join(SUFFIXES)}")
+        raise InputError(f"cannot write a shape to {path}: the name must end in {', '.join(SUFFIXES)}")
 
 
 def shown_state(result: Result, branch: str = "", number: int = 1) -> State:
@@ -61,7 +64,7 @@ def _meshio():  # noqa: ANN202
 def surface(field: Field) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """A profile as a surface in space.
 
-    A field with ``x, y, z`` over ``Z, Theta`` covers half the circumference and is mirrored in the plane
+    A field with ``x, y, z`` over ``Z, Theta`` that covers half the circumference is mirrored in the plane
     ``y = 0``; a meridian ``r, z`` or ``rho, eta`` is revolved about the axis.
 
     Returns:
@@ -102,9 +105,20 @@ def _revolved(
     return points, rest | {"Theta": np.tile(theta, (len(r), 1))}
 
 
-def shape_mesh(field: Field) -> meshio.Mesh:
-    """The surface as a mesh of quadrilaterals, normals outwards, with the profile's columns at its points."""
+def shape_mesh(field: Field, *more: Field) -> meshio.Mesh:
+    """The surface as a mesh, normals outwards, with the profile's columns at its points.
+
+    Of triangles where a field of that name says which (``a, b, c``; its other columns are theirs), else of
+    quadrilaterals.
+    """
     meshio = _meshio()
+    cells = next((f.columns for f in more if f.name == TRIANGLES), None)
+    if cells is not None:
+        points = np.column_stack([field.columns[name] for name in "xyz"])
+        data = {name: values for name, values in field.columns.items() if name not in "xyz"}
+        corners = np.column_stack([cells[name] for name in "abc"]).astype(int)
+        rest = {name: [np.asarray(v, float)] for name, v in cells.items() if name not in ("a", "b", "c")}
+        return meshio.Mesh(points, [("triangle", corners)], data, rest)
     points, data = surface(field)
     rows, meridians = points.shape[:2]
     index = np.arange(rows * meridians).reshape(rows, meridians)
@@ -115,8 +129,8 @@ def shape_mesh(field: Field) -> meshio.Mesh:
     )
 
 
-def write_shape(path: Path, field: Field) -> None:
-    """Write a deformed shape: ``.vtu`` with its fields, ``.stl`` as triangles.
+def write_shape(path: Path, field: Field, *more: Field) -> None:
+    """Write a deformed shape: ``.vtu`` or ``.xdmf`` with its fields, ``.stl`` as triangles.
 
     The file appears under its name only when complete.
 
@@ -125,15 +139,45 @@ def write_shape(path: Path, field: Field) -> None:
     """
     path = Path(path)
     require_shape_name(path)
-    meshio, mesh = _meshio(), shape_mesh(field)
-    if path.suffix.lower() == ".stl":
-        quads = mesh.cells_dict["quad"]
-        triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    meshio, mesh = _meshio(), shape_mesh(field, *more)
+    suffix = path.suffix.lower()
+    if suffix == ".stl":
+        quads = mesh.cells_dict.get("quad", np.empty((0, 4), dtype=int))
+        whole = mesh.cells_dict.get("triangle", np.empty((0, 3), dtype=int))
+        triangles = np.vstack([whole, quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
         mesh = meshio.Mesh(mesh.points, [("triangle", triangles)])
     try:
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
-            written = Path(folder) / f"shape{path.suffix.lower()}"
-            mesh.write(written, binary=True)
+            written = Path(folder) / f"shape{suffix}"
+            if suffix == ".xdmf":
+                written.write_text(xdmf(mesh), encoding="utf-8")
+            else:
+                mesh.write(written, binary=True)
             os.replace(written, path)
     except OSError as error:
         raise InputError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def xdmf(mesh: meshio.Mesh) -> str:
+    """A mesh of one kind of cell as XDMF with its numbers in the text: one file, and no HDF5 needed."""
+    (block,) = mesh.cells
+    count = len(block.data)
+    shape = {"triangle": "Triangle", "quad": "Quadrilateral"}[block.type]
+
+    def item(values: np.ndarray) -> str:
+        kind = 'Int" Precision="8' if values.dtype.kind in "iu" else 'Float" Precision="8'
+        rows = "\n".join(" ".join(repr(v) for v in row) for row in values.reshape(len(values), -1).tolist())
+        size = " ".join(str(n) for n in values.shape)
+        return f'<DataItem Format="XML" NumberType="{kind}" Dimensions="{size}">\n{rows}\n</DataItem>'
+
+    def attribute(name: str, values: np.ndarray, centre: str) -> str:
+        return f'<Attribute Name="{name}" AttributeType="Scalar" Center="{centre}">{item(values)}</Attribute>'
+
+    parts = [
+        '<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="surface" GridType="Uniform">',
+        f'<Geometry GeometryType="XYZ">{item(np.asarray(mesh.points, float))}</Geometry>',
+        f'<Topology TopologyType="{shape}" NumberOfElements="{count}">{item(block.data)}</Topology>',
+        *(attribute(name, np.asarray(v, float), "Node") for name, v in mesh.point_data.items()),
+        *(attribute(name, np.asarray(v[0], float), "Cell") for name, v in mesh.cell_data.items()),
+    ]
+    return "\n".join([*parts, "</Grid></Domain></Xdmf>\n"])

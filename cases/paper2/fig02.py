@@ -136,6 +136,9 @@ CASE = Case(
                 *((MR[d], At("u_max", 3.0)) for d in STRETCHES),
             ),
             curves_cross,
+            differs="the text says that the tube softens with pre-stretch before and after the limit point; "
+            "past the steep part of its branch the Mooney-Rivlin tube stiffens, and the curves of the "
+            "paper's own panel (b) cross",
         ),
         Claim(
             "states_at_1.9",

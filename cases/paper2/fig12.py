@@ -72,6 +72,8 @@ CASE = Case(
             "in deflation |f_t| at the front decreases with p to about p = 0.3, then turns up slightly",
             ((BONDED, None),),
             turns_up,
+            differs="the text has the adhesive traction decrease with the pressure in deflation; below about "
+            "p = 0.3 it turns up again",
         ),
         Claim("same_order", "f_t and f_k are of the same order", ((STICK, At("p", 3.0)),), same_order),
         Claim(

@@ -78,6 +78,9 @@ CASE = Case(
             "with the spring of equation (9) the line force rises monotonically as p falls",
             tuple((BONDED[s], None) for s in SETS),
             rises_bilateral,
+            differs="the text remarks that the line force of the unstretched tube begins to fall at low "
+            "pressure; with the spring of the paper's equation (9) it rises all the way, and it falls "
+            "only with a spring that pushes but does not pull",
         ),
         Claim(
             "falls_unilateral",

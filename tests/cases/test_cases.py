@@ -4,6 +4,7 @@ All cases are solved once a session, by the code path of ``weakforms verify``.
 """
 
 import fcntl
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -30,7 +31,7 @@ def checks_of(found: FoundCase) -> list[str]:
 
 def items(names: bool) -> Iterable[object]:
     for found in CASES:
-        marks = getattr(pytest.mark, f"paper{found.paper}")
+        marks = getattr(pytest.mark, found.group)
         for name in checks_of(found) if names else [""]:
             ident = f"{found.id}:{name}" if name else found.id
             yield pytest.param(found.id, *[name] * names, marks=marks, id=ident)
@@ -46,7 +47,8 @@ def run(request, tmp_path_factory) -> RunOutcome:
     out = shared / "cases"
     with (shared / "cases.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        return verify([c for c in CASES if c.id in wanted - set(UNSOUND)], out, "full", "pytest", resume=True)
+        chosen = [c for c in CASES if c.id in wanted - set(UNSOUND)]
+        return verify(chosen, out, "full", "pytest", jobs=len(os.sched_getaffinity(0)), resume=True)
 
 
 def callspec(item: pytest.Item) -> dict:

@@ -276,6 +276,13 @@ def test_ruff_is_pinned_once(machine):
     assert machine.tag().startswith("weakforms-lint:")
 
 
+@pytest.mark.parametrize(("words", "stage"), [(["--pdf"], "lint"), ([], "deps")])
+def test_only_printing_the_report_needs_the_browser(machine, words, stage):
+    machine.put("docker", status_of_run(0))
+    assert machine.run("report", "out", *words).returncode == 0
+    assert machine.tag().startswith(f"weakforms-{stage}:")
+
+
 def test_image_builds_the_final_stage(machine):
     machine.put("docker")
     assert machine.run("image").returncode == 0

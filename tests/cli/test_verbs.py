@@ -4,7 +4,6 @@ import csv
 import io
 import json
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,7 +17,7 @@ from weakforms.problems import registry
 from weakforms.problems import tube as tube_module
 from weakforms.results import load_result, validate
 from weakforms.solvers.continuation import StepControl
-from weakforms.verification import catalogue, discovery, references, runner
+from weakforms.verification import references
 from weakforms.verification.compare import interpolated
 
 TUBE = ("solve", "tube", "--set", "contact=none", "--set", "alpha=0.1", "--set", "delta1=1.1")
@@ -27,60 +26,6 @@ SHORT = ("--set", "u_end=0.5", *COARSE)
 CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
 HARD = "solve tube --set alpha=0 --set lf=20 --set u_end=3 --mesh degree=1 --mesh cells=8 --mesh levels=2"
 """Two coarse meshes of linear elements on a long tube: spurious limit points, and no end in sight."""
-
-TINY = '''"""Two short branches."""
-from weakforms import At, Axis, Case, Claim, Curve, Panel, tube
-
-ONE, TWO = (tube(delta1=d, u_end=0.3).on(cells=16, levels=2) for d in (1.5, 2))
-
-def wider(solutions):
-    u = [solutions.value(spec, At("p", 0.5), "u_max") for spec in (ONE, TWO)]
-    return u[0] < u[1], f"{u}"
-
-CASE = Case(
-    title="tiny",
-    source="tests",
-    panels=(Panel("a", x=Axis("p", 0, 2), y=Axis("u_max", 0, 1), curves=(Curve(ONE, "1.5"),)),),
-    checks=(Claim("wider", "is wider", ((ONE, At("p", 0.5)), (TWO, At("p", 0.5))), wider),),
-)
-'''
-
-
-@pytest.fixture
-def tiny(tmp_path, monkeypatch):
-    """A tree whose only case solves in a tenth of a second; returns how to change the case."""
-    path = tmp_path / "cases" / "paper2" / "tiny.py"
-    path.parent.mkdir(parents=True)
-    find = discovery.find_cases
-
-    def write(old: str = "", new: str = "") -> None:
-        assert old in TINY
-        path.write_text(TINY.replace(old, new) if old else TINY)
-        find.cache_clear()
-
-    write()
-    for module in (discovery, catalogue):
-        monkeypatch.setattr(module, "find_cases", lambda: find(tmp_path))
-    yield write
-    find.cache_clear()
-
-
-@pytest.fixture
-def solved(monkeypatch):
-    """Specs that the runner solves in this process."""
-    seen, right = [], runner.solve_spec
-
-    def counted(spec: object, states: list) -> object:
-        seen.append(str(spec))
-        return right(spec, states)
-
-    monkeypatch.setattr(runner, "solve_spec", counted)
-    return seen
-
-
-def die(*_: object) -> None:
-    """What a solving process does when the machine runs out of memory."""
-    os._exit(9)
 
 
 def shell(*words: str, before: str = "pass", **options: object) -> subprocess.CompletedProcess:
@@ -258,101 +203,6 @@ def test_a_state_that_is_not_there_is_named_with_the_range(weakforms):
     assert called.err.count("\n") == 1
 
 
-# -- check, verify, report -----------------------------------------------------------------------
-
-
-def test_verify_writes_the_report_and_resume_solves_nothing(weakforms, tiny, solved, tmp_path):
-    out = tmp_path / "out"
-    called = weakforms("verify", "-k", "tiny and not fig", "--out", out)
-    assert called.status == 0
-    assert "PASSED: the only check holds" in called.out
-    assert len(solved) == 2
-    assert {p.name for p in (out / "report").iterdir()} == {"index.html", "junit.xml", "report.json"}
-    before = {p: p.read_bytes() for p in (out / "solutions").iterdir()}
-    assert len(before) == 2
-
-    solved.clear()
-    assert weakforms("verify", "-k", "tiny", "--resume", "--out", out).status == 0
-    assert solved == []
-
-    cut, whole = sorted(before)
-    cut.write_bytes(before[cut][:400])
-    assert weakforms("check", "paper2.tiny", "paper2.tiny", "--resume", "--out", out).status == 0
-    assert len(solved) == 1
-    assert whole.read_bytes() == before[whole]
-    assert json.loads(cut.read_text())["branches"] == json.loads(before[cut])["branches"]
-
-    solved.clear()
-    assert weakforms("verify", "--profile", "quick", "--out", out).status == 0
-    assert len(solved) == 2  # without --resume everything is solved again
-
-
-def test_report_is_rebuilt_without_solving(weakforms, tiny, tmp_path, monkeypatch):
-    out = tmp_path / "out"
-    weakforms("check", "paper2.tiny", "--out", out)
-    page = (out / "report" / "index.html").read_bytes()
-    shutil.rmtree(out / "solutions")
-    for module, name in ((api, "solve_requests"), (runner, "verify"), (discovery, "find_cases")):
-        monkeypatch.delattr(module, name)
-    called = weakforms("report", out, "--out", tmp_path / "again")
-    assert called.status == 0
-    assert "PASSED" in called.out
-    assert (tmp_path / "again" / "index.html").read_bytes() == page
-    assert weakforms("report", out / "report").status == 0
-
-
-def test_jobs_give_the_same_numbers(weakforms, tiny, tmp_path):
-    def numbers(*options: str) -> list[str]:
-        out = tmp_path / f"out{len(options)}"
-        assert weakforms("verify", *options, "--out", out).status == 0
-        data = json.loads((out / "report" / "report.json").read_text())
-        return [v["detail"] for case in data["cases"] for v in case["verdicts"]]
-
-    assert numbers() == numbers("-j", "2")
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "status", "said"),
-    [
-        ("u[0] < u[1]", "u[1] < u[0]", 1, "failed"),
-        ("u[0] < u[1]", "u[2] > 0", 1, "could not be judged: IndexError"),
-        ('Axis("p", 0', 'Axis("nope", 0', 1, "could not be judged: KeyError"),
-        ("checks=(Cl", "checks=() and (Cl", 1, "failed without a failed check"),
-        ('At("p", 0.5)), (T', 'At("p", 7)), (T', 3, "p = 7 is crossed 0 times"),
-    ],
-)
-def test_a_case_that_does_not_hold(weakforms, tiny, tmp_path, old, new, status, said):
-    tiny(old, new)
-    called = weakforms("verify", "--out", tmp_path / "out")
-    assert (called.status, called.err) == (status, "")
-    assert said in " ".join(called.out.split())
-    assert (tmp_path / "out" / "report" / "index.html").exists()
-
-
-def test_a_solve_that_fails_leaves_the_others(weakforms, tiny, tmp_path, monkeypatch):
-    right = runner.solve_spec
-
-    def first_fails(spec: object, states: list) -> object:
-        if dict(spec.parameters)["delta1"] == 1.5:
-            raise ConvergenceError("stalled at p = 0.1")
-        return right(spec, states)
-
-    monkeypatch.setattr(runner, "solve_spec", first_fails)
-    called = weakforms("verify", "--out", tmp_path / "out")
-    assert called.status == 3
-    assert "stalled at p = 0.1" in called.out
-    data = json.loads((tmp_path / "out" / "report" / "report.json").read_text())
-    assert [(v["check"], v["passed"]) for v in data["cases"][0]["verdicts"]] == [("claim:wider", False)]
-    assert len(list((tmp_path / "out" / "solutions").iterdir())) == 1
-
-
-def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "_task", die)
-    called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
-    assert (called.status, called.err.count("\n")) == (4, 1)
-    assert "a process that was solving died" in called.err
-
-
 # -- compare -------------------------------------------------------------------------------------
 
 
@@ -498,16 +348,3 @@ def test_reader_that_closes_the_pipe_is_no_crash():
     finally:
         os.close(writing)
     assert (done.returncode, done.stderr) == (2, "weakforms: cannot write to standard output: Broken pipe\n")
-
-
-def test_bench_has_its_stages(weakforms, monkeypatch):
-    from weakforms.verification import bench
-
-    monkeypatch.setattr(bench, "CELLS", 16)
-    called = weakforms("bench", "--json")
-    data = json.loads(called.out)
-    stages = {row["stage"]: row for row in data["rows"]}
-    assert (called.status, data["ranks"]) == (0, 1)
-    assert stages["branch, warm"]["points"] > 50
-    assert all(row["seconds"] >= 0 for row in data["rows"])
-    assert "fold line, first" in weakforms("bench").out

@@ -31,6 +31,7 @@ MAY = {
         "scipy",
         "pydantic",
         "gmsh",
+        "meshio",
         "weakforms.problems",
         "weakforms.forms",
         "weakforms.solvers",

@@ -20,6 +20,15 @@ class Parameters(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True)
 
+    @classmethod
+    def further(cls) -> frozenset[str]:
+        """Names that may be given besides the fields' own."""
+        return frozenset()
+
+
+class TogetherError(ValueError):
+    """What is wrong with several parameters together: its text names them and their values."""
+
 
 class Numerics(Parameters):
     """How a problem is discretised; the defaults are what the accuracy statements were made with."""
@@ -119,7 +128,7 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
     Raises:
         InputError: One line naming each offending parameter, its value and what is allowed.
     """
-    unknown = sorted(set(given) - set(model.model_fields))
+    unknown = sorted(set(given) - set(model.model_fields) - model.further())
     if unknown:
         known = ", ".join(model.model_fields)
         raise InputError(f"{what} has no parameter {unknown[0]!r}; it has {known}")
@@ -130,7 +139,9 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
         for item in error.errors():
             name = ".".join(str(part) for part in item["loc"]) or "parameters"
             message = item["msg"][0].lower() + item["msg"][1:]
-            parts.append(f"{name} = {item['input']!r}: {message}")
+            cause = item.get("ctx", {}).get("error")
+            together = isinstance(cause, TogetherError)
+            parts.append(str(cause) if together else f"{name} = {item['input']!r}: {message}")
         raise InputError(f"{what}: " + "; ".join(parts)) from error
 
 

@@ -69,6 +69,8 @@ class Curve:
     """Branch drawn and compared; a profile is of the branch of its state."""
     asked: Mapping[str, float] | None = None
     """Relative accuracy wanted of the columns of its table, where it is not the case's."""
+    columns: Mapping[str, str] = field(default_factory=dict)
+    """The solution's column for a column of the table, where it has another name there."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,8 @@ class Surface:
     axes: tuple[Axis, Axis, Axis]
     title: str = ""
     note: str = ""
+    displaced: float = 0.0
+    """Times the lowest mode (``u_x, u_y, u_z``, largest length 1) by which the state is shown displaced."""
 
 
 @dataclass(frozen=True)
@@ -177,6 +181,8 @@ class Claim:
     statement: str
     wants: tuple[tuple[Spec, At | None], ...]
     holds: Callable[[Solutions], Finding]
+    differs: str = ""
+    """Where the paper says otherwise: what it says, and why that does not hold."""
 
 
 @dataclass(frozen=True)

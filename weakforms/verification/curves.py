@@ -32,7 +32,8 @@ def reference_of(paper: int, curve: Curve) -> Reference | None:
     table = references.load_curve(paper, curve.reference)
     for name, value in table.parameters.items():
         given = dict(curve.of.parameters).get(name)
-        if given is not None and given != value:
+        several = isinstance(given, tuple) and value in given  # one of those solved for together
+        if given is not None and given != value and not several:
             raise InputError(
                 f"table {table.name} is for {name} = {value}, the case compares {name} = {given} with it"
             )
@@ -127,6 +128,7 @@ def judge_curve(
 def _values(
     curve: Curve, table: Reference, name: str, solutions: Solutions
 ) -> tuple[np.ndarray, np.ndarray | float]:
+    name = curve.columns.get(name, name)
     if curve.at is not None:
         return solutions.sampled(curve.of, profile_at(curve, table), name)
     rows = [
@@ -196,14 +198,15 @@ def _draw(
 ) -> CurveOutcome:
     x, y = panel.x.name, curve.y or panel.y.name
     table = reference_of(paper, curve)
+    own = curve.columns.get(y, y)
     if curve.at is not None:
         columns = solutions.profile(curve.of, profile_at(curve, table)).columns
         rule = panel.dashed
         unstable = [] if rule is None else (columns[rule.column] < rule.below).tolist()
     else:
-        columns = _with_states(curve, table, solutions, (x, y))
+        columns = _with_states(curve, table, solutions, (x, own))
         unstable = [bool(n) for n in columns["n_negative"]]
-    xs, ys = columns[x], columns[y]
+    xs, ys = columns[x], columns[own]
     if panel.mirrored:
         xs, ys = mirror(panel, x, xs), mirror(panel, y, ys)
     outcome = CurveOutcome(

@@ -28,7 +28,8 @@ from weakforms.verification.junit import clean, inline_svg
 from weakforms.verification.outcome import Convergence, CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.summary import describe, describe_histories, of_curve, plain_tex
 
-LOOK = json.loads((Path(__file__).parent / "templates" / "figures.json").read_text("utf-8"))
+TEMPLATES = Path(__file__).parent / "templates"
+LOOK = json.loads((TEMPLATES / "figures.json").read_text("utf-8"))
 """Colours for light and dark pages (the style sheet takes them from here too), markers, style."""
 INK, MUTED = LOOK["light"]["ink"], LOOK["light"]["muted"]
 POINTS, MARKERS = LOOK["points"], LOOK["markers"]
@@ -59,7 +60,7 @@ def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = 
     with drawing(ident):
         figure, keyed = _with_legend(_panel_keys(panel), WIDTH, 3.2 + FOOT, lower)
         place = (lower + keyed + FOOT, 3.2)
-        axes = _axes(figure, *place, _math(panel.x_label), _math(panel.y_label))
+        axes = _axes(figure, *place, as_math(panel.x_label), as_math(panel.y_label))
         for limits, setter in ((panel.x_range, axes.set_xlim), (panel.y_range, axes.set_ylim)):
             if all(map(math.isfinite, limits)) and limits[0] != limits[1]:
                 setter(*limits)
@@ -121,7 +122,7 @@ def svg(figure: Figure, ident: str, title: str, description: str) -> str:
     return inline_svg(buffer.getvalue(), ident, title, description, colours)
 
 
-def _math(text: str) -> str:
+def as_math(text: str) -> str:
     """Text for a figure: TeX between dollars where it can be set, else as it stands."""
     text = " ".join(clean(text).split())
     try:
@@ -140,17 +141,17 @@ def _key(label: str, index: int | None, **style: Any) -> Line2D:
 def _panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
     """Legend entries: the curves, and below them what lines and marks mean in general."""
     curves = panel.curves
-    named = [_key(_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
+    named = [_key(as_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
     if any(any(curve.unstable) for curve in curves):
         keys = [_key(panel.full, None), _key(panel.dashed, None, ls=DASHED)]
     else:
-        keys = [_key("weak form", None)] * bool(curves)
+        keys = [_key(as_math(panel.drawn), None)] * bool(curves)
     keys += [_key("path of a material point", None, ls=":")] * bool(panel.paths)
     for kind in sorted({c.reference_kind for c in curves if c.reference_x}):
-        keys.append(_key(_math(f"reference ({kind})".replace(" ()", "")), None, marker="o", ls=""))
+        keys.append(_key(as_math(f"reference ({kind})".replace(" ()", "")), None, marker="o", ls=""))
     for kind in sorted({point.kind for point in panel.markers}):
         style = {"marker": POINTS.get(kind, "d"), "mfc": INK, "color": INK, "ls": ""}
-        keys.append(_key(_math(kind.replace("_", " ")), None, **style))
+        keys.append(_key(as_math(kind.replace("_", " ")), None, **style))
     return [named, keys]
 
 
@@ -240,7 +241,7 @@ def _draw_points(axes: Axes, panel: PanelOutcome) -> None:
         size = 9 if point.kind == "cusp_point" else 5.5
         axes.plot(point.x, point.y, POINTS.get(point.kind, "d"), color=INK, ms=size, zorder=4)
         if point.label and len(panel.markers) <= 12:
-            boxes.append(_label(axes, (point.x, point.y), _math(point.label), taken, boxes))
+            boxes.append(_label(axes, (point.x, point.y), as_math(point.label), taken, boxes))
 
 
 def _label(axes: Axes, at: tuple[float, float], text: str, taken: np.ndarray, boxes: list) -> Any:
@@ -287,7 +288,7 @@ def _draw_residuals(axes: Axes, panel: PanelOutcome, verdicts: Sequence[Verdict]
     axes.yaxis.set(major_locator=LogLocator(numticks=6), minor_locator=NullLocator())
     labels = {panel.x: panel.x_label, panel.y: panel.y_label}
     names = {c.residual_abscissa for c in curves if c.residual} - {""}
-    axes.set_xlabel(_math(", ".join(labels.get(name, name) for name in sorted(names))))
+    axes.set_xlabel(as_math(", ".join(labels.get(name, name) for name in sorted(names))))
     axes.set_ylabel("relative error", fontsize=10)
     note = "open: error; filled: out of bound; line: bound"
     note += "; dash-dotted: asked" * bool(judged) + "; at the foot: zero" * zeros

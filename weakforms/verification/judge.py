@@ -210,6 +210,7 @@ def _(check: Claim, paper: int, solutions: Solutions) -> Judged:
         passed=bool(holds),
         statement=check.statement,
         detail=detail,
+        differs=check.differs,
     )
     return [verdict], [], []
 

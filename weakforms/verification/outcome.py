@@ -40,6 +40,8 @@ class Verdict:
     """The abscissa of the worst point, such as ``u_max = 1.25``."""
     reference: str = ""
     """Name of the reference table, or of the exact statement."""
+    differs: str = ""
+    """Where the paper says otherwise: what it says, and why that does not hold."""
 
 
 @dataclass
@@ -116,6 +118,8 @@ class PanelOutcome:
     curves: list[CurveOutcome] = field(default_factory=list)
     markers: list[Marker] = field(default_factory=list)
     note: str = ""
+    drawn: str = "weak form"
+    """What the curves are."""
     full: str = "stable"
     """What full lines mean, and dashed ones, where there are any."""
     dashed: str = "unstable"
@@ -137,6 +141,8 @@ class SurfaceOutcome:
     note: str = ""
     curves: list[CurveOutcome] = field(default_factory=list)
     """None: nothing is compared."""
+    fields: dict[str, list[list[float]]] = field(default_factory=dict)
+    """What else is known over the surface, for those who open it in another program."""
 
 
 @dataclass

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -12,8 +13,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from pathlib import Path
+from threading import Thread
 
 from weakforms.errors import EnvironmentLackError, InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
@@ -25,14 +27,15 @@ from weakforms.verification import (
 )
 from weakforms.verification.curves import curve_wants, draw_panel, judge_curve
 from weakforms.verification.discovery import FoundCase
+from weakforms.verification.effort import Effort
 from weakforms.verification.judge import judge, names, wants
 from weakforms.verification.machine import environment
 from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
 
-Report = Callable[[int, int, str], None]
-"""Progress: solves done, solves in all, what is being done."""
+Report = Callable[[float, float, str], None]
+"""Progress: seconds of work done, seconds in all as far as is known, what is being done."""
 
 
 @dataclass
@@ -118,12 +121,21 @@ def _task(spec: Spec, states: list[At]) -> str:
     return dumps(solve_spec(spec, states).to_json())
 
 
+def _end_with_parent() -> None:
+    """In a process that solves: end when the one it solves for is gone, even by a kill."""
+    Thread(target=lambda: (parent_process().join(), os._exit(1)), daemon=True).start()
+
+
+SOLVING = ("forms", "problems", "solvers", "results")
+"""The folders whose code a solution depends on; judging and drawing it may change."""
+
+
 @cache
 def source_digest() -> str:
-    """Digest of the package's source: a stored solution is reused only by the code that made it."""
+    """Digest of the source that solves: a stored solution is reused only by the code that made it."""
     folder = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*.py")):
+    for path in sorted(path for part in SOLVING for path in (folder / part).rglob("*.py")):
         digest.update(path.relative_to(folder).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()
@@ -153,23 +165,28 @@ class Solver:
 
     def run(self, plan: Plan, report: Report) -> None:
         """Solve everything; a spec that fails is noted and the others go on."""
+        effort = Effort(self.folder.parent / "times.json", plan.states)
         todo = []
         for spec, states in plan.states.items():
             path = self.folder / f"{solution_key(spec, states)}.json"
             self.files[spec] = path.name
             if self.resume and self._take(spec, path):
+                effort.finish(spec)
                 continue
             todo.append((spec, states, path))
-        total = len(plan.states)
 
         def tell(spec: Spec) -> None:
-            report(len(self.results) + len(self.failures), total, str(spec))
+            report(*effort.share(), f"{effort.count} solved; {str(spec)[:48]}")
 
         for spec, outcome in self._outcomes(todo, tell):
             if isinstance(outcome, WeakformsError):
                 self.failures[spec] = outcome
+                effort.finish(spec)
             else:
                 self._store(spec, outcome)
+                effort.finish(spec, self.results[spec].provenance.get("wall_s"))
+            if self.writes:
+                effort.keep()
             tell(spec)
 
     def _take(self, spec: Spec, path: Path) -> bool:
@@ -196,7 +213,7 @@ class Solver:
                     yield spec, error
             return
         # Spawned, not forked: MPI and PETSc do not survive a fork.
-        pool = ProcessPoolExecutor(self.jobs, mp_context=get_context("spawn"))
+        pool = ProcessPoolExecutor(self.jobs, mp_context=get_context("spawn"), initializer=_end_with_parent)
         try:
             futures = {pool.submit(_task, spec, states): spec for spec, states, _ in todo}
             for future in as_completed(futures):
@@ -323,7 +340,11 @@ def verify(
     require_writable(out / "report")
     solver = Solver(out / "solutions", jobs, resume, writes)
     solver.run(plan, report)
-    outcomes = [judge_case(found, plan, solver) for found in cases]
+    outcomes = []
+    for found in cases:
+        report(len(outcomes), len(cases), f"judging {found.id}")
+        outcomes.append(judge_case(found, plan, solver))
+    report(len(cases), len(cases), "drawing the report")
     return RunOutcome(
         profile=profile,
         selection=selection,

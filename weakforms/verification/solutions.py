@@ -78,7 +78,9 @@ class Solutions:
         state = self.state(spec, at)
         if not state.fields:
             raise ConvergenceError(f"{spec}: state at {at} was stored without a profile")
-        field = state.fields[0]
+        field = next((f for f in state.fields if at.field in ("", f.name)), None)
+        if field is None:
+            raise ConvergenceError(f"{spec}: state at {at} has no field {at.field!r}")
         return field if at.theta is None else _meridian(field, at.theta)
 
     def sampled(self, spec: Spec, at: At, name: str) -> tuple[np.ndarray, float]:

@@ -86,9 +86,54 @@ def wrinkled_tube_threshold(**parameters: Any) -> Spec:
     return Spec("wrinkled_tube_threshold", _sorted(parameters))
 
 
+def wrinkled_linear(**parameters: Any) -> Spec:
+    """The linearised theory of waves around the cylinder of Paper 5 at a level."""
+    return Spec("wrinkled_linear", _sorted(parameters))
+
+
+def wrinkled_bending(**parameters: Any) -> Spec:
+    """Waves around that cylinder at a level, with a small bending stiffness."""
+    return Spec("wrinkled_bending", _sorted(parameters))
+
+
+def wrinkled_patch(**parameters: Any) -> Spec:
+    """The flat wrinkled patch under pressure of Paper 5."""
+    return Spec("wrinkled_patch", _sorted(parameters))
+
+
+def hemisphere(**parameters: Any) -> Spec:
+    """The hemisphere of Paper 5, which hangs from its equator and holds a liquid."""
+    return Spec("hemisphere", _sorted(parameters))
+
+
 def fluid_tube_coincidence(**parameters: Any) -> Spec:
     """The pre-stretch at which limit point and bifurcation of the tube of Paper 3 coincide."""
     return Spec("fluid_tube_coincidence", _sorted(parameters))
+
+
+def surface(**parameters: Any) -> Spec:
+    """The membrane of Paper 5 on flat triangles in space: tube, hemisphere or a file."""
+    return Spec("surface", _sorted(parameters))
+
+
+def material(**parameters: Any) -> Spec:
+    """A material law at two stretches."""
+    return Spec("material", _sorted(parameters))
+
+
+def sphere(**parameters: Any) -> Spec:
+    """A spherical balloon of any material law."""
+    return Spec("sphere", _sorted(parameters))
+
+
+def infinite_tube(**parameters: Any) -> Spec:
+    """A long tube with closed ends that stays a cylinder, of any material law."""
+    return Spec("infinite_tube", _sorted(parameters))
+
+
+def homogeneous(**parameters: Any) -> Spec:
+    """A test piece of any material law: uniaxial, equibiaxial or pure shear."""
+    return Spec("homogeneous", _sorted(parameters))
 
 
 @dataclass(frozen=True)
@@ -102,6 +147,8 @@ class At:
     branch: str = "primary"
     theta: float | None = None
     """Of a profile over a surface, the meridian looked at; ``None`` for all of it."""
+    field: str = ""
+    """Name of the field looked at; the profile by default."""
 
     def __str__(self) -> str:
         return f"{self.name} = {self.value:g}"

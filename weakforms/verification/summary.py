@@ -28,6 +28,16 @@ NARROW = 90
 """Below this many columns the terminal table drops what the report has anyway."""
 STYLES = {"passed": "green", "failed": "bold red", "error": "bold yellow"}
 ORDER = {"error": 0, "failed": 1, "passed": 2}
+LOST = "not recoverable"
+LABELS = {
+    "misprint": "misprint proven",
+    "input, decoded": "input recovered",
+    "input, not decoded": LOST,
+    "input, placed": "state found",
+    "input, not placed": "state not found",
+    LOST: LOST,
+}
+"""What people read of the status of a printed number; any other is its own label."""
 
 
 def case_status(case: CaseOutcome) -> str:
@@ -217,8 +227,8 @@ def duration(seconds: float) -> str:
 
 def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
     """How many printed numbers have which status, the good news first."""
-    known = ("reproduced", "misprint", "not recoverable")
-    counts = Counter(entry.status for case in cases for entry in case.printed)
+    known = ("reproduced", "state found", "input recovered", "misprint proven", LOST)
+    counts = Counter(LABELS.get(entry.status, entry.status) for case in cases for entry in case.printed)
     names = [*known, *sorted(set(counts) - set(known))]
     return {name: counts[name] for name in names if counts[name]}
 

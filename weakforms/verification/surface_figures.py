@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 
-from weakforms.verification.figures import LOOK, drawing, svg
+from weakforms.verification.figures import LOOK, as_math, drawing, svg
 from weakforms.verification.outcome import SurfaceOutcome
 from weakforms.verification.summary import plain_tex
 
@@ -58,7 +58,7 @@ def surface_figure(surface: SurfaceOutcome, ident: str) -> str:
             surface.ranges, limits, surface.labels, labels, strict=True
         ):
             limit(low, high)
-            label(text)
+            label(as_math(text))
         tallest = max(high - low for low, high in surface.ranges)
         axes.set_box_aspect([high - low for low, high in surface.ranges])
         for axis in (axes.xaxis, axes.yaxis, axes.zaxis):

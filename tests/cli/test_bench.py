@@ -1,0 +1,66 @@
+"""The benchmark's table: its stages, its floor, and bad names."""
+
+import json
+import time
+
+import pytest
+from mpi4py import MPI
+
+from weakforms.solvers.linear import Factorization
+from weakforms.verification import bench, bench_work
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """The tube on few cells, measured in this process."""
+    monkeypatch.setattr(bench_work.Tube, "cells", 16)
+    monkeypatch.setattr(
+        bench, "_in_a_process", lambda name, kind: bench.measure(name, time.time(), kind != "whole")
+    )
+
+
+def test_bench_has_its_stages(weakforms, small):
+    called = weakforms("bench", "--json", "--only", "tube")
+    data = json.loads(called.out)
+    (row,) = data["problems"]
+    assert (called.status, data["ranks"], row["name"]) == (0, 1, "tube")
+    assert row["points"] > 50
+    assert set(row["stages"]) == set(bench.STAGES)
+    assert all(stage["seconds"] > 0 and stage["calls"] >= 50 for stage in row["stages"].values())
+    assert row["ratio"] == pytest.approx(row["run_seconds"] / row["floor_seconds"])
+    assert row["ratio"] > 0.7
+    assert {"imports", "set_up", "first_run", "total"} == set(row["start"]) == set(row["cold"])
+    shown = " ".join(weakforms("bench", "--only", "tube", "--no-cold").out.split())
+    assert "factorisation" in shown
+    assert "floor" in shown
+
+
+def test_unknown_problem_is_one_line(weakforms):
+    called = weakforms("bench", "--only", "bridge")
+    assert (called.status, called.err.count("\n")) == (2, 1)
+    assert "'bridge'; it has tube, bent" in called.err
+
+
+def test_the_floor_factorises_as_often_as_the_run(small, monkeypatch):
+    work = bench_work.Tube()
+    work.set_up(MPI.COMM_WORLD)
+    with bench_work.metered(work.primitives) as meter:
+        work.run()
+    done, right = [], Factorization.refactor
+    states = []
+
+    def watched(self: Factorization) -> None:
+        states.append(self.system.matrix.stateGet())
+        done.append(right(self))
+
+    for key, (count, _) in list(meter.again.items()):
+        if key[0] is right:
+            given = next(
+                cell.cell_contents
+                for cell in meter.again[key][1].__closure__
+                if isinstance(cell.cell_contents, tuple)
+            )
+            meter.again[key] = (count, meter._repeated("factorisation", watched, given, {}))
+    meter.floor()
+    assert len(done) == meter.calls["factorisation"] > 100
+    assert len(set(states)) == len(states), "PETSc factorises only a matrix that has changed"

@@ -1,0 +1,275 @@
+"""Verify, check and report: solve cases, go on after an interruption, draw again without solving."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from weakforms import api
+from weakforms.errors import ConvergenceError
+from weakforms.verification import catalogue, discovery, runner
+from weakforms.verification.effort import Effort
+from weakforms.verification.specs import tube
+
+PAGES = {"index.html", "junit.xml", "paper2.html", "report.json"}
+
+TINY = '''"""Two short branches."""
+from weakforms import At, Axis, Case, Claim, Curve, Panel, tube
+
+ONE, TWO = (tube(delta1=d, u_end=0.3).on(cells=16, levels=2) for d in (1.5, 2))
+
+def wider(solutions):
+    u = [solutions.value(spec, At("p", 0.5), "u_max") for spec in (ONE, TWO)]
+    return u[0] < u[1], f"{u}"
+
+CASE = Case(
+    title="tiny",
+    source="tests",
+    panels=(Panel("a", x=Axis("p", 0, 2), y=Axis("u_max", 0, 1), curves=(Curve(ONE, "1.5"),)),),
+    checks=(Claim("wider", "is wider", ((ONE, At("p", 0.5)), (TWO, At("p", 0.5))), wider),),
+)
+'''
+
+
+@pytest.fixture
+def tiny(tmp_path, monkeypatch):
+    """A tree whose only case solves in a tenth of a second; returns how to change the case."""
+    path = tmp_path / "cases" / "paper2" / "tiny.py"
+    path.parent.mkdir(parents=True)
+    find = discovery.find_cases
+
+    def write(old: str = "", new: str = "") -> None:
+        assert old in TINY
+        path.write_text(TINY.replace(old, new) if old else TINY)
+        find.cache_clear()
+
+    write()
+    for module in (discovery, catalogue):
+        monkeypatch.setattr(module, "find_cases", lambda: find(tmp_path))
+    yield write
+    find.cache_clear()
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """Specs that the runner solves in this process."""
+    seen, right = [], runner.solve_spec
+
+    def counted(spec: object, states: list) -> object:
+        seen.append(str(spec))
+        return right(spec, states)
+
+    monkeypatch.setattr(runner, "solve_spec", counted)
+    return seen
+
+
+def die(*_: object) -> None:
+    """What a solving process does when the machine runs out of memory."""
+    os._exit(9)
+
+
+def test_verify_writes_the_report_and_resume_solves_nothing(weakforms, tiny, solved, tmp_path):
+    out = tmp_path / "out"
+    called = weakforms("verify", "-k", "tiny and not fig", "--out", out)
+    assert called.status == 0
+    assert "PASSED: the only check holds" in called.out
+    assert len(solved) == 2
+    assert {p.name for p in (out / "report").iterdir()} == PAGES
+    before = {p: p.read_bytes() for p in (out / "solutions").iterdir()}
+    assert len(before) == 2
+
+    solved.clear()
+    assert weakforms("verify", "-k", "tiny", "--resume", "--out", out).status == 0
+    assert solved == []
+
+    cut, whole = sorted(before)
+    cut.write_bytes(before[cut][:400])
+    assert weakforms("check", "paper2.tiny", "paper2.tiny", "--resume", "--out", out).status == 0
+    assert len(solved) == 1
+    assert whole.read_bytes() == before[whole]
+    assert json.loads(cut.read_text())["branches"] == json.loads(before[cut])["branches"]
+
+    solved.clear()
+    assert weakforms("verify", "--profile", "quick", "--out", out).status == 0
+    assert len(solved) == 2  # without --resume everything is solved again
+
+
+def test_report_is_rebuilt_without_solving(weakforms, tiny, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    weakforms("check", "paper2.tiny", "--out", out)
+    page = (out / "report" / "index.html").read_bytes()
+    shutil.rmtree(out / "solutions")
+    for module, name in ((api, "solve_requests"), (runner, "verify"), (discovery, "find_cases")):
+        monkeypatch.delattr(module, name)
+    called = weakforms("report", out, "--out", tmp_path / "again")
+    assert called.status == 0
+    assert "PASSED" in called.out
+    assert (tmp_path / "again" / "index.html").read_bytes() == page
+    assert weakforms("report", out / "report").status == 0
+
+
+def test_report_as_pdf_needs_a_browser(weakforms, tiny, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    weakforms("check", "paper2.tiny", "--out", out)
+    before = {path: path.stat().st_mtime_ns for path in (out / "report").iterdir()}
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    called = weakforms("report", out, "--pdf")
+    assert (called.status, called.err.count("\n")) == (4, 1)
+    assert "apt install chromium" in called.err
+    assert {path: path.stat().st_mtime_ns for path in (out / "report").iterdir()} == before
+
+
+def test_jobs_give_the_same_numbers(weakforms, tiny, tmp_path):
+    def numbers(*options: str) -> list[str]:
+        out = tmp_path / f"out{len(options)}"
+        assert weakforms("verify", *options, "--out", out).status == 0
+        data = json.loads((out / "report" / "report.json").read_text())
+        return [v["detail"] for case in data["cases"] for v in case["verdicts"]]
+
+    assert numbers() == numbers("-j", "2")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "status", "said"),
+    [
+        ("u[0] < u[1]", "u[1] < u[0]", 1, "failed"),
+        ("u[0] < u[1]", "u[2] > 0", 1, "could not be judged: IndexError"),
+        ('Axis("p", 0', 'Axis("nope", 0', 1, "could not be judged: KeyError"),
+        ("checks=(Cl", "checks=() and (Cl", 1, "failed without a failed check"),
+        ('At("p", 0.5)), (T', 'At("p", 7)), (T', 3, "p = 7 is crossed 0 times"),
+    ],
+)
+def test_a_case_that_does_not_hold(weakforms, tiny, tmp_path, old, new, status, said):
+    tiny(old, new)
+    called = weakforms("verify", "--out", tmp_path / "out")
+    assert (called.status, called.err) == (status, "")
+    assert said in " ".join(called.out.split())
+    assert (tmp_path / "out" / "report" / "index.html").exists()
+
+
+def test_a_solve_that_fails_leaves_the_others(weakforms, tiny, tmp_path, monkeypatch):
+    right = runner.solve_spec
+
+    def first_fails(spec: object, states: list) -> object:
+        if dict(spec.parameters)["delta1"] == 1.5:
+            raise ConvergenceError("stalled at p = 0.1")
+        return right(spec, states)
+
+    monkeypatch.setattr(runner, "solve_spec", first_fails)
+    called = weakforms("verify", "--out", tmp_path / "out")
+    assert called.status == 3
+    assert "stalled at p = 0.1" in called.out
+    data = json.loads((tmp_path / "out" / "report" / "report.json").read_text())
+    assert [(v["check"], v["passed"]) for v in data["cases"][0]["verdicts"]] == [("claim:wider", False)]
+    assert len(list((tmp_path / "out" / "solutions").iterdir())) == 1
+
+
+def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "_task", die)
+    called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
+    assert (called.status, called.err.count("\n")) == (4, 1)
+    assert "a process that was solving died" in called.err
+
+
+# -- an interrupted run --------------------------------------------------------------------------
+
+MANY = '''"""Many short branches."""
+from weakforms import At, Case, Claim, tube
+
+TUBES = [tube(delta1=1.5 + i / 24, u_end=0.3).on(cells=16, levels=2) for i in range(24)]
+
+def wider(solutions):
+    u = [solutions.value(spec, At("p", 0.5), "u_max") for spec in TUBES]
+    return min(u) > 0, f"{u}"
+
+CASE = Case(
+    title="many",
+    source="tests",
+    checks=(Claim("wider", "bulges", tuple((spec, At("p", 0.5)) for spec in TUBES), wider),),
+)
+'''
+
+
+def starter(tree):
+    """How to start ``verify`` of the many branches, the only case of a tree, in a process of its own."""
+    path = tree / "cases" / "paper2" / "many.py"
+    path.parent.mkdir(parents=True)
+    path.write_text(MANY)
+    code = (
+        "import sys; from pathlib import Path; from weakforms.verification import discovery\n"
+        f"find = discovery.find_cases; discovery.find_cases = lambda: find(Path({str(tree)!r}))\n"
+        "sys.argv[0] = 'weakforms'; from weakforms.cli import main; main()"
+    )
+
+    def start(*words: object) -> subprocess.Popen:
+        command = [sys.executable, "-c", code, "verify", *map(str, words)]
+        return subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+
+    return start
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """What a run that nothing interrupts finds."""
+    tree = tmp_path_factory.mktemp("undisturbed")
+    running = starter(tree)("--out", tree / "out")
+    _, said = running.communicate(timeout=120)
+    assert running.returncode == 0, said
+    return details(tree / "out")
+
+
+def details(out) -> list[str]:
+    """What the checks found, all digits."""
+    data = json.loads((out / "report" / "report.json").read_text())
+    return [v["detail"] for case in data["cases"] for v in case["verdicts"]]
+
+
+@pytest.mark.parametrize(
+    ("ending", "jobs", "status"),
+    [(signal.SIGINT, 1, 130), (signal.SIGKILL, 1, -signal.SIGKILL), (signal.SIGKILL, 2, -signal.SIGKILL)],
+)
+def test_an_interrupted_run_goes_on_where_it_was(undisturbed, tmp_path, ending, jobs, status):
+    start, out = starter(tmp_path), tmp_path / "out"
+    running = start("-j", jobs, "--out", out)
+    stored, end = out / "solutions", time.monotonic() + 60
+    while len(list(stored.glob("tube-*.json"))) < 2 and time.monotonic() < end:
+        time.sleep(0.002)
+    os.killpg(running.pid, ending) if jobs == 1 else running.send_signal(ending)
+    _, said = running.communicate(timeout=120)
+    assert running.returncode == status, said
+    assert ("--resume" in said) == (ending == signal.SIGINT)
+    assert said.count("weakforms:") <= 1  # Python may say something about a killed process of its own
+    kept = {p: p.read_bytes() for p in stored.glob("tube-*.json")}
+    assert 2 <= len(kept) < 24, "the run was over before it could be interrupted"
+    assert not (out / "report" / "index.html").exists()
+
+    again = start("--out", out, "--resume")
+    _, said = again.communicate(timeout=120)
+    assert again.returncode == 0, said
+    assert {p: p.read_bytes() for p in kept} == kept, "what was stored is not solved again"
+    assert len(list(stored.glob("tube-*.json"))) == 24
+    assert details(out) == undisturbed
+
+
+def test_progress_counts_seconds_not_solutions(tmp_path):
+    specs = [tube(alpha=a) for a in (0, 0.1, 0.2)]
+    first = Effort(tmp_path / "times.json", specs)
+    assert first.share() == (0, 3.0)
+    first.finish(specs[0], 30.0)
+    assert first.share() == (30.0, 90.0), "those not seen yet count as their like"
+    first.finish(specs[1], 1.0)
+    first.finish(specs[2], 2.0)
+    first.keep()
+    again = Effort(tmp_path / "times.json", specs)
+    again.finish(specs[1])
+    assert again.share() == (1.0, 33.0)
+    assert again.count == "1 of 3"
+    (tmp_path / "times.json").write_text("[1")
+    assert Effort(tmp_path / "times.json", specs).share() == (0, 3.0)

@@ -1,0 +1,111 @@
+"""Every page in a real browser: both colour schemes, desktop and phone, by eye of the browser itself."""
+
+import re
+
+import pytest
+from canned_run import failing_case, passing_case, sample
+from headless import CONTRASTS, SIZES, Browser
+
+from weakforms.errors import EnvironmentLackError
+from weakforms.verification.pdf import browser, write_pdf
+from weakforms.verification.report import write_report
+
+PAGES = ("index.html", "paper2.html")
+WIDTHS = (1280, 390, 320)
+
+
+def missing() -> bool:
+    """Whether there is no browser here; ``./run test`` brings one."""
+    try:
+        browser()
+    except EnvironmentLackError:
+        return True
+    return False
+
+
+pytestmark = pytest.mark.skipif(missing(), reason="no Chromium or Chrome here; ./run test brings one")
+
+
+@pytest.fixture(scope="module")
+def window(tmp_path_factory):
+    with Browser(tmp_path_factory.mktemp("profile")) as window:
+        yield window
+
+
+@pytest.fixture(scope="module")
+def opened(tmp_path_factory):
+    """A report with failures and pictures of all kinds, and without the texts meant to break it."""
+    folder = tmp_path_factory.mktemp("opened")
+    write_report(sample(passing_case(), failing_case()), folder)
+    return folder
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_pages_render(window, opened, width, scheme):
+    grounds = {}
+    for name in PAGES:
+        window.open(opened / name, width, scheme)
+        sizes = window.evaluate(SIZES)
+        assert window.complaints() == []
+        assert window.requests() == [(opened / name).as_uri()]
+        assert sizes["needed"] <= sizes["width"], f"{name} must be pushed sideways at {width}"
+        assert sizes["heading"] > 20
+        least, text = window.evaluate(CONTRASTS)[0]
+        assert least >= 4.5, f"{name}, {scheme}: contrast {least:.2f} of {text!r}"
+        assert window.unnamed_images() == []
+        grounds[name] = sum(map(int, re.findall(r"\d+", sizes["background"])[:3])) / 3
+    assert all(ground > 200 if scheme == "light" else ground < 60 for ground in grounds.values())
+
+
+def test_hostile_texts_do_nothing(window, folder):
+    for page in sorted(folder.glob("*.html")):
+        window.open(page, 390, "light")
+        sizes = window.evaluate(SIZES)
+        assert window.complaints() == []
+        assert sizes["needed"] <= sizes["width"], page.name
+
+
+def test_links_lead_somewhere(window, opened):
+    window.open(opened / "index.html", 1280, "light")
+    window.evaluate("document.querySelector('a[href=\"paper2.html\"]').click()")
+    for _ in range(200):
+        if window.evaluate("location.pathname").endswith("paper2.html"):
+            break
+    assert window.evaluate("document.querySelector('h1').textContent").strip().endswith("membrane")
+
+
+@pytest.mark.parametrize(
+    ("fault", "sense"),
+    [
+        ("<script>throw new Error('x')</script>", "complaints"),
+        ("<script>console.warn('x')</script>", "complaints"),
+        ("<img src='not-there.png' alt='x'>", "requests"),
+        ("<p style='width: 2000px'>wide</p>", "overflow"),
+        ("<p style='color: #999'>faint</p>", "contrast"),
+        ("<svg role='img' width='9' height='9'></svg>", "pictures"),
+    ],
+)
+def test_a_fault_would_be_seen(window, tmp_path, fault, sense):
+    page = tmp_path / "page.html"
+    page.write_text(f"<!DOCTYPE html><html lang=en><title>x</title><body><h1>x</h1>{fault}", "utf-8")
+    window.open(page, 390, "light")
+    sizes = window.evaluate(SIZES)
+    seen = {
+        "complaints": window.complaints() != [],
+        "overflow": sizes["needed"] > sizes["width"],
+        "contrast": window.evaluate(CONTRASTS)[0][0] < 4.5,
+        "pictures": window.unnamed_images() != [],
+        "requests": len(window.requests()) > 1,
+    }
+    assert seen.pop(sense)
+    assert not any(seen.values()) or "not-there" in fault
+
+
+def test_the_whole_report_as_a_pdf(opened, tmp_path):
+    path = write_pdf(sample(passing_case(), failing_case()), tmp_path / "report.pdf")
+    data = path.read_bytes()
+    assert data.startswith(b"%PDF-")
+    assert data.rstrip().endswith(b"%%EOF")
+    assert len(re.findall(rb"/Type\s*/Page\b", data)) >= 3
+    assert [item.name for item in tmp_path.iterdir()] == ["report.pdf"]

@@ -1,0 +1,152 @@
+"""The documentation: a page for everything there is, links that arrive, formulas, examples that are right."""
+
+import ast
+import json
+import re
+
+import pytest
+from canned_run import Reader
+from headless import CONTRASTS, SIZES, Browser
+
+from weakforms.docs import api, site
+from weakforms.docs.prose import docstring, formula, markdown
+from weakforms.errors import EnvironmentLackError
+from weakforms.problems import registry
+from weakforms.problems.base import validated
+from weakforms.verification import gallery
+from weakforms.verification.catalogue import describe
+from weakforms.verification.pdf import browser
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The pages, and the picture of one problem that solves at once."""
+    folder = tmp_path_factory.mktemp("docs")
+    with pytest.MonkeyPatch.context() as patch:
+        right = site.pictures
+        patch.setattr(site, "pictures", lambda at, jobs, names, tell: right(at, jobs, ["sphere"], tell))
+        assert site.write_docs(folder) == folder / "index.html"
+    return folder
+
+
+@pytest.fixture(scope="module")
+def readers(folder):
+    paths = sorted(folder.rglob("*.html"))
+    return {p.relative_to(folder).as_posix(): Reader(p.read_text("utf-8")) for p in paths}
+
+
+def test_there_is_a_page_for_everything(readers, folder):
+    wanted = {f"problems/{name}.html" for name in registry.problems}
+    wanted |= {f"api/{group}.html" for group in api.GROUPS}
+    wanted |= {"index.html", "cases.html", "CONTRIBUTING.html"}
+    wanted |= {f"{path.stem}.html" for path in (site.ROOT / "docs").glob("*.md")}
+    assert set(readers) == wanted
+    assert all(reader.open == [] for reader in readers.values())
+    assert not [path for path in folder.rglob(".*")]
+
+
+def test_links_arrive_and_nothing_is_loaded(readers, folder):
+    ids = {page: {v for _, name, v in reader.attributes if name == "id"} for page, reader in readers.items()}
+    for page, reader in readers.items():
+        assert not {"script", "iframe", "object", "embed", "img"} & set(reader.tags)
+        for tag, name, value in reader.attributes:
+            if name != "href" or value.startswith(("https://", "data:,")):
+                continue
+            assert tag == "a" or value.startswith("#"), page
+            file, _, anchor = value.partition("#")
+            target = ((folder / page).parent / file).resolve() if file else folder.resolve() / page
+            there = target.relative_to(folder.resolve()).as_posix()
+            assert there in readers, f"{page}: {value}"
+            assert not anchor or anchor in ids[there], f"{page}: {value}"
+
+
+@pytest.mark.parametrize("name", sorted(registry.problems))
+def test_a_problem_is_shown_with_its_form_and_a_right_example(name, readers):
+    shown, problem = gallery.SHOWN[name], registry.problems[name]
+    text = " ".join(" ".join(readers[f"problems/{name}.html"].words).split())
+    facts = describe(name)
+    for said in (
+        facts["energy"],
+        facts["command"],
+        *facts["example"],
+        *(p["name"] for p in facts["parameters"]),
+    ):
+        assert " ".join(said.split()) in text
+    assert all(source for place, _, source in gallery.written_forms(name) if not place.endswith("body"))
+    assert len(facts["example"]) == 3
+    ast.parse("\n".join(facts["example"]))
+    for spec in shown.specs(name):
+        validated(problem.parameters, dict(spec.parameters), name)
+        validated(problem.numerics, dict(spec.numerics), name)
+    if not shown.values:
+        assert {shown.x, shown.y} <= {*problem.columns, *problem.scales}
+
+
+def test_show_prints_what_the_page_has():
+    facts = describe("tube")
+    assert "second variation" in facts["weak_form"]
+    assert facts["command"] == "./run solve tube --set alpha=0.1 --set delta1=1.1 --out tube.json"
+    json.dumps(facts)
+
+
+def test_the_picture_is_drawn_from_the_solution(readers):
+    page = readers["problems/sphere.html"]
+    assert page.tags.count("figure") == 1
+    text = " ".join(" ".join(page.words).split())
+    assert "P over lam, of this example" in text
+    assert "Marked: limit point; limit point" in text
+
+
+def test_formulas_and_docstrings():
+    assert "formula-line" in formula(r"\frac p2 \tfrac\gamma2 \int_0^1 \rho^2\,\mathrm dS \le \sqrt n")
+    assert formula(r"\begin{pmatrix} a & <b> \end{pmatrix}").startswith('<pre class="tex">\\begin')
+    text = docstring(
+        """One ``a<b`` and :math:`\\lambda_1`, see :func:`~x.y`.
+
+        .. math:: a = b
+
+        Args:
+            n: Number
+                of things.
+            m: More.
+
+        Raises:
+            ValueError: Never.
+        """
+    )
+    assert "<code>a&lt;b</code>" in text
+    assert "<i>λ</i><sub>1</sub>" in text
+    assert "<code>y</code>" in text
+    assert text.count("<dt>") == 3
+    assert "<dd>Number" in text
+    assert "formula-line" in text
+    assert "<script" not in markdown("a <script>x</script> | b")
+    assert 'href="other.html#x"' in markdown("[t](other.md#x)")
+
+
+def test_pages_render_in_a_browser(folder, tmp_path):
+    try:
+        browser()
+    except EnvironmentLackError:
+        pytest.skip("no Chromium or Chrome here; ./run test brings one")
+    with Browser(tmp_path) as window:
+        for page in (
+            "index.html",
+            "problems/sphere.html",
+            "problems/surface.html",
+            "api/weakforms.html",
+            "cases.html",
+        ):
+            for width, scheme in ((1280, "light"), (390, "dark")):
+                window.open(folder / page, width, scheme)
+                sizes = window.evaluate(SIZES)
+                assert window.complaints() == []
+                assert sizes["needed"] <= sizes["width"], page
+                assert window.evaluate(CONTRASTS)[0][0] >= 4.5, (page, window.evaluate(CONTRASTS)[0])
+                assert window.unnamed_images() == []
+
+
+def test_signatures_are_as_written():
+    member = api.modules("weakforms")[0]["members"]
+    signatures = {entry["name"]: entry["signature"] for entry in member}
+    assert re.match(r"\(problem: str, \*, at: States = \(\)", signatures["solve"])

@@ -1,0 +1,176 @@
+"""The pages hold every check, stand on their own, lead to one another, and survive hostile texts."""
+
+import math
+import os
+import re
+from dataclasses import replace
+from itertools import pairwise
+from xml.etree import ElementTree as ET
+
+import pytest
+from canned_run import CaseOutcome, CurveOutcome, Marker, Reader, curve, panel, sample, verdict
+
+from weakforms.verification.figures import convergence_figure, panel_figure
+from weakforms.verification.junit import junit_xml
+from weakforms.verification.pages import GROUPS, render, render_whole
+
+
+@pytest.fixture(scope="session")
+def readers(pages):
+    return {name: Reader(text) for name, text in pages.items()}
+
+
+def words(*readers: Reader) -> str:
+    return " ".join(" ".join(word for reader in readers for word in reader.words).split())
+
+
+def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder):
+    assert [name for name, reader in readers.items() if reader.open] == []
+    assert {"index.html", "junit.xml", "report.json", "paper2.html", "shapes"} < set(os.listdir(folder))
+    assert len(os.listdir(folder)) == 6, "and one page for the hostile group"
+    assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
+
+
+def test_pages_load_nothing(readers, pages, folder):
+    for page, reader in readers.items():
+        assert not {"script", "iframe", "object", "embed", "img", "base"} & set(reader.tags)
+        ids = {value for _, name, value in reader.attributes if name == "id"}
+        for tag, name, value in reader.attributes:
+            if name in ("src", "href", "xlink:href", "srcset", "action", "poster"):
+                local = tag == "a" and (folder / value.partition("#")[0]).is_file()
+                assert local or value.startswith(("#", "data:,")), (name, value)
+            assert not name.startswith("on")
+        assert set(re.findall(r"https?://[^\s\"'<]+", pages[page])) <= {"http://www.w3.org/2000/svg"}
+        assert "@import" not in pages[page]
+        assert set(re.findall(r"url\(([^)]*)\)", pages[page])) <= {f"#{value}" for value in ids}
+
+
+def test_ids_are_unique_and_links_arrive(readers, folder):
+    ids = {page: [v for _, name, v in reader.attributes if name == "id"] for page, reader in readers.items()}
+    assert {"paper2.fig03", "paper2.fig02:bad:p"} <= set(ids["paper2.html"])
+    for page, reader in readers.items():
+        assert len(ids[page]) == len(set(ids[page]))
+        assert not any(re.search(r"\s", value) for value in ids[page])
+        for tag, name, value in reader.attributes:
+            if tag == "a" and name == "href":
+                file, _, anchor = value.partition("#")
+                assert (folder / (file or page)).is_file(), value
+                assert not anchor or anchor in ids[file or page], value
+            if name in ("aria-labelledby", "aria-describedby"):
+                assert set(value.split()) <= set(ids[page])
+
+
+def test_every_check_figure_and_status_appears(run, pages, readers):
+    page, reader = pages["paper2.html"], readers["paper2.html"]
+    for case in run.cases[:2]:
+        for item in case.verdicts:
+            assert f"<code>{item.check}</code>" in page
+            assert item.statement in page
+    text = words(reader)
+    assert "12 rows out of bound" in text
+    assert "not recoverable" in text
+    assert "shapes/paper2_fig03-bulge.vtu" in text
+    pictures = [reader.tags.count("svg"), reader.tags.count("figure")]
+    pictures.append(len([1 for _, n, v in reader.attributes if (n, v) == ("role", "img")]))
+    assert pictures == [5, 5, 5], "three panels, one surface, one convergence plot"
+    assert text.rindex("bad:p") < text.rindex("good:p")
+
+
+def test_the_first_page_says_what_disagrees_and_why(readers):
+    text = words(readers["index.html"])
+    assert "1 case could not be solved; 4 of 8 checks failed" in text
+    assert "misprint δ 2 is printed as 0.8164 ; computed 0.8164965809" in text
+    assert "the paper The text has three. Shown instead: Two limit points." in text
+    assert "not recoverable n , printed as -" in text
+    for title in GROUPS["paper2"][:2]:
+        assert title in text
+
+
+def test_headings_come_in_order(readers):
+    for reader in readers.values():
+        levels = [int(tag[1]) for tag in reader.tags if re.fullmatch(r"h[1-6]", tag)]
+        assert levels[0] == 1
+        assert levels.count(1) == 1
+        assert all(after <= before + 1 for before, after in pairwise(levels))
+        assert ("html", "lang", "en") in reader.attributes
+
+
+def test_hostile_texts_are_escaped(pages, readers):
+    for page in pages.values():
+        assert "<script" not in page
+        assert "&lt;script&gt;" in page
+        assert "\x00" not in page
+        assert "\x1b" not in page
+    assert "{{ 7*7 }}" in words(*readers.values())
+
+
+def test_close_numbers_are_told_apart(pages):
+    assert "1.3004e-09" in pages["paper2.html"]
+    assert "&gt;1.000" in pages["paper2.html"]
+
+
+def test_groups_have_pages_of_their_own():
+    names = ("paper2.fig02", "materials.laws", "closed_form.sphere", "index", "a:b.c", "A B.c", "A-B.d")
+    pages = render(sample(*(CaseOutcome(name, "T", "S", "", "passed", [verdict("x")]) for name in names)))
+    known = {"index.html", "paper2.html", "materials.html", "closed_form.html", "index-2.html"}
+    assert set(pages) == {*known, "a-b.html", "A-B.html", "A-B-2.html"}
+    assert 'href="materials.html#materials.laws"' in pages["index.html"]
+    assert "Closed forms" in pages["closed_form.html"]
+
+
+def test_as_one_page_for_printing_every_link_stays_within(run):
+    reader = Reader(render_whole(run))
+    ids = {value for _, name, value in reader.attributes if name == "id"}
+    links = [v for tag, name, v in reader.attributes if (tag, name) == ("a", "href")]
+    inner = [v for v in links if v.startswith("#")]
+    assert {v[1:] for v in inner} <= ids
+    assert {v for v in links if v not in inner} <= {v for v in links if v.startswith("shapes/")}
+    assert reader.open == []
+
+
+def test_figures_are_valid_deterministic_and_themed(run):
+    picture = run.cases[0].panels[0]
+    first = panel_figure(picture, "f1", run.cases[0].verdicts)
+    assert first == panel_figure(picture, "f1", run.cases[0].verdicts)
+    root = ET.fromstring(first)
+    assert root.find("{*}title").text == "Limit points"
+    assert "u_max from 0 to 5" in root.find("{*}desc").text
+    assert "var(--f-c0,#0b62a4)" in first
+    assert all(item.get("id", "f1--").startswith("f1--") for item in root.iter())
+    assert "matplotlib" not in first
+    assert "stroke-dasharray" in first
+    ET.fromstring(convergence_figure(run.cases[0].convergence, "f2"))
+    ET.fromstring(convergence_figure([], "f3"))
+
+
+def test_odd_panels_are_drawn():
+    one = CurveOutcome("one", "one point", [1.8], [2.0], residual_x=[1.0], residual=[0.0])
+    odd = replace(panel([one, curve("two", 1.1)]), x_range=(0.0, 0.0), y_range=(math.nan, 1.0))
+    odd.markers = [Marker("front", "lost", math.nan, 1.0)]
+    ET.fromstring(panel_figure(odd, "odd"))
+    many = panel([replace(curve(f"c{i}", 1.0 + i / 30), reference_x=[]) for i in range(20)])
+    ET.fromstring(panel_figure(many, "many"))
+
+
+@pytest.mark.parametrize(
+    ("cases", "said"),
+    [
+        ([], "No case was run"),
+        ([CaseOutcome("paper9.empty", "T", "S", "", "passed")], "No check was made"),
+        ([CaseOutcome("odd", "T", "S", "", "error")], "no reason was recorded"),
+    ],
+)
+def test_empty_runs_say_so(cases, said):
+    pages = render(sample(*cases))
+    assert said in words(*(Reader(page) for page in pages.values()))
+    ET.fromstring(junit_xml(sample(*cases)).encode())
+
+
+def test_many_checks_are_folded():
+    checks = [verdict(f"bulk_{i}:p") for i in range(600)] + [verdict("broken:p", passed=False)]
+    case = CaseOutcome("paper2.bulk", "Many", "", "", "failed", checks)
+    page = render(sample(case))["paper2.html"]
+    assert "600 checks that hold" in page
+    assert all(f"<code>bulk_{i}:p</code>" in page for i in range(600))
+    section = page.index('id="paper2.bulk"')
+    assert page.index("broken:p", section) < page.index("<details", section)

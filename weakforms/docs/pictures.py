@@ -1,0 +1,80 @@
+"""One picture a problem, drawn from what its example gives when it is solved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from markupsafe import Markup
+
+from weakforms.results import Result
+from weakforms.verification.figures import panel_figure
+from weakforms.verification.gallery import SHOWN, Shown
+from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome
+from weakforms.verification.runner import Plan, Solver
+from weakforms.verification.specs import Spec
+
+MARGIN = 0.05
+"""Of an axis's length, left free at either end."""
+
+
+def pictures(
+    folder: Path, jobs: int, names: list[str], progress: Callable[[float, float, str], None]
+) -> dict[str, tuple[Markup | None, str]]:
+    """Pictures and captions by problem; one that cannot be solved has a caption that says why.
+
+    Args:
+        folder: Where solutions are kept, so that the same code need not solve them again.
+        jobs: Solves side by side.
+        names: Problems.
+        progress: Told seconds done, seconds in all, and what is being solved.
+    """
+    specs = {name: SHOWN[name].specs(name) for name in names if name in SHOWN}
+    plan = Plan({spec: [] for of in specs.values() for spec in of}, {})
+    folder.mkdir(parents=True, exist_ok=True)
+    solver = Solver(folder, jobs, resume=True)
+    solver.run(plan, progress)
+    out: dict[str, tuple[Markup | None, str]] = {}
+    for name, of in specs.items():
+        missing = [f"{spec}: {solver.failures[spec]}" for spec in of if spec in solver.failures]
+        if missing:
+            out[name] = None, f"No picture: {missing[0]}"
+            continue
+        panel = _panel(name, SHOWN[name], of, [solver.results[spec] for spec in of])
+        out[name] = Markup(panel_figure(panel, f"picture-{name}")), _caption(SHOWN[name])
+    return out
+
+
+def _caption(shown: Shown) -> str:
+    coarse = ", ".join(f"{key} = {value}" for key, value in shown.numerics.items())
+    what = f"{shown.y} over {shown.x}" + (", a solution a mark" if shown.values else ", of this example")
+    return f"Drawn: {what}" + (f" ({coarse})." if coarse else ".")
+
+
+def _panel(name: str, shown: Shown, specs: list[Spec], results: list[Result]) -> PanelOutcome:
+    """The branch with its special points, or the quantity over the parameter."""
+    markers = []
+    if shown.values:
+        x, unstable = list(shown.values), []
+        y = [float(result.quantities[shown.y].value) for result in results]
+        markers = [Marker("solution", "", a, b) for a, b in zip(x, y, strict=True)]
+    else:
+        columns = results[0].branch("primary").columns
+        x, y = (columns[column].tolist() for column in (shown.x, shown.y))
+        unstable = [count > 0 for count in columns["n_negative"]] if "n_negative" in columns else []
+        markers = [
+            Marker(point.kind, point.kind.replace("_", " "), point.values[shown.x], point.values[shown.y])
+            for point in results[0].special_points
+            if point.branch == "primary" and {shown.x, shown.y} <= set(point.values)
+        ]
+    curve = CurveOutcome(name, str(specs[0]) if not shown.values else name, x, y, unstable)
+    ranges = [_range(values) for values in (x, y)]
+    return PanelOutcome(
+        name, f"{shown.y} over {shown.x}", shown.x, shown.y, shown.x, shown.y, *ranges, [curve], markers
+    )
+
+
+def _range(values: list[float]) -> tuple[float, float]:
+    low, high = min(values), max(values)
+    margin = MARGIN * (high - low or 1.0)
+    return low - margin, high + margin

@@ -1,0 +1,163 @@
+"""Docstrings, Markdown and formulas as HTML that needs nothing from elsewhere: no scripts, no fonts."""
+
+from __future__ import annotations
+
+import hashlib
+import html
+import inspect
+import re
+from collections.abc import Iterable
+
+from markdown_it import MarkdownIt
+from markupsafe import Markup
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.mathtext import MathTextParser
+
+from weakforms.verification.figures import drawing, svg
+from weakforms.verification.summary import html_tex
+
+SIZE = 13.0
+"""Of formulas, in points; on the page they scale with the text."""
+PLAIN = {
+    r"\!": "",
+    r"\Big": "",
+    r"\big": "",
+    r"\le": r"\leq",
+    r"\ge": r"\geq",
+    r"\text": r"\mathrm",
+    r"\qquad": r"\quad\quad ",
+    r"\oint": r"\int",
+}
+"""TeX that matplotlib does not set, and what it does."""
+ARGUMENT = r"\s*(\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-zA-Z]+|[^\s{}\\])"
+FRACTION = re.compile(r"\\([td]?)frac(?![a-zA-Z])" + 2 * ARGUMENT)
+"""A fraction with its arguments, in braces or not."""
+SECTIONS = ("Args", "Returns", "Raises", "Attributes", "Yields", "Note", "Notes")
+ROLE = re.compile(r":(?:py:)?(?:class|func|meth|mod|data|attr|exc|obj):`~?([^`]*)`")
+CODE = re.compile(r"``([^`]+)``")
+MATH = re.compile(r":math:`([^`]*)`", re.S)
+
+
+def markdown(text: str) -> Markup:
+    """Markdown with tables; headings of alternatives (``=== Python``) become headings."""
+    text = re.sub(r"(?m)^=== (.+)$", r"#### \1", text)
+    rendered = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
+    rendered = re.sub(
+        r"<table>", '<div class="scroll" role="region" tabindex="0" aria-label="Table"><table>', rendered
+    )
+    rendered = rendered.replace("</table>", "</table></div>")
+    return Markup(re.sub(r'<a href="(?!https?:|#)([^"]*?)\.md(#[^"]*)?"', r'<a href="\1.html\2"', rendered))
+
+
+def docstring(text: str | None) -> Markup:
+    """A docstring: paragraphs, formulas, code, and the sections of Google's style."""
+    if not text:
+        return Markup("")
+    out: list[str] = []
+    for kind, block in _blocks(inspect.cleandoc(text)):
+        if kind == "math":
+            out.append(formula(block))
+        elif kind == "code":
+            out.append(f"<pre>{html.escape(block)}</pre>")
+        elif kind in SECTIONS:
+            out.append(_section(kind, block))
+        elif block.lstrip().startswith(("* ", "- ")):
+            items = re.split(r"(?m)^\s*[*-] ", block)[1:]
+            out.append("<ul>" + "".join(f"<li>{_inline(item)}</li>" for item in items) + "</ul>")
+        else:
+            out.append(f"<p>{_inline(block)}</p>")
+    return Markup("".join(out))
+
+
+def _blocks(text: str) -> Iterable[tuple[str, str]]:
+    """Paragraphs of a docstring with what they are."""
+    paragraphs = re.split(r"\n\s*\n", text)
+    at = 0
+    while at < len(paragraphs):
+        block = paragraphs[at]
+        at += 1
+        first, _, rest = block.partition("\n")
+        if first.strip().startswith(".. math::"):
+            lines = [first.partition("::")[2], rest]
+            while at < len(paragraphs) and paragraphs[at].startswith("    ") and not rest.strip():
+                lines.append(paragraphs[at])
+                at += 1
+            yield "math", "\n".join(lines)
+        elif first.rstrip(":") in SECTIONS and first.endswith(":"):
+            lines = [rest]
+            while at < len(paragraphs) and paragraphs[at].startswith("    "):
+                lines.append(paragraphs[at])
+                at += 1
+            yield first.rstrip(":"), inspect.cleandoc("\n".join(["", *lines]))
+        elif block.startswith("    "):
+            yield "code", inspect.cleandoc("\n" + block)
+        else:
+            yield "text", block.removesuffix("::")
+
+
+def _section(name: str, text: str) -> str:
+    items = re.findall(r"(?m)^([^\s:][^:\n]*):[ \n]((?:.*)(?:\n[ \t]+.*)*)", text)
+    if name in ("Returns", "Yields", "Note", "Notes") or not items:
+        return f'<p class="field"><b>{name}</b> {_inline(text)}</p>'
+    rows = "".join(
+        f"<div><dt><code>{html.escape(word)}</code></dt><dd>{_inline(what)}</dd></div>"
+        for word, what in items
+    )
+    return f'<p class="field"><b>{name}</b></p><dl class="fields">{rows}</dl>'
+
+
+def _inline(text: str) -> str:
+    """Text with code, roles and short formulas."""
+    kept: list[str] = []
+
+    def keep(rendered: str) -> str:
+        kept.append(rendered)
+        return f"\x00{len(kept) - 1}\x00"
+
+    text = MATH.sub(lambda hit: keep(html_tex(f"${' '.join(hit[1].split())}$")), text)
+    text = ROLE.sub(lambda hit: keep(f"<code>{html.escape(hit[1].rpartition('.')[2])}</code>"), text)
+    text = CODE.sub(lambda hit: keep(f"<code>{html.escape(hit[1])}</code>"), text)
+    text = re.sub(r"`([^`]+)`", lambda hit: keep(f"<code>{html.escape(hit[1])}</code>"), text)
+    text = re.sub(r"\*([^*\n]+)\*", r"\1", text)
+    return re.sub(r"\x00(\d+)\x00", lambda hit: kept[int(hit[1])], html.escape(text, quote=False))
+
+
+def formula(tex: str) -> str:
+    """A displayed formula as pictures of its lines, with its TeX for those who do not see them."""
+    source = " ".join(tex.split())
+    lines = [line.replace("&", " ").strip() for line in re.split(r"\\\\", source)]
+    try:
+        drawn = [_drawn(line) for line in filter(None, lines)]
+    except (ValueError, RuntimeError):
+        return f'<pre class="tex">{html.escape(source)}</pre>'
+    return f'<div class="formula-block scroll-x">{"".join(drawn)}</div>'
+
+
+def _braced(fraction: re.Match[str]) -> str:
+    """A fraction with braces around its arguments, large unless it is to be small."""
+    above, below = (part[1:-1] if part.startswith("{") else part for part in fraction.groups()[1:])
+    size = "\\frac" if fraction[1] == "t" else "\\dfrac"
+    return f"{size}{{{above}}}{{{below}}}"
+
+
+def _drawn(tex: str) -> str:
+    plain = tex
+    for _ in range(3):  # fractions within fractions
+        plain = FRACTION.sub(_braced, plain)
+    plain = re.sub(r"\\(mathrm|sqrt) ?([a-zA-Z])(?![a-zA-Z]*\{)", r"\\\1{\2}", plain)
+    for old, new in PLAIN.items():
+        plain = re.sub(
+            re.escape(old) + (r"(?![a-zA-Z])" if old[-1].isalpha() else ""), lambda _, n=new: n, plain
+        )
+    ident = "m" + hashlib.sha256(tex.encode()).hexdigest()[:12]
+    with drawing(ident):
+        font = FontProperties(family="serif", size=SIZE)
+        width, height, depth, *_ = MathTextParser("path").parse(f"${plain}$", dpi=72, prop=font)
+        width, height = float(width) + 4, float(height) + 4
+        figure = FigureCanvasAgg(Figure(figsize=(width / 72, height / 72))).figure
+        figure.text(2 / width, (2 + float(depth)) / height, f"${plain}$", fontproperties=font, va="baseline")
+        picture = svg(figure, ident, "formula", tex)
+    size = f"width:{width / SIZE:.2f}em;height:{height / SIZE:.2f}em"
+    return picture.replace('class="figure"', f'class="formula-line" style="{size}"')

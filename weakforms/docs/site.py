@@ -1,0 +1,178 @@
+"""The pages: guides from the folder ``docs``, a page a problem, the cases, the API."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jinja2 import ChoiceLoader, Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from weakforms.docs import api
+from weakforms.docs.pictures import pictures
+from weakforms.docs.prose import docstring, formula, markdown
+from weakforms.errors import InputError
+from weakforms.results import write_atomically
+from weakforms.results.io import require_writable
+from weakforms.solvers.provenance import revision
+from weakforms.verification import gallery
+from weakforms.verification.catalogue import describe
+from weakforms.verification.discovery import find_cases
+from weakforms.verification.figures import LOOK, TEMPLATES
+from weakforms.verification.references import ROOT
+from weakforms.verification.summary import html_tex
+
+Progress = Callable[[float, float, str], None]
+VARIATIONS = (
+    r"\delta\Pi(u; v) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} \Pi(u + \epsilon v) \,|_{\epsilon = 0} = 0, "
+    r"\quad K(u; v, w) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} "
+    r"\delta\Pi(u + \epsilon w; v) \,|_{\epsilon = 0}"
+)
+
+
+def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: Progress = lambda *_: None) -> Path:
+    """Write the documentation as static pages.
+
+    Args:
+        out: Folder; made when missing. Solutions of the pictures are kept in ``out/solutions``.
+        jobs: Solves side by side.
+        solve: Whether to solve the problems' examples for their pictures.
+        progress: Told seconds of work done, in all, and what is being solved.
+
+    Returns:
+        The path of the first page.
+
+    Raises:
+        InputError: When the folder cannot be written to.
+    """
+    from weakforms.problems import registry
+
+    for folder in (out, out / "problems", out / "api"):
+        require_writable(folder)
+    names = list(registry.problems)
+    drawn = pictures(out / "solutions", jobs, names, progress) if solve else {}
+    site = Site(out, names)
+    for name in names:
+        site.problem(registry.problems[name], *drawn.get(name, (None, "")))
+    for group, title in api.GROUPS.items():
+        site.write(
+            f"api/{group}.html", "api.html", f"{group}", "API", about=title, modules=api.modules(group)
+        )
+    site.write("cases.html", "cases.html", "Cases", "Documentation", cases=find_cases())
+    for path in site.guides:
+        site.guide(path)
+    site.home()
+    return out / "index.html"
+
+
+class Site:
+    """Pages of one look that know of each other.
+
+    Args:
+        out: Folder.
+        names: Problems.
+    """
+
+    def __init__(self, out: Path, names: list[str]) -> None:
+        self.out = out
+        self.guides = [*sorted((ROOT / "docs").glob("*.md")), *ROOT.glob("CONTRIBUTING.md")]
+        self.contents = [
+            ("Guide", [("Home", "index.html"), *((_title(p), f"{p.stem}.html") for p in self.guides)]),
+            ("Problems", [(name, f"problems/{name}.html") for name in names]),
+            ("Reference", [("cases", "cases.html"), *((g, f"api/{g}.html") for g in api.GROUPS)]),
+        ]
+        here = Path(__file__).parent / "templates"
+        self._environment = Environment(
+            loader=ChoiceLoader([FileSystemLoader(here), FileSystemLoader(TEMPLATES)]),
+            autoescape=True,
+            undefined=StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+        )
+        self._environment.filters["tex"] = lambda text: Markup(html_tex(text))
+
+    def write(self, page: str, template: str, title: str, section: str, **facts: Any) -> None:
+        """One page."""
+        text = self._environment.get_template(template).render(
+            title=title,
+            section=section,
+            contents=self.contents,
+            here=page,
+            up="../" * page.count("/"),
+            look=LOOK,
+            version=revision(),
+            **facts,
+        )
+        write_atomically(self.out / page, text)
+
+    def home(self) -> None:
+        """The first page: the README's own words, without the picture that lies beside it."""
+        text = (ROOT / "README.md").read_text("utf-8") if (ROOT / "README.md").exists() else ""
+        text = re.sub(r"(?m)^!\[.*\n(\n\*.*(?:\n.+)*)?", "", text.partition("\n")[2])
+        text = text.replace("](docs/", "](")
+        self.write("index.html", "docs.html", "weakforms", "Documentation", body=self._prose(text))
+
+    def guide(self, path: Path) -> None:
+        """A page of the folder ``docs``."""
+        text = path.read_text("utf-8")
+        body = self._prose(re.sub(r"\A# .*\n", "", text))
+        self.write(f"{path.stem}.html", "docs.html", _title(path), "Guide", body=body)
+
+    def _prose(self, text: str) -> Markup:
+        """Markdown; links to files that have no page here become plain text."""
+        known = "|".join(re.escape(f"{path.stem}.html") for path in self.guides)
+        link = re.compile(rf'<a href="(?!https?:|#|(?:{known})[#"])[^"]*">(.*?)</a>', re.S)
+        return Markup(link.sub(r"\1", markdown(text)))
+
+    def problem(self, problem: Any, picture: Markup | None, caption: str) -> None:
+        """A problem's page, from the same facts that ``weakforms show`` prints."""
+        name = problem.name
+        shown = gallery.SHOWN.get(name)
+        forms = [
+            (place, docstring(inspect.getdoc(what)), source)
+            for place, what, source in gallery.written_forms(name)
+        ]
+        self.write(
+            f"problems/{name}.html",
+            "problem.html",
+            problem.title,
+            "Problems",
+            facts=describe(name),
+            paper=problem.paper,
+            unknown=shown.unknown if shown else "the unknown",
+            weak=Markup(formula(VARIATIONS)),
+            forms=forms,
+            about=docstring(sys.modules[type(problem).__module__].__doc__),
+            picture=picture,
+            caption=caption,
+            cases=_cases_of(name),
+        )
+
+
+def _title(path: Path) -> str:
+    first = path.read_text("utf-8").partition("\n")[0]
+    return first.removeprefix("# ").strip() or path.stem
+
+
+@cache
+def _problems_of_cases() -> dict[str, set[str]]:
+    """Which problems each case solves; none for a case whose tables cannot be read."""
+    from weakforms.verification.runner import case_wants
+
+    out = {}
+    for found in find_cases():
+        with suppress(InputError):
+            out[found.id] = {spec.problem for spec, _ in case_wants(found)}
+    return out
+
+
+def _cases_of(problem: str) -> list[tuple[str, str]]:
+    """Ids and titles of the cases that solve a problem."""
+    solved = _problems_of_cases()
+    return [(found.id, found.case.title) for found in find_cases() if problem in solved.get(found.id, ())]
