@@ -30,7 +30,7 @@ SIDES = ("0", "pi")
 BENT_ASKED = {
     "V": 3e-5,
     "r_mid": 3e-5,
-    "r_mid_pi": 3e-5,
+    "r_mid_pi": 5e-5,
     **{f"{name}_quarter_{side}": 3e-5 for name in "xz" for side in SIDES},
     **{f"{name}_quarter_0": 1e-3 for name in ("T1", "T2")},
     **{f"{name}_quarter_pi": 1e-4 for name in ("T1", "T2")},

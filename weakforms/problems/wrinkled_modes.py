@@ -24,7 +24,7 @@ from weakforms.forms.fluid import axisymmetric
 from weakforms.forms.materials import mooney_rivlin
 from weakforms.problems.wrinkled_fields import Meridian
 from weakforms.problems.wrinkled_model import LOWER, UPPER, WrinkledModel
-from weakforms.solvers.modes import SecondVariation
+from weakforms.solvers.modes import SecondVariation, judged
 from weakforms.solvers.stability import Mode, Spectrum, Stability
 from weakforms.solvers.system import Formulation, State
 
@@ -138,7 +138,7 @@ class Waves:
         if n == 0:
             system = self.model.system
             system.update_mass()
-            return Stability(system).spectrum(system.state(), count)
+            return judged(Stability(system), system.state(), count)
         return self.variation(n, beta).spectrum(count)
 
     def negative_count(self, n: float, beta: float = 0.0) -> int:

@@ -58,10 +58,7 @@ class SecondVariation(System):
 
         Where one is zero to round-off (a critical point), it is not counted as negative.
         """
-        try:
-            return self.stability.spectrum(self._at_rest(), count)
-        except ConvergenceError:
-            return self.stability.spectrum(self._at_rest(), count, shift=CRITICAL)
+        return judged(self.stability, self._at_rest(), count)
 
     def fixed(self, border: np.ndarray, compliance: float) -> Spectrum:
         """The same for ``K + b bᵀ/c``: see :meth:`Stability.bordered`."""
@@ -103,6 +100,20 @@ class SecondVariation(System):
         if self._quadratic is None:
             self._quadratic = ufl.action(ufl.action(self._ufl["tangent"], self.mode), self.mode)
         return self.base.scalar_gradient(f"quadratic_{self.unknown.name}", self._quadratic, loads)
+
+
+def judged(stability: Stability, state: State, count: int) -> Spectrum:
+    """The lowest eigenvalues of a state and the inertia's count of negative ones.
+
+    Where one is zero to round-off (a critical point), it is not counted as negative.
+
+    Raises:
+        ConvergenceError: When SLEPc and the inertia disagree on the others.
+    """
+    try:
+        return stability.spectrum(state, count)
+    except ConvergenceError:
+        return stability.spectrum(state, count, shift=CRITICAL)
 
 
 @dataclass(frozen=True)
