@@ -7,7 +7,7 @@ gives the same energy.
 
 import numpy as np
 
-from weakforms import Case, Claim, Finding, Solutions, Spec, wrinkled_material
+from weakforms import Axis, Case, Claim, Finding, Line, Panel, Solutions, Spec, wrinkled_material
 
 LAWS = (0.01, 0.0)
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
@@ -23,6 +23,14 @@ BOUNDARIES = {
     "B/D": [lambda e, v=v: (1 + e, v) for v in ACROSS],
     "C/D": [lambda e, v=v: (v, 1 + e) for v in ACROSS],
 }
+
+
+BEYOND = np.linspace(1, 5, 81)
+
+
+def edge(x: np.ndarray, y: np.ndarray) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Points of a boundary."""
+    return tuple(x.tolist()), tuple(y.tolist())
 
 
 def sheet(stretches: tuple[float, float], c2: float, energy: str = "relaxed") -> Spec:
@@ -97,6 +105,22 @@ MODIFIED = tuple((sheet(p, LAWS[0], "modified_gradient"), None) for p in POINTS)
 CASE = Case(
     title="States of a sheet",
     source="Patil, Nordmark & Eriksson (2016), figure 1 and appendix",
+    panels=(
+        Panel(
+            "1",
+            x=Axis("lam1", 0, 5, r"$\lambda_1$"),
+            y=Axis("lam2", 0, 5, r"$\lambda_2$"),
+            curves=(),
+            title="A taut, B in tension along 1 (below), C along 2 (left), D slack",
+            note="The boundaries; that the states of the weak form change there is checked below.",
+            lines=(
+                Line("A/B", *edge(BEYOND, BEYOND**-0.5)),
+                Line("A/C", *edge(BEYOND**-0.5, BEYOND)),
+                Line("B/D", (1.0, 1.0), (0.0, 1.0)),
+                Line("C/D", (0.0, 1.0), (1.0, 1.0)),
+            ),
+        ),
+    ),
     checks=(
         Claim(
             "continuous",

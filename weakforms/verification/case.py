@@ -96,6 +96,15 @@ class Dashed:
 
 
 @dataclass(frozen=True)
+class Line:
+    """A line of a panel that is known exactly: nothing is solved for it, and nothing compared."""
+
+    label: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class Panel:
     """One panel of a figure, on the paper's axes."""
 
@@ -113,6 +122,8 @@ class Panel:
     """Profiles of the half body drawn on the whole of it, as the paper does."""
     note: str = ""
     dashed: Dashed | None = None
+    lines: tuple[Line, ...] = ()
+    """What a panel without curves shows."""
 
 
 @dataclass(frozen=True)

@@ -174,6 +174,9 @@ def draw_panel(
         level=panel.level,
         note=panel.note,
     )
+    if panel.lines:
+        outcome.drawn = "exact"
+    outcome.curves = [CurveOutcome(line.label, line.label, [*line.x], [*line.y]) for line in panel.lines]
     if panel.dashed is not None:
         outcome.full, outcome.dashed = panel.dashed.full, panel.dashed.dashed
     for curve in panel.curves:
