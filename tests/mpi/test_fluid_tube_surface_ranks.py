@@ -14,7 +14,7 @@ def test_full_circle(same_on_two_ranks):
 
 
 def test_secondary_branch(same_on_two_ranks):
-    coarse = {"cells": 16, "degree": 4, "levels": 2}
+    coarse = {"cells": 24, "degree": 4, "levels": 2}
     coarse |= {"secondary_cells": 16, "secondary_around": 16, "secondary_degree": 3, "secondary_levels": 2}
     bent = {
         "problem": "fluid_tube",

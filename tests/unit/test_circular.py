@@ -117,6 +117,15 @@ def test_the_free_cap_is_in_vertical_balance():
     assert t1 * sine == pytest.approx(p * rho / 2, rel=5e-4)
 
 
+def test_a_kept_run_begins_where_a_new_one_does():
+    """Both solves share the discrete disk, which the first leaves far inflated."""
+    mesh = {"cells": 16, "degree": 3, "levels": 2}
+    far, near = (solve("circular", alpha=0, beta=1.2, t_end=t, numerics=mesh) for t in (3.1, 2.0))
+    assert far.failures == near.failures == []
+    a, b = (found.points("limit_point")[0].values["p"] for found in (far, near))
+    assert a == pytest.approx(b, rel=1e-10)
+
+
 def test_published_limit_point_of_the_neo_hookean_disk():
     result = solve("circular", alpha=0, t_end=1.5)
     (limit,) = result.points("limit_point")

@@ -54,14 +54,16 @@ class DiskRun:
         self.comm, self.data, self.adhesion = comm, data, adhesion
         self.p_end, self.step, self.terms = p_end, step, terms
         self.slip = DiskModel(comm, data)
+        self._flat = self.slip.system.state()
+        """Where every branch begins: a run is kept, and the next one finds its system where the last ended."""
 
     # -- free and frictionless -----------------------------------------------------------------
 
     def free(self, t_end: float) -> EquilibriumBranch:
         """Free inflation up to a pole height."""
         solver = ExtendedNewton(self.slip.system, ["p"])
-        state = self.slip.system.state()
-        state.loads["front"] = FREE_FRONT * self.data.edge
+        front = FREE_FRONT * self.data.edge
+        state = State(self._flat.u.copy(), self._flat.loads | {"front": front})
         held = Held("p", 0.0)
         if self.data.beta < TAUT:
             state, held = self._first_guess(state), Held("t0", FIRST_T0)
