@@ -55,7 +55,7 @@ class DiskRun:
         self.p_end, self.step, self.terms = p_end, step, terms
         self.slip = DiskModel(comm, data)
         self._flat = self.slip.system.state()
-        """Where every branch begins: a run is kept, and the next one finds its system where the last ended."""
+        """Where every branch begins: a run is kept, and the next finds its system where the last ended."""
 
     # -- free and frictionless -----------------------------------------------------------------
 
