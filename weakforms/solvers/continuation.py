@@ -19,6 +19,8 @@ class Tangent:
 
     u: np.ndarray
     loads: dict[str, float]
+    dual: np.ndarray | None = None
+    """``M u`` where it is known already: what projects on this direction."""
 
 
 @dataclass
@@ -78,24 +80,26 @@ class Continuation:
 
     # -- geometry in (U, λ) ------------------------------------------------------------------
 
-    def _norm(self, u: np.ndarray, loads: dict[str, float]) -> float:
-        square = self.system.dot(u, self.system.mass_times(u))
+    def _norm(self, u: np.ndarray, dual: np.ndarray, loads: dict[str, float]) -> float:
+        square = self.system.dot(u, dual)
         return float(np.sqrt(square + sum(v * v for v in loads.values())))
 
     def distance(self, a: State, b: State) -> float:
         """Length of the chord between two states."""
-        return self._norm(*self._difference(a, b))
+        u = a.u - b.u
+        loads = {name: a.loads[name] - b.loads[name] for name in self.solver.scalars}
+        return self._norm(u, self.system.mass_times(u), loads)
 
-    def _difference(self, a: State, b: State) -> tuple[np.ndarray, dict[str, float]]:
-        return a.u - b.u, {name: a.loads[name] - b.loads[name] for name in self.solver.scalars}
+    def _dual(self, tangent: Tangent) -> np.ndarray:
+        return self.system.mass_times(tangent.u) if tangent.dual is None else tangent.dual
 
     def _inner(self, a: Tangent, b: Tangent) -> float:
         loads = sum(a.loads[name] * b.loads[name] for name in self.solver.scalars)
-        return self.system.dot(a.u, self.system.mass_times(b.u)) + loads
+        return self.system.dot(a.u, self._dual(b)) + loads
 
     def plane(self, through: State, tangent: Tangent, offset: float = 0.0) -> Plane:
         """Plane across the curve at a distance along its tangent."""
-        row = self.system.mass_times(tangent.u)
+        row = self._dual(tangent)
         weights = tangent.loads
         target = self.system.dot(row, through.u)
         target += sum(w * through.loads[name] for name, w in weights.items()) + offset
@@ -103,14 +107,18 @@ class Continuation:
 
     def _tangent(self, along: Tangent) -> Tangent:
         """Direction at the state the system holds (factorised), oriented as ``along``."""
-        plane = Plane(self.system.mass_times(along.u), along.loads, 0.0)
+        plane = Plane(self._dual(along), along.loads, 0.0)
         bordered = self.solver.border([*self.fixed, plane])
         goal = np.zeros(len(self.solver.scalars))
         goal[-1] = 1.0
         u, values = bordered.solve(np.zeros(self.system.size), goal)
         loads = dict(zip(self.solver.scalars, values.tolist(), strict=True))
-        length = self._norm(u, loads)
-        return Tangent(u / length, {name: v / length for name, v in loads.items()})
+        return self._unit(u, loads)
+
+    def _unit(self, u: np.ndarray, loads: dict[str, float], sign: float = 1.0) -> Tangent:
+        dual = self.system.mass_times(u)
+        factor = sign / self._norm(u, dual, loads)
+        return Tangent(u * factor, {name: v * factor for name, v in loads.items()}, dual * factor)
 
     def direction_here(self, along: Tangent) -> Tangent:
         """Direction of the curve at the state the system holds, oriented as another."""
@@ -154,10 +162,8 @@ class Continuation:
         u, values = bordered.solve(np.zeros(self.system.size), goal)
         loads = dict(zip(self.solver.scalars, values.tolist(), strict=True))
         (name, sign), *_ = towards.items()
-        length = self._norm(u, loads)
         rate = self.rate(name, Tangent(u, loads))
-        factor = np.sign(rate) * np.sign(sign) / length
-        along = Tangent(u * factor, {key: v * factor for key, v in loads.items()})
+        along = self._unit(u, loads, float(np.sign(rate) * np.sign(sign)))
         return self.point(state, record, along, 0.0)
 
     def rate(self, name: str, tangent: Tangent) -> float:

@@ -172,10 +172,7 @@ class BorderedMatrix:
         if not len(g):
             return z, g
         inner = np.array([self.system.dot(row, z) for row in self.rows])
-        try:
-            mu = np.linalg.solve(self._schur, g - inner)
-        except np.linalg.LinAlgError:
-            mu = np.full(len(g), np.nan)
+        mu = _small_solve(self._schur, g - inner)
         for value, column in zip(mu, self._solved, strict=True):
             z -= value * column
         return z, mu
@@ -238,3 +235,14 @@ class BorderedMatrix:
         if self.factor.use_pivoting():
             self.factor.refactor()
             self._eliminate()
+
+
+def _small_solve(matrix: np.ndarray, rhs: np.ndarray) -> np.ndarray:
+    """Solution of a few equations; NaN where they are singular."""
+    if len(rhs) == 1:  # most of them, and the library call would cost more than all of the rest
+        pivot = matrix[0, 0]
+        return rhs / pivot if pivot else np.full(1, np.nan)
+    try:
+        return np.linalg.solve(matrix, rhs)
+    except np.linalg.LinAlgError:
+        return np.full(len(rhs), np.nan)

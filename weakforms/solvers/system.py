@@ -82,6 +82,7 @@ class System:
         self.unknown = formulation.unknown
         space = self.unknown.function_space
         self.comm: MPI.Intracomm = space.mesh.comm
+        self._alone = self.comm.size == 1
         self.test, self.trial = ufl.TestFunction(space), ufl.TrialFunction(space)
         self._phi, self._psi = fem.Function(space), fem.Function(space)
         self._rate = fem.Constant(space.mesh, 0.0)
@@ -294,7 +295,8 @@ class System:
 
     def dot(self, a: np.ndarray, b: np.ndarray) -> float:
         """Euclidean inner product over all ranks."""
-        return float(self.sum(float(a @ b)))
+        local = float(a @ b)
+        return local if self._alone else self.comm.allreduce(local, op=MPI.SUM)
 
     def mass_times(self, u: np.ndarray) -> np.ndarray:
         """``M u``; with it the norm of a field does not depend on the mesh."""
