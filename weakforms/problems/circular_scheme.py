@@ -12,7 +12,6 @@ solves for. The history is per node: each rank runs the whole of this small prob
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -42,11 +41,10 @@ from weakforms.problems.circular_problem import ENERGY, SCALES, SOURCE
 from weakforms.problems.circular_runs import FIRST_T0, parabola
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.meshes import graded_interval, tag_points
-from weakforms.results import Quantity, Result
+from weakforms.problems.twice import solve_twice
+from weakforms.results import Result
 from weakforms.solvers.constraints import Held
 from weakforms.solvers.newton import ExtendedNewton
-from weakforms.solvers.provenance import provenance
-from weakforms.solvers.refinement import estimate
 from weakforms.solvers.system import Formulation, State, System
 
 POLE, RIM = 1, 2
@@ -201,24 +199,12 @@ class CircularScheme:
         progress: Progress = silent,
     ) -> Result:
         """Run the scheme twice; uncertainties are of first order."""
-        begun = time.perf_counter()
-        found = []
-        for level in (2, 1):
-            progress("scheme", 2 - level, 2)
-            disk = FixedDisk.build(MPI.COMM_SELF, parameters, numerics.cells // level)
-            found.append(disk.run(parameters, numerics.steps // level))
-        quantities = {}
-        for name in found[0]:
-            value = estimate([item[name] for item in found], cap=1.0)
-            quantities[name] = Quantity(float(value.value), float(value.uncertainty))
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics=numerics.model_dump(),
-            provenance=provenance(comm, time.perf_counter() - begun),
-            quantities=quantities,
-        )
+
+        def run(coarser: int) -> dict[str, float]:
+            disk = FixedDisk.build(MPI.COMM_SELF, parameters, numerics.cells // coarser)
+            return disk.run(parameters, numerics.steps // coarser)
+
+        return solve_twice(self, parameters, numerics, comm, progress, run, order=1.0)
 
 
 registry.add(CircularScheme())

@@ -16,7 +16,6 @@ small problem.
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
@@ -30,15 +29,22 @@ from pydantic import Field
 from weakforms.forms.kinematics import tube_stretches
 from weakforms.forms.loads import gas_potential, substrate_potential
 from weakforms.forms.materials import mooney_rivlin
-from weakforms.problems.base import Numerics, Parameters, Progress, Requests, registry, silent
+from weakforms.problems.base import (
+    Numerics,
+    Parameters,
+    Progress,
+    Requests,
+    check_requests,
+    registry,
+    silent,
+)
 from weakforms.problems.meshes import graded_interval, tag_points
 from weakforms.problems.tube import first_state
 from weakforms.problems.tube_problem import ENERGY, SCALES, SOURCE
-from weakforms.results import Quantity, Result
+from weakforms.problems.twice import solve_twice
+from weakforms.results import Result
 from weakforms.solvers.constraints import Held, Plane
 from weakforms.solvers.newton import ExtendedNewton
-from weakforms.solvers.provenance import provenance
-from weakforms.solvers.refinement import estimate
 from weakforms.solvers.system import Formulation, State, System
 
 MIDPLANE, DISK = 1, 2
@@ -187,8 +193,6 @@ class TubeScheme:
 
     def check(self, parameters: SchemeParameters, requests: Requests) -> None:
         """Refuse states: the scheme ends at ``p_end``, which is the only one."""
-        from weakforms.problems.base import check_requests
-
         check_requests(self, requests)
 
     def solve(
@@ -200,27 +204,16 @@ class TubeScheme:
         progress: Progress = silent,
     ) -> Result:
         """Run the scheme on two meshes (and numbers of steps); uncertainties are of first order."""
-        begun = time.perf_counter()
-        found = []
-        for level in (2, 1):
-            progress("scheme", 2 - level, 2)
-            found.append(_run(comm, parameters, numerics.cells // level, numerics.steps // level))
-        quantities = {}
-        for name in found[0]:
-            value = estimate([item[name] for item in found], cap=1.0)
-            quantities[name] = Quantity(float(value.value), float(value.uncertainty))
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics=numerics.model_dump(),
-            provenance=provenance(comm, time.perf_counter() - begun),
-            quantities=quantities,
-        )
+        alone = MPI.COMM_SELF if comm.size > 1 else comm
+
+        def run(coarser: int) -> dict[str, float]:
+            return _run(alone, parameters, numerics.cells // coarser, numerics.steps // coarser)
+
+        return solve_twice(self, parameters, numerics, comm, progress, run, order=1.0)
 
 
 def _run(comm: MPI.Intracomm, parameters: SchemeParameters, cells: int, steps: int) -> dict[str, float]:
-    tube = FixedMesh.build(MPI.COMM_SELF if comm.size > 1 else comm, parameters, cells)
+    tube = FixedMesh.build(comm, parameters, cells)
     state = tube.touch()
     if parameters.scheme == "front_nodes":
         state = tube.front_nodes(state)

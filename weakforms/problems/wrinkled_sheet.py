@@ -9,7 +9,6 @@ pressure is unstable to waves around it (Paper 5).
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -25,6 +24,7 @@ from ufl.core.expr import Expr
 from weakforms.forms.materials import mooney_rivlin
 from weakforms.forms.wrinkling import mooney_rivlin_invariants, surface_tension_field
 from weakforms.problems.base import Numerics, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.twice import solve_twice
 from weakforms.problems.wrinkled_body import CYLINDER, SHARED
 from weakforms.problems.wrinkled_branch import WrinkledBranch
 from weakforms.problems.wrinkled_state import Held
@@ -36,11 +36,9 @@ from weakforms.problems.wrinkled_tube import (
     WrinkledParameters,
     wrinkled_membrane,
 )
-from weakforms.results import Quantity, Result
+from weakforms.results import Result
 from weakforms.solvers.constraints import Held as Prescribed
 from weakforms.solvers.newton import ExtendedNewton
-from weakforms.solvers.provenance import provenance
-from weakforms.solvers.refinement import estimate
 from weakforms.solvers.system import Formulation, State, System
 
 QUARTER = np.pi / 2
@@ -209,28 +207,16 @@ class WrinkledSheet:
         progress: Progress = silent,
     ) -> Result:
         """Start from the axisymmetric state with its fronts, solve on two meshes."""
-        begun = time.perf_counter()
         membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
         branch = WrinkledBranch(membrane, parameters.at_load, parameters.volume_end, 0.5, 12)
         plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)
         (start,) = membrane.fitted(plain, Prescribed(membrane.control, parameters.at_load), fine_only=True)
-        found = []
-        for level in (2, 1):
-            progress("sheet", 2 - level, 2)
-            sheet = Sheet(numerics.around // level, numerics.along // level, numerics.degree, start)
-            found.append(sheet.solve(comm))
-        quantities = {}
-        for name in found[0]:
-            value = estimate([item[name] for item in found], CAP)
-            quantities[name] = Quantity(float(value.value), float(value.uncertainty))
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics=numerics.model_dump(),
-            provenance=provenance(comm, time.perf_counter() - begun),
-            quantities=quantities,
-        )
+
+        def run(coarser: int) -> dict[str, float]:
+            cells = numerics.around // coarser, numerics.along // coarser
+            return Sheet(*cells, numerics.degree, start).solve(comm)
+
+        return solve_twice(self, parameters, numerics, comm, progress, run, CAP)
 
 
 registry.add(WrinkledSheet())
