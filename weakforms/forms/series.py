@@ -1,4 +1,4 @@
-"""Chebyshev series as expressions."""
+"""Polynomials of high degree as expressions."""
 
 from __future__ import annotations
 
@@ -7,22 +7,26 @@ from collections.abc import Sequence
 from ufl.core.expr import Expr
 
 
-def chebyshev_series(coefficients: Sequence[Expr], x: Expr, span: Expr | float) -> tuple[Expr, Expr]:
-    r"""Value and derivative in ``x`` of a Chebyshev series on ``[0, span]``.
+def newton_series(
+    coefficients: Sequence[Expr], nodes: Sequence[float], x: Expr, span: Expr | float
+) -> tuple[Expr, Expr]:
+    r"""Value and derivative in ``x`` of a polynomial on ``[0, span]`` in Newton's form.
 
-    .. math:: f(x) = \sum_m a_m T_m(t), \qquad t = 2 x/\mathrm{span} - 1, \qquad T_m' = m\,U_{m-1}
+    .. math:: f(x) = c_0 + (t - t_0)\,\big(c_1 + (t - t_1)\,(c_2 + \dots)\big),
+              \qquad t = 4 x/\mathrm{span} - 2
+
+    Each bracket stands in the next one once. The recurrence of Chebyshev polynomials would have two in each,
+    and as many paths through it as Fibonacci's numbers: more than forms of twenty terms can be compiled with.
 
     Args:
-        coefficients: ``a_m``, two or more.
+        coefficients: Divided differences ``c_m``.
+        nodes: ``t_m`` in ``[-2, 2]``, where they neither grow nor fall with ``m``; in Leja's order.
         x: Where.
         span: Right end.
     """
-    t, slope = 2 * x / span - 1, 2 / span
-    first, second = (1.0, t), (1.0, 2 * t)  # T_{m-1}, T_m and U_{m-1}, U_m
-    value, rate = coefficients[0], 0
-    for m in range(1, len(coefficients)):
-        value = value + coefficients[m] * first[1]
-        rate = rate + coefficients[m] * m * second[0]
-        first = (first[1], 2 * t * first[1] - first[0])
-        second = (second[1], 2 * t * second[1] - second[0])
-    return value, rate * slope
+    t = 4 * x / span - 2
+    value, rate = coefficients[-1], 0
+    for c, node in zip(reversed(coefficients[:-1]), reversed(nodes[:-1]), strict=True):
+        rate = value + (t - node) * rate
+        value = c + (t - node) * value
+    return value, rate * (4 / span)

@@ -26,9 +26,9 @@ from ufl.core.expr import Expr
 from weakforms.forms.kinematics import Slope, Stretches, disk_stretches
 from weakforms.forms.loads import bed_potential, enclosed_volume, gas_potential
 from weakforms.forms.materials import stress_resultants
-from weakforms.forms.series import chebyshev_series
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import tag_points
+from weakforms.problems.series import Series
 from weakforms.solvers.system import Formulation, System
 
 POLE, FRONT, RIM = 1, 2, 3
@@ -110,10 +110,10 @@ class DiskModel:
         terms = bond.terms if bond else 1
         # The moment is a product of the other two.
         lengths = {"lam2": terms + 1, "depth": terms + 1, "moment": 2 * terms}
-        self.series = {name: fem.Constant(self.mesh, np.zeros(n)) for name, n in lengths.items()}
         span = bond.span if bond else 1.0
         self.law = data.chosen.law(self.mesh)
-        self.l, self.end, self.span = (fem.Constant(self.mesh, value) for value in (data.l, data.edge, span))
+        self.l, self.end, span = (fem.Constant(self.mesh, value) for value in (data.l, data.edge, span))
+        self.series = {name: Series(self.mesh, n, span) for name, n in lengths.items()}
         self.patch = fem.Function(fem.functionspace(self.mesh, ("DG", 0)))
         cells = dmesh.locate_entities(self.mesh, 1, lambda x: x[0] <= 1.0 + 1e-12)
         self.patch.x.array[cells] = 1.0
@@ -158,12 +158,12 @@ class DiskModel:
         lam2_s, eta_s = lam2.dx(0), eta.dx(0)
         if self.bond is None:
             return Geometry(x, jacobian, lam2, lam2_s / jacobian, eta, eta_s / jacobian)
-        locked, locked_slope = self._series("lam2", front * s)
-        at_front, _ = self._series("lam2", front)
+        locked, locked_slope = self.series["lam2"](front * s)
+        at_front, _ = self.series["lam2"](front)
         height, slope = eta, eta_s / jacobian
         if self.bond.rigid:
-            depth, depth_slope = self._series("depth", front * s)
-            deepest, _ = self._series("depth", front)
+            depth, depth_slope = self.series["depth"](front * s)
+            deepest, _ = self.series["depth"](front)
             height = self._in_patch(eta + deepest - depth, eta)
             slope = self._in_patch(-depth_slope, eta_s / jacobian)
         return Geometry(
@@ -174,10 +174,6 @@ class DiskModel:
             height,
             slope,
         )
-
-    def _series(self, name: str, x: Expr) -> tuple[Expr, Expr]:
-        constant = self.series[name]
-        return chebyshev_series([constant[m] for m in range(len(constant.value))], x, self.span)
 
     # -- the form ------------------------------------------------------------------------------
 
@@ -197,8 +193,8 @@ class DiskModel:
     def _vertex_potential(self) -> ufl.Form:
         """Springs under a rigid patch, whose only freedom is the height of its edge (constants dropped)."""
         front, k = self.loads["front"][1], self.loads["k"][1]
-        at_front, _ = self._series("lam2", front)
-        moment, _ = self._series("moment", front)
+        at_front, _ = self.series["lam2"](front)
+        moment, _ = self.series["moment"](front)
         above = ufl.avg(self.unknown[1]) - self.l
         return k * ((front * at_front) ** 2 * above**2 / 4 + moment * above) * self.inner(FRONT)
 
@@ -293,7 +289,7 @@ class DiskModel:
         g = self.geometry
         if self.bond is None or not self.bond.rigid:
             return self._side(-g.eta_slope / g.x, patch=False)
-        moment, _ = self._series("moment", self.loads["front"][1])
+        moment, _ = self.series["moment"](self.loads["front"][1])
         force = self.loads["p"][1] * g.rho**2 / 2 - self.loads["k"][1] * moment
         return self._side(force * g.stretches.lam1 / (g.x**2 * t1 * g.lam2), patch=False)
 

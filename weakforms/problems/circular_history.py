@@ -100,9 +100,9 @@ class History:
         radius = chebyshev.chebmul(x, lam2)
         density = chebyshev.chebmul(falling, chebyshev.chebmul(radius, radius)) / 2  # dI/dx
         moment = chebyshev.chebint(density, lbnd=-1.0) * span / 2
-        self.model.series["lam2"].value[:] = lam2
-        self.model.series["depth"].value[:] = _shortened(depth, terms + 1)
-        self.model.series["moment"].value[:] = _shortened(moment, 2 * terms)
+        self.model.series["lam2"].set(lam2)
+        self.model.series["depth"].set(_shortened(depth, terms + 1))
+        self.model.series["moment"].set(_shortened(moment, 2 * terms))
 
 
 def _shortened(series: np.ndarray, terms: int) -> np.ndarray:

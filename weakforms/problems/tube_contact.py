@@ -19,6 +19,7 @@ from dolfinx import fem
 from dolfinx import mesh as dmesh
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
+from numpy.polynomial import chebyshev
 from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Slope, tube_stretches
@@ -26,6 +27,7 @@ from weakforms.forms.loads import enclosed_volume, gas_potential, substrate_pote
 from weakforms.forms.materials import stress_resultants
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import tag_points
+from weakforms.problems.series import Series
 from weakforms.solvers.system import Formulation, System
 
 MIDPLANE, FRONT, DISK = 1, 2, 3
@@ -85,7 +87,9 @@ class ContactModel:
         values = {"p": 0.0, "front": FIRST_FRONT * self.half, "k": 0.0, "delta1": data.delta1}
         self.constants = {name: fem.Constant(self.mesh, value) for name, value in values.items()}
         self.loads = {name: (c, ufl.variable(c)) for name, c in self.constants.items()}
-        self.series = fem.Constant(self.mesh, np.zeros(max(data.terms, 1)))
+        fixed = {"half": self.half, "s": data.s, "span": data.span}
+        self.fixed = {name: fem.Constant(self.mesh, value) for name, value in fixed.items()}
+        self.axial_slope, self.axial = (Series(self.mesh, data.terms + n, self.fixed["span"]) for n in (0, 1))
         self.patch = fem.Function(fem.functionspace(self.mesh, ("DG", 0)))
         cells = dmesh.locate_entities(self.mesh, 1, lambda x: x[0] <= 1.0 + 1e-12)
         self.patch.x.array[cells] = 1.0
@@ -111,7 +115,7 @@ class ContactModel:
 
     def _jacobian(self) -> Expr:
         front = self.loads["front"][1]
-        return self._in_patch(front, self.half - front)
+        return self._in_patch(front, self.fixed["half"] - front)
 
     def _set_reference_state(self) -> None:
         front = self.constants["front"].value
@@ -124,14 +128,11 @@ class ContactModel:
 
     # -- the stuck patch -----------------------------------------------------------------------
 
-    def stuck_position(self, z: Expr) -> Expr:
-        """``E(Z)``: the integral of the series, zero at the mid-plane."""
-        t = 2 * z / self.data.span - 1
-        return (
-            self.data.span
-            / 2
-            * sum(self.series[m] * (integral(m, t) - integral(m, -1.0)) for m in range(self.data.terms))
-        )
+    def set_history(self, coefficients: np.ndarray) -> None:
+        """Give ``E'`` its series; ``E`` is its integral, zero at the mid-plane."""
+        self.history = coefficients
+        self.axial_slope.set(coefficients)
+        self.axial.set(chebyshev.chebint(coefficients, lbnd=-1.0) * self.data.span / 2)
 
     def axial_position(self) -> tuple[Expr, Expr]:
         """``(eta, deta/dx)``; in a stuck patch not the unknown's."""
@@ -140,16 +141,15 @@ class ContactModel:
         if not self.stuck:
             return q, q.dx(0)
         front = self.loads["front"][1]
-        at_front = self.stuck_position(front)
-        t = 2 * (front * x) / self.data.span - 1
-        slope = front * sum(self.series[m] * chebyshev(m, t) for m in range(self.data.terms))
-        eta = self._in_patch(self.stuck_position(front * x), q + at_front * (2 - x))
-        return eta, self._in_patch(slope, q.dx(0) - at_front)
+        place = front * x
+        (at_front, _), (inside, _), (slope, _) = self.axial(front), self.axial(place), self.axial_slope(place)
+        eta = self._in_patch(inside, q + at_front * (2 - x))
+        return eta, self._in_patch(front * slope, q.dx(0) - at_front)
 
     # -- the form ------------------------------------------------------------------------------
 
     def _formulation(self) -> Formulation:
-        data, unknown = self.data, self.unknown
+        data, unknown, s = self.data, self.unknown, self.fixed["s"]
         rho = unknown[0]
         eta, eta_x = self.axial_position()
         p, k, delta1 = (self.loads[name][1] for name in ("p", "k", "delta1"))
@@ -158,16 +158,16 @@ class ContactModel:
         stretches = tube_stretches(rho, axial, delta1, jacobian)
         contact = self._in_patch(1.0, 0.0)
         if data.unilateral:
-            contact = contact * ufl.conditional(ufl.gt(rho, data.s), 1.0, 0.0)
+            contact = contact * ufl.conditional(ufl.gt(rho, s), 1.0, 0.0)
         dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2 * data.degree + 4})
         law = (data.material or mooney_rivlin_of(data.alpha)).law(self.mesh)
         density = law(stretches.lam1, stretches.lam2) / ufl.sqrt(delta1) * jacobian
-        density += gas_potential(rho, axial, p) + substrate_potential(rho, axial, k, data.s, contact)
+        density += gas_potential(rho, axial, p) + substrate_potential(rho, axial, k, s, contact)
         energy = density * dx
         t1, t2 = stress_resultants(law, stretches.lam1, stretches.lam2)
         membrane = ufl.sqrt(delta1) * t1 * stretches.lam2 * stretches.cos_beta
-        spring = (rho - data.s) + (rho - data.s) ** 2 / (2 * rho)
-        force = membrane - p * rho**2 / 2 + k * contact * rho * (rho - data.s) ** 2 / 2
+        spring = (rho - s) + (rho - s) ** 2 / (2 * rho)
+        force = membrane - p * rho**2 / 2 + k * contact * rho * (rho - s) ** 2 / 2
         # Per deformed area: the substrate's axial traction on the membrane, and the spring's radial part.
         f_t = -delta1 * force.dx(0) / jacobian / (rho * stretches.lam1)
         f_k = -k * contact * stretches.cos_beta * spring
@@ -183,7 +183,7 @@ class ContactModel:
             residual=ufl.derivative(energy, unknown, test),
             loads=self.loads,
             bcs=self._conditions(),
-            mass=ufl.inner(ufl.TrialFunction(self.space), test) * (self.half / 2) * dx,
+            mass=ufl.inner(ufl.TrialFunction(self.space), test) * (self.fixed["half"] / 2) * dx,
             monitors={
                 "u_max": (rho - 1) * ends(MIDPLANE),
                 "lam1_mid": stretches.lam1 * ends(MIDPLANE),
@@ -197,7 +197,7 @@ class ContactModel:
                 "f_t_front": self._one_sided(self._in_patch(f_t, 0.0)),
                 "kappa": self._one_sided(self._in_patch(0.0, kappa)),
                 "Z_front": self.loads["front"][1] * inner(FRONT),
-                "gap": ufl.avg(rho - data.s) * inner(FRONT),
+                "gap": ufl.avg(rho - s) * inner(FRONT),
                 "contact_length": 2 * ufl.avg(eta) * inner(FRONT),
             },
             maxima={"spring_max": abs(f_k), "t2_max_negative": -t2},
@@ -253,22 +253,3 @@ class ContactModel:
             fem.dirichletbc(np.array([1.0, self.half]), disk, space),
             fem.dirichletbc(np.array(0.0), dofs, axial),
         ]
-
-
-def chebyshev(m: int, t: Expr | float) -> Expr | float:
-    """Chebyshev polynomial ``T_m``."""
-    if m == 0:
-        return 1.0
-    previous, current = 1.0, t
-    for _ in range(m - 1):
-        previous, current = current, 2 * t * current - previous
-    return current
-
-
-def integral(m: int, t: Expr | float) -> Expr | float:
-    """An antiderivative of ``T_m``."""
-    if m == 0:
-        return t
-    if m == 1:
-        return t * t / 2
-    return (chebyshev(m + 1, t) / (m + 1) - chebyshev(m - 1, t) / (m - 1)) / 2

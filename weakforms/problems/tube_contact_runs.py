@@ -123,11 +123,11 @@ class ContactRun:
         solver = ExtendedNewton(model.system, ["p", "front"])
         states = [stick_guess(model, s) for s in slipped]
         for _ in range(SWEEPS):
-            model.series.value[:] = chebyshev.chebfit(t, slopes, self.terms - 1)
+            model.set_history(chebyshev.chebfit(t, slopes, self.terms - 1))
             for j, z in enumerate(fronts):
                 states[j], _ = solver.solve(states[j], [Held("gap", 0.0), Held("front", z)])
                 slopes[j + 1] = model.system.monitor("slope_outside")
-            defect = np.abs(slopes - chebyshev.chebval(t, model.series.value)).max()
+            defect = np.abs(slopes - chebyshev.chebval(t, model.history)).max()
             if defect < HISTORY_ACCURACY:
                 return model
         raise ConvergenceError(f"history of the stuck patch: defect {defect:.1e} after {SWEEPS} sweeps")
@@ -150,9 +150,9 @@ class ContactRun:
         state = self.adhesive.at("p", self.p_end).state
         model = self.stick
         if self.data.unilateral:
-            series = model.series.value.copy()
+            history = model.history
             model = ContactModel(self.comm, replace(model.data, unilateral=True))
-            model.series.value[:] = series
+            model.set_history(history)
         solver = ExtendedNewton(model.system, ["p"])
         continuation = Continuation(solver, control=self._steps(4))
         start = continuation.start(state, Held("p", self.p_end), towards={"p": -1.0})
