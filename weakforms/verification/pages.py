@@ -15,6 +15,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from weakforms.verification import summary
+from weakforms.verification.faults.outcome import FaultOutcome, Seeded
 from weakforms.verification.figures import LOOK, TEMPLATES, convergence_figure, panel_figure
 from weakforms.verification.junit import clean
 from weakforms.verification.outcome import CaseOutcome, Convergence, RunOutcome, SurfaceOutcome, Verdict
@@ -22,7 +23,18 @@ from weakforms.verification.surface_figures import surface_figure
 
 FOLDED = 30
 """More passed checks than this in one case stand folded under their summary."""
-RESERVED = ("top", "main", "summary", "how-well", "differs", "cases", "broken", "reading", "environment")
+RESERVED = (
+    "top",
+    "main",
+    "summary",
+    "how-well",
+    "differs",
+    "cases",
+    "broken",
+    "reading",
+    "environment",
+    "faults",
+)
 """Identifiers that the templates use themselves."""
 GROUPS = {
     "paper1": (
@@ -56,26 +68,28 @@ GROUPS = {
 """Short name, title and source of the groups there are; any other is called by its folder."""
 
 
-def render(run: RunOutcome) -> dict[str, str]:
+def render(run: RunOutcome, seeded: Seeded | None = None) -> dict[str, str]:
     """Every page of the report.
 
     Args:
         run: What ``verify`` left.
+        seeded: What became of seeded faults, where the catalogue was run.
 
     Returns:
         HTML by file name; the first page is ``index.html``. No page loads anything.
     """
-    facts = _facts(run)
+    facts = _facts(run, seeded)
     pages = {
         group["page"]: template("group.html").render(facts, group=group, here=group["page"])
         for group in facts["groups"]
     }
+    pages["faults.html"] = template("faults.html").render(facts, here="faults.html")
     return pages | {"index.html": template("index.html").render(facts, here="index.html")}
 
 
-def render_whole(run: RunOutcome) -> str:
+def render_whole(run: RunOutcome, seeded: Seeded | None = None) -> str:
     """All pages as one, for printing: every link stays within it."""
-    return template("whole.html").render(_facts(run), here=None)
+    return template("whole.html").render(_facts(run, seeded), here=None)
 
 
 def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
@@ -120,8 +134,8 @@ def _environment() -> Environment:
 # -- what the templates show ---------------------------------------------------------------------
 
 
-def _facts(run: RunOutcome) -> dict[str, Any]:
-    """Everything a template may name, made from the run alone."""
+def _facts(run: RunOutcome, seeded: Seeded | None = None) -> dict[str, Any]:
+    """Everything a template may name, made from the run and the seeded faults alone."""
     taken = set(RESERVED)
     shapes = {id(surface): name for name, surface in shape_files(run)}
     views = [_case_view(case, taken, shapes) for case in run.cases]
@@ -145,6 +159,8 @@ def _facts(run: RunOutcome) -> dict[str, Any]:
         "groups": groups,
         "ledger": summary.ledger_counts(run.cases),
         "differing": _differing(views),
+        "seeded": seeded or Seeded(),
+        "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
         "look": LOOK,
     }
 
@@ -154,7 +170,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     found: dict[str, list[dict[str, Any]]] = {}
     for view in views:
         found.setdefault(view["case"].id.partition(".")[0], []).append(view)
-    taken = {"index"}
+    taken = {"index", "faults"}
     out = []
     for key, members in found.items():
         name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))
@@ -178,6 +194,14 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
             view["group"] = group
         out.append(group)
     return out
+
+
+def _areas(faults: Iterable[FaultOutcome]) -> dict[str, list[FaultOutcome]]:
+    """Seeded faults by what they are faults of."""
+    found: dict[str, list[FaultOutcome]] = {}
+    for fault in faults:
+        found.setdefault(fault.area, []).append(fault)
+    return found
 
 
 def _spread(verdicts: Iterable[Verdict]) -> dict[str, Any] | None:

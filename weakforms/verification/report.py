@@ -17,6 +17,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from weakforms.errors import InputError
+from weakforms.verification.faults.outcome import Seeded
 from weakforms.verification.junit import junit_xml
 from weakforms.verification.outcome import SCHEMA, RunOutcome
 from weakforms.verification.pages import render, shape_files
@@ -24,21 +25,26 @@ from weakforms.verification.vtu import vtu
 
 OURS = '<meta name="generator" content="weakforms">'
 """What tells a page of an earlier report from somebody else's file."""
+MAX_BYTES = 256 * 2**20
+"""Size up to which a stored report is read."""
 _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "residual_bound")
 
 
-def write_report(run: RunOutcome, folder: Path) -> Path:
+def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
+
+    A ``faults.json`` in the folder gives the page of seeded faults its table.
 
     Args:
         run: What ``verify`` left.
         folder: Where to; made when missing. Pages and shapes of an earlier report go.
+        stored: Whether the run was read from a file: then nothing is written before all of it is drawn.
 
     Returns:
         The path of ``index.html``.
 
     Raises:
-        InputError: When the folder cannot be written.
+        InputError: When the folder cannot be written, or what is stored cannot be drawn.
     """
     data = _plain(run.to_json())
     run = _decoded(data)
@@ -47,15 +53,30 @@ def write_report(run: RunOutcome, folder: Path) -> Path:
         "junit.xml": junit_xml(run),
     }
     folder = Path(folder)
+    seeded = Seeded.beside(folder)
+    drawn = _redrawn(run, seeded) if stored else {}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         _write(folder, numbers)  # before anything is drawn: `report` can draw it later
-        drawn = {name: vtu(surface) for name, surface in shape_files(run)} | render(run)
+        drawn = drawn or _drawn(run, seeded)
         _write(folder, drawn)
         _sweep(folder, set(drawn))
     except OSError as error:
         raise InputError(f"cannot write the report to {folder}: {error.strerror}") from error
     return folder / "index.html"
+
+
+def _drawn(run: RunOutcome, seeded: Seeded) -> dict[str, str]:
+    """Shapes and pages by name, ``index.html`` last."""
+    return {name: vtu(surface) for name, surface in shape_files(run)} | render(run, seeded)
+
+
+def _redrawn(run: RunOutcome, seeded: Seeded) -> dict[str, str]:
+    """The same of a stored run, the numbers of which may be anybody's."""
+    try:
+        return _drawn(run, seeded)
+    except Exception as error:
+        raise InputError(f"what is stored cannot be drawn: {type(error).__name__}: {error}") from error
 
 
 def _write(folder: Path, texts: Mapping[str, str]) -> None:
@@ -68,11 +89,11 @@ def _write(folder: Path, texts: Mapping[str, str]) -> None:
 def _sweep(folder: Path, kept: set[str]) -> None:
     """Remove what an earlier report had and this one does not: pages, shapes, its print."""
     for path in folder.glob("*.html"):
-        if path.name not in kept and OURS in path.read_text("utf-8", "replace")[:2000]:
-            path.unlink()
+        if path.name not in kept and path.is_file() and OURS in path.read_text("utf-8", "replace")[:2000]:
+            path.unlink(missing_ok=True)
     for path in (folder / "shapes").glob("*.vtu"):
         if f"shapes/{path.name}" not in kept:
-            path.unlink()
+            path.unlink(missing_ok=True)
     (folder / "report.pdf").unlink(missing_ok=True)
 
 
@@ -91,7 +112,11 @@ def load_run(folder: Path) -> RunOutcome:
     path = Path(folder)
     path = path / "report.json" if path.suffix != ".json" else path
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        with path.open("rb") as stream:
+            text = stream.read(MAX_BYTES + 1)  # a link may lead to a device without end
+        if len(text) > MAX_BYTES:
+            raise InputError(f"{path}: larger than {MAX_BYTES >> 20} MiB")
+        data = json.loads(text.decode("utf-8"))
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from error
     except (ValueError, RecursionError) as error:

@@ -1,0 +1,170 @@
+"""What the solvers refuse: states and points that look like what was wanted and are not."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import basix.ufl
+import numpy as np
+import pytest
+import ufl
+from dolfinx import fem, mesh
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.branch import EquilibriumBranch
+from weakforms.solvers.constraints import Held
+from weakforms.solvers.continuation import Continuation, StepControl
+from weakforms.solvers.linear import BorderedMatrix, Factorization
+from weakforms.solvers.lowest import Lowest
+from weakforms.solvers.modal import ModalBranch
+from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.stability import Stability
+from weakforms.solvers.subspace import Subspace
+from weakforms.solvers.system import Formulation, State, System
+
+COMM = MPI.COMM_SELF
+
+
+def system_of(residual, element="DG", degree=0, cells=1, ends=False, shape=None):
+    """``residual(u, v, load) dx`` on the unit interval."""
+    domain = mesh.create_unit_interval(COMM, cells)
+    space = fem.functionspace(domain, basix.ufl.element(element, "interval", degree, shape=shape))
+    u, v = fem.Function(space), ufl.TestFunction(space)
+    constant = fem.Constant(domain, 0.0)
+    load = ufl.variable(constant)
+    facets = mesh.locate_entities_boundary(domain, 0, lambda x: np.full(x.shape[1], True))
+    dofs = fem.locate_dofs_topological(space, 0, facets) if ends else []
+    return System(
+        Formulation(
+            unknown=u,
+            residual=residual(u, v, load) * ufl.dx,
+            loads={"load": (constant, load)},
+            bcs=[fem.dirichletbc(np.zeros(shape or ()), dofs, space)] if ends else [],
+            mass=ufl.inner(ufl.TrialFunction(space), v) * ufl.dx,
+            monitors={} if shape else {"u": u * ufl.dx},
+        )
+    )
+
+
+def circle():
+    """``u^2 + load^2 = 1``, from ``u = -1`` on."""
+    system = system_of(lambda u, v, p: (u**2 + p**2 - 1) * v)
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(0.05, 0.2))
+    state = system.state()
+    state.u[:] = -1.0
+    return continuation, continuation.start(state, Held("load", 0.0), towards={"load": 1.0})
+
+
+def half_circle():
+    continuation, first = circle()
+    return EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] > 0.9)
+
+
+def test_a_missed_pair_of_bifurcations_is_named():
+    """One long step along ``u = 0`` of a column under too much load, past two of its buckling loads."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(60.0, 60.0))
+    first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.state.loads["load"] < -50)
+    assert [point.n_negative for point in branch.points] == [0, 2]
+    with pytest.raises(ConvergenceError, match="several eigenvalues change sign"):
+        branch.special()
+
+
+def test_a_bifurcation_is_where_the_eigenvalue_is_zero():
+    """Euler's first buckling load of the same column, whose branch does not turn there."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(3.0, 3.0))
+    first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.state.loads["load"] < -20)
+    (point,) = branch.special()
+    assert point.kind == "bifurcation_point"
+    assert point.values["load"] == pytest.approx(-(np.pi**2), rel=1e-6)
+
+
+def test_a_fold_the_inertia_does_not_see_is_named():
+    branch = half_circle()
+    assert len(branch.special()) == 1
+    branch.points = [replace(point, n_negative=0) for point in branch.points]
+    with pytest.raises(ConvergenceError, match="disagree"):
+        branch.special()
+
+
+def test_a_pair_of_one_family_is_named():
+    branch = ModalBranch.__new__(ModalBranch)
+    branch.modes, branch._limits = SimpleNamespace(wave_numbers=[2]), []
+    branch._counts = lambda _n: np.array([0, 2])
+    with pytest.raises(ConvergenceError, match="several eigenvalues of n = 2"):
+        branch.special()
+
+
+def test_a_state_on_another_branch_is_refused(monkeypatch):
+    """The other half of the circle has the same load."""
+    branch = half_circle()
+    right = branch.solver.solve
+
+    def astray(guess, constraints=(), chord=False):
+        state, record = right(guess, constraints, chord)
+        return State(-state.u, state.loads), record
+
+    assert branch.at("load", 0.5).state.u[0] == pytest.approx(-np.sqrt(0.75))
+    monkeypatch.setattr(branch.solver, "solve", astray)
+    with pytest.raises(ConvergenceError, match="away from where it was bracketed"):
+        branch.at("load", 0.5)
+
+
+def test_a_step_that_turns_back_is_repeated_shorter():
+    continuation, first = circle()
+    with pytest.raises(ConvergenceError, match="turns too sharply"):
+        continuation.advance(None, first, 0.6)
+    assert continuation.advance(None, first, 0.4).arclength > 0.39
+
+
+def test_an_unconverged_state_of_a_subspace_is_refused():
+    system = system_of(lambda u, v, _p: (u**2 + 1) * v)
+    basis = PETSc.Mat().createAIJ((1, 1), csr=([0, 1], [0], [1.0]), comm=COMM)
+    basis.assemble()
+    with pytest.raises(ConvergenceError, match="in the subspace"):
+        Subspace(system, basis, np.zeros(1)).solve(State(np.array([0.7]), {"load": 0.0}))
+
+
+def test_a_singular_bordered_system_is_refused():
+    """A string held nowhere, pulled to one side."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4)
+    factor = Factorization(system)
+    factor.update()
+    with pytest.raises(ConvergenceError, match="singular"):
+        BorderedMatrix(factor, [], [], np.zeros((0, 0))).solve(np.ones(system.size), np.zeros(0))
+
+
+def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
+    """Two strings in one system: every eigenvalue twice, one copy withheld at the first look."""
+    system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
+    lowest = Lowest(system)
+    exact = [np.pi**2, np.pi**2, 4 * np.pi**2, 4 * np.pi**2]
+    right, looks = lowest._solve, []
+
+    def forgetful(wanted, target, tolerance, apart_from):
+        found = right(wanted, target, tolerance, apart_from)
+        looks.append(len(apart_from))
+        return found if apart_from or wanted == 1 else found[:1] + found[2:]
+
+    monkeypatch.setattr(lowest, "_solve", forgetful)
+    assert [mode.eigenvalue for mode in lowest(system.state(), 4)] == pytest.approx(exact, rel=1e-4)
+    assert max(looks) > 0, "it looked again, apart from those found"
+
+
+def test_a_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch):
+    system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
+    stability = Stability(system)
+    assert stability.spectrum(system.state()).n_negative == 1
+    right = stability._eigenvalues
+
+    def positive(*given, **named):
+        values = right(*given, **named)
+        return values[values > 0]
+
+    monkeypatch.setattr(stability, "_eigenvalues", positive)
+    with pytest.raises(ConvergenceError, match="inertia counts 1 negative eigenvalues, SLEPc finds 0"):
+        stability.spectrum(system.state())
