@@ -19,6 +19,10 @@ def require_environment() -> Any:
         EnvironmentLackError: Naming what is missing and how to get it.
     """
     try:
+        import petsc4py
+
+        # First of all: a .petscrc in the current folder, which may be somebody else's, could load a library.
+        petsc4py.init(["weakforms", "-skip_petscrc"])
         from weakforms.problems import registry
     except ImportError as error:
         missing = (error.name or str(error)).partition(".")[0]

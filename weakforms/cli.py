@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 from pathlib import Path
@@ -10,7 +11,17 @@ from typing import Annotated, Any
 import typer
 
 from weakforms.errors import InputError
-from weakforms.terminal import complain, console, guarded, pairs, print_json, progress_bar, rank, request
+from weakforms.terminal import (
+    complain,
+    console,
+    guarded,
+    pairs,
+    plain,
+    print_json,
+    progress_bar,
+    rank,
+    request,
+)
 
 app = typer.Typer(
     name="weakforms",
@@ -176,9 +187,14 @@ def report(
     as_pdf: Annotated[
         bool, typer.Option("--pdf", help="Print it as report.pdf as well; a browser does that.")
     ] = False,
+    seeded: Annotated[
+        Path | None,
+        typer.Option("--faults", metavar="FILE", help="What faults left; default: DIR/faults.json."),
+    ] = None,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
     from weakforms.verification import pdf
+    from weakforms.verification.faults.outcome import NAME, keep_beside, load_faults
     from weakforms.verification.report import load_run, write_report
     from weakforms.verification.summary import print_summary
 
@@ -186,12 +202,16 @@ def report(
         pdf.browser()
     stored = folder / "report" if os.path.isdir(folder / "report") else folder
     run = load_run(stored)
-    written = [write_report(run, out or stored)]
+    if seeded is not None:
+        load_faults(seeded)
+    known = (seeded, folder / NAME, stored / NAME)
+    keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
+    written = [write_report(run, out or stored, stored=True)]
     if as_pdf:
         written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))
     print_summary(run, console())
     for path in written:
-        console().print(f"report: {path}", soft_wrap=True)
+        console().print(f"report: {plain(path)}", soft_wrap=True)
 
 
 @app.command()
@@ -250,9 +270,7 @@ def batch(
     with progress_bar() as progress:
         answers = run_batch(folder, out, resume, rank() == 0, progress)
     for found in answers if rank() == 0 else ():
-        console().print(
-            f"{found.name}: {found.status} {found.message}".rstrip(), markup=False, soft_wrap=True
-        )
+        console().print(plain(f"{found.name}: {found.status} {found.message}".rstrip()), soft_wrap=True)
     worst = max(found.status for found in answers)
     if worst:
         raise typer.Exit(worst)
@@ -291,6 +309,32 @@ def bench(
 
 
 @app.command()
+def faults(
+    only: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Only this fault; may be repeated.")
+    ] = None,
+    expression: Annotated[
+        str | None, typer.Option("-k", metavar="EXPR", help="Faults by name, area, subject or file.")
+    ] = None,
+    listed: Annotated[bool, typer.Option("--list", help="Say what they are, and run nothing.")] = False,
+    out: Out = Path("out"),
+    jobs: Jobs = 1,
+    resume: Resume = False,
+    as_json: Json = False,
+) -> None:
+    """Seed faults in scratch copies of the tree; say which check catches each."""
+    from weakforms.verification.faults.verb import faults_verb
+
+    try:
+        status = faults_verb(only or [], expression, listed, out, jobs, resume, as_json, console())
+    except KeyboardInterrupt:
+        complain("interrupted; the same with --resume goes on from what is known")
+        raise typer.Exit(130) from None
+    if status:
+        raise typer.Exit(status)
+
+
+@app.command()
 def docs(
     out: Annotated[Path, typer.Option("--out", help="Folder for the pages.")] = Path("out/docs"),
     jobs: Jobs = 1,
@@ -304,7 +348,7 @@ def docs(
 
     with progress_bar() as progress:
         page = write_docs(out, jobs, pictures, lambda done, total, what: progress(what, done, total))
-    console().print(f"documentation: {page}", soft_wrap=True)
+    console().print(f"documentation: {plain(page)}", soft_wrap=True)
 
 
 @app.command(hidden=True)
@@ -324,30 +368,33 @@ def warm() -> None:
 def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int, resume: bool) -> None:
     from weakforms import api
     from weakforms.verification import runner
+    from weakforms.verification.faults.outcome import NAME, keep_beside
     from weakforms.verification.report import write_report
     from weakforms.verification.summary import print_summary, run_status
 
     api.require_environment()
     first = rank() == 0
-    try:
-        with progress_bar() as progress:
-            run = runner.verify(
-                cases,
-                out,
-                profile,
-                selection,
-                jobs=jobs,
-                resume=resume,
-                writes=first,
-                report=lambda done, total, what: progress(what, done, total),
-            )
-    except KeyboardInterrupt:
-        complain("interrupted; the same with --resume goes on from what is solved")
-        raise typer.Exit(130) from None
-    if first:
-        page = write_report(run, out / "report")
-        print_summary(run, console())
-        console().print(f"report: {page}", soft_wrap=True)
+    with runner.alone(cases, out, first):
+        try:
+            with progress_bar() as progress:
+                run = runner.verify(
+                    cases,
+                    out,
+                    profile,
+                    selection,
+                    jobs=jobs,
+                    resume=resume,
+                    writes=first,
+                    report=lambda done, total, what: progress(what, done, total),
+                )
+        except KeyboardInterrupt:
+            complain("interrupted; the same with --resume goes on from what is solved")
+            raise typer.Exit(130) from None
+        if first:
+            keep_beside(out / NAME, out / "report")
+            page = write_report(run, out / "report")
+            print_summary(run, console())
+            console().print(f"report: {plain(page)}", soft_wrap=True)
     status = run_status(run)
     if status != "passed":
         raise typer.Exit(3 if status == "error" else 1)
@@ -357,6 +404,10 @@ def main() -> None:
     """Console script."""
     # PETSc's own handlers turn a closed pipe or a termination into a crash report.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".strip()
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it does without a folder of its own, aloud
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:  # closed by whoever called
+            stream.reconfigure(errors="backslashreplace")
     words = sys.argv[1:]
     debug = "--debug" in words
     words = [word for word in words if word != "--debug"]

@@ -44,7 +44,14 @@ class Scaling:
         kind = self.kinds.get(column, "number")
         length, modulus, thickness = (_constant(name, constants, self) for name in self.constants)
         powers, turned = KINDS[kind]
-        return length ** powers[0] * (modulus * thickness) ** powers[1] * (self.turn if turned else 1.0)
+        try:
+            unit = length ** powers[0] * (modulus * thickness) ** powers[1] * (self.turn if turned else 1.0)
+        except OverflowError:
+            unit = math.inf
+        if not 0 < unit < math.inf:
+            stated = ", ".join(f"{name} = {float(constants[name]):g}" for name in self.constants)
+            raise InputError(f"with {stated} a unit of {column} is {unit:g}; it must be positive and finite")
+        return unit
 
 
 KINDS: dict[str, tuple[tuple[int, int], bool]] = {

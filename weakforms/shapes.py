@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -117,6 +119,8 @@ def shape_mesh(field: Field, *more: Field) -> meshio.Mesh:
         points = np.column_stack([field.columns[name] for name in "xyz"])
         data = {name: values for name, values in field.columns.items() if name not in "xyz"}
         corners = np.column_stack([cells[name] for name in "abc"]).astype(int)
+        if not len(corners) or corners.min() < 0 or corners.max() >= len(points):
+            raise InputError(f"a triangle's corner is none of the {len(points)} points")
         rest = {name: [np.asarray(v, float)] for name, v in cells.items() if name not in ("a", "b", "c")}
         return meshio.Mesh(points, [("triangle", corners)], data, rest)
     points, data = surface(field)
@@ -139,7 +143,12 @@ def write_shape(path: Path, field: Field, *more: Field) -> None:
     """
     path = Path(path)
     require_shape_name(path)
-    meshio, mesh = _meshio(), shape_mesh(field, *more)
+    meshio = _meshio()
+    try:
+        mesh = shape_mesh(field, *more)
+    except (KeyError, ValueError, IndexError, TypeError) as error:  # the result may be anybody's
+        raise InputError(f"the profile is no surface in space: {type(error).__name__}: {error}") from error
+    mesh.point_data, mesh.cell_data = _named(mesh.point_data), _named(mesh.cell_data)
     suffix = path.suffix.lower()
     if suffix == ".stl":
         quads = mesh.cells_dict.get("quad", np.empty((0, 4), dtype=int))
@@ -158,6 +167,11 @@ def write_shape(path: Path, field: Field, *more: Field) -> None:
         raise InputError(f"cannot write {path}: {error.strerror or error}") from error
 
 
+def _named(data: dict[str, Any]) -> dict[str, Any]:
+    """The same under names that every format can carry."""
+    return {re.sub(r"[^\w .:()/*^+-]", "?", name): values for name, values in data.items()}
+
+
 def xdmf(mesh: meshio.Mesh) -> str:
     """A mesh of one kind of cell as XDMF with its numbers in the text: one file, and no HDF5 needed."""
     (block,) = mesh.cells
@@ -171,7 +185,8 @@ def xdmf(mesh: meshio.Mesh) -> str:
         return f'<DataItem Format="XML" NumberType="{kind}" Dimensions="{size}">\n{rows}\n</DataItem>'
 
     def attribute(name: str, values: np.ndarray, centre: str) -> str:
-        return f'<Attribute Name="{name}" AttributeType="Scalar" Center="{centre}">{item(values)}</Attribute>'
+        head = f'<Attribute Name={quoteattr(name)} AttributeType="Scalar" Center="{centre}">'
+        return f"{head}{item(values)}</Attribute>"
 
     parts = [
         '<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain><Grid Name="surface" GridType="Uniform">',

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -16,6 +17,12 @@ import click
 from rich.console import Console
 
 from weakforms.errors import InputError, WeakformsError
+
+_LACKS = (
+    *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO),
+    *(errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.EAGAIN),
+)
+"""What the system refuses for want of something."""
 
 LONGEST_COMPLAINT = 600
 """Characters after which a complaint is cut: a message may quote what it was given."""
@@ -66,8 +73,13 @@ def rank() -> int:
 
 
 def console(stderr: bool = False) -> Console:
-    """A plain console on standard output or standard error."""
-    return Console(stderr=stderr, highlight=False)
+    """A plain console on standard output or standard error; square brackets and colons mean themselves."""
+    return Console(stderr=stderr, highlight=False, markup=False, emoji=False)
+
+
+def plain(text: object) -> str:
+    """The text as a terminal may have it: without control characters, which could be commands to it."""
+    return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]+", "\N{REPLACEMENT CHARACTER}", str(text))
 
 
 def print_json(data: Any) -> None:
@@ -89,7 +101,7 @@ def progress_bar() -> Any:
 
     screen = console(stderr=True)
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TaskProgressColumn(),
         TimeElapsedColumn(),
@@ -104,7 +116,7 @@ def progress_bar() -> Any:
         task = bar.add_task("starting", total=None)
 
         def report(what: str, done: int, total: int) -> None:
-            bar.update(task, description=what, completed=done, total=total)
+            bar.update(task, description=plain(what), completed=done, total=total)
 
         yield report
 
@@ -113,7 +125,7 @@ def complain(text: str) -> None:
     """One line on standard error, from one rank; cut where it is very long, without control characters."""
     if rank() != 0:
         return
-    line = re.sub(r"[\x00-\x1f\x7f-\x9f]+", "\N{REPLACEMENT CHARACTER}", " ".join(text.split()))
+    line = plain(" ".join(text.split()))
     if len(line) > LONGEST_COMPLAINT:
         line = f"{line[: LONGEST_COMPLAINT // 2]} ... {line[-LONGEST_COMPLAINT // 4 :]}"
     sys.stderr.write(f"weakforms: {line}\n")
@@ -151,10 +163,23 @@ def _verdict_on(error: BaseException) -> tuple[int, str]:
         return 130, "interrupted"
     if isinstance(error, SystemExit):  # what click and rich make of a reader that went away
         return 2, "cannot write to standard output: Broken pipe"
-    if isinstance(error, OSError) and _stdout_is_gone():
+    # What is left is a defect of ours: still one line, and a way to the traceback.
+    defect = 1, f"internal error, please report it ({type(error).__name__}: {error}); see --debug"
+    return _refused_by_the_system(error) or defect
+
+
+def _refused_by_the_system(error: BaseException) -> tuple[int, str] | None:
+    """Exit status and message where the machine, not the program, ended a command."""
+    if isinstance(error, MemoryError):
+        return 4, "there is not enough memory for this"
+    if not isinstance(error, OSError):
+        return None
+    if _stdout_is_gone() or (error.filename is None and error.errno in (errno.ENOSPC, errno.EPIPE)):
         return 2, f"cannot write to standard output: {error.strerror}"
-    # A defect of ours: still one line, and a way to the traceback.
-    return 1, f"internal error, please report it ({type(error).__name__}: {error}); see --debug"
+    if error.errno not in _LACKS:
+        return None
+    place = f" ({error.filename})" if error.filename else ""
+    return 4, f"this machine does not let it go on: {error.strerror}{place}"
 
 
 def _stdout_is_gone() -> bool:

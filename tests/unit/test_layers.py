@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 STDLIB = set(sys.stdlib_module_names) - {"test"}
-FENICS = {"dolfinx", "ufl", "basix", "ffcx", "petsc4py", "slepc4py", "mpi4py"}
+FENICS = {"dolfinx", "ufl", "basix", "ffcx", "cffi", "petsc4py", "slepc4py", "mpi4py"}
 TREES = ("weakforms", "cases", "reference_data", "tests")
 MAY = {
     "weakforms/forms": {"ufl", "basix.ufl", "weakforms.forms"},

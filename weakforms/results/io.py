@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import csv
+import fcntl
 import io
 import json
 import math
 import os
+import re
 import tempfile
+from array import array
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from importlib import resources
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +26,13 @@ from weakforms.errors import InputError
 from weakforms.results.model import Result
 
 MAX_CURVE_BYTES = 64 * 2**20
-"""Size up to which a curve file is read."""
+"""Size up to which a curve file is read; JSON takes up to thirty times that of memory, hence ..."""
+
+MAX_JSON_BYTES = 32 * 2**20
+"""... the size up to which JSON is read, but for a report of our own."""
+
+MAX_ROWS, MAX_COLUMNS = 1_000_000, 1000
+"""Rows and columns up to which a table is read."""
 
 
 @cache
@@ -38,18 +50,35 @@ def validate(data: dict[str, Any]) -> None:
     """
     validator = jsonschema.Draft202012Validator(schema())
     try:
-        error = min(validator.iter_errors(data), key=lambda e: list(map(str, e.path)), default=None)
+        error = first_error(validator, data)
     except RecursionError:
         raise InputError("not a weakforms.result/1 object: nested too deeply") from None
     if error is not None:
         place = "/".join(map(str, error.absolute_path)) or "top level"
         raise InputError(f"not a weakforms.result/1 object: at {place}: {error.message[:200]}")
+    tables = [*data["branches"], *(field for state in data["states"] for field in state["fields"])]
+    for table in tables:
+        lengths = {name: len(values) for name, values in table["columns"].items()}
+        if len(set(lengths.values())) > 1:
+            raise InputError(
+                f"not a weakforms.result/1 object: columns differ in length: {str(lengths)[:200]}"
+            )
 
 
-def write_atomically(path: Path, text: str) -> None:
+def first_error(validator: jsonschema.Validator, data: Any) -> jsonschema.ValidationError | None:
+    """What does not fit a schema, of the first few errors the one that stands first; ``None`` if all does."""
+    return min(islice(validator.iter_errors(data), 100), key=lambda e: list(map(str, e.path)), default=None)
+
+
+def write_atomically(path: Path, text: str, follow: bool = True) -> None:
     """Write a file that appears under its name only when complete.
 
     A link is followed; a device or pipe is written to, never replaced.
+
+    Args:
+        path: The file; folders above it are made.
+        text: What it holds; what UTF-8 has no code for becomes ``?``.
+        follow: Whether a link is followed; otherwise, in a folder of somebody else's, it is replaced.
 
     Raises:
         InputError: When the place cannot be written to.
@@ -57,13 +86,13 @@ def write_atomically(path: Path, text: str) -> None:
     path = Path(path)
     temporary = None
     try:
-        if os.path.exists(path) and not os.path.isfile(path):
-            path.write_text(text, "utf-8")
+        if follow and os.path.exists(path) and not os.path.isfile(path):
+            path.write_text(text, "utf-8", "replace")
             return
-        path = Path(os.path.realpath(path))
+        path = Path(os.path.realpath(path)) if follow else path
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+        with os.fdopen(handle, "w", encoding="utf-8", errors="replace", newline="\n") as stream:
             stream.write(text)
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
@@ -78,6 +107,40 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+@contextmanager
+def sole_use(folder: Path) -> Iterator[None]:
+    """Keep a folder to oneself while results are put into it; what a killed run left half-written goes.
+
+    The lock is the system's, on the folder itself: it ends with the process, and leaves no file. Where a
+    file system has no locks, nothing is kept from anybody.
+
+    Raises:
+        InputError: When another process has it.
+    """
+    require_writable(folder)
+    handle = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise InputError(
+                f"another run is writing to folder {folder}; wait for its end, or name another folder"
+            ) from None
+        except OSError:
+            pass
+        else:
+            for path in folder.glob("*/.*"):
+                if _HALF.fullmatch(path.name) and path.is_file():
+                    path.unlink(missing_ok=True)
+        yield
+    finally:
+        os.close(handle)
+
+
+_HALF = re.compile(r"\..+\.(json|html|xml|vtu|svg)\.([a-z0-9_]{8}|[0-9]+\.part)")
+"""Names that files have while they are written."""
 
 
 def require_writable(folder: Path, name: str = "") -> None:
@@ -113,14 +176,14 @@ def dumps(data: dict[str, Any]) -> str:
     return json.dumps(data, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def load_json(path: Path, what: str) -> dict[str, Any]:
-    """A JSON object from a file.
+def load_json(path: Path, what: str, limit: int = MAX_JSON_BYTES) -> dict[str, Any]:
+    """A JSON object from a file of up to ``limit`` bytes.
 
     Raises:
         InputError: When it is missing, too large, not UTF-8, not JSON or not an object.
     """
     try:
-        data = json.loads(_text(path, what))
+        data = json.loads(_text(path, what, limit))
     except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
         raise InputError(f"{what} {path} is not JSON: {str(error).splitlines()[0]}") from error
     if not isinstance(data, dict):
@@ -136,7 +199,10 @@ def load_result(path: Path) -> Result:
     """
     data = load_json(path, "result")
     validate(data)
-    return Result.from_json(data)
+    try:
+        return Result.from_json(data)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"result {path}: {error}") from error
 
 
 def branch_csv(result: Result) -> str:
@@ -167,43 +233,59 @@ def read_curve(path: Path) -> dict[str, np.ndarray]:
         columns = data.get("columns", data)
         if not isinstance(columns, dict):
             raise InputError(f"curve file {path}: 'columns' must be an object of lists")
-    else:
-        columns = _read_csv(path)
-    return _numbers(path, columns)
+        return _numbers(path, columns)
+    return _read_csv(path)
 
 
-def _text(path: Path, what: str) -> str:
+def _text(path: Path, what: str, limit: int) -> str:
     try:
         with Path(path).open("rb") as stream:
-            raw = stream.read(MAX_CURVE_BYTES + 1)  # a pipe or device does not tell its size
+            raw = stream.read(limit + 1)  # a pipe or device does not tell its size
     except OSError as error:
         raise InputError(f"cannot read {what} {path}: {error.strerror or error}") from error
-    if len(raw) > MAX_CURVE_BYTES:
-        raise InputError(f"{what} {path} is larger than {MAX_CURVE_BYTES >> 20} MiB")
+    if len(raw) > limit:
+        raise InputError(f"{what} {path} is larger than {limit >> 20} MiB")
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{what} {path} is not UTF-8 text (byte {error.start})") from error
 
 
-def _read_csv(path: Path) -> dict[str, list[str]]:
-    text = _text(path, "curve file")
+def _read_csv(path: Path) -> dict[str, np.ndarray]:
+    text = _text(path, "curve file", MAX_CURVE_BYTES)
     try:
-        reader = csv.reader(io.StringIO(text))
-        rows = [(reader.line_num, row) for row in reader if row]
+        return _columns(path, csv.reader(_lines(path, text)))
     except csv.Error as error:
         raise InputError(f"curve file {path} is not CSV: {error}") from error
-    if len(rows) < 2:
-        raise InputError(f"curve file {path} needs a header row and at least one row of numbers")
-    header = [name.strip() for name in rows[0][1]]
+
+
+def _lines(path: Path, text: str) -> Iterator[str]:
+    """Lines, of which none becomes more cells than a table may have columns."""
+    for line in io.StringIO(text):
+        if line.count(",") >= MAX_COLUMNS:
+            raise InputError(f"curve file {path} has more than {MAX_COLUMNS} columns")
+        yield line
+
+
+def _columns(path: Path, reader: Any) -> dict[str, np.ndarray]:
+    rows = (row for row in reader if row)
+    header = [name.strip() for name in next(rows, [])]
     if len(set(header)) != len(header):
         raise InputError(f"curve file {path}: a column name stands twice in {header}")
-    for line, row in rows[1:]:
+    columns = [array("d") for _ in header]
+    for count, row in enumerate(rows, start=1):
         if len(row) != len(header):
             raise InputError(
-                f"curve file {path}, line {line}: {len(row)} cells under {len(header)} column names"
+                f"curve file {path}, line {reader.line_num}: "
+                f"{len(row)} cells under {len(header)} column names"
             )
-    return {name: [row[j] for _, row in rows[1:]] for j, name in enumerate(header)}
+        if count > MAX_ROWS:
+            raise InputError(f"curve file {path} has more than {MAX_ROWS} rows")
+        for name, column, cell in zip(header, columns, row, strict=True):
+            column.append(_number(path, name, count, cell))
+    if not columns or not columns[0]:
+        raise InputError(f"curve file {path} needs a header row and at least one row of numbers")
+    return {name: np.array(column) for name, column in zip(header, columns, strict=True)}
 
 
 def _numbers(path: Path, columns: dict[str, Any]) -> dict[str, np.ndarray]:
@@ -211,6 +293,8 @@ def _numbers(path: Path, columns: dict[str, Any]) -> dict[str, np.ndarray]:
     for name, values in columns.items():
         if not isinstance(values, list) or not values:
             raise InputError(f"curve file {path}: column {name!r} must be a list of numbers")
+        if len(values) > MAX_ROWS:
+            raise InputError(f"curve file {path} has more than {MAX_ROWS} rows")
         out[str(name)] = np.array([_number(path, name, i, v) for i, v in enumerate(values, start=1)])
     if not out:
         raise InputError(f"curve file {path} holds no columns")

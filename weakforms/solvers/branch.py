@@ -20,6 +20,9 @@ DIAGNOSTICS = ("n_negative", "residual", "iterations")
 """Columns that describe the solve: they can be read, not prescribed."""
 
 
+BETWEEN = (0.25, 0.5, 0.75)
+"""Where between two points of a trace eigenvalues are looked at once more."""
+
 NODES = 8
 """States from which a bifurcation point is interpolated."""
 
@@ -221,6 +224,33 @@ class SolutionCurve:
         length = continuation.distance(state, last.state)
         self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
 
+    def require_nothing_between(self) -> None:
+        """Make sure that no special point hides between neighbours that look alike.
+
+        Raises:
+            ConvergenceError: Where eigenvalues change sign between two points and change it back.
+        """
+
+    def _require_same_between(self, counts: np.ndarray, count: Callable[[State], int], what: str) -> None:
+        """Compare the inertia of neighbours that agree with that of states interpolated between them.
+
+        Two eigenvalues that cross zero in opposite directions within a step, or one that crosses it and
+        returns, leave the count at the ends as it was. What is interpolated is near the branch, not on it: a
+        count that differs is believed once the state is solved for.
+        """
+        for i in np.flatnonzero(np.diff(counts) == 0).tolist():
+            for fraction in BETWEEN:
+                guess = self._between(i, fraction)
+                if count(guess) == counts[i]:
+                    continue
+                solved = self._solve(guess, self.continuation.plane(guess, self.points[i].tangent))
+                found = count(solved.state)
+                if found != counts[i]:
+                    raise ConvergenceError(
+                        f"{what} change sign between neighbours (after point {i}) and change it back, "
+                        f"{counts[i]} negative, {found} between: shorter steps are needed to tell them apart"
+                    )
+
     def turns(self) -> np.ndarray:
         """Indices of the points after which the control changes direction."""
         rates = np.array([p.tangent.loads[self.control] for p in self.points])
@@ -276,6 +306,17 @@ class EquilibriumBranch(SolutionCurve):
                 "shorter steps are needed to tell them apart"
             )
         return [self._fold(i) if i in turns else self._bifurcation(i) for i in changes]
+
+    def require_nothing_between(self) -> None:
+        """As said there, of the eigenvalues of ``K``."""
+        factor = self.solver.factor
+
+        def count(state: State) -> int:
+            self.system.set_state(state.u, state.loads)
+            factor.update()
+            return factor.negative_count()
+
+        self._require_same_between(np.array([p.n_negative for p in self.points]), count, "eigenvalues")
 
     def _fold(self, i: int) -> Solved:
         a, b = self.points[i], self.points[i + 1]

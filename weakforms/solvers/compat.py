@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import basix.ufl
 import dolfinx
-from dolfinx import fem, jit
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from dolfinx.mesh import Mesh
+from mpi4py import MPI
 
 SUPPORTED = ((0, 9), (0, 12))
 """First release the code runs on, and the first it was never read against."""
-
-
-PATIENCE = 180
-"""Seconds a process waits for another that compiles the same form; dolfinx's own 10 are too few for ours."""
-
-_, _about = jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"]
-jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"] = (PATIENCE, _about)
 
 
 def version() -> tuple[int, int]:
@@ -34,3 +34,16 @@ def scalar_space(space: fem.FunctionSpace, family: str, degree: int, size: int) 
     cell = space.mesh.basix_cell()
     element = basix.ufl.element(family, cell, degree, shape=(size,), discontinuous=True)
     return fem.functionspace(space.mesh, element)
+
+
+def create_mesh(comm: MPI.Intracomm, cells: np.ndarray, points: np.ndarray, domain: ufl.Mesh) -> Mesh:
+    """Mesh of given cells: the points come before the element up to 0.9, behind it from 0.10 on."""
+    last = (points, domain) if version() < (0, 10) else (domain, points)
+    return dmesh.create_mesh(comm, cells, *last)
+
+
+def mesh_from_gmsh(model: object, comm: MPI.Intracomm, root: int, dimension: int) -> Mesh:
+    """Mesh of the gmsh model on rank ``root``: by ``gmshio`` up to 0.9, by ``gmsh`` from 0.10 on."""
+    reader = import_module("dolfinx.io." + ("gmshio" if version() < (0, 10) else "gmsh"))
+    mesh, *_ = reader.model_to_mesh(model, comm, root, gdim=dimension)
+    return mesh

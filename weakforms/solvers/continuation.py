@@ -46,6 +46,12 @@ class StepControl:
     """Distance of predictor and solution aimed at; cubic extrapolation makes it ~ step⁴."""
     max_turn: float = 0.85
     """Cosine of the turn within a step below which the step is repeated shorter (a jump of branch)."""
+    max_aside: float = 0.1
+    """Sine of the angle between a step's chord and the mean of its tangents above which it is repeated.
+
+    Of a smooth curve it is of second order in the step (below 0.05 for all of the papers'); a jump to a
+    branch beside it, however parallel, makes it as large as the jump over the step.
+    """
     max_points: int = 3000
 
 
@@ -200,8 +206,18 @@ class Continuation:
         new = self.point(state, record, at.tangent, at.arclength + chord)
         if self._inner(new.tangent, at.tangent) < self.control.max_turn:
             raise ConvergenceError("the curve turns too sharply within a step")
+        if self._aside(at, new, chord) > self.control.max_aside:
+            raise ConvergenceError("the step leads aside, to another curve")
         self._error = self.distance(state, guess)
         return new
+
+    def _aside(self, a: CurvePoint, b: CurvePoint, chord: float) -> float:
+        """Sine of the angle between the chord from one point to another and the mean of their tangents."""
+        loads = {name: b.state.loads[name] - a.state.loads[name] for name in self.solver.scalars}
+        across = Tangent(b.state.u - a.state.u, loads)
+        along = self._inner(across, a.tangent) + self._inner(across, b.tangent)
+        mean = np.sqrt(2 + 2 * self._inner(a.tangent, b.tangent))
+        return float(np.sqrt(max(0.0, 1 - (along / (mean * chord)) ** 2)))
 
     def trace(self, start: CurvePoint, stop: Callable[[CurvePoint], bool]) -> Iterator[CurvePoint]:
         """Yield ``start`` and the points after it, up to the first for which ``stop`` is true.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -165,6 +166,12 @@ class ModalBranch(FittedBranch):
                 solved = self._bifurcation(int(i), n)
                 found.append((self._arclength(int(i), solved), solved))
         return [self.complete(solved) for _, solved in sorted(found, key=lambda item: item[0])]
+
+    def require_nothing_between(self) -> None:
+        """As said there, of the eigenvalues of every family."""
+        for n in self.modes.wave_numbers:
+            counts = self._counts(n)
+            self._require_same_between(counts, partial(self._count_at, n=n), f"eigenvalues of n = {n}")
 
     def _arclength(self, i: int, solved: Solved) -> float:
         before = self.points[i]

@@ -8,14 +8,14 @@ evaluation, so every rank knows them); the linear systems are bordered ones.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from petsc4py import PETSc
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, EnvironmentLackError
 from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.system import State, System
 
@@ -190,6 +190,9 @@ class ExtendedNewton:
             self._snes.solve(None, self._x)
         except PETSc.Error as error:
             self._renew()  # what was interrupted keeps its vectors locked
+            for cause in _causes(error):
+                if isinstance(cause, EnvironmentLackError):  # a form met here first, and no compiler
+                    raise cause from None
             raise ConvergenceError(f"SNES failed: {_innermost(error)}") from error
         reason = self._snes.getConvergedReason()
         record = SolveRecord(
@@ -239,8 +242,14 @@ class _BorderedSolve:
             pc.setFailedReason(PETSc.PC.FailedReason.SUBPC_ERROR)
 
 
+def _causes(error: BaseException | None) -> Iterator[BaseException]:
+    """The error, what it was raised from, and so on."""
+    while error is not None:
+        yield error
+        error = error.__cause__
+
+
 def _innermost(error: BaseException) -> str:
     """The reason at the bottom: PETSc wraps what a Python callback raised."""
-    while error.__cause__ is not None:
-        error = error.__cause__
+    *_, error = _causes(error)
     return str(error).splitlines()[0] if str(error) else type(error).__name__

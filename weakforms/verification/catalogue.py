@@ -6,6 +6,7 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification import gallery, references
@@ -168,7 +169,7 @@ def _case_facts(found: FoundCase) -> dict[str, Any]:
 
 def print_description(facts: dict[str, Any], console: Console) -> None:
     """The facts for people."""
-    console.print(f"[bold]{facts['id']}[/bold]  {facts['title']}", soft_wrap=True)
+    console.print(Text.assemble((facts["id"], "bold"), f"  {facts['title']}"), soft_wrap=True)
     console.print(facts["source"], soft_wrap=True)
     if facts["kind"] == "case":
         _print_case(facts, console)

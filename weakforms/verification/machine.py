@@ -6,6 +6,9 @@ import os
 import platform
 from pathlib import Path
 
+import numpy as np
+import scipy
+
 
 def environment() -> dict[str, str]:
     """Versions of the stack, revision, machine, cores and memory as readable text."""
@@ -15,7 +18,10 @@ def environment() -> dict[str, str]:
 
     return {
         **versions(),
+        "numpy": np.__version__,
+        "scipy": scipy.__version__,
         "weakforms": revision(),
+        "system": _system(),
         "machine": f"{platform.system()} {platform.machine()}",
         "processor": _processor(),
         "cores": str(os.cpu_count() or 1),
@@ -24,12 +30,21 @@ def environment() -> dict[str, str]:
     }
 
 
-def _field(path: str, key: str) -> str:
+def _system() -> str:
+    """The distribution, with Debian's own version where there is one."""
+    name = _field("/etc/os-release", "PRETTY_NAME", "=").strip('"')
+    try:
+        return f"{name} {Path('/etc/debian_version').read_text('utf-8').strip()}".strip()
+    except OSError:
+        return name or "unknown"
+
+
+def _field(path: str, key: str, separator: str = ":") -> str:
     try:
         lines = Path(path).read_text("utf-8", errors="replace").splitlines()
     except OSError:
         return ""
-    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith(key)), "")
+    return next((line.split(separator, 1)[1].strip() for line in lines if line.startswith(key)), "")
 
 
 def _processor() -> str:

@@ -77,11 +77,13 @@ def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
         raise InputError(f"reference table {name}.toml: type = {kind!r}; allowed are {', '.join(KINDS)}")
     if abscissa is not None and abscissa not in columns:
         raise InputError(f"reference table {name}: abscissa {abscissa!r} is none of {', '.join(columns)}")
+    if not isinstance(facts.get("parameters", {}), dict):
+        raise InputError(f"reference table {name}.toml: parameters must be a table of names and values")
     return Reference(
         name=name,
         kind=kind,
-        source=facts.get("source", ""),
-        method=facts.get("method", ""),
+        source=str(facts.get("source", "")),
+        method=str(facts.get("method", "")),
         abscissa=abscissa,
         columns=columns,
         uncertainty={column: _uncertainty(name, facts, column) for column in columns},
@@ -134,7 +136,7 @@ def _facts(path: Path) -> dict[str, Any]:
         return tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
         raise InputError(f"reference table {path.name}: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, nested without end
         raise InputError(f"reference table {path.name} is not TOML: {error}") from error
 
 

@@ -17,7 +17,7 @@ from typing import Any
 import jsonschema
 
 from weakforms.errors import InputError, WeakformsError
-from weakforms.results.io import dumps, load_json, require_writable, write_atomically
+from weakforms.results.io import dumps, first_error, load_json, require_writable, write_atomically
 
 SCHEMA = "weakforms.request/1"
 ERROR_SCHEMA = "weakforms.error/1"
@@ -50,7 +50,10 @@ def read_request(path: Path) -> dict[str, Any]:
     """
     data = load_json(path, "request")
     validator = jsonschema.Draft202012Validator(schema("request"))
-    error = min(validator.iter_errors(data), key=lambda e: list(map(str, e.path)), default=None)
+    try:
+        error = first_error(validator, data)
+    except RecursionError:
+        raise InputError(f"request {path}: nested too deeply") from None
     if error is not None:
         place = "/".join(map(str, error.absolute_path)) or "top level"
         message = error.message[:200]
@@ -99,9 +102,16 @@ def answer(data: Mapping[str, Any], folder: Path, progress: Any = None) -> tuple
 
 
 def _inside(folder: Path, name: str) -> Path:
-    path = (folder / name).resolve()
-    if not path.is_relative_to(folder.resolve()):
+    try:
+        path = (folder / name).resolve()
+        inside = path.is_relative_to(folder.resolve())
+        regular = path.is_file()
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL in it, a loop of links
+        raise InputError(f"curve {name!r} is no file: {error}") from None
+    if not inside:
         raise InputError(f"curve {name!r} lies outside of the folder of the request")
+    if not regular:  # of a pipe nobody knows whether anything will ever come
+        raise InputError(f"curve {name!r} is no file in the folder of the request")
     return path
 
 
@@ -127,6 +137,8 @@ def run_batch(
         InputError: When there is no request, or the output folder cannot be written to.
     """
     folder = Path(folder)
+    if out is None and (folder / OUTPUT).is_symlink():  # the folder may be somebody else's
+        raise InputError(f"{folder / OUTPUT} is a link; name the folder for the answers with --out")
     out = folder / OUTPUT if out is None else Path(out)
     try:
         requests = sorted(path for path in folder.iterdir() if path.suffix == ".json" and path.is_file())
@@ -155,7 +167,7 @@ def _answered(path: Path, target: Path, writes: bool) -> Answer:
         status, message = error.exit_status, str(error)
         data = {"schema": ERROR_SCHEMA, "exit_status": status, "message": message}
     if writes:
-        write_atomically(target, dumps(data))
+        write_atomically(target, dumps(data), follow=False)
     return Answer(path.stem, status, message)
 
 

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
@@ -19,7 +19,7 @@ from threading import Thread
 
 from weakforms.errors import EnvironmentLackError, InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
-from weakforms.results.io import dumps, require_writable
+from weakforms.results.io import dumps, require_writable, sole_use
 from weakforms.verification import (
     curves,
     ledger,  # noqa: F401  (registers its checks)
@@ -317,6 +317,29 @@ def _solution(spec: Spec, solver: Solver) -> dict:
         "failures": [f"{f.what}: {f.reason}" for f in result.failures] if result else [],
         "file": f"solutions/{solver.files[spec]}",
     }
+
+
+@contextmanager
+def alone(cases: list[FoundCase], out: Path, writes: bool) -> Iterator[None]:
+    """Keep the output folder of a run to it; bad input is named before there is a folder.
+
+    Raises:
+        InputError: On every rank, when a case is not sound or another run has the folder.
+    """
+    from mpi4py import MPI
+
+    Plan.of(cases)
+    with ExitStack() as held:
+        refused = None
+        if writes:
+            try:
+                held.enter_context(sole_use(out))
+            except InputError as error:
+                refused = error
+        refused = MPI.COMM_WORLD.bcast(refused)
+        if refused is not None:
+            raise refused
+        yield
 
 
 def verify(

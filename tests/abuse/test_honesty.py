@@ -1,0 +1,274 @@
+"""Solves made to go wrong on purpose: each is noticed, named, and leaves no number behind."""
+
+import json
+
+import numpy as np
+import pytest
+import ufl
+from abuse_tools import call, orderly, start
+from dolfinx import fem, mesh
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError, EnvironmentLackError
+from weakforms.solvers import newton
+from weakforms.solvers.branch import EquilibriumBranch
+from weakforms.solvers.constraints import Held
+from weakforms.solvers.continuation import Continuation, StepControl
+from weakforms.solvers.family import BranchFamily
+from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.stability import Spectrum, Stability
+from weakforms.solvers.system import Formulation, System
+
+COMM = MPI.COMM_SELF
+
+
+def points(energy, count: int = 1) -> System:
+    """``count`` degrees of freedom ``u`` in the energy ``energy(u, load)``."""
+    domain = mesh.create_unit_interval(COMM, 1)
+    shape = () if count == 1 else (count,)
+    space = fem.functionspace(domain, ("DG", 0, shape))
+    u, v = fem.Function(space), ufl.TestFunction(space)
+    load = fem.Constant(domain, 0.0)
+    variable = ufl.variable(load)
+    first = u if count == 1 else u[0]
+    return System(
+        Formulation(
+            unknown=u,
+            residual=ufl.derivative(energy(u, variable) * ufl.dx, u, v),
+            loads={"load": (load, variable)},
+            bcs=[],
+            mass=ufl.inner(ufl.TrialFunction(space), v) * ufl.dx,
+            monitors={"u": first * ufl.dx},
+        )
+    )
+
+
+def branch_of(
+    system: System, begin: float, end: float, step: float = 0.1, **control: float
+) -> EquilibriumBranch:
+    """The branch through ``u = begin`` (its first component), followed to ``end``."""
+    solver = ExtendedNewton(system, ["load"])
+    continuation = Continuation(solver, control=StepControl(first=step, largest=step, **control))
+    state = system.state()
+    state.u[0], state.loads["load"] = begin, begin
+    first = continuation.start(state, Held("u", begin), towards={"u": 1.0})
+    return EquilibriumBranch(continuation, "load", first, stop=lambda point: point.monitors["u"] > end)
+
+
+# -- pairs that are missed -----------------------------------------------------------------------
+
+
+def well(at: float, width: float, other: float | None = None):
+    """Along ``u_0 = load`` the stiffness of ``u_1`` is negative on a short stretch.
+
+    With ``other``, that of ``u_2`` rises from below zero there and that of ``u_1`` falls below it at ``at``.
+    """
+
+    def energy(u, load):
+        tilted = (u[0] - load) ** 2 / 2
+        if other is None:
+            return tilted + ((u[0] - at) ** 2 - width**2) * u[1] ** 2 / 2 + u[2] ** 2
+        return tilted + (at - u[0]) * u[1] ** 2 / 2 + (u[0] - other) * u[2] ** 2 / 2
+
+    return energy
+
+
+def family_of(*args: object, **more: object) -> BranchFamily:
+    return BranchFamily(lambda _: branch_of(*args, **more), 2, 2.0, ("u",))
+
+
+@pytest.mark.parametrize("at", [0.45, 0.5, 0.52, 0.55])
+def test_an_eigenvalue_that_crosses_zero_and_returns(at):
+    system = points(well(at, 0.03), 3)
+    family = family_of(system, 0.0, 1.0, step=0.141)
+    counts = {point.n_negative for point in family.fine.points}
+    if counts == {0}:  # no point of the trace lies in the stretch
+        with pytest.raises(ConvergenceError, match="change it back"):
+            family.special_points()
+    else:
+        found = [point.values["load"] for point in family.special_points()]
+        assert found == pytest.approx([at - 0.03, at + 0.03], abs=1e-6)
+
+
+def test_two_eigenvalues_that_cross_in_opposite_directions():
+    family = family_of(points(well(0.45, 0, 0.55), 3), 0.0, 1.0, step=0.5)
+    assert {point.n_negative for point in family.fine.points} == {1}
+    with pytest.raises(ConvergenceError, match="1 negative, 2 between"):
+        family.special_points()
+
+
+def test_two_eigenvalues_that_cross_together():
+    def energy(u, load):
+        return (u[0] - load) ** 2 / 2 + (0.52 - u[0]) * u[1] ** 2 / 2 + (0.53 - u[0]) * u[2] ** 2 / 2
+
+    with pytest.raises(ConvergenceError, match="several eigenvalues change sign"):
+        family_of(points(energy, 3), 0.0, 1.0, step=0.2).special_points()
+
+
+def test_an_undisturbed_branch_is_not_accused():
+    family = family_of(
+        points(lambda u, load: (u[0] - load) ** 2 / 2 + u[1] ** 2 + (0.5 - u[0]) * u[2] ** 2, 3), 0, 1
+    )
+    (found,) = family.special_points()
+    assert (found.kind, found.values["load"]) == ("bifurcation_point", pytest.approx(0.5, abs=1e-8))
+
+
+# -- another branch ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("gap", "step"), [(0.02, 0.1), (0.05, 0.1), (0.05, 0.3), (0.1, 0.3), (0.1, 0.1)])
+def test_a_jump_to_a_parallel_branch_is_refused(gap, step, monkeypatch):
+    """Parallel lines ``u = load + k gap``, all alike; every long guess is thrown onto the next of them."""
+    period = 2 * np.pi / gap
+    system = points(lambda u, load: -ufl.cos(period * (u - load)) / period**2)
+    right, thrown = Continuation.predict, []
+
+    def elsewhere(self, before, at, length):
+        state = right(self, before, at, length)
+        if length > gap / 2:
+            state.u[:] += gap
+            thrown.append(length)
+        return state
+
+    monkeypatch.setattr(Continuation, "predict", elsewhere)
+    branch = branch_of(system, 0.0, 1.0, step=step)
+    assert branch.stalled is None
+    assert thrown
+    for point in branch.points:
+        assert point.state.u[0] == pytest.approx(point.state.loads["load"], abs=1e-9)
+
+
+def test_a_state_found_elsewhere_is_refused(monkeypatch):
+    branch = branch_of(points(lambda u, load: (u**2 / 2 - load) ** 2 / 2), 1.0, 2.0)
+    right = branch._between
+    monkeypatch.setattr(branch, "_between", lambda i, x: mirrored(right(i, x)))
+    with pytest.raises(ConvergenceError, match="away from where it was bracketed"):
+        branch.at("load", 1.0)
+
+
+def mirrored(state):
+    state.u[:] *= -1
+    return state
+
+
+# -- no convergence, no number, no factorisation ---------------------------------------------------
+
+TUBE = ("solve", "tube", "--set", "u_end=0.6", "--mesh", "cells=16", "--mesh", "levels=2")
+
+
+def left(called) -> dict:
+    """The result of a solve that failed in part: valid, with its failures named."""
+    assert called.status == 3
+    data = json.loads(called.out)
+    assert data["failures"]
+    for failure in data["failures"]:
+        assert failure["what"]
+        assert failure["reason"]
+        assert f"not converged: {failure['what']}" in called.err
+    for branch in data["branches"]:
+        assert max(branch["columns"]["residual"]) < newton.RESIDUAL_LIMIT
+        numbers = [x for values in branch["columns"].values() for x in values]
+        assert np.all(np.isfinite(np.array(numbers, float)))
+    return data
+
+
+def test_no_convergence_at_all():
+    called = orderly(start(*TUBE, env={"PETSC_OPTIONS": "-weakforms_snes_max_it 1"}).wait(), 3)
+    assert called.out == ""
+    assert "SNES ended with" in called.err
+
+
+def test_no_convergence_from_some_point_on(monkeypatch):
+    right = ExtendedNewton.solve
+
+    def solve(self, guess, constraints=(), chord=False):
+        self.system.set_state(guess.u, guess.loads)
+        if self.system.monitors()["u_max"] > 0.4:
+            raise ConvergenceError("SNES ended with DIVERGED_MAX_IT after 25 iterations, residual 1.0e-01")
+        return right(self, guess, constraints, chord)
+
+    monkeypatch.setattr(ExtendedNewton, "solve", solve)
+    data = left(call(*TUBE))
+    assert any("DIVERGED_MAX_IT" in failure["reason"] for failure in data["failures"])
+    assert max(data["branches"][0]["columns"]["u_max"]) < 0.5
+
+
+def test_residuals_that_are_no_numbers(monkeypatch):
+    right = System.residual
+
+    def residual(self):
+        values = right(self)
+        if self.monitors().get("u_max", 0) > 0.4:
+            values[:] = np.nan
+        return values
+
+    monkeypatch.setattr(System, "residual", residual)
+    data = left(call(*TUBE))
+    assert max(data["branches"][0]["columns"]["u_max"]) < 0.5
+
+
+def test_a_small_step_with_a_large_residual_is_no_state(monkeypatch):
+    monkeypatch.setattr(newton, "RESIDUAL_LIMIT", 1e-30)
+    called = orderly(call(*TUBE), 3)
+    assert called.out == ""
+    assert "residual" in called.err
+
+
+def test_a_tangent_that_is_singular(monkeypatch):
+    right = System.tangent
+
+    def tangent(self):
+        matrix = right(self)
+        if self.monitors().get("u_max", 0) > 0.4:
+            matrix.zeroEntries()
+            matrix.assemble()
+        return matrix
+
+    monkeypatch.setattr(System, "tangent", tangent)
+    called = call(*TUBE)
+    assert called.status == 3
+    data = json.loads(called.out)
+    assert max(data["branches"][0]["columns"]["u_max"]) < 0.5
+    assert data["failures"]
+
+
+def test_eigenvalues_that_the_inertia_denies(monkeypatch):
+    monkeypatch.setattr(Stability, "_eigenvalues", lambda self, wanted, *_: -np.ones(wanted))
+    data = left(call(*TUBE, "--at", "p=0.5"))
+    assert data["states"] == []
+    assert any("inertia counts" in failure["reason"] for failure in data["failures"])
+
+
+def test_stability_that_depends_on_the_mesh(monkeypatch):
+    seen = []
+
+    def spectrum(self, state, count=2, shift=0.0):
+        seen.append(state)
+        return Spectrum((0.5, 1.0), len(seen) % 2)
+
+    monkeypatch.setattr(Stability, "spectrum", spectrum)
+    data = left(call(*TUBE, "--at", "p=0.5"))
+    assert data["states"] == []
+    assert any("depends on the mesh" in failure["reason"] for failure in data["failures"])
+
+
+def test_special_points_that_depend_on_the_mesh(monkeypatch):
+    right, seen = EquilibriumBranch.special, []
+
+    def special(self):
+        seen.append(self)
+        return right(self)[: -1 if len(seen) == 1 else None]
+
+    monkeypatch.setattr(EquilibriumBranch, "special", special)
+    called = call("solve", "tube", "--mesh", "cells=16", "--mesh", "levels=2")
+    data = left(called)
+    assert data["special_points"] == []
+    assert any("depend on the mesh" in failure["reason"] for failure in data["failures"])
+
+
+def test_a_form_that_cannot_be_compiled_is_no_divergence(monkeypatch):
+    def tangent(self):
+        raise EnvironmentLackError("a form cannot be compiled")
+
+    monkeypatch.setattr(System, "tangent", tangent)
+    assert "cannot be compiled" in orderly(call(*TUBE), 4).err

@@ -1,0 +1,156 @@
+"""Compiled forms shared between processes: each is made by one of them and appears only when complete.
+
+ffcx marks a form that is being compiled by the file ``NAME.c``, and a finished one by ``NAME.c.cached``. A
+process killed in between leaves the first without the second, for which every later one would wait in
+vain. Here whoever compiles holds a lock, which the system takes back from a dead process, and compiles in a
+folder of its own, from which the finished files are moved.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import functools
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from contextlib import suppress
+from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+import cffi
+from dolfinx import jit as dolfinx_jit
+from ffcx import options as ffcx_options
+from ffcx.codegeneration import jit
+
+from weakforms.errors import EnvironmentLackError
+
+PATIENCE = 180
+"""Seconds a process waits for another that compiles the same form where files cannot be locked; dolfinx's own
+10 are too few for ours."""
+
+_held: list[int] = []
+"""The lock of the form that this process is compiling."""
+
+
+def install() -> None:
+    """Have ffcx use this cache; twice is once."""
+    if getattr(jit.get_cached_module, "shared", False):
+        return
+    _, about = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"]
+    dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"] = (PATIENCE, about)
+    # Files in the current folder, which may be somebody else's, do not say how forms are compiled: neither
+    # the arguments of the compiler (a plugin is one) nor the numbers' precision.
+    for options in (dolfinx_jit, ffcx_options):
+        options._load_options = lambda: ({}, {})
+    jit.get_cached_module = _finding(jit.get_cached_module)
+    jit._compile_objects = _compiling(jit._compile_objects)
+    for name in ("compile_forms", "compile_expressions"):
+        setattr(jit, name, _releasing(getattr(jit, name)))
+
+
+def _finding(find: Callable) -> Callable:
+    """The look into the cache; where there is nothing, the lock is held when it returns."""
+
+    @functools.wraps(find)
+    def found(name: str, objects: list[str], cache_dir: Path, timeout: int) -> Any:
+        ready = Path(cache_dir) / f"{name}.c.cached"
+        if ready.exists():
+            try:
+                return _loaded(ready.parent, name, tuple(objects))
+            except ImportError:  # cut short by a crash of the machine
+                ready.unlink(missing_ok=True)
+        try:
+            ready.parent.mkdir(parents=True, exist_ok=True)
+            if _lock(ready.with_name(f"{name}.lock")) and not ready.exists():
+                ready.with_name(f"{name}.c").unlink(missing_ok=True)  # its maker is gone
+                for left in ready.parent.glob(f".{name}.*"):
+                    shutil.rmtree(left, ignore_errors=True)
+        except OSError as error:
+            raise _lack(ready.parent, error) from error
+        return find(name, objects, cache_dir, timeout)
+
+    found.shared = True
+    return found
+
+
+@functools.cache
+def _loaded(cache_dir: Path, name: str, objects: tuple[str, ...]) -> tuple[list, Any]:
+    """A finished form, once a process.
+
+    By its full name: ffcx lists the whole folder for each, and with thousands there that takes longer than
+    all the rest.
+    """
+    paths = (cache_dir / f"{name}{suffix}" for suffix in EXTENSION_SUFFIXES)
+    path = next((path for path in paths if path.exists()), None)
+    if path is None:
+        raise ImportError(f"{name} is marked complete and is not there")
+    spec = spec_from_file_location(name, path)
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return [getattr(module.lib, name) for name in objects], module
+
+
+def _lock(path: Path) -> bool:
+    """Wait for the lock of a form; False where the file system has none."""
+    handle = os.open(path, os.O_CREAT | os.O_RDONLY | os.O_CLOEXEC, 0o666)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+    except OSError:
+        os.close(handle)
+        return False
+    except BaseException:
+        os.close(handle)
+        raise
+    _held.append(handle)
+    return True
+
+
+def _releasing(compile_them: Callable) -> Callable:
+    """The way from forms to compiled ones, after which no lock is held, however it ended."""
+
+    @functools.wraps(compile_them)
+    def compiled(*args: Any, **kwargs: Any) -> Any:
+        try:
+            return compile_them(*args, **kwargs)
+        finally:
+            while _held:
+                os.close(_held.pop())
+
+    return compiled
+
+
+def _compiling(compile_one: Callable) -> Callable:
+    """The call of the C compiler, in a folder of its own."""
+
+    @functools.wraps(compile_one)
+    def compiled(decl: str, forms: list, names: list, module: str, *rest: Any, **more: Any) -> Any:
+        options, cache_dir, *rest = rest
+        try:
+            with tempfile.TemporaryDirectory(prefix=f".{module}.", dir=cache_dir) as folder:
+                code = compile_one(decl, forms, names, module, options, Path(folder), *rest, **more)
+                _publish(Path(folder), module, Path(cache_dir))
+        except (OSError, cffi.VerificationError) as error:
+            raise _lack(cache_dir, error) from error
+        return code
+
+    return compiled
+
+
+def _publish(folder: Path, module: str, cache_dir: Path) -> None:
+    """Move what a compiler made into the cache, the mark of completeness last."""
+    made = [path for path in folder.iterdir() if path.name.startswith(f"{module}.") and path.suffix != ".o"]
+    for path in sorted(made, key=lambda path: path.suffix == ".cached"):
+        os.replace(path, cache_dir / path.name)
+    with suppress(OSError):
+        (cache_dir / f"{module}.lock").unlink()
+
+
+def _lack(cache_dir: Path, error: Exception) -> EnvironmentLackError:
+    reason = getattr(error, "strerror", None) or str(error).strip().splitlines()[0]
+    return EnvironmentLackError(
+        f"a form cannot be compiled into {cache_dir}: {reason}; a C compiler and room in that folder are "
+        "needed (XDG_CACHE_HOME names another)"
+    )
