@@ -25,8 +25,9 @@ TUBES = {
     for d in STRETCHES
     if (length, d) != (24, 1.5)
 }
-"""Not yet held against its table: L = 24, delta = 1.5, whose dry part is slightly compressed. A membrane
-without bending stiffness wrinkles there as finely as a mesh can show, and most eigenvalues depend on it."""
+"""Not held against its table: L = 24, delta = 1.5, whose dry part is slightly compressed. A membrane without
+bending stiffness wrinkles there as finely as a mesh can show: inertia and eigenvalues depend on the mesh, and
+from some states of a coarse mesh Newton's method does not find the finer one's."""
 PUBLISHED = {
     length: At("zw", zw, branch="secondary", profile=()) for length, zw in {8: 7.336, 24: 7.779}.items()
 }
@@ -95,21 +96,12 @@ def stability(solutions: Solutions) -> Finding:
     return all(c == [1, 1, 0] for c in counts), f"level, volume, breaking: {detail}"
 
 
-EIGENVALUES = {
-    "Lambda_1": 1e-4,
-    "LambdaV_1": 5e-3,
-    "Lambda_2": 1e-3,
-    "Lambda_3": 3e-2,
-    "Lambda_breaking": 1e-4,
-}
-"""Relative accuracy asked of eigenvalues. Those of modes in the dry part, where a long tube is hardly
-stressed, and the one at fixed volume, by the free surface's area, are the least accurate."""
-SLOPES = {"dzw_dV": 5e-3, "dzw_dr2": 1e-3, "dr_mean_dzw": 2e-2}
-STEEP = (8, 3)
-"""Its dzw_dV is not held against the table: it differs by 1.6e-4, and the bound is 7e-5."""
-OPEN = ((24, 3),)
-"""Tubes whose eigenvalues are not held against their tables: two meshes agree there to more than the error
-(Lambda_2 errs by 1.5 times its bound), so that the meshes are too coarse to state an accuracy."""
+EIGENVALUES = dict.fromkeys(("Lambda_1", "LambdaV_1", "Lambda_2", "Lambda_3", "Lambda_breaking"), 1e-6)
+"""Relative accuracy asked of eigenvalues."""
+LONG = EIGENVALUES | {"Lambda_1": 3e-6, "LambdaV_1": 1e-5}
+"""The same for L = 24: these modes lie in the bulge next to the lower ring, small against its cells."""
+SLOPES = {"dzw_dV": 3e-6, "dzw_dr2": 2e-6, "dr_mean_dzw": 1e-4}
+"""The last is limited by its table: 5e-7 absolutely, of slopes down to 0.012."""
 JUDGED = {**{(8, 2): 7.336, (24, 2): 7.779}, (8, 1.5): 8.025, (8, 3): 7.8, (24, 3): 7.8}
 
 
@@ -121,11 +113,11 @@ def judged(key: tuple[int, float]) -> At:
 def eigenvalues(solutions: Solutions) -> Finding:
     """Eigenvalues against the tables, by the rule of all comparisons."""
     worst, rows, good = 0.0, [], True
-    for key in (key for key in TUBES if key not in OPEN):
+    for key in JUDGED:
         table = reference(3, f"secondary_L_{key[0]}_delta_{key[1]}")
         row = int(np.flatnonzero(table.columns["zw"] == JUDGED[key])[0])
         found = solutions.state(TUBES[key], judged(key)).quantities
-        for name, asked in EIGENVALUES.items():
+        for name, asked in (EIGENVALUES if key[0] == 8 else LONG).items():
             known, size = table.columns[name][row], np.abs(table.columns[name]).max()
             bound = 2 * np.hypot(found[name].uncertainty, table.uncertainty[name])
             error = abs(found[name].value - known)
@@ -141,7 +133,7 @@ def eigenvalues(solutions: Solutions) -> Finding:
 
 def tense(solutions: Solutions) -> Finding:
     """Smallest principal resultants of the states judged."""
-    rows = {key: solutions.quantity(tube, judged(key), "T_min") for key, tube in TUBES.items()}
+    rows = {key: solutions.quantity(TUBES[key], judged(key), "T_min") for key in JUDGED}
     good = all(q.value > q.uncertainty for q in rows.values())
     return good, "; ".join(
         f"L = {k[0]}, delta = {k[1]}: {q.value:.3g} +- {q.uncertainty:.1g}" for k, q in rows.items()
@@ -229,7 +221,7 @@ CASE = Case(
                 reference="secondary_slopes",
                 base=fluid_tube(secondary=True),
                 parameters=("L", "delta"),
-                asked={name: asked for name, asked in SLOPES.items() if (key, name) != (STEEP, "dzw_dV")},
+                asked=SLOPES,
                 where=dict(zip(("L", "delta"), key, strict=True)),
                 branch="secondary",
             )
@@ -259,15 +251,16 @@ CASE = Case(
         ),
         Claim(
             "eigenvalues",
-            "the lowest eigenvalues of a state of each branch but that of L = 24, delta = 3 are the "
-            "reference's: at fixed level and volume, and among displacements that break the symmetry",
-            tuple((TUBES[key], judged(key)) for key in TUBES),
+            "the lowest eigenvalues of a state of each branch are the reference's: at fixed level and "
+            "volume, and among displacements that break the symmetry",
+            tuple((TUBES[key], judged(key)) for key in JUDGED),
             eigenvalues,
         ),
         Claim(
             "tense",
-            "both principal resultants are positive everywhere on the secondary branches: no wrinkles",
-            tuple((TUBES[key], judged(key)) for key in TUBES),
+            "both principal resultants are positive everywhere on the secondary branches of these tubes: no "
+            "wrinkles",
+            tuple((TUBES[key], judged(key)) for key in JUDGED),
             tense,
         ),
         Claim(

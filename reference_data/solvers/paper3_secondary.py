@@ -36,6 +36,7 @@ LEVELS: dict[FluidTube, tuple[float, ...]] = {
     FluidTube(24, 3): (7.6, 7.65, 7.7, 7.75, 7.8, 7.85, 7.9, 7.95),
 }
 COMPRESSED = (FluidTube(24, 1.5),)  # T2 < 0 in the dry part: see COMPRESSED_NOTES
+STEEP = (FluidTube(8, 2), FluidTube(8, 3))  # eigenvalues from the two finest grids, elsewhere from the others
 OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch is left
 STEP = 0.08
 LEFT = 1e-9  # relative; what Newton's last step leaves in a column
@@ -100,8 +101,9 @@ def curve(name: str, tube: FluidTube) -> Table:
         found = on_levels(tube, zw)
         for i in (0, 1):
             rows[i].append(states.quantities(found[i + 1]))
-        first = states.stability(found[0])
-        second = states.stability(found[1], first)
+        pair = found[1:] if tube in STEEP else found[:2]
+        first = states.stability(pair[0])
+        second = states.stability(pair[1], first)
         spin = max(spin, abs(second.rotation))
         for i, s in enumerate((first, second)):
             eigen[i].append(s.columns())

@@ -31,7 +31,7 @@ def family():
     parameters = validated(PROBLEM.parameters, {"secondary": True}, "fluid_tube")
     numerics = validated(
         PROBLEM.numerics,
-        {"secondary_cells": 16, "secondary_degree": 3, "secondary_levels": 2, "secondary_end": 0.93},
+        {"secondary_cells": 12, "secondary_degree": 4, "secondary_levels": 2, "secondary_end": 0.93},
         "numerics",
     )
     return secondary_family(parameters, numerics, MPI.COMM_SELF, silent)
@@ -79,7 +79,7 @@ def test_initial_slopes_are_those_of_small_steps(family):
 
 def test_level_and_volume_are_work_conjugate_along_the_branch(family):
     h = 1e-3
-    before, here, after = (family.fine.at("zw", ZW + s * h).values for s in (-1, 0, 1))
+    before, here, after = (family.levels[0].at("zw", ZW + s * h).values for s in (-1, 0, 1))
     assert (after["Pi"] - before["Pi"]) / (2 * h) == pytest.approx(-GAMMA * here["V"], rel=1e-4)
 
 
@@ -93,7 +93,7 @@ def test_the_turn_of_the_pattern_is_a_zero_eigenvalue(state):
 
 def test_the_turns_zero_is_no_negative_eigenvalue_whatever_its_sign(family):
     """By inertia alone it would be one where round-off makes it negative: it is known by its vector."""
-    solved, stability = family.fine.at("zw", ZW), family.fine.stability
+    solved, stability = family.levels[0].at("zw", ZW), family.levels[0].stability
     values = stability.spectra(solved.state)
     between = values["Lambda_breaking"] / 2
     assert stability.breaks.about(solved.state, between, 1)[1] == 1, "nothing but the turn"
@@ -165,9 +165,9 @@ def test_profile_lies_on_the_plane_of_symmetry_and_on_the_rings(state):
 
 
 def test_a_state_is_found_at_any_column(family):
-    wanted = family.fine.at("r_mid_pi", 1.7).values
+    wanted = family.levels[0].at("r_mid_pi", 1.7).values
     assert wanted["r_mid_pi"] == pytest.approx(1.7, abs=1e-10)
-    assert family.fine.at("zw", wanted["zw"]).values["V"] == pytest.approx(wanted["V"], rel=1e-9)
+    assert family.levels[0].at("zw", wanted["zw"]).values["V"] == pytest.approx(wanted["V"], rel=1e-9)
 
 
 # -- shapes ----------------------------------------------------------------------------------------
@@ -229,9 +229,9 @@ def test_a_shape_that_cannot_be_written_is_refused(name, columns, words, tmp_pat
 @pytest.mark.parametrize(
     ("numerics", "words"),
     [
-        ({"secondary_cells": 20}, "secondary_cells must be a multiple of 16"),
+        ({"secondary_cells": 20}, "secondary_cells must be a multiple of 24"),
         ({"secondary_end": 0.5}, "secondary_end"),
-        ({"secondary_around": 10}, "secondary_around must be a multiple of 4"),
+        ({"secondary_around": 10}, "secondary_around must be a multiple of 8"),
     ],
 )
 def test_bad_numerics_are_refused(numerics, words):

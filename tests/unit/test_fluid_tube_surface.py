@@ -19,9 +19,11 @@ from weakforms.forms.fluid import (
 from weakforms.problems.fluid_tube import TubeData
 from weakforms.problems.fluid_tube_branching import bifurcation_on, position
 from weakforms.problems.fluid_tube_critical import PrimaryBranch
+from weakforms.problems.fluid_tube_fitting import Fitting, KeptNewton
 from weakforms.problems.fluid_tube_path import FluidPath
 from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
-from weakforms.problems.meshes_surface import flat_sheet, heights, polygon, prism
+from weakforms.problems.meshes_surface import fitted_heights, flat_sheet, heights, polygon, prism
+from weakforms.solvers.constraints import Held
 from weakforms.solvers.newton import ExtendedNewton
 from weakforms.solvers.stability import Stability
 from weakforms.solvers.system import State
@@ -31,8 +33,13 @@ GAMMA, L, DELTA = 0.116, 8.0, 2.0
 ONE = MPI.COMM_SELF
 
 
-def data(cells=8, around=4, degree=3, full=False, uneven=0.0, alpha=0.0):
-    return SurfaceData(L, DELTA, GAMMA, alpha, cells, around, degree, full, uneven)
+def data(cells=8, around=4, degree=3, full=False, uneven=0.0, alpha=0.0, front=None):
+    return SurfaceData(L, DELTA, GAMMA, alpha, cells, around, degree, full, uneven, front)
+
+
+def fitted(cells=6, around=4, degree=4, front=3.5):
+    model = SurfaceModel(ONE, data(cells, around, degree, front=front))
+    return model, Fitting(model, KeptNewton(model.system, ["zw"]))
 
 
 @pytest.fixture(scope="module")
@@ -197,7 +204,97 @@ def test_a_spline_of_the_position_is_a_guess_for_another_mesh(model):
     other = SurfaceModel(ONE, data(cells=16, around=8, degree=4))
     put(other, 5.0)
     exact = other.system.owned().copy()
-    assert other.interpolated(model.shape()) == pytest.approx(exact, abs=2e-3)
+    fitting = Fitting(model, KeptNewton(model.system, ["zw"]))
+    assert other.interpolated(fitting.shape()) == pytest.approx(exact, abs=2e-3)
+
+
+# -- the mesh that follows the free surface ------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("front", "rows"),
+    [(3.5, (2.0, 3.5, 4.0)), (4.0, (2.0, 3.8, 4.0)), (1.3, (1.0, 1.3, 2.0)), (2.1, (1, 1.8, 2))],
+)
+def test_fitted_sheet_has_a_row_for_the_free_surface(front, rows):
+    nodes, found = fitted_heights(12, 4.0, front)
+    assert found == pytest.approx(rows)
+    for row in (*rows, 1.0, 2.0):
+        assert min(abs(nodes - row)) < 1e-12
+    assert fitted_heights(24, 4.0, front)[0][::2] == pytest.approx(nodes)
+    with pytest.raises(ValueError, match="multiple of 6"):
+        fitted_heights(8, 4.0, front)
+
+
+def test_the_map_moves_the_row_and_is_inverted():
+    model, _ = fitted()
+    front, theta = model.front, np.linspace(0, np.pi, 9)
+    front.put(front.fitted(3.4 + 0.1 * np.cos(front.angles)))
+    assert front.at(theta) == pytest.approx(3.4 + 0.1 * np.cos(theta), abs=1e-14)
+    assert front.material(np.full(9, 3.5), theta) == pytest.approx(front.at(theta), abs=1e-14)
+    z = np.linspace(0, 4, 9)
+    assert front.material(front.mesh(z, theta), theta) == pytest.approx(z, abs=1e-13)
+    assert front.material(np.array([1.7, 2.0, 4.0]), np.zeros(3)) == pytest.approx([1.7, 2.0, 4.0])
+    area = fem.assemble_scalar(fem.form(model.front.function.dx(0) * model.dx))
+    assert area == pytest.approx(np.pi * L / DELTA, rel=1e-13)
+    assert front.fitted(np.full(9, 4.1))[0] == pytest.approx(4.0 - 2e-4), "kept off the ring"
+
+
+def test_a_surface_is_the_same_on_a_mesh_that_has_moved():
+    """Position, tangent vectors and integrals do not know where the mesh has its rows."""
+    (one, first), (two, _) = fitted(12, 6, 5), fitted(12, 6, 5)
+    two.front.put(two.front.fitted(3.55 + 0.02 * np.cos(two.front.angles)))
+    for model in (one, two):
+        put(model, 9.0)
+    a, b = one.system.monitors(), two.system.monitors()
+    assert {k: b[k] for k in a} == pytest.approx(a, rel=1e-5)
+    like = State(two.system.owned().copy(), two.system.state().loads)
+    moved = first.moved(one.system.state(), like)
+    assert moved.u == pytest.approx(like.u, abs=1e-4)
+
+
+def test_tangent_on_a_moved_mesh_is_the_residuals_derivative_and_symmetric():
+    model, _ = fitted()
+    model.front.put(model.front.fitted(3.4 + 0.1 * np.cos(model.front.angles)))
+    test_tangent_is_the_residuals_derivative_and_symmetric(model, 6.1)
+
+
+def test_resultants_are_read_more_accurately_than_the_elements_have_them():
+    errors = []
+    for cells, around in ((6, 4), (12, 8)):
+        model, _ = fitted(cells, around)
+        put(model, 9.0)
+        h = 1e-5
+        got = model.system.monitors()
+        for side, theta in (("0", 0.0), ("pi", np.pi)):
+            z, t = np.array([1.0 - h, 1.0 + h, 1.0, 1.0]), theta + np.array([0, 0, -h, h])
+            x = bulged(z, t)
+            lam1, lam2 = (np.linalg.norm(x[:, k + 1] - x[:, k]) / (2 * h) for k in (0, 2))
+            errors.append(abs(got[f"T1_quarter_{side}"] - (lam1 / lam2 - (lam1 * lam2) ** -3)))
+    assert max(errors[2:]) < 1e-5
+    assert max(errors[2:]) < max(errors[:2]) / 16
+
+
+def test_the_mesh_comes_to_rest_on_the_free_surface_and_keeps_the_order(primary):
+    """Volumes on three meshes: their differences fall faster than by the sixth power of the size."""
+    state, volumes = primary.at("zw", 7.0, np.linspace(0, L / DELTA, 121)), []
+    for cells, around in ((6, 4), (12, 8), (24, 16)):
+        model, fitting = fitted(cells, around)
+        guess = State(model.interpolated(position(state)), {"zw": 7.0})
+        found = fitting.solve(guess, [Held("zw", 7.0)])
+        assert fitting.refit() < 1e-9
+        model.system.set_state(found.u, found.loads)
+        volumes.append(model.system.monitor("V"))
+    errors = abs(np.array(volumes) / state.values["V"] - 1)
+    assert errors[1] < errors[0] / 32
+    assert errors[2] < 1e-9
+
+
+def test_a_full_tube_has_no_free_surface_to_follow(primary):
+    model, fitting = fitted()
+    state = primary.at("zw", 8.1, np.linspace(0, L / DELTA, 121))
+    model.front.put(model.front.fitted(np.full(9, 3.7)))
+    fitting.solve(State(model.interpolated(position(state)), {"zw": 8.1}), [Held("zw", 8.1)])
+    assert model.front.at(np.array([0.0])) == pytest.approx(model.front.row)
 
 
 # -- against the axisymmetric side ---------------------------------------------------------------

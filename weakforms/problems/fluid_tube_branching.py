@@ -7,6 +7,7 @@ monotone. The axisymmetric side gives only guesses (a state and a mode as column
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -18,12 +19,13 @@ from scipy.optimize import brentq
 from weakforms.errors import ConvergenceError
 from weakforms.problems.fluid_tube_bent_stability import BentStability
 from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBranch
+from weakforms.problems.fluid_tube_fitting import Fitting, KeptNewton
 from weakforms.problems.fluid_tube_surface import Shape, SurfaceData, SurfaceModel
 from weakforms.solvers.branch import EquilibriumBranch, Solved
-from weakforms.solvers.constraints import Held, Plane
+from weakforms.solvers.constraints import Held, MonitorPlane, Plane
 from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.linear import BorderedMatrix, Factorization
-from weakforms.solvers.newton import RESIDUAL_LIMIT, ExtendedNewton, SolveRecord
+from weakforms.solvers.newton import RESIDUAL_LIMIT, Constraint, SolveRecord
 from weakforms.solvers.stability import Mode, Stability
 from weakforms.solvers.system import State
 
@@ -31,7 +33,7 @@ NODES, SPAN = 4, 0.005
 """Volumes over which a mesh's own bifurcation is interpolated: a Chebyshev grid within this fraction of the
 axisymmetric one's. Four nodes leave an error of ``SPAN^4``."""
 
-LOOKED_AT = 6
+LOOKED_AT = 3
 """Eigenvalues near zero among which that of the axisymmetric branch's mode is found."""
 
 BESIDE = 1e-3
@@ -40,7 +42,7 @@ BESIDE = 1e-3
 READINGS = 121
 """Material points ``Z`` over which axisymmetric guesses are splined."""
 
-AMPLITUDES = (0.02, 0.04, 0.06, 0.08)
+AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
 """Root mean square displacements along the mode from which initial slopes are extrapolated."""
 
 LIKENESS = 0.9
@@ -105,18 +107,18 @@ def bifurcation_on(
         ConvergenceError: When the mode's eigenvalue has no zero there, or the null vector is not that mode.
     """
     system, volume = model.system, at.values["V"]
-    like = model.interpolated(displacement(at))
-    like /= np.sqrt(system.dot(like, system.mass_times(like)))
-    solver, stability = ExtendedNewton(system, ["zw"]), Stability(system)
+    stability, fitting = Stability(system), Fitting(model, KeptNewton(system, ["zw"]))
 
     def overlap(mode: Mode) -> float:
+        like = model.interpolated(displacement(at))
+        like /= np.sqrt(system.dot(like, system.mass_times(like)))
         return system.dot(like, system.mass_times(mode.vector))
 
     along, states, eigenvalues, counts = chebyshev.chebpts1(NODES), [], [], []
     for s in along:
         begin = primary.at("V", volume * (1 + SPAN * s), at.Z)
         guess = State(model.interpolated(position(begin)), {"zw": begin.values["zw"]})
-        state, _ = solver.solve(guess, [Held("V", begin.values["V"])], chord=True)
+        state = fitting.solve(guess, [Held("V", begin.values["V"])], chord=True)
         modes, negative = stability.about(state, 0.0, LOOKED_AT)
         critical = max(modes, key=lambda mode: abs(overlap(mode)))
         system.set_state(state.u, state.loads)
@@ -133,9 +135,8 @@ def bifurcation_on(
     def at_zero(values: list) -> np.ndarray:
         return BarycentricInterpolator(along, np.array(values))(zero)
 
-    state = State(
-        at_zero([s.state.u for s in states]), {"zw": float(at_zero([s.values["zw"] for s in states]))}
-    )
+    loads = {name: float(at_zero([s.state.loads[name] for s in states])) for name in states[0].state.loads}
+    state = State(at_zero([s.state.u for s in states]), loads)
     values = {name: float(at_zero([s.values[name] for s in states])) for name in states[0].values}
     modes, _ = stability.about(state, -BESIDE, LOOKED_AT)
     mode = max(modes, key=lambda mode: abs(overlap(mode)))
@@ -145,7 +146,12 @@ def bifurcation_on(
 
 
 def secondary_branch(
-    comm: MPI.Intracomm, data: SurfaceData, primary: PrimaryBranch, step: float, end: float
+    comm: MPI.Intracomm,
+    data: SurfaceData,
+    primary: PrimaryBranch,
+    step: float,
+    end: float,
+    followed: bool = True,
 ) -> SecondaryBranch:
     """The secondary branch on one mesh.
 
@@ -155,13 +161,14 @@ def secondary_branch(
         primary: The axisymmetric branch it leaves.
         step: Largest arc-length step, as a root mean square displacement.
         end: The branch ends when ``zw`` has fallen to this fraction of its value at the bifurcation.
+        followed: False where its states will be solved for from another mesh's.
 
     Raises:
         ConvergenceError: When no bifurcation with that mode is found on the surface's mesh.
     """
     model = SurfaceModel(comm, data)
     begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
-    return SecondaryBranch(model, *bifurcation_on(model, primary, begin), step, end)
+    return SecondaryBranch(model, *bifurcation_on(model, primary, begin), step, end, followed)
 
 
 class SecondaryBranch(EquilibriumBranch):
@@ -174,6 +181,10 @@ class SecondaryBranch(EquilibriumBranch):
         n_negative: Negative eigenvalues there, the null one left out.
         step: Largest arc-length step, as a root mean square displacement.
         end: Fraction of the bifurcation's ``zw`` at which the branch ends.
+        followed: False where its states will be solved for from another mesh's: its only point is the first.
+
+    It is followed on the mesh fitted to the bifurcation point's free surface; any state asked for is solved
+    for on a mesh fitted to it.
     """
 
     def __init__(
@@ -184,20 +195,29 @@ class SecondaryBranch(EquilibriumBranch):
         n_negative: int,
         step: float,
         end: float,
+        followed: bool = True,
     ) -> None:
         self.model, self.bifurcation, self.mode = model, bifurcation, mode
         self.size = float(np.sqrt(2 * np.pi * model.data.length))
         """Norm of a displacement of root mean square one."""
         self.stability = BentStability(model)
         control = StepControl(first=step * self.size / 2, largest=step * self.size, predictor_error=2e-2)
-        solver = ExtendedNewton(model.system, ["zw"])
-        continuation = Continuation(solver, control=control)
-        lowest = end * bifurcation.state.loads["zw"]
+        self.solver, self.system = KeptNewton(model.system, ["zw"]), model.system
+        self.fitting = Fitting(model, self.solver)
+        self.continuation = Continuation(self.solver, control=control)
+        self._lowest = end * bifurcation.state.loads["zw"]
+        self.control, self.loads, self.stalled = "zw", self.solver.scalars, None
+        self.points = [self._first(self.solver.factor, n_negative)]
+        if followed:
+            self.follow()
+
+    def follow(self) -> None:
+        """Trace the branch to its end."""
         super().__init__(
-            continuation,
+            self.continuation,
             "zw",
-            self._first(solver.factor, n_negative),
-            stop=lambda point: point.state.loads["zw"] < lowest,
+            self.points[0],
+            stop=lambda point: point.state.loads["zw"] < self._lowest,
         )
 
     def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
@@ -226,30 +246,38 @@ class SecondaryBranch(EquilibriumBranch):
         direction = Tangent(self.mode, {"zw": 0.0})
         return CurvePoint(state, direction, 0.0, n_negative, record, system.monitors())
 
-    def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
-        """As for any branch; the first point is every mesh's own bifurcation: two branches cross."""
-        if like.arclength == 0.0:
-            return self.bifurcation
-        return super().at_position(like, rates, near)
-
-    def at_guess(self, guess: State, name: str, value: float) -> Solved:
-        """The state at which a column has a value, from one of another mesh.
-
-        One factorisation is enough unless there are eigenvalues next to zero (wrinkles where the membrane is
-        compressed), that the other mesh has not.
+    def at_guess(self, guess: State, constraint: Constraint) -> Solved:
+        """The state that meets a condition, from one of another mesh.
 
         Raises:
             ConvergenceError: When it does not converge, or not to the same state.
         """
-        held = [Held(name, value)]
-        try:
-            state, _ = self.solver.solve(guess, held, chord=True)
-        except ConvergenceError:
-            state, _ = self.solver.solve(guess, held)
-        gap = self.continuation.distance(state, guess) / self.size
+        state = self.fitting.solve(guess, [constraint], near=True, chord=True)
+        values = self._values(state)
+        gap = self.continuation.distance(self.fitting.moved(state, guess), guess) / self.size
+        self.system.set_state(state.u, state.loads)
         if gap > ASTRAY:
-            raise ConvergenceError(f"{name} = {value:g}: converged {gap:.2g} away from another mesh's state")
-        return Solved(self._values(state), state)
+            raise ConvergenceError(f"converged {gap:.2g} away from another mesh's state")
+        return Solved(values, state)
+
+    def across(self, point: CurvePoint, names: tuple[str, ...]) -> tuple[Solved, MonitorPlane]:
+        """The state on a fitted mesh at a point of the trace, in a plane across the branch; that plane."""
+        rates = self.direction(point, names)
+        plane = MonitorPlane(rates, sum(rate * self._column(point, name) for name, rate in rates.items()))
+        return self._solve(point.state, plane), plane
+
+    def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
+        """On a mesh fitted to the state; in a plane across the trace, which is one of its mesh, on that."""
+        if isinstance(constraint, Plane):
+            return super()._solve(guess, constraint, kind)
+        state = self.fitting.solve(guess, [*self.continuation.fixed, constraint])
+        return Solved(self._values(state), state, kind)
+
+    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+        """As for any curve, on the mesh that the trace was made on."""
+        state = self.fitting.moved(solved.state, self.points[i].state)
+        super()._require_within(i, Solved(solved.values, state), what)
+        self.system.set_state(solved.state.u, solved.state.loads)
 
     def special(self) -> list[Solved]:
         """The bifurcation point it begins at, then what any branch may have."""
@@ -257,18 +285,25 @@ class SecondaryBranch(EquilibriumBranch):
 
     # -- near the bifurcation ----------------------------------------------------------------------
 
-    def at_amplitude(self, amplitude: float) -> Solved:
-        """The state with a prescribed displacement along the mode (root mean square), ``zw`` free."""
+    def at_amplitude(self, amplitude: float, guess: Callable[[], State] | None = None) -> Solved:
+        """The state with a prescribed displacement along the mode (root mean square), ``zw`` free.
+
+        Args:
+            amplitude: Of the displacement.
+            guess: Gives a start from another mesh; by default the bifurcation point plus the mode.
+        """
+        base, offset = self.bifurcation.state, amplitude * self.size
+        self.system.set_state(base.u, base.loads)
         row = self.system.mass_times(self.mode)
-        base = self.bifurcation.state
-        offset = amplitude * self.size
-        guess = State(base.u + offset * self.mode, base.loads)
-        return self._solve(guess, Plane(row, {}, self.system.dot(row, base.u) + offset))
+        plane = Plane(row, {}, self.system.dot(row, base.u) + offset)
+        begin = State(base.u + offset * self.mode, base.loads) if guess is None else guess()
+        state = self.fitting.solve(begin, [plane], near=True, chord=guess is not None)
+        return Solved(self._values(state), state)
 
     @cached_property
-    def _small(self) -> list[dict[str, float]]:
-        """Columns of the states at the small amplitudes."""
-        return [self.at_amplitude(a).values for a in AMPLITUDES]
+    def small(self) -> list[Solved]:
+        """States at the small amplitudes."""
+        return [self.at_amplitude(a) for a in AMPLITUDES]
 
     def initial(self, count: int = len(AMPLITUDES)) -> dict[str, float]:
         """Slopes at the bifurcation and its ``zw`` from the branch alone.
@@ -280,7 +315,7 @@ class SecondaryBranch(EquilibriumBranch):
             count: How many of :data:`AMPLITUDES` to use.
         """
         amplitudes = np.array(AMPLITUDES[:count])
-        states = self._small[:count]
+        states = [solved.values for solved in self.small[:count]]
         squares = amplitudes**2
 
         def lowest(values: list[float] | np.ndarray) -> np.ndarray:

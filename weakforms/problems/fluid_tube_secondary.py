@@ -5,107 +5,52 @@ See :mod:`weakforms.problems.fluid_tube_branching` for where it starts and how i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from mpi4py import MPI
+from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.base import Progress
-from weakforms.problems.fluid_tube_branching import AMPLITUDES, SecondaryBranch, secondary_branch
-from weakforms.problems.fluid_tube_critical import PrimaryBranch
+from weakforms.problems.fluid_tube_branching import (
+    AMPLITUDES,
+    READINGS,
+    SecondaryBranch,
+    secondary_branch,
+)
+from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBranch
+from weakforms.problems.fluid_tube_secondary_columns import RESULTANTS, SLOPES
 from weakforms.problems.fluid_tube_surface import SurfaceData
-from weakforms.results import Field, Quantity, SpecialPoint
-from weakforms.solvers.branch import Solved
+from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint
+from weakforms.solvers.branch import DIAGNOSTICS, Solved
+from weakforms.solvers.constraints import Held
+from weakforms.solvers.continuation import CurvePoint
 from weakforms.solvers.family import BranchFamily
+from weakforms.solvers.newton import Constraint
 from weakforms.solvers.refinement import estimate, estimate_in_norm
+from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.system import State
 
 if TYPE_CHECKING:
     from weakforms.problems.fluid_tube_problem import FluidTubeNumerics, FluidTubeParameters
 
-CAP, GUARD = 2.0, 4.0
-"""Orders of convergence the uncertainties reckon with. The free surface cuts cells: the position's third
-derivative jumps inside them, and the quadrature of the load's kink leaves an error of second order and
-irregular sign that shows on fine meshes only. On coarse ones it falls at the degree or faster."""
+SUPERCONVERGENT = 2
+"""What the order of numbers exceeds the elements' degree by: values at corners of quadrilaterals converge at
+least so, integrals and eigenvalues up to twice the degree. Estimates reckon with no more."""
 
-SHARED_GUARD = 6.0
-"""The same for several points' positions together, whose largest difference does not vanish by accident."""
-
-FIELD_CAP, FIELD_GUARD = 3.0, 8.0
-"""The same for a whole field, whose largest difference does not vanish by accident."""
-
-SLENDER = 12.0
-"""Length above which half as many cells around as along are enough."""
+READ = 1
+"""The same for resultants read across elements, and for positions anywhere on the surface; stretches and
+resultants there, derivatives, converge with the degree."""
 
 GRID = (161, 97)
 """Points along and around of the grid on which the smallest values on a surface are looked for."""
 
 THETAS = np.linspace(0, np.pi, 25)
 """Meridians of a profile."""
-
-COLUMNS = (
-    "r_mid_pi",
-    *(f"{name}_quarter_{side}" for name in ("x", "z", "T1", "T2") for side in ("0", "pi")),
-)
-"""Columns of the secondary branch that the primary one has not."""
-
-POSITIONS = ("r_mid", *(name for name in COLUMNS if name[0] in "rxz"))
-"""Columns that are coordinates of points on the membrane."""
-
-DERIVED_COLUMNS = (
-    "z_min",
-    "T_min",
-    "Lambda_1",
-    "Lambda_2",
-    "Lambda_3",
-    "Lambda_breaking",
-    "Lambda_rotation",
-    "LambdaV_1",
-    "n_negative_breaking",
-    "n_negative_V",
-)
-"""Numbers of a state of the secondary branch that can be read, not prescribed."""
-
-SLOPES = ("dzw_dV", "dzw_dr2", "dr_mean_dzw")
-"""Initial slopes, values of the bifurcation point at which the secondary branch begins."""
-
-SCALES = {
-    "r_mid": "radius at Z = L/(2 delta) over A; on the secondary branch at Theta = 0, the bulge's side",
-    "r_mid_pi": "radius at Z = L/(2 delta), Theta = pi over A",
-    **{
-        f"{name}_quarter_{side}": f"{what} at Z = L/(4 delta), Theta = {side}"
-        for side in ("0", "pi")
-        for name, what in {
-            "x": "x over A, from the axis of the disks to the bulge's side,",
-            "z": "height over A",
-            "T1": "meridional Cauchy resultant over mu H",
-            "T2": "circumferential Cauchy resultant over mu H",
-        }.items()
-    },
-    "z_min": "lowest point of the membrane over A",
-    "T_min": "smallest principal Cauchy resultant anywhere over mu H",
-    **{
-        f"Lambda_{i}": f"{i}. lowest eigenvalue at fixed level, mirror-symmetric displacements"
-        for i in (1, 2, 3)
-    },
-    "Lambda_breaking": "lowest eigenvalue at fixed level, displacements that break the mirror symmetry; "
-    "without the turn of the pattern",
-    "Lambda_rotation": "eigenvalue of the turn of the pattern about the axis: exactly 0, its size is the "
-    "error's",
-    "LambdaV_1": "lowest eigenvalue at fixed volume, mirror-symmetric displacements",
-    "n_negative_breaking": "negative eigenvalues at fixed level among displacements that break the symmetry",
-    "n_negative_V": "negative eigenvalues at fixed volume, mirror-symmetric displacements",
-    "dzw_dV": "initial slope of the secondary branch, both of second order in its amplitude",
-    "dzw_dr2": "initial ratio of the fall of zw and the square of the change of r_mid, times A",
-    "dr_mean_dzw": "initial slope over zw of the mean of r_mid and r_mid_pi",
-    "Theta": "angle on the stress-free tube from the bulge's side",
-    "x": "coordinate across the axis, towards the bulge, over A",
-    "y": "coordinate across the axis, normal to the plane of symmetry, over A",
-}
 
 
 def secondary_family(
@@ -120,6 +65,7 @@ def secondary_family(
             there.
     """
     primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
+    begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
 
     def make(level: int) -> SecondaryBranch:
         progress("secondary branch", level, numerics.secondary_levels)
@@ -130,56 +76,152 @@ def secondary_family(
             parameters.gamma,
             parameters.alpha,
             numerics.secondary_cells // coarser,
-            around(parameters.L, numerics) // coarser,
+            around(numerics) // coarser,
             numerics.secondary_degree,
+            front=free_surface(begin),
         )
-        return secondary_branch(comm, data, primary, numerics.secondary_step, numerics.secondary_end)
+        step, end = numerics.secondary_step, numerics.secondary_end
+        return secondary_branch(comm, data, primary, step, end, followed=level == 0)
 
-    return SecondaryFamily(make, numerics.secondary_levels, CAP, ("zw", "r_mid"), "secondary")
+    degree = numerics.secondary_degree
+    caps = dict.fromkeys(RESULTANTS, float(degree + READ))
+    cap = float(degree + SUPERCONVERGENT)
+    return SecondaryFamily(make, numerics.secondary_levels, cap, ("zw", "r_mid"), "secondary", caps)
 
 
-def around(length: float, numerics: FluidTubeNumerics) -> int:
-    """Cells over half the circumference on the finest mesh: as asked for, or fewer on a slender tube."""
-    if numerics.secondary_around is not None:
-        return numerics.secondary_around
-    return numerics.secondary_cells // (1 if length <= SLENDER else 2)
+def around(numerics: FluidTubeNumerics) -> int:
+    """Cells over half the circumference on the finest mesh: as asked for, or two thirds of those along."""
+    return numerics.secondary_around or 2 * numerics.secondary_cells // 3
+
+
+def free_surface(of: AxisymmetricState) -> float:
+    """Material point at which the free surface meets an axisymmetric membrane; its end where that is full."""
+    height = CubicSpline(of.Z, of.z - of.values["zw"])
+    return float(height.roots(extrapolate=False).max(initial=0.0)) or float(of.Z[-1])
 
 
 class SecondaryFamily(BranchFamily):
-    """The secondary branch on a family of meshes."""
+    """The secondary branch on a family of meshes.
+
+    It is traced on the coarsest one. A state is solved for there, on the mesh fitted to it, and on every
+    finer mesh from the one before.
+    """
 
     fine: SecondaryBranch
     levels: list[SecondaryBranch]
     judges_points = False
 
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """The points of the trace, each brought to all meshes in a plane across the branch.
+
+        A point that cannot be is left out and listed as a failure.
+        """
+        names, fine = self.fine.shown, self.fine
+        kept, diagnostics, missed = [], [], []
+        for i, point in enumerate(self.levels[0].points):
+            try:
+                solved, marks = self._on_all(point)
+            except ConvergenceError as error:
+                missed.append((i, str(error)))
+                continue
+            kept.append([[s.values[name] for name in names] for s in solved])
+            diagnostics.append(marks)
+        if missed:
+            what = f"branch {self.name}, points {missed[0][0]} to {missed[-1][0]}, {len(missed)} left out"
+            self.failures.append(Failure(what, missed[0][1]))
+        if not kept:
+            raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
+        table = np.array(kept)  # (points, levels, columns)
+        columns = dict(zip(names, table[:, -1].T, strict=True))
+        columns |= dict(zip(DIAGNOSTICS, np.array(diagnostics).T, strict=True))
+        if not with_uncertainty:
+            return Branch(self.name, fine.control, columns)
+        caps = np.array([self.caps.get(name, self.cap) for name in names])
+        found = estimate([table[:, k] for k in range(table.shape[1])], caps)
+        return Branch(self.name, fine.control, columns, dict(zip(names, found.uncertainty.T, strict=True)))
+
+    def _on_all(self, point: CurvePoint) -> tuple[list[Solved], list[float]]:
+        """A point of the trace on all meshes, and on the finest the count of negative eigenvalues."""
+        fine, first = self.fine, self.levels[0].points[0]
+        if point is first:
+            point = fine.points[0]
+            record, negative = point.record, point.n_negative
+            solved = [level.bifurcation for level in self.levels]
+        else:
+            begin, plane = self.levels[0].across(point, self.across)
+            near = point.arclength / self.levels[0].points[-1].arclength
+            solved = self._raised(begin, plane, lambda level: level.at_position(point, plane.weights, near))
+            record = fine.fitting.record
+            fine.solver.factor.update()
+            negative = fine.solver.factor.negative_count()
+        return solved, [negative, record.norms[-1], record.iterations]
+
+    def _raised(
+        self, begin: Solved, constraint: Constraint, own: Callable[[SecondaryBranch], Solved]
+    ) -> list[Solved]:
+        """A state of the coarsest mesh on all of them; the last one's system holds it.
+
+        Args:
+            begin: The state.
+            constraint: What it meets.
+            own: Finds it by a mesh's own trace, where the coarser mesh's state leads nowhere: on a slack
+                membrane it may be far off.
+        """
+        solved = [begin]
+        for below, level in pairwise(self.levels):
+            state = solved[-1].state
+            below.system.set_state(state.u, state.loads)
+            try:
+                solved.append(level.at_guess(level.fitting.taken(below.fitting), constraint))
+            except ConvergenceError:
+                if len(level.points) == 1:
+                    level.follow()
+                solved.append(own(level))
+        return solved
+
     def special_points(self) -> list[SpecialPoint]:
         """As for any branch; the bifurcation point carries the branch's initial slopes."""
         points = super().special_points()
+        for below, level in pairwise(self.levels):
+            level.small = [self._like(below, level, k) for k in range(len(AMPLITUDES))]
         slopes = [level.initial() for level in self.levels]
         fewer = self.fine.initial(len(AMPLITUDES) - 1)  # for the error of the extrapolation
         for name in SLOPES:
-            found = estimate([s[name] for s in slopes], CAP, GUARD)
+            found = estimate([s[name] for s in slopes], self.cap)
             points[0].values[name] = float(found.value)
             missed = abs(fewer[name] - slopes[-1][name])
             points[0].uncertainty[name] = float(found.uncertainty) + missed
         points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
         return points
 
-    def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
-        """On the coarsest mesh by the branch traced there; every other mesh starts from the one before.
+    @staticmethod
+    def _like(below: SecondaryBranch, level: SecondaryBranch, k: int) -> Solved:
+        """The state of one of the small amplitudes on a mesh, from that of the next coarser one."""
 
-        Where that does not lead to the same state, its own trace does.
-        """
-        solved = [self.levels[0].at(name, value, crossing)]
-        for below, level in pairwise(self.levels):
-            state = solved[-1].state
+        def guess() -> State:
+            state = below.small[k].state
             below.system.set_state(state.u, state.loads)
-            guess = State(level.model.interpolated(below.model.shape()), dict(state.loads))
-            try:
-                solved.append(level.at_guess(guess, name, value))
-            except ConvergenceError:
-                solved.append(level.at(name, value, crossing))
-        return solved
+            return level.fitting.taken(below.fitting)
+
+        return level.at_amplitude(AMPLITUDES[k], guess)
+
+    def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
+        """On the coarsest mesh by the branch traced there; every other mesh starts from the one before."""
+        begin = self.levels[0].at(name, value, crossing)
+        return self._raised(begin, Held(name, value), lambda level: level.at(name, value, crossing))
+
+    def _locate(self) -> list[tuple[Solved, ...]]:
+        """The beginning; what else there is on the coarsest mesh's trace counts if all meshes have it.
+
+        On a compressed membrane, whose inertia depends on the mesh, the beginning only.
+        """
+        beginning = [tuple(level.bifurcation for level in self.levels)]
+        counts = {point.n_negative for point in self.levels[0].points}
+        if len(counts) == 1 and not len(self.levels[0].turns()):
+            return beginning
+        for level in self.levels[1:]:
+            level.follow()
+        return beginning if self.compressed else super()._locate()
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """Eigenvalues with uncertainties; the two finest meshes must count the same negative ones.
@@ -206,25 +248,6 @@ class SecondaryFamily(BranchFamily):
                 out[name] = Quantity(values[-1])
         return out
 
-    def _quantity(self, values: list[float], name: str = "") -> Quantity:
-        found = estimate(values, CAP, GUARD)
-        order = float(found.order)
-        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
-
-    def _columns(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
-        """Points of one surface have one uncertainty of position: one's alone may vanish by accident."""
-        out = super()._columns(solved)
-        shared = estimate_in_norm(
-            [np.array([s.values[n] for n in POSITIONS]) for s in solved], CAP, SHARED_GUARD
-        )
-        return out | {name: Quantity(out[name].value, shared, out[name].order) for name in POSITIONS}
-
-    def _locate(self) -> list[tuple[Solved, ...]]:
-        """On a compressed membrane, whose inertia depends on the mesh, the beginning only."""
-        if self.compressed:
-            return [tuple(level.bifurcation for level in self.levels)]
-        return super()._locate()
-
     @cached_property
     def compressed(self) -> bool:
         """Whether a resultant is negative on the branch: wrinkles there are as fine as a mesh can show."""
@@ -232,7 +255,7 @@ class SecondaryFamily(BranchFamily):
         return min(self._sampled(-1, p, self._grid())["T2"].min() for p in points) < 0
 
     def _grid(self) -> np.ndarray:
-        """Points finer than the meshes, shape ``(n, 2)``."""
+        """Points ``(X, Theta)`` of the meshes as they were made, closer than cells, shape ``(n, 2)``."""
         z, theta = np.linspace(0, self.fine.model.data.length, GRID[0]), np.linspace(0, np.pi, GRID[1])
         return np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
 
@@ -255,22 +278,30 @@ class SecondaryFamily(BranchFamily):
         return out
 
     def _sampled(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
-        """Columns of a profile of one mesh's state at material points."""
+        """Columns of a profile of one mesh's state at points of the mesh as it was made."""
         level = self.levels[k]
         level.system.set_state(solved.state.u, solved.state.loads)
         return level.model.readings(self._sampler(k, places)())
+
+    def _sampled_at(self, k: int, solved: Solved, z: np.ndarray, theta: np.ndarray) -> dict[str, np.ndarray]:
+        """The same at material points; the mesh has them elsewhere for every state."""
+        model = self.levels[k].model
+        model.system.set_state(solved.state.u, solved.state.loads)
+        x = model.front.mesh(z, theta)
+        formulation = model.formulation
+        return model.readings(Sampler(model.unknown, formulation.profile, np.column_stack([x, theta]))())
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         """Over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""
         heights = np.unique(np.round(points, 12))  # several figures' points, equal but for round-off
         z, theta = (part.ravel() for part in np.meshgrid(heights, THETAS, indexing="ij"))
-        grid = np.column_stack([z, theta])
-        samples = [self._sampled(k, s, grid) for k, s in enumerate(solved)]
+        samples = [self._sampled_at(k, s, z, theta) for k, s in enumerate(solved)]
         columns: dict[str, np.ndarray] = {"Z": z, "Theta": theta}
         uncertainty = {"Z": 0.0, "Theta": 0.0}
         for name in samples[-1]:
             columns[name] = samples[-1][name]
-            uncertainty[name] = estimate_in_norm([sample[name] for sample in samples], FIELD_CAP, FIELD_GUARD)
+            cap = self.fine.model.data.degree + (READ if name in "xyz" else 0)
+            uncertainty[name] = estimate_in_norm([sample[name] for sample in samples], float(cap))
         return Field("profile", columns, uncertainty)
 
 

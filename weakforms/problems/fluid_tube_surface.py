@@ -33,28 +33,27 @@ import ufl
 from dolfinx import fem
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
-from scipy.interpolate import RectBivariateSpline
 from ufl.core.expr import Expr
 
 from weakforms.forms.fluid import (
     Surface,
-    principal_resultants,
     strain_energy,
     submerged_flux,
 )
 from weakforms.problems.edge_points import EdgePoints
-from weakforms.problems.meshes_surface import flat_sheet, heights, polygon, prism
-from weakforms.solvers.sampling import Sampler
+from weakforms.problems.edge_tangents import EdgeTangents
+from weakforms.problems.fluid_tube_front import FrontMap, HalfSystem
+from weakforms.problems.meshes_surface import fitted_heights, flat_sheet, heights, polygon, prism
 from weakforms.solvers.system import Formulation, System
 
 READ = {"mid": 1 / 2, "quarter": 1 / 4}
 """Heights of the points that columns show, over the length of the stress-free tube."""
 
-SUBDIVIDED = 4
-"""Intervals of the spline's grid in each cell."""
-
 RULES = 3, 5, 16
 """Quadrature degrees over that of the elements: membrane, liquid, and its volume, assembled once a state."""
+
+FITTED_RULE = 2
+"""What the quadrature degree exceeds twice that of the elements by where no element holds the load's kink."""
 
 SIDES = {"0": 0.0, "pi": np.pi}
 """Meridians they lie on."""
@@ -80,6 +79,8 @@ class SurfaceData:
     degree: int
     full: bool = False
     uneven: float = 0.0
+    front: float | None = None
+    """On half the circumference: about where the free surface meets the membrane; the mesh follows it."""
 
     @property
     def length(self) -> float:
@@ -101,7 +102,10 @@ class SurfaceModel:
 
     def __init__(self, comm: MPI.Intracomm, data: SurfaceData) -> None:
         self.data = data
-        nodes = heights(data.cells, data.length)
+        if data.front is None:
+            nodes = heights(data.cells, data.length)
+        else:
+            nodes, rows = fitted_heights(data.cells, data.length, data.front)
         if data.full:
             self._angles = _edges(2 * data.around, data.uneven)
             self.mesh = prism(comm, nodes, self._angles)
@@ -109,6 +113,10 @@ class SurfaceModel:
             self.mesh = flat_sheet(comm, nodes, data.around)
         element = basix.ufl.element("Lagrange", "quadrilateral", data.degree, shape=(3,))
         self.space = fem.functionspace(self.mesh, element)
+        self.front = None
+        if data.front is not None:
+            self.front = FrontMap(self.mesh, rows, data.degree, 2 * data.around)
+        self.nodes = nodes
         self.unknown = fem.Function(self.space, name="surface")
         self.level = fem.Constant(self.mesh, 0.0)
         self.zw = ufl.variable(self.level)
@@ -121,26 +129,40 @@ class SurfaceModel:
         self.unknown.interpolate(self._over(_cylinder(data.delta)))
         self._rings = fem.Function(self.space)
         self._rings.interpolate(self._over(_cylinder(data.delta)))
-        self._grid: Sampler | None = None
         self._points = None if data.full else self._edge_points(nodes)
+        self._tangents = None
+        if not data.full:
+            at = {side: self._point("quarter", side) for side in SIDES}
+            self._tangents = EdgeTangents(self.space, nodes, data.around, at, self.front)
         # The load's kink at the free surface lies inside cells: its quadrature is what limits the accuracy.
         self.dx, self._wet, self._wet_once = (
-            ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": times * data.degree})
-            for times in RULES
+            ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": rule}) for rule in self._rules()
         )
         conditions = self._ring_conditions()
         mirrored = [] if data.full else self._mirror_conditions((1,))
         self.formulation = self._formulation(conditions + mirrored)
-        self.system = System(self.formulation)
+        self.system = self._assembled(self.formulation)
         self.breaking = None
         if not data.full:
             odd = conditions + self._mirror_conditions((0, 2))
-            self.breaking = System(self._second_variation_only(odd))
+            self.breaking = self._assembled(self._second_variation_only(odd))
+
+    def _rules(self) -> list[int]:
+        if self.front is not None:
+            return [2 * self.data.degree + FITTED_RULE] * len(RULES)
+        return [times * self.data.degree for times in RULES]
+
+    def _assembled(self, formulation: Formulation) -> System:
+        if self.data.full:
+            return System(formulation)
+        return HalfSystem(formulation, self.front, self._resultants_read)
 
     # -- geometry --------------------------------------------------------------------------------
 
     def material(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """``(Z, Theta)`` of mesh coordinates, shape ``(3, n)``."""
+        if self.front is not None:
+            return self.front.material(points[0], points[1]), points[1]
         if not self.data.full:
             return points[0], points[1]
         corners, next_corners, widths = self._faces()
@@ -175,8 +197,16 @@ class SurfaceModel:
         direction.interpolate(tangent)
         return direction
 
+    @property
+    def _stretch(self) -> Expr | float:
+        """Material area over the mesh's."""
+        return 1.0 if self.front is None else self.front.function.dx(0)
+
     def surface(self, of: Expr) -> Surface:
         """A field with its derivatives in ``Z`` and ``Theta``."""
+        if self.front is not None:
+            a = of.dx(0) / self._stretch
+            return Surface(of, a, of.dx(1) - a * self.front.function.dx(1))
         if self._across is None:
             return Surface(of, of.dx(0), of.dx(1))
         return Surface(of, of.dx(2), ufl.dot(ufl.grad(of), self._across))
@@ -187,25 +217,13 @@ class SurfaceModel:
         function.interpolate(self._over(shape))
         return function.x.array[: self.system.size].copy()
 
-    def shape(self) -> Shape:
-        """The position held on half the circumference, as a spline: a guess for another mesh."""
-        z = heights(SUBDIVIDED * self.data.cells, self.data.length)
-        theta = np.linspace(0, np.pi, SUBDIVIDED * self.data.around + 1)
-        if self._grid is None:
-            places = np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
-            position = {name: self.unknown[i] for i, name in enumerate("xyz")}
-            self._grid = Sampler(self.unknown, position, places)
-        found = self._grid()
-        parts = [RectBivariateSpline(z, theta, found[name].reshape(len(z), -1)) for name in "xyz"]
-        return lambda s, t: np.vstack([part.ev(s, t) for part in parts])
-
     # -- forms -----------------------------------------------------------------------------------
 
     def energy(self, position: Expr) -> ufl.Form:
         """The part of ``Pi`` that depends on the position; times two on the half circumference."""
         at, fixed = self.surface(position), self._fixed
-        membrane = strain_energy(at.a, at.b, fixed["alpha"]) * self.dx
-        liquid = fixed["gamma"] * submerged_flux(at, self.zw, 2) * self._wet
+        membrane = strain_energy(at.a, at.b, fixed["alpha"]) * self._stretch * self.dx
+        liquid = fixed["gamma"] * submerged_flux(at, self.zw, 2) * self._stretch * self._wet
         return self.copies * membrane + self.copies * liquid
 
     def _formulation(self, conditions: list[fem.DirichletBC]) -> Formulation:
@@ -229,8 +247,8 @@ class SurfaceModel:
             bcs=conditions,
             mass=self.product(trial, test),
             monitors={
-                "V": (base - self.copies * submerged_flux(at, self.zw, 1)) * self._wet_once,
-                "Pi": energy + potential * self.dx,
+                "V": (base - self.copies * submerged_flux(at, self.zw, 1)) * self._stretch * self._wet_once,
+                "Pi": energy + potential * self._stretch * self.dx,
                 **({} if self.data.full else self._read_points(at)),
             },
             profile={
@@ -251,11 +269,7 @@ class SurfaceModel:
         root = np.sqrt((g11 - g22) ** 2 + 4 * g12**2)
         lam1, lam2 = (np.sqrt((g11 + g22 + sign * root) / 2) for sign in (1, -1))
         out = {name: sampled[name] for name in "xyz"} | {"lam1": lam1, "lam2": lam2}
-        for name, own, other in (("T1", lam1, lam2), ("T2", lam2, lam1)):
-            first = own - own**-3 / other**2
-            second = own * other**2 - own**-3
-            out[name] = (first + self.data.alpha * second) / other
-        return out
+        return out | self._resultants(lam1, lam2)
 
     def _second_variation_only(self, conditions: list[fem.DirichletBC]) -> Formulation:
         """The same second variation on another space of displacements."""
@@ -269,7 +283,7 @@ class SurfaceModel:
 
     def product(self, u: Expr, v: Expr) -> ufl.Form:
         """Inner product of two displacements on the whole circumference."""
-        return self.copies * ufl.inner(u, v) * self.dx
+        return self.copies * ufl.inner(u, v) * self._stretch * self.dx
 
     # -- points that columns show ----------------------------------------------------------------
 
@@ -281,22 +295,36 @@ class SurfaceModel:
         return EdgePoints(self.mesh, nodes, points, self.data.degree)
 
     def _read_points(self, at: Surface) -> dict[str, ufl.Form]:
-        """Radius at mid-length, position and resultants at a quarter of it, at both meridians.
-
-        On a mirror plane the principal directions are the meridian's and the circumference's.
-        """
-        x, z = at.x[0], at.x[2]
-        stretches = ufl.sqrt(ufl.dot(at.a, at.a)), ufl.sqrt(ufl.dot(at.b, at.b))
-        t1, t2 = principal_resultants(*stretches, self._fixed["alpha"])
-        read = self._points.read
+        """Radius at mid-length and position at a quarter of it, at both meridians."""
+        x, z, read = at.x[0], at.x[2], self._points.read
         forms = {
             "r_mid": read(x, self._point("mid", "0")),
             "r_mid_pi": read(-x, self._point("mid", "pi")),
         }
-        for name, value in {"x": x, "z": z, "T1": t1, "T2": t2}.items():
+        for name, value in {"x": x, "z": z}.items():
             for side in SIDES:
                 forms[f"{name}_quarter_{side}"] = read(value, self._point("quarter", side))
         return forms
+
+    def _resultants_read(self) -> dict[str, float]:
+        """Resultants at the quarter points of the state held.
+
+        On a mirror plane the principal directions are the meridian's and the circumference's.
+        """
+        out = {}
+        for side, (lam1, lam2) in self._tangents(self.unknown).items():
+            for name, value in self._resultants(lam1, lam2).items():
+                out[f"{name}_quarter_{side}"] = float(value)
+        return out
+
+    def _resultants(self, lam1: np.ndarray | float, lam2: np.ndarray | float) -> dict[str, np.ndarray]:
+        """Principal Cauchy resultants ``T1`` and ``T2``."""
+        out = {}
+        for name, own, other in (("T1", lam1, lam2), ("T2", lam2, lam1)):
+            first = own - own**-3 / other**2
+            second = own * other**2 - own**-3
+            out[name] = (first + self.data.alpha * second) / other
+        return out
 
     # -- conditions ------------------------------------------------------------------------------
 

@@ -9,8 +9,9 @@ from types import ModuleType
 import gmsh
 import numpy as np
 from dolfinx import mesh as dmesh
-from dolfinx.io import gmshio
 from mpi4py import MPI
+
+from weakforms.solvers import compat
 
 SURFACE = 1
 """Tag of the physical group that gmsh hands over."""
@@ -18,6 +19,17 @@ SURFACE = 1
 
 TOP = 0.4
 """Grading of the upper half of a sheet towards its end: the last cell is smaller than the mean by this."""
+
+
+SHARES = {1: (1, 2, 1, 2), 2: (2, 1, 1, 2), 3: (2, 2, 1, 1)}
+"""Sixths of the cells between the ends, a quarter, half of the length and the free surface, by the number of
+those others below it."""
+
+GRADED = 0.4
+"""By how much the cells at a ring are smaller than the mean of those up to the next row."""
+
+CLEAR = 0.05
+"""Least distance of the free surface's row from one that stays on the mesh as it is made, over the length."""
 
 
 def heights(cells: int, length: float) -> np.ndarray:
@@ -37,6 +49,34 @@ def heights(cells: int, length: float) -> np.ndarray:
     low = xi / 2 + 2 / 3 * xi * (xi - 1 / 2) + 4 / 3 * xi * (xi - 1 / 2) * (xi - 3 / 4)
     t = 4 * xi - 3
     return length * np.where(t < 0, low, (1 + t + TOP * t * (1 - t)) / 2)
+
+
+def fitted_heights(cells: int, length: float, front: float) -> tuple[np.ndarray, tuple[float, float, float]]:
+    """Nodes along a sheet with a row for the free surface; that row between those about it, which stay.
+
+    ``length/4`` and ``length/2`` are nodes. Between those and the free surface cells are of one size, towards
+    the rings smaller ones; doubling them refines every one.
+
+    Args:
+        cells: Number of cells, a multiple of six.
+        length: Of the sheet.
+        front: About where the free surface will be; a row that stays is kept :data:`CLEAR` of.
+    """
+    if cells % 6:
+        raise ValueError(f"cells = {cells} along a fitted sheet must be a multiple of 6")
+    stay = [0.0, length / 4, length / 2, length]
+    # The level falls along a branch: where the free surface starts near a row, it goes on below it.
+    above = next(k for k in (1, 2, 3) if front < stay[k] + CLEAR * length or k == 3)
+    low, high = stay[above - 1], stay[above]
+    row = min(max(front, low + CLEAR * length), high - CLEAR * length)
+    ends = sorted([*stay, row])
+    parts = [cells * share // 6 for share in SHARES[above]]
+    pieces = []
+    for start, stop, count in zip(ends[:-1], ends[1:], parts, strict=True):
+        t = np.arange(count) / count
+        finer = GRADED * t * (1 - t) * ((stop == length) - (start == 0.0))
+        pieces.append(start + (stop - start) * (t + finer))
+    return np.concatenate([*pieces, [length]]), (low, row, high)
 
 
 def flat_sheet(comm: MPI.Intracomm, nodes: np.ndarray, around: int) -> dmesh.Mesh:
@@ -134,5 +174,4 @@ def _gmsh(comm: MPI.Intracomm) -> Iterator[ModuleType | None]:
 
 
 def _shared(comm: MPI.Intracomm, model: ModuleType | None, dimension: int) -> dmesh.Mesh:
-    mesh, *_ = gmshio.model_to_mesh(model, comm, 0, gdim=dimension)
-    return mesh
+    return compat.mesh_from_gmsh(model, comm, 0, dimension)

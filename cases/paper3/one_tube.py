@@ -1,0 +1,41 @@
+"""Paper 3: critical points of one tube, L = 8 and delta = 2 with gamma = 0.116, and its eigenvalues' signs.
+
+The same as in ``critical`` for every tube; small enough for the quick profile.
+"""
+
+from weakforms import Case, Claim, Finding, Points, Solutions, fluid_tube
+
+TUBE = fluid_tube(L=8, delta=2, gamma=0.116)
+ASKED = {"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
+HERE = {"L": 8.0, "delta": 2.0, "gamma": 0.116}
+
+
+def in_order(solutions: Solutions) -> Finding:
+    """The highest level comes first along the branch, the bifurcation with one wave at more volume."""
+    limit, first = (solutions.points(TUBE, kind)[0].values for kind in ("limit_point", "bifurcation_point"))
+    columns = solutions.branch(TUBE).columns
+    unstable = columns["Lambda_n0"] < 0
+    good = limit["V"] < first["V"] and limit["zw"] > first["zw"]
+    good &= bool((columns["V"][unstable] > limit["V"] - 1e-6).all()) and bool(unstable.any())
+    return good, f"limit point at V = {limit['V']:.6g}, bifurcation at V = {first['V']:.6g}"
+
+
+CASE = Case(
+    title="Critical points of one tube",
+    source="Patil, Nordmark & Eriksson (2015), figures 2 and 3",
+    checks=(
+        *(
+            Points(
+                kind, "critical_points", TUBE, ("L", "delta", "gamma"), ASKED, where=HERE | {"n": float(n)}
+            )
+            for n, kind in enumerate(("limit_point", "bifurcation_point"))
+        ),
+        Claim(
+            "in_order",
+            "the highest level comes before the bifurcation with one wave; past it Lambda(n = 0) is negative",
+            ((TUBE, None),),
+            in_order,
+        ),
+    ),
+    quick=True,
+)
