@@ -1,6 +1,19 @@
 """The circular membrane of paper 1 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's."""
 
-from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, circular
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    States,
+    circular,
+)
 
 MODELS = ("ogden", "gent", "arruda_boyce")
 DISKS = {m: circular(model=m, t_end=2.1) for m in MODELS}
@@ -46,7 +59,19 @@ CASE = Case(
                 asked={"p": 1e-7, "t0": 1e-6, "lam_pole": 1e-6},
             )
             for m, spec in DISKS.items()
-            if m != "arruda_boyce"  # its curve is compared, through the maximum and beyond
+        ),
+        *(
+            States(
+                reference=f"disk_contact_{m}",
+                base=spec,
+                parameters=(),
+                at=DEEP,
+                asked={
+                    **dict.fromkeys(("t0", "lam_pole", "X_contact", "rho_contact", "V"), 1e-6),
+                    **dict.fromkeys(("lam1_rim", "lam1_contact", "sigma_pole"), 1e-5),
+                },
+            )
+            for m, spec in CONTACT.items()
         ),
         Claim(
             "contact",

@@ -95,4 +95,5 @@ CASE = Case(
             widths,
         ),
     ),
+    quick=True,
 )

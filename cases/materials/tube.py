@@ -7,6 +7,8 @@ from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Point
 
 MODELS = ("ogden", "gent", "arruda_boyce")
 TUBES = {m: tube(model=m) for m in MODELS}
+FINE = {m: spec.on(cells=192) for m, spec in TUBES.items()}
+"""For the first integrals: small differences of large numbers."""
 CONTACT = tube(model="gent", contact="frictionless", p_end=1.8)
 DEEP = At("p", 1.8, profile=())
 FIRST, LATER = At("u_max", 0.5, profile=()), At("u_max", 2.0, profile=())
@@ -24,7 +26,7 @@ def stable_before(solutions: Solutions) -> Finding:
 def integrals(solutions: Solutions) -> Finding:
     """Axial force and Hamiltonian along the meridian of each law at u_max = 2."""
     good, rows = True, []
-    for model, spec in TUBES.items():
+    for model, spec in FINE.items():
         field = solutions.profile(spec, LATER)
         for name in ("F_axial", "H"):
             values = field.columns[name]
@@ -81,7 +83,7 @@ CASE = Case(
         Claim(
             "integrals",
             "both first integrals of the meridian are constant, whatever the law",
-            tuple((spec, LATER) for spec in TUBES.values()),
+            tuple((spec, LATER) for spec in FINE.values()),
             integrals,
         ),
         Claim(
@@ -92,4 +94,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 1e-6, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+    quick=True,
 )

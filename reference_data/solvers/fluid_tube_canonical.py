@@ -33,11 +33,12 @@ from reference_data.solvers.fluid_tube_collocation import (
     base_conditions,
     base_rates,
 )
+from reference_data.solvers.law_metric import metric
 
 DR, DB, DW, R, B, W = range(6)  # places of u', beta', w', u, beta, w in a form's 6-vector
 
 
-def form(r: Any, l1: Any, psi: Any, pressure: Any, slope: Any, n: int) -> Any:
+def form(r: Any, l1: Any, psi: Any, pressure: Any, slope: Any, n: int, law: Any = None) -> Any:
     """Matrix (..., 6, 6) of Q over (u', beta', w', u, beta, w).
 
     Args:
@@ -47,6 +48,7 @@ def form(r: Any, l1: Any, psi: Any, pressure: Any, slope: Any, n: int) -> Any:
         pressure: P at the point.
         slope: dP/dz at the point.
         n: Circumferential wave number.
+        law: Another law than the neo-Hookean one.
     """
     c, s = l1 * np.cos(psi), l1 * np.sin(psi)  # r', z'
     sq, rr = l1 * l1, r * r
@@ -75,6 +77,11 @@ def form(r: Any, l1: Any, psi: Any, pressure: Any, slope: Any, n: int) -> Any:
     j1 = scaled(1 / j0**3, square(_times(rr, g11) + _times(sq, g22)))
     elastic = scaled(1 - rr / j0**2, meridian) + scaled(1 - sq / j0**2, ring) + j1
     elastic = elastic - scaled(1 / j0**2, square(g11, g22) - square(g12))
+    if law is not None:  # twice the second-order energy, which is half the law's
+        m = metric(law, l1, r)
+        elastic = scaled(m.f1, meridian) + scaled(m.f2, ring) + scaled(m.f12, square(g11, g22))
+        elastic = elastic + (scaled(m.f11, square(g11)) + scaled(m.f22, square(g22))) / 2
+        elastic = elastic + scaled(m.fy, square(g12))
     u, b, w, du, dw = (linear(**{name: 1}) for name in ("R", "B", "W", "DR", "DW"))
     height = scaled(slope, square(w, linear(R=r * s, W=-r * c)))
     follow = scaled(s, square(u) + square(b) + 2 * n * square(u, b))
@@ -142,7 +149,7 @@ def coefficients(base: list[Any], zw: Any, front: Any, mode: Mode, mesh: Mesh) -
     tube, fam = mode.state.tube, mode.family
     r, z, l1, psi = base[:4]
     wet = mesh.dampness
-    q = form(r, l1, psi, tube.gamma * (zw - z) * wet, -tube.gamma * wet, fam.n)
+    q = form(r, l1, psi, tube.gamma * (zw - z) * wet, -tube.gamma * wet, fam.n, tube.law)
     i, j = np.array(fam.fields)[:, None], np.array(fam.fields)
     d = wet * r * l1 * np.sin(psi), -wet * r * l1 * np.cos(psi)
     return Coefficients(q[..., i, j], q[..., i, j + 3], q[..., i + 3, j + 3], d, mesh.lengths(tube, front))

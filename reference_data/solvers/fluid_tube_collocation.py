@@ -192,11 +192,15 @@ def base_rates(y: list[Any], zw: Any, front: Any, tube: FluidTube, mesh: Mesh) -
     r, z, l1, psi = y[:4]
     c, s, wet = np.cos(psi), np.sin(psi), mesh.dampness
     sq, rr = l1 * l1, r * r
-    s1, s2 = l1 - 1 / (sq * l1 * rr), r - 1 / (sq * rr * r)
+    if tube.law is None:
+        s1, s2 = l1 - 1 / (sq * l1 * rr), r - 1 / (sq * rr * r)
+        stretch = c * (r - 3 / (sq * rr * r)) / (1 + 3 / (sq * sq * rr))
+    else:
+        s1, s2 = tube.law.slope(l1, r) / 2, tube.law.slope(r, l1) / 2
+        stretch = c * (2 * s2 - tube.law.mixed(l1, r) * l1) / tube.law.curvature(l1, r)
     load = tube.gamma * (zw - z) * wet
     h = mesh.lengths(tube, front)
     bend = (load * r * l1 - s2 * s) / s1
-    stretch = c * (r - 3 / (sq * rr * r)) / (1 + 3 / (sq * sq * rr))
     return [h * l1 * c, h * l1 * s, h * stretch, h * bend, h * np.pi * rr * l1 * s * wet]
 
 

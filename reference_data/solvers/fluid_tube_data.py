@@ -8,6 +8,7 @@ mu H, gamma = rho g A^2/(mu H).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 GAMMA = 0.116
 GAMMA_EXACT = 3.924 / 33.8  # rho g A^2/(mu H) of the printed data, 1000 9.81 0.02^2/(0.4225e6 0.08e-3)
@@ -21,11 +22,14 @@ class FluidTube:
         L: Distance of the discs over A.
         delta: Axial pre-stretch; the discs are bonded before it.
         gamma: Weight of the fluid, rho g A^2/(mu H).
+        law: Another law in the place of the neo-Hookean one (``material_laws``), its energy over mu H being
+            half its own: mu is twice the stress its constants are over.
     """
 
     L: float
     delta: float
     gamma: float = GAMMA
+    law: Any = None
 
     @property
     def length(self) -> float:

@@ -151,7 +151,7 @@ class Shape:
         a, b, z = self.at_points()
         x = np.stack([b[..., 1], 0 * z, z], axis=-1)
         fluid = self.tube.gamma * (self.zw - z) * self.wet * weak.flux_of_radius(x, a, b)
-        density = weak.energy_density(a, b) - fluid
+        density = weak.energy_density(a, b, self.tube.law) - fluid
         return float(2 * np.pi * np.sum(self.elements.weights * self.widths * density))
 
 
@@ -173,7 +173,7 @@ class Matrices:
         a, b, z = shape.at_points()
         pressure = tube.gamma * (shape.zw - z) * shape.wet
         slope = -tube.gamma * shape.wet + 0 * z
-        d = weak.tangent(a, b, pressure, slope)
+        d = weak.tangent(a, b, pressure, slope, tube.law)
         cos, sin = parts(n)
         if n == 0 and fields != (1,):
             sin = np.zeros_like(sin)
@@ -214,7 +214,7 @@ def residual(shape: Shape) -> Array:
     """Weak form at the interior nodes, for (v_r, v_z), per 2 pi."""
     el = shape.elements
     a, b, z = shape.at_points()
-    f = weak.residual(a, b, shape.tube.gamma * (shape.zw - z) * shape.wet) @ parts(0)[0]
+    f = weak.residual(a, b, shape.tube.gamma * (shape.zw - z) * shape.wet, shape.tube.law) @ parts(0)[0]
     weight = el.weights * shape.widths
     tables = np.stack([el.deriv / shape.widths[..., None], np.tile(el.value, (el.count, 1, 1))], axis=1)
     f = f.reshape(*z.shape, 2, 3)[..., (0, 2)]

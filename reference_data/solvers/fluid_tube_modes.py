@@ -56,7 +56,7 @@ def collocation_guess(state: State, shape: gal.Shape, family: Family) -> Mode:
     q, slope = replace(shape, x=nodal).evaluate(np.clip(at.ravel(), 0, tube.length))
     r, z, l1, psi = state.y[..., :4].reshape(-1, 4).T
     wet = np.broadcast_to(mesh.dampness, at.shape).ravel()
-    form = can.form(r, l1, psi, tube.gamma * (state.zw - z) * wet, -tube.gamma * wet, family.n)
+    form = can.form(r, l1, psi, tube.gamma * (state.zw - z) * wet, -tube.gamma * wet, family.n, tube.law)
     idx = np.array(family.fields)
     p = np.einsum("kij,kj->ki", form[:, idx[:, None], idx], slope)
     p += np.einsum("kij,kj->ki", form[:, idx[:, None], idx + 3], q)
@@ -153,7 +153,8 @@ def potential(state: State) -> float:
     mesh, tube = state.mesh, state.tube
     r, z, l1, psi, _ = np.moveaxis(mesh.value @ state.y, -1, 0)
     fluid = tube.gamma * (state.zw - z) * mesh.dampness * r**2 * l1 * np.sin(psi)
-    density = l1**2 + r**2 + 1 / (l1 * r) ** 2 - 3 - fluid
+    strain = l1**2 + r**2 + 1 / (l1 * r) ** 2 - 3 if tube.law is None else tube.law.energy(l1, r)
+    density = strain - fluid
     return float(np.pi * np.sum(mesh.widths * mesh.lengths(tube, state.front) * mesh.weights * density))
 
 
@@ -171,7 +172,7 @@ def quantities(state: State) -> dict[str, float]:
     """Columns of a branch at a collocation state."""
     length = state.tube.length
     ring, mid = state.y[0, 0], state.evaluate(np.array(length / 2))
-    t_ring, t_mid = resultants(ring[2], ring[0]), resultants(mid[2], mid[0])
+    t_ring, t_mid = (resultants(at[2], at[0], state.tube.law) for at in (ring, mid))
     return {
         "zw": state.zw,
         "V": state.volume,
@@ -192,7 +193,7 @@ def galerkin_quantities(shape: gal.Shape) -> dict[str, float]:
     length = shape.tube.length
     x, slope = shape.evaluate(np.array([0.0, length / 2]))
     l1 = np.hypot(*slope.T)
-    t_ring, t_mid = (resultants(l1[i], x[i, 0]) for i in (0, 1))
+    t_ring, t_mid = (resultants(l1[i], x[i, 0], shape.tube.law) for i in (0, 1))
     return {
         "zw": shape.zw,
         "V": shape.volume(),

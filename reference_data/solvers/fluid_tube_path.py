@@ -6,7 +6,7 @@ filled state whose free surface leaves the tube is solved again as an over-fille
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -42,7 +42,7 @@ def dry(tube: FluidTube, mesh: Mesh) -> State:
     Raises:
         RuntimeError: If Newton's iteration does not converge.
     """
-    return first(FluidTube(tube.L, tube.delta, 0.0), mesh, 1.0)
+    return first(replace(tube, gamma=0.0), mesh, 1.0)
 
 
 def first(tube: FluidTube, mesh: Mesh, volume: float) -> State:

@@ -19,6 +19,8 @@ from typing import Any
 
 import numpy as np
 
+from reference_data.solvers.law_metric import shear_modulus
+
 Array = np.ndarray
 STEP = 1e-30
 
@@ -28,16 +30,20 @@ def dot(a: Any, b: Any) -> Any:
     return np.sum(a * b, axis=-1)
 
 
-def fluxes(a: Any, b: Any) -> tuple[Any, Any]:
-    """Factors f_a, f_b of v_,Z and v_,Theta."""
+def fluxes(a: Any, b: Any, law: Any = None) -> tuple[Any, Any]:
+    """Factors f_a, f_b of v_,Z and v_,Theta; of another law to first order in g12."""
     g11, g22, g12 = (dot(*pair)[..., None] for pair in ((a, a), (b, b), (a, b)))
+    if law is not None:
+        l1, l2 = np.sqrt(g11), np.sqrt(g22)
+        shear = shear_modulus(law, l1, l2) * g12
+        return law.slope(l1, l2) / l1 * a / 2 + shear * b, law.slope(l2, l1) / l2 * b / 2 + shear * a
     square = (g11 * g22 - g12 * g12) ** 2
     return a - (g22 * a - g12 * b) / square, b - (g11 * b - g12 * a) / square
 
 
-def residual(a: Array, b: Array, pressure: Array) -> Array:
+def residual(a: Array, b: Array, pressure: Array, law: Any = None) -> Array:
     """Factors (..., 9) of (v_,Z, v_,Theta, v) in F."""
-    return np.concatenate([*fluxes(a, b), -pressure[..., None] * np.cross(b, a)], axis=-1)
+    return np.concatenate([*fluxes(a, b, law), -pressure[..., None] * np.cross(b, a)], axis=-1)
 
 
 def cross_matrix(a: Array) -> Array:
@@ -48,7 +54,7 @@ def cross_matrix(a: Array) -> Array:
     return out
 
 
-def tangent(a: Array, b: Array, pressure: Array, slope: Array) -> Array:
+def tangent(a: Array, b: Array, pressure: Array, slope: Array, law: Any = None) -> Array:
     """Derivative (..., 9, 9) of :func:`residual` with respect to (x_,Z, x_,Theta, x).
 
     Args:
@@ -56,12 +62,13 @@ def tangent(a: Array, b: Array, pressure: Array, slope: Array) -> Array:
         b: x_,Theta.
         pressure: P.
         slope: dP/dz, -gamma in the fluid.
+        law: Another law than the neo-Hookean one; g12 = 0 then.
     """
     out = np.zeros((*a.shape[:-1], 9, 9))
     for i in range(3):
         bump = 1j * STEP * np.eye(3)[i]
         for at, (da, db) in ((i, (bump, 0)), (3 + i, (0, bump))):
-            out[..., :6, at] = np.imag(np.concatenate(fluxes(a + da, b + db), axis=-1)) / STEP
+            out[..., :6, at] = np.imag(np.concatenate(fluxes(a + da, b + db, law), axis=-1)) / STEP
     load = pressure[..., None, None]
     out[..., 6:, :3] = -load * cross_matrix(b)
     out[..., 6:, 3:6] = load * cross_matrix(a)
@@ -69,8 +76,10 @@ def tangent(a: Array, b: Array, pressure: Array, slope: Array) -> Array:
     return out
 
 
-def energy_density(a: Array, b: Array) -> Array:
-    """Strain energy (g11 + g22 + 1/J - 3)/2 per reference area."""
+def energy_density(a: Array, b: Array, law: Any = None) -> Array:
+    """Strain energy (g11 + g22 + 1/J - 3)/2 per reference area, or that of another law where g12 = 0."""
+    if law is not None:
+        return law.energy(np.sqrt(dot(a, a)), np.sqrt(dot(b, b))) / 2
     g11, g22, g12 = dot(a, a), dot(b, b), dot(a, b)
     return (g11 + g22 + 1 / (g11 * g22 - g12 * g12) - 3) / 2
 
@@ -89,7 +98,9 @@ def stretches(a: Array, b: Array) -> tuple[Array, Array]:
     return np.sqrt(mean + half), np.sqrt(mean - half)
 
 
-def resultants(lam1: Any, lam2: Any) -> tuple[Any, Any]:
+def resultants(lam1: Any, lam2: Any, law: Any = None) -> tuple[Any, Any]:
     """Principal Cauchy stress resultants T1, T2 (per current length)."""
+    if law is not None:
+        return law.slope(lam1, lam2) / lam2 / 2, law.slope(lam2, lam1) / lam1 / 2
     cube = (lam1 * lam2) ** 3
     return lam1 / lam2 - 1 / cube, lam2 / lam1 - 1 / cube

@@ -66,7 +66,11 @@ def _one(x: float) -> float:
 def _newton(x: Any) -> Any:
     y = x * (3 - x**2) / (1 - x**2)
     for _ in range(7):
-        y = y - (langevin(y) - x) / langevin_slope(y)
+        if np.any(np.abs(y) < NEAR):
+            y = y - (langevin(y) - x) / langevin_slope(y)
+        else:  # the same, its exponential taken once
+            e = np.exp(-2 * y)
+            y = y - ((1 + e) / (1 - e) - 1 / y - x) / (1 / y**2 - 4 * e / (1 - e) ** 2)
     return y[()]
 
 
@@ -78,6 +82,10 @@ def inverse_slope(x: Any) -> Any:
 def chain_jet(x: Any) -> tuple[Any, Any, Any]:
     """Energy of a chain, its first and its second derivative."""
     y = inverse(x)
+    if isinstance(x, float) and y > NEAR:
+        e = math.exp(-2 * y)
+        energy = x * y - (y - math.log(2 * y) + math.log(1 - e))
+        return energy, y, 1 / (1 / (y * y) - 4 * e / (1 - e) ** 2)
     return chain(x, y), y, 1 / langevin_slope(y)
 
 

@@ -11,6 +11,7 @@ from reference_data.solvers import disk_collocation_states as cs
 from reference_data.solvers import disk_rows_collocation as rc
 from reference_data.solvers import disk_rows_shooting as rs
 from reference_data.solvers import disk_shooting_states as ss
+from reference_data.solvers import disk_text as text
 from reference_data.solvers.disk_membrane import Disk
 from reference_data.solvers.disk_shooting import LEVELS
 from reference_data.solvers.material_laws import CONSTANTS, law
@@ -23,6 +24,9 @@ CURVE = ("p", "lam_pole", "lam1_rim", "V")
 TOP = 2.0
 FREE = {"contact": "none", "phase": "inflation", "beta": 1.0}
 WINDOW, NODES = 0.12, 13
+DEEP, IN_CONTACT = 2.8, ("gent", "arruda_boyce")
+"""Pressure at which contact is looked at, and of which laws."""
+TOUCHING = ("t0", "lam_pole", "lam1_rim", "X_contact", "rho_contact", "lam1_contact", "sigma_pole", "V")
 
 
 def walked(model: str, t0: Array, i: int) -> tuple[dict[str, Array], dict[str, Array]]:
@@ -75,6 +79,18 @@ def limits(name: str, model: str) -> Table:
     return made(name, f"Limit point of a disk of {model}", model, columns, notes=notes)
 
 
+def contact(name: str, model: str) -> Table:
+    """Frictionless contact at one pressure."""
+    disk, p = Disk(law(model), 1.0), np.array([DEEP])
+    a = [dc.rows_of([rs.shot_row(s) for s in dc.sliding_a(disk, p, i)]) for i in dc.BOTH]
+    b = [rc.sliding_rows(cs.joined(dc.sliding_b(disk, p, i))) for i in dc.BOTH]
+    columns = [dc.given("p", p), *dc.columns(name, TOUCHING, a, b)]
+    title = f"Frictionless contact of a disk of {model}"
+    table = made(name, title, model, columns, notes=text.SLIDING)
+    table.parameters |= {"contact": "frictionless", "k": disk.k, "l": disk.l}
+    return table
+
+
 def _turn(t0: Array, found: dict[str, Array]) -> dict[str, Array]:
     fits = {n: np.polynomial.Chebyshev.fit(t0, v, NODES - 1) for n, v in found.items()}
     roots = np.real(fits["p"].deriv().roots())
@@ -85,5 +101,6 @@ def _turn(t0: Array, found: dict[str, Array]) -> dict[str, Array]:
 TABLES: dict[str, Builder] = {}
 for _m in MODELS:
     TABLES[f"disk_{_m}"] = partial(curve, f"disk_{_m}", _m)
-for _m in ("ogden", "gent"):  # shooting with chains takes a quarter of an hour
     TABLES[f"disk_limits_{_m}"] = partial(limits, f"disk_limits_{_m}", _m)
+for _m in IN_CONTACT:
+    TABLES[f"disk_contact_{_m}"] = partial(contact, f"disk_contact_{_m}", _m)

@@ -28,7 +28,10 @@ from scipy import sparse
 from scipy.linalg import cholesky_banded
 from scipy.sparse.linalg import eigsh
 
+from reference_data.solvers.law_metric import metric
+from reference_data.solvers.material_laws import Law
 from reference_data.solvers.tube_collocation import differentiation, lagrange
+from reference_data.solvers.wrinkled_material import relaxed_curvature, relaxed_slope
 
 Array = np.ndarray
 MORE = 8  # Gauss points beyond the degree
@@ -92,7 +95,12 @@ class Profile:
 
 
 def derivatives(x1: Array, x2: Array, tense: Array, a: float) -> tuple[Array, ...]:
-    """f1, f2, f_y, f11, f12, f22 of the energy U(x1, x2) over C1; no division by x1 - x2 where tense."""
+    """f1, f2, f_y, f11, f12, f22 of the energy U(x1, x2) over C1; no division by x1 - x2 where tense.
+
+    ``a`` is C2/C1, or another law.
+    """
+    if not isinstance(a, float | int):
+        return derivatives_of_law(x1, x2, tense, a)
     d, s = x1 * x2, x1 + x2
     fd, ft = -1 / d**2 + a * (1 - s / d**2), 1 + a / d
     fdd, ftd = 2 / d**3 + 2 * a * s / d**3, -a / d**2
@@ -107,6 +115,18 @@ def derivatives(x1: Array, x2: Array, tense: Array, a: float) -> tuple[Array, ..
         s * ftd + d * fdd + fd,
         2 * x1 * ftd + x1**2 * fdd,
     )
+    return tuple(np.where(tense, t, r) for t, r in zip(taut, relaxed, strict=True))
+
+
+def derivatives_of_law(x1: Array, x2: Array, tense: Array, law: Law) -> tuple[Array, ...]:
+    """The same of another law; ``U(x1)`` where wrinkled has ``W_r' = 2 l U'``."""
+    l1, l2 = np.sqrt(x1), np.sqrt(x2)
+    with np.errstate(all="ignore"):  # where wrinkled the law itself may not exist
+        m = metric(law, l1, l2)
+    first, second = relaxed_slope(l1, law), relaxed_curvature(l1, law)
+    slope, bend = first / (2 * l1), (second - first / l1) / (4 * x1)
+    relaxed = (slope, 0 * x1, slope / np.where(tense, 1.0, x1 - x2), bend, 0 * x1, 0 * x1)
+    taut = (m.f1, m.f2, m.fy, m.f11, m.f12, m.f22)
     return tuple(np.where(tense, t, r) for t, r in zip(taut, relaxed, strict=True))
 
 

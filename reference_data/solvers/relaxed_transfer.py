@@ -36,6 +36,7 @@ from scipy.sparse.linalg import eigsh
 
 from reference_data.solvers import tube_material as mat
 from reference_data.solvers import wrinkled_material as wri
+from reference_data.solvers.law_metric import shear_modulus
 from reference_data.solvers.relaxed_second import Surface
 from reference_data.solvers.wrinkled_shooting import stretch
 
@@ -93,8 +94,12 @@ def moduli(l1: Array, l2: Array, tense: Array, c2: float) -> Array:
     out[:, 1, 1], out[:, 5, 5] = w1 / l1, w2 / l2
     d, gap = l1 * l2, l1 * l1 - l2 * l2
     # the quotients of the tense energy, divided out: equal stretches are nothing special
-    even = 2 + 2 * c2 / d**2
-    odd = 2 / d**3 + 2 * c2 * ((l1 * l1 + l2 * l2) / d**3 - d)
+    if isinstance(c2, float | int):
+        even = 2 + 2 * c2 / d**2
+        odd = 2 / d**3 + 2 * c2 * ((l1 * l1 + l2 * l2) / d**3 - d)
+    else:  # W_i = 2 l_i f_i, f1 - f2 = (x1 - x2) f_y
+        fy = shear_modulus(c2, l1, l2)
+        even, odd = w1 / l1 + 2 * l2 * l2 * fy, 2 * d * fy
     gap = np.where(tense, 1.0, gap)
     out[:, 2, 2] = out[:, 4, 4] = np.where(tense, even, l1 * w1 / gap)
     out[:, 2, 4] = out[:, 4, 2] = np.where(tense, odd, l2 * w1 / gap)

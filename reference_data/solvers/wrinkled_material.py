@@ -26,12 +26,20 @@ GAMMA = 1000.0 * 9.81 * 0.010**2 / (0.2111e6 * 0.1e-3)
 
 
 def relaxed_slope(l1: Any, c2: float) -> Any:
-    """First derivative of the relaxed energy, W_r'(l1)."""
+    """First derivative of the relaxed energy, W_r'(l1).
+
+    Here and below ``c2`` may be another law in place of C2/C1 (``material_laws``), W_r(l) = w(l, l^(-1/2)).
+    """
+    if not isinstance(c2, float | int):
+        return c2.slope(l1, c2.width(l1)[0])
     return 2 * (l1 - 1 / (l1 * l1)) + 2 * c2 * (1 - 1 / (l1 * l1 * l1))
 
 
 def relaxed_curvature(l1: Any, c2: float) -> Any:
     """Second derivative of the relaxed energy, W_r''(l1)."""
+    if not isinstance(c2, float | int):
+        width, rate = c2.width(l1)
+        return c2.curvature(l1, width) + c2.mixed(l1, width) * rate
     cube = l1 * l1 * l1
     return 2 + 4 / cube + 6 * c2 / (cube * l1)
 
@@ -43,7 +51,7 @@ class Membrane:
     Attributes:
         M: Thickness at s = 0 over the mean, eta(s) = M + 2 (1 - M) s/L.
         delta: Axial pre-stretch; z(L) = delta L.
-        c2: C2/C1.
+        c2: C2/C1, or another law.
         L: Undeformed length over the undeformed radius.
         Af: Radius of the end disks over Ao; None for the critical one of case 1.
         load: "gas" (p = P Ao/(C1 h)) or "fluid" (level zw over Ao, specific weight gamma).
@@ -95,15 +103,30 @@ class Membrane:
         return np.where(wet, self.gamma * (load - z), 0.0)
 
 
+def stiffness(c2: float) -> float:
+    """Of a law at large stretches, to start on the left of a root; infinite where it is not known."""
+    return 2 + 2 * c2 if isinstance(c2, float | int) else np.inf
+
+
 def uniaxial_stretch(force: Any, c2: float) -> Any:
-    """Root l of W_r'(l) = force >= 0; W_r' rises and is concave, so Newton cannot overshoot."""
-    l1 = np.maximum(1.0, np.real(force) / (2 + 2 * c2)) + 0 * force
+    """Root l of W_r'(l) = force >= 0; W_r' rises and is concave, so Newton cannot overshoot.
+
+    Another law may stiffen: then steps are bounded.
+    """
+    l1 = np.maximum(1.0, np.real(force) / stiffness(c2)) + 0 * force
     for _ in range(60):
         step = (force - relaxed_slope(l1, c2)) / relaxed_curvature(l1, c2)
-        l1 = l1 + step
+        l1 = l1 + bounded(step, c2)
         if np.max(np.abs(step)) < 1e-15 * np.max(np.abs(l1)):
             break
     return l1
+
+
+def bounded(step: Any, c2: float) -> Any:
+    """A step of Newton's method in a stretch, at most a fifth where the law is another."""
+    if isinstance(c2, float | int):
+        return step
+    return step * np.minimum(1.0, 0.2 / np.maximum(np.abs(step), 1e-300))
 
 
 def uniaxial_tension(membrane: Membrane) -> float:
@@ -140,6 +163,10 @@ def critical_radius_by_parts(membrane: Membrane) -> float:
 
     def stretch(force: float) -> float:
         high = 2 + force
+        if not isinstance(c2, float | int):
+            high = 1.1
+            while relaxed_slope(high, c2) < force:
+                high *= 1.1
         return brentq(lambda l1: relaxed_slope(l1, c2) - force, 1.0, high, xtol=1e-15, rtol=9e-16)
 
     def excess(force: float) -> float:

@@ -46,9 +46,14 @@ def stretch(force: Array, r: Array, tense: Array, c2: float, start: Array | None
         return (force - slope) / curve
 
     one, at = np.real(force[:, :1]), np.real(r[:, :1])
-    l1 = np.maximum(one / np.where(tense, 2 + 2 * c2 * at * at, 2 + 2 * c2), 0.7) if start is None else start
+    if start is not None:
+        l1 = start
+    elif isinstance(c2, float | int):
+        l1 = np.maximum(one / np.where(tense, 2 + 2 * c2 * at * at, 2 + 2 * c2), 0.7)
+    else:
+        l1 = np.full_like(one, 1.2)
     for _ in range(60):
-        step = correction(l1, one, at)
+        step = wri.bounded(correction(l1, one, at), c2)
         l1 = l1 + step
         if np.max(np.abs(step)) < 1e-8:  # quadratic: the next step leaves rounding only
             break

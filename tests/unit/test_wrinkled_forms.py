@@ -8,10 +8,9 @@ from dolfinx import mesh as dmesh
 from mpi4py import MPI
 
 from weakforms.forms.loads import enclosed_volume, liquid_potential
-from weakforms.forms.materials import mooney_rivlin, neo_hookean
+from weakforms.forms.materials import mooney_rivlin, mooney_rivlin_surface, neo_hookean
 from weakforms.forms.wrinkling import (
     modified_gradient,
-    mooney_rivlin_invariants,
     relaxed,
     surface_tension_field,
     tension_field,
@@ -74,9 +73,7 @@ def test_the_form_by_the_metric_has_the_same_energy_and_stress(state):
     mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
     c = fem.Constant(mesh, np.eye(2))
     tensor = ufl.variable(ufl.as_tensor([[c[0, 0], c[0, 1]], [c[1, 0], c[1, 1]]]))
-    energy = surface_tension_field(
-        tensor, lambda trace, area: mooney_rivlin_invariants(trace, area, 0.01), mooney
-    )
+    energy = surface_tension_field(tensor, mooney_rivlin_surface(0.01))
     stress = ufl.diff(energy, tensor)
     every = fem.Expression(
         ufl.as_vector([energy, *(stress[i, j] for i in (0, 1) for j in (0, 1))]), np.array([[0.5]])

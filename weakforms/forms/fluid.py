@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from ufl import as_vector, cross, diff, dot, inner, max_value, sqrt, variable
 from ufl.core.expr import Expr
 
+from weakforms.forms.materials import SurfaceLaw, stress_resultants
+
 
 @dataclass(frozen=True)
 class Surface:
@@ -27,8 +29,11 @@ class Surface:
         return Surface(self.x + other.x, self.a + other.a, self.b + other.b)
 
 
-def strain_energy(a: Expr, b: Expr, alpha: Expr | float) -> Expr:
+def strain_energy(a: Expr, b: Expr, alpha: Expr | float | SurfaceLaw) -> Expr:
     r"""Incompressible Mooney-Rivlin membrane over ``mu H``; ``alpha = 0`` is the paper's neo-Hookean one.
+
+    In place of ``alpha`` another law may stand, :math:`w(\mathrm{tr}\,C, \det C)/2` then: ``mu = 2 S``, twice
+    the stress that law is over, as ``mu = 2 C1``.
 
     .. math:: w = \tfrac12 \left[ I_1 - 3 + \alpha (I_2 - 3) \right], \quad
               I_1 = g_{11} + g_{22} + 1/J, \quad I_2 = (g_{11} + g_{22})/J + J
@@ -38,10 +43,12 @@ def strain_energy(a: Expr, b: Expr, alpha: Expr | float) -> Expr:
     """
     trace = dot(a, a) + dot(b, b)
     j = dot(a, a) * dot(b, b) - dot(a, b) ** 2
+    if isinstance(alpha, SurfaceLaw):
+        return alpha.invariants(trace, j) / 2
     return (trace + 1 / j - 3 + alpha * (trace / j + j - 3)) / 2
 
 
-def membrane_work(at: Surface, v: Surface, alpha: Expr | float) -> Expr:
+def membrane_work(at: Surface, v: Surface, alpha: Expr | float | SurfaceLaw) -> Expr:
     r"""First variation of the strain energy: :math:`w_{,a}\cdot v_{,Z} + w_{,b}\cdot v_{,\Theta}`."""
     a, b = variable(at.a), variable(at.b)
     w = strain_energy(a, b, alpha)
@@ -131,11 +138,14 @@ def principal_stretches(at: Surface) -> tuple[Expr, Expr]:
     return sqrt((g11 + g22 + root) / 2), sqrt((g11 + g22 - root) / 2)
 
 
-def principal_resultants(lam1: Expr, lam2: Expr, alpha: Expr | float) -> tuple[Expr, Expr]:
-    r"""Cauchy stress resultants, force per current length over ``mu H``.
+def principal_resultants(lam1: Expr, lam2: Expr, alpha: Expr | float | SurfaceLaw) -> tuple[Expr, Expr]:
+    r"""Cauchy stress resultants, force per current length over ``mu H``; of another law as above.
 
     .. math:: T_1 = w_{,1}/\lambda_2, \qquad T_2 = w_{,2}/\lambda_1
     """
+    if isinstance(alpha, SurfaceLaw):
+        first, second = stress_resultants(alpha.stretches, lam1, lam2)
+        return first / 2, second / 2
     l1, l2 = variable(lam1), variable(lam2)
     j = (l1 * l2) ** 2
     w = (l1**2 + l2**2 + 1 / j - 3 + alpha * ((l1**2 + l2**2) / j + j - 3)) / 2

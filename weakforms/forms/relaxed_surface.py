@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from ufl import Jacobian, conditional, cross, det, dot, grad, gt, inv, sqrt, tr
 from ufl.core.expr import Expr
 
-from weakforms.forms.materials import mooney_rivlin
+from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
 from weakforms.forms.wrinkling import (
     mooney_rivlin_invariants,
     principal_stretches,
@@ -64,7 +64,7 @@ class Patch:
         return cross(self.deformed[:, 0], self.deformed[:, 1]) / area
 
 
-def relaxed_energy(c: Expr, c2: Expr | float) -> Expr:
+def relaxed_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:
     r"""Relaxed Mooney-Rivlin energy over ``C1`` per reference volume, all states of the sheet.
 
     .. math:: W = \begin{cases}
@@ -73,13 +73,9 @@ def relaxed_energy(c: Expr, c2: Expr | float) -> Expr:
         \text{ (wrinkled)}\\ 0 & \text{(slack)} \end{cases}
 
     with :math:`I = \mathrm{tr}\,C`, :math:`D = \det C` and :math:`\lambda_1 \ge \lambda_2`, whichever way the
-    tension runs.
+    tension runs. In place of ``c2`` another law may stand, over the stress of its constants.
     """
-    return surface_tension_field(
-        c,
-        lambda trace, area: mooney_rivlin_invariants(trace, area, c2),
-        lambda a, b: mooney_rivlin(a, b, c2),
-    )
+    return surface_tension_field(c, c2 if isinstance(c2, SurfaceLaw) else mooney_rivlin_surface(c2))
 
 
 def full_energy(c: Expr, c2: Expr | float) -> Expr:

@@ -20,7 +20,8 @@ from ufl.conditional import Condition
 from ufl.core.expr import Expr
 
 from weakforms.forms.fluid import Surface, harmonic, normal
-from weakforms.forms.wrinkling import COALESCENCE, Law, mooney_rivlin_invariants, relaxed
+from weakforms.forms.materials import SurfaceLaw
+from weakforms.forms.wrinkling import COALESCENCE, relaxed
 
 ANGLES = ((1.0, 0.0), (0.0, 1.0))
 """``(cos, sin)`` of the two angles that stand for the mean over ``Theta``."""
@@ -39,10 +40,10 @@ def gradient_tensor(at: Surface, radius: Expr) -> Expr:
     return as_matrix([[dot(a, a), dot(a, b)], [dot(a, b), dot(b, b)]])
 
 
-def strain_energy(c: Expr, taut: Condition, law: Law, c2: Expr) -> Expr:
-    r"""Energy per reference volume over ``C1``: full where taut, relaxed with tension along 1 elsewhere.
+def strain_energy(c: Expr, taut: Condition, law: SurfaceLaw) -> Expr:
+    r"""Energy per reference volume: full where taut, relaxed with tension along 1 elsewhere.
 
-    .. math:: U_F = I + 1/D - 3 + a\,(I/D + D - 3), \qquad U_R = w(\lambda_1, \lambda_1^{-1/2})
+    .. math:: U_F = w(I, D), \qquad U_R = w(\lambda_1, \lambda_1^{-1/2})
 
     with ``I = tr C``, ``D = det C``: the taut state needs no principal stretches and is smooth where they
     coincide. Where a point is taut is *given*: a front that moves with the perturbation changes the energy at
@@ -52,13 +53,13 @@ def strain_energy(c: Expr, taut: Condition, law: Law, c2: Expr) -> Expr:
     Args:
         c: Right Cauchy-Green tensor, :func:`gradient_tensor`.
         taut: Where it is taut, held fixed.
-        law: Mooney-Rivlin energy as a function of the principal stretches ...
-        c2: ... with this ``C2/C1``.
+        law: Energy as a function of either.
     """
     area = c[0, 0] * c[1, 1] - c[0, 1] ** 2
     spread = sqrt((c[0, 0] - c[1, 1]) ** 2 + 4 * c[0, 1] ** 2 + COALESCENCE**2)
     stretch = sqrt((tr(c) + spread) / 2)
-    return conditional(taut, mooney_rivlin_invariants(tr(c), area, c2), relaxed(law)(stretch))
+    along = stretch if law.bounded else conditional(taut, 1.0, stretch)
+    return conditional(taut, law.where(taut, tr(c), area), relaxed(law.stretches)(along))
 
 
 def gas_energy(at: Surface, p: Expr) -> Expr:

@@ -13,10 +13,14 @@ chosen by ``conditional`` *around* smooth branches: UFL then differentiates the 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from ufl import And, conditional, det, gt, inv, max_value, sqrt, tr
 from ufl.conditional import Condition
 from ufl.core.expr import Expr
+
+if TYPE_CHECKING:
+    from weakforms.forms.materials.surface import SurfaceLaw
 
 Law = Callable[[Expr, Expr], Expr]
 """Energy per reference volume as a function of the two principal stretches."""
@@ -118,7 +122,7 @@ def principal_stretches(c: Expr) -> tuple[Expr, Expr]:
     return sqrt((trace + spread) / 2), sqrt(max_value((trace - spread) / 2, TINY**2))
 
 
-def surface_tension_field(c: Expr, taut: Callable[[Expr, Expr], Expr], law: Law) -> Expr:
+def surface_tension_field(c: Expr, law: SurfaceLaw) -> Expr:
     r"""Relaxed energy of a membrane without symmetry, from the right Cauchy-Green tensor.
 
     Taut iff :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`); else wrinkled with :math:`w_r(l_1)` where
@@ -126,14 +130,14 @@ def surface_tension_field(c: Expr, taut: Callable[[Expr, Expr], Expr], law: Law)
 
     Args:
         c: Right Cauchy-Green tensor in an orthonormal frame of the reference surface, 2 x 2.
-        taut: Energy of the taut state as a function of ``tr C`` and ``det C``: no principal stretches, so it
-            is smooth where they coincide.
-        law: The same energy as a function of the principal stretches.
+        law: Energy as a function of ``tr C`` and ``det C``, which is smooth where the principal stretches
+            coincide, for the taut state; as a function of the principal stretches for the wrinkled one.
     """
     l1, l2 = principal_stretches(c)
     area = max_value(det(c), TINY**2)
-    slackened = conditional(gt(l1, 1), relaxed(law)(l1), 0.0)
-    return conditional(gt(area * l2**2, 1), taut(tr(c), area), slackened)
+    slackened = conditional(gt(l1, 1), relaxed(law.stretches)(l1), 0.0)
+    taut = gt(area * l2**2, 1)
+    return conditional(taut, law.where(taut, tr(c), area), slackened)
 
 
 def mooney_rivlin_invariants(trace: Expr, area: Expr, alpha: Expr) -> Expr:

@@ -28,8 +28,8 @@ FIRST_TERMS, MORE_TERMS = 10, 3
 """Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
 
 CAP = 2.0
-"""Highest order of convergence the uncertainties in contact reckon with: mesh and series are refined
-together, the series by little each time."""
+"""Highest order of convergence the uncertainties of a stuck patch reckon with: mesh and series are refined
+together, the series by little each time. Without friction it is that of a free disk."""
 
 SCALES = {
     "length": "R_f, radius of the clamp (= beta R_0)",
@@ -96,6 +96,10 @@ TRACES = ("lam1_rim", "lam1_contact", "lam1_contact_outer", "kappa", "lam1", "t1
 
 MOVING = ("X_iso", "t_min")
 """Columns taken where something happens on the mesh: their error depends on where in a cell that is."""
+
+
+OF_EIGENVALUES = 4.0
+"""Order at which the eigenvalues converge, cubic and quartic elements alike: the pole is a singular point."""
 
 
 class CircularNumerics(MeshNumerics):
@@ -220,6 +224,7 @@ class Circular(PathProblem):
 
             across = ("front", "rho_contact") if of is PeelingFamily else ("p", "t0")
             caps = dict.fromkeys(TRACES, min(cap, degree)) | dict.fromkeys(MOVING, 2.0)
+            caps["eigenvalue_1"] = min(cap, OF_EIGENVALUES)
             return of(make, numerics.levels, cap, across=across, caps=caps)
 
         if parameters.phase == "peeling":
@@ -232,12 +237,13 @@ class Circular(PathProblem):
         runs[-1].onset  # noqa: B018
         if parameters.phase == "deflation":
             return {"primary": family(lambda run: run.deflation, CAP)}
-        law = "frictionless" if parameters.contact == "frictionless" else "adhesive"
+        free = 2 * numerics.degree
+        law, of_law = ("frictionless", free) if parameters.contact == "frictionless" else ("adhesive", CAP)
         pieces = [
-            Piece(family(lambda run: run.before_contact, 2 * numerics.degree), NO_PATCH),
-            Piece(family(lambda run: getattr(run, law), CAP), {}),
+            Piece(family(lambda run: run.before_contact, free), NO_PATCH),
+            Piece(family(lambda run: getattr(run, law), of_law), {}),
         ]
-        return {"primary": PiecewiseFamily(pieces, lambda: [_onset(runs)])}
+        return {"primary": PiecewiseFamily(pieces, lambda: [_onset(runs, numerics.degree)])}
 
     def points(self, parameters: CircularParameters) -> np.ndarray:
         """101 points from the pole to the clamp."""
@@ -261,9 +267,10 @@ def peeling_pressure(parameters: CircularParameters, requests: Requests) -> floa
     return given.pop()
 
 
-def _onset(runs: list[DiskRun]) -> SpecialPoint:
+def _onset(runs: list[DiskRun], degree: int) -> SpecialPoint:
     shown = [n for n in runs[-1].before_contact.shown if n not in NO_PATCH]
-    return special_point([run.onset for run in runs], shown, CAP, "primary", "p")
+    caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
+    return special_point([run.onset for run in runs], shown, 2 * degree, "primary", "p", caps)
 
 
 def _data(parameters: CircularParameters, cells: int, degree: int) -> DiskData:

@@ -1,8 +1,8 @@
 """Paper 3: a pre-stretched cylindrical membrane that holds a liquid: axisymmetric states, all variations.
 
 Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016. Lengths are divided by the radius ``A`` of
-the stress-free tube, energies by ``mu H A^2``; ``Z`` in ``[0, L/delta]`` is measured along the stress-free
-tube from the lower disk.
+the stress-free tube, energies by ``mu H A^2`` (``mu = 2 C1``, or twice the stress ``S`` that the constants of
+another law are over); ``Z`` in ``[0, L/delta]`` is measured along the stress-free tube from the lower disk.
 
 The tube is mapped from two fixed intervals: ``x in [0, 1]`` to ``Z in [0, Zf]``, ``x in [1, 2]`` to
 ``Z in [Zf, L/delta]``. While the tube is partially filled, ``Zf`` is where the free surface meets the
@@ -36,6 +36,7 @@ from weakforms.forms.fluid import (
     principal_resultants,
     strain_energy,
 )
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meshes import tag_points
 from weakforms.solvers.modes import SecondVariation
 from weakforms.solvers.system import Formulation, State, System
@@ -57,6 +58,8 @@ class TubeData:
     cells: int
     degree: int
     grading: float = 0.6
+    material: Chosen | None = None
+    """A law in the place of Mooney and Rivlin's with ``alpha``."""
 
     @property
     def length(self) -> float:
@@ -91,6 +94,7 @@ class TubeModel:
         self._fixed = {
             name: fem.Constant(self.mesh, float(getattr(data, name))) for name in ("L", "gamma", "alpha")
         }
+        self.law = data.material.surface_law(self.mesh) if data.material else self._fixed["alpha"]
         self._low = fem.Function(fem.functionspace(self.mesh, ("DG", 0)))
         cells = dmesh.locate_entities(self.mesh, 1, lambda x: x[0] <= 1.0 + 1e-12)
         self._low.x.array[cells] = 1.0
@@ -163,19 +167,19 @@ class TubeModel:
     def _work(self, at: Surface, v: Surface) -> Expr:
         """First variation per ``Z`` and ``Theta``."""
         pressure = hydrostatic(at.x[2], self.loads["zw"][1], self._fixed["gamma"], self._wet())
-        return membrane_work(at, v, self._fixed["alpha"]) + pressure_work(at, v, pressure)
+        return membrane_work(at, v, self.law) + pressure_work(at, v, pressure)
 
     def _formulation(self) -> Formulation:
         space, jacobian, at = self.unknown.function_space, self._jacobian(), self.surface()
         r, z = self.radius, self.height
         test = ufl.TestFunction(space)
         v = axisymmetric(test[0], test[1], (test[0].dx(0) / jacobian, test[1].dx(0) / jacobian))
-        zw, gamma, alpha = self.loads["zw"][1], self._fixed["gamma"], self._fixed["alpha"]
+        zw, gamma, law = self.loads["zw"][1], self._fixed["gamma"], self.law
         lam1, lam2 = ufl.sqrt(ufl.dot(at.a, at.a)), r
-        t1, t2 = principal_resultants(lam1, lam2, alpha)
+        t1, t2 = principal_resultants(lam1, lam2, law)
         volume = ufl.pi * self._wet() * r**2 * at.a[2]
         liquid = hydrostatic(z, zw, gamma, 1.0)
-        energy = 2 * ufl.pi * strain_energy(at.a, at.b, alpha) - liquid * volume
+        energy = 2 * ufl.pi * strain_energy(at.a, at.b, law) - liquid * volume
         ends = ufl.Measure("ds", self.mesh, subdomain_data=self.tags)
         inner = ufl.Measure("dS", self.mesh, subdomain_data=self.tags)
         scale = self.data.length / 2
@@ -204,7 +208,7 @@ class TubeModel:
                 "lam2": lam2,
                 "T1": t1,
                 "T2": t2,
-                "H": strain_energy(at.a, at.b, alpha) - lam1 * lam2 * t1,
+                "H": strain_energy(at.a, at.b, law) - lam1 * lam2 * t1,
             },
         )
 

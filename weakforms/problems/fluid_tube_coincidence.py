@@ -15,10 +15,12 @@ from pydantic import Field
 from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.base import Parameters, Progress, Requests, registry, silent
+from weakforms.forms.materials.surface import LAWS
+from weakforms.problems.base import Progress, Requests, registry, silent
 from weakforms.problems.fluid_tube import TubeData
 from weakforms.problems.fluid_tube_path import FluidPath
 from weakforms.problems.fluid_tube_problem import CAPS, ENERGY, SCALES, SOURCE, FluidTubeNumerics
+from weakforms.problems.material_choice import MaterialChoice, require_model
 from weakforms.results import Quantity, Result
 from weakforms.solvers.branch import Solved
 from weakforms.solvers.constraints import Held
@@ -34,12 +36,14 @@ NEAR = 1e-3
 SHOWN = ("zw", "V", "Pi", "r_mid", "r_max", "Lambda_n2", "Lambda_n3", "Lambda_torsion", "LambdaV_n0")
 
 
-class CoincidenceParameters(Parameters):
+class CoincidenceParameters(MaterialChoice):
     """The tube, its liquid, and where to look."""
+
+    ratio: ClassVar[str] = "alpha"
 
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
     gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
-    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta_low: float = Field(3.0, gt=1, le=10, description="pre-stretch with one order of the points")
     delta_high: float = Field(5.0, gt=1, le=10, description="pre-stretch with the other order")
 
@@ -66,8 +70,9 @@ class FluidTubeCoincidence:
         """Refuse what the ranges of single parameters cannot.
 
         Raises:
-            InputError: For a state (there is but one), or an empty range.
+            InputError: For a state (there is but one), an empty range, or a law without a form.
         """
+        require_model(self.name, parameters, tuple(LAWS))
         if requests.states:
             raise InputError(f"{self.name}: there are no states to ask for, its one state is the result")
         if not parameters.delta_low < parameters.delta_high:
@@ -129,6 +134,7 @@ class _Finder:
             numerics.meshes[level] // 2,
             numerics.degree,
             numerics.grading,
+            given.other_law,
         )
         return FluidPath(self.comm, data, 3, step=numerics.step)
 

@@ -128,12 +128,15 @@ class FluidPath:
         self.data, self.zw_end, self.step = data, zw_end, step
         self.model = TubeModel(comm, data)
         self.modes = TubeModes(self.model, n_max)
-        self._highest = 0.0
+        self._highest = self._volume = 0.0
 
     def _ends(self, point: CurvePoint) -> bool:
-        level = point.state.loads["zw"]
-        self._highest = max(self._highest, level)
-        return level < self.zw_end * self._highest
+        """Whether the level has fallen far enough or, where the law stiffens, rises again after that."""
+        level, volume = point.state.loads["zw"], point.monitors["V"]
+        if level > self._highest:
+            self._highest, self._volume = level, volume
+        rises = volume > self._volume and point.tangent.loads["zw"] > 0
+        return level < self.zw_end * self._highest or (rises and self.data.material is not None)
 
     # -- pieces --------------------------------------------------------------------------------
 

@@ -10,12 +10,15 @@ from mpi4py import MPI
 from pydantic import Field, model_validator
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, sample_points
 from weakforms.problems.fluid_tube import TubeData
 from weakforms.problems.fluid_tube_path import STEP, ZW_END, FluidPath
-from weakforms.problems.fluid_tube_secondary import COLUMNS as SECONDARY_COLUMNS
-from weakforms.problems.fluid_tube_secondary import DERIVED_COLUMNS, secondary_family
-from weakforms.problems.fluid_tube_secondary import SCALES as SECONDARY_SCALES
+from weakforms.problems.fluid_tube_secondary import secondary_family
+from weakforms.problems.fluid_tube_secondary_columns import COLUMNS as SECONDARY_COLUMNS
+from weakforms.problems.fluid_tube_secondary_columns import DERIVED_COLUMNS
+from weakforms.problems.fluid_tube_secondary_columns import SCALES as SECONDARY_SCALES
+from weakforms.problems.material_choice import MOONEY_RIVLIN, MaterialChoice, require_model
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.results import Failure, Result
 from weakforms.solvers.modal import ModalBranch, ModalFamily
@@ -31,6 +34,7 @@ SCALES = {
     "L": "stretched length over A",
     "delta": "axial pre-stretch, 1; the stress-free tube is L/delta long",
     "gamma": "rho g A^2/(mu H), H the thickness of the stress-free tube",
+    "mu": "2 C1; of another model 2 S, twice the stress its constants are over",
     "alpha": "second Mooney-Rivlin constant over the first; 0 is neo-Hookean",
     "zw": "level of the free surface above the lower disk, or static head over a full tube, over A",
     "V": "volume of the liquid over A^3",
@@ -64,12 +68,13 @@ SCALES = {
 ENERGY = (
     "Pi/(mu H A^2) = int_0^{L/delta} int_0^{2 pi} [ (I1 - 3 + alpha (I2 - 3))/2 - P(z) (x e_x + y e_y).N/2 ] "
     "dTheta dZ,  P = gamma max(zw - z, 0),  N = x_Theta x x_Z;  typed as its first variation, "
-    "w_a.v_Z + w_b.v_Theta - P v.N"
+    "w_a.v_Z + w_b.v_Theta - P v.N;  another model (weakforms show material) has w/2 for the first term"
 )
 
 CAPS = {"r_mid": 4.0, "r_max": 4.0, **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 2.0)}
-"""Highest orders of convergence that uncertainties reckon with at material points, which lie now here, now
-there in a cell that follows the front: the order is the elements', the error's size is any."""
+"""Highest orders of convergence that uncertainties reckon with at material points of a partially filled tube,
+which lie now here, now there in a cell that follows the front: the order is the elements', the error's size
+is any."""
 
 TORN = "Z_front", "r_front"
 """Columns of a partially filled tube only."""
@@ -82,11 +87,11 @@ class FluidTubeNumerics(MeshNumerics):
     cells: int = Field(128, ge=16, le=20_000, description="cells on the finest mesh")
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at rings and front")
     step: float = Field(STEP, ge=0.02, le=1, description="largest arc-length step")
-    secondary_cells: int = Field(32, ge=8, le=128, description="cells along the surface")
+    secondary_cells: int = Field(24, ge=6, le=96, description="cells along the surface")
     secondary_around: int | None = Field(
-        None, ge=4, le=128, description="cells around its half; by default as many as along, half for L > 12"
+        None, ge=2, le=96, description="cells around its half; by default two thirds of those along"
     )
-    secondary_degree: int = Field(4, ge=2, le=5, description="polynomial degree on the surface")
+    secondary_degree: int = Field(5, ge=2, le=6, description="polynomial degree on the surface")
     secondary_levels: int = Field(3, ge=2, le=4, description="meshes of the surface, each twice as fine")
     secondary_step: float = Field(0.1, ge=0.01, le=0.5, description="largest step on the secondary branch")
     secondary_end: float = Field(
@@ -95,25 +100,27 @@ class FluidTubeNumerics(MeshNumerics):
 
     @model_validator(mode="after")
     def _nested_surface(self) -> Self:
-        coarsest = 4 * 2 ** (self.secondary_levels - 1)
+        coarsest = 6 * 2 ** (self.secondary_levels - 1)
         if self.secondary_cells % coarsest:
             raise ValueError(
                 f"secondary_cells must be a multiple of {coarsest} for {self.secondary_levels} levels"
             )
-        if self.secondary_around is not None and self.secondary_around % (coarsest // 4):
+        if self.secondary_around is not None and self.secondary_around % (coarsest // 3):
             raise ValueError(
-                f"secondary_around must be a multiple of {coarsest // 4} for {self.secondary_levels} levels"
+                f"secondary_around must be a multiple of {coarsest // 3} for {self.secondary_levels} levels"
             )
         return self
 
 
-class FluidTubeParameters(Parameters):
+class FluidTubeParameters(MaterialChoice):
     """The tube and its liquid."""
+
+    ratio: ClassVar[str] = "alpha"
 
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
     delta: float = Field(2.0, gt=1, le=10, description="axial pre-stretch")
     gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
-    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     n_max: int = Field(3, ge=1, le=MOST_WAVES, description="largest wave number whose stability is judged")
     zw_end: float = Field(
         ZW_END, ge=0.3, lt=1, description="fraction of the highest level at which the branch ends"
@@ -165,6 +172,9 @@ class FluidTube(PathProblem):
             InputError: For a state nobody could solve for.
         """
         check_requests(self, requests)
+        require_model(self.name, parameters, tuple(LAWS))
+        if parameters.secondary:
+            require_model(f"{self.name}: secondary = true", parameters, (MOONEY_RIVLIN,))
         for wanted in requests.states:
             if wanted.name == "zw" and wanted.value < 0:
                 raise InputError(f"fluid_tube: zw = {wanted.value:g} is below the tube; allowed: zw >= 0")
@@ -242,6 +252,7 @@ def primary_family(
             cells // 2,
             numerics.degree,
             numerics.grading,
+            parameters.other_law,
         )
         paths.append(FluidPath(comm, data, parameters.n_max, parameters.zw_end, numerics.step))
     counts = [len(path.pieces) for path in paths]
@@ -252,7 +263,9 @@ def primary_family(
         def make(level: int) -> ModalBranch:
             return paths[level].pieces[k]
 
-        return ModalFamily(make, numerics.levels, 2 * numerics.degree, across=("zw", "V"), caps=CAPS)
+        still = {name: numerics.degree + float(name.startswith("r")) for name in CAPS}
+        caps = CAPS if k % 2 else still  # without a front the mesh stays where it is
+        return ModalFamily(make, numerics.levels, 2 * numerics.degree, across=("zw", "V"), caps=caps)
 
     length = parameters.L / parameters.delta
     dry, full = dict(zip(TORN, (0.0, 1.0), strict=True)), dict(zip(TORN, (length, np.nan), strict=True))

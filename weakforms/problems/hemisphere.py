@@ -16,6 +16,7 @@ from pydantic import Field
 
 from weakforms.errors import InputError
 from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.path import Family, PathProblem
 from weakforms.problems.wave_numbers import WaveNumbers
 from weakforms.problems.wrinkled_body import HEMISPHERE
@@ -43,12 +44,14 @@ empty sheet can hang as a cone of depth ``sqrt(pi^2/4 - 1) = 1.2114``, the taut 
 NEAR_FRONTS = (0.004, 0.02, 0.08)
 """Distances from fronts within which cells are smaller, ``Ao``."""
 
+SHARED_SCALES = (
+    *("c2", "C1", "gw_max", "gw_min", "n", "beta", "direction", "meridional", "circumferential", "normal"),
+    *("lam1", "lam2", "gw", "tension", "axial", "eigenvalue_1"),
+)
+"""Those of the cylinder that mean the same here."""
+
 HEMISPHERE_SCALES = {
-    **{
-        name: SCALES[name]
-        for name in ("c2", "gw_max", "gw_min", "n", "beta", "direction", "meridional", "circumferential")
-    },
-    **{name: SCALES[name] for name in ("normal", "lam1", "lam2", "gw", "tension", "axial", "eigenvalue_1")},
+    **{name: SCALES[name] for name in SHARED_SCALES},
     "length": "Ao, radius of the undeformed hemisphere",
     "gamma": "rho g Ao^2/(C1 h)",
     "zw": "level of the liquid above the equator's plane over Ao: negative",
@@ -74,7 +77,7 @@ HEMISPHERE_SCALES = {
 ENERGY = (
     "Pi/(2 pi C1 h Ao^2) = int_0^{pi/2} [ R W - Phi r r' ] dt,  R = sin t,  Phi = gamma max(zw - z, 0)^2/2;  "
     "W = w(lam1, lam2) where gw = lam2 sqrt(lam1) > 1, else w(lam1, lam1^(-1/2));  "
-    "w = I1 - 3 + c2 (I2 - 3),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r/R"
+    "w = I1 - 3 + c2 (I2 - 3) or that of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r/R"
 )
 
 
@@ -84,11 +87,15 @@ class HemisphereNumerics(WrinkledNumerics):
     step: float = Field(0.08, ge=0.005, le=0.2, description="largest arc-length step")
 
 
-class HemisphereParameters(Parameters):
+class HemisphereParameters(MaterialChoice):
     """The membrane and its liquid."""
 
+    ratio: ClassVar[str] = "c2"
+
     gamma: float = Field(GAMMA, ge=1, le=8, description="weight of the liquid")
-    c2: float = Field(0.0, ge=0, le=1, description="C2/C1; 0 is neo-Hookean, as in the paper")
+    c2: float = Field(
+        0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean, as in the paper"
+    )
     n: WaveNumbers = Field((), description="numbers of waves around whose stability is judged, such as 10,50")
     beta: float = Field(
         0.0, ge=0, le=1, description="bending stiffness that waves meet besides, over C1 h Ao^2"
@@ -159,6 +166,7 @@ class Hemisphere(PathProblem):
             InputError: For a state nobody could solve for.
         """
         check_requests(self, requests)
+        require_foldable(self.name, parameters, bool(parameters.n))
         for wanted in requests.states:
             if wanted.name == "front":
                 raise InputError(
@@ -205,7 +213,8 @@ def hemisphere_membrane(
     """The membrane of some parameters, whose states can be solved for one by one."""
     values = {"c2": parameters.c2, "gamma": parameters.gamma}
     near = NEAR_FRONTS if parameters.n else ()
-    return Membrane(comm, HEMISPHERE, values, True, numerics.meshes, numerics.degree, "relaxed", near)
+    kind = "relaxed", near, parameters.other_law
+    return Membrane(comm, HEMISPHERE, values, True, numerics.meshes, numerics.degree, *kind)
 
 
 registry.add(Hemisphere())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -11,7 +11,9 @@ from dolfinx.mesh import Mesh
 from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 from ufl.core.expr import Expr
 
-from weakforms.forms.materials import MATERIALS, Material
+from weakforms.errors import InputError
+from weakforms.forms.materials import MATERIALS, Material, SurfaceLaw, surface_law
+from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.base import Parameters, TogetherError
 
 MOONEY_RIVLIN = "mooney_rivlin"
@@ -36,6 +38,10 @@ class Chosen:
     def law(self, mesh: Mesh) -> Callable[[Expr, Expr], Expr]:
         """The energy as a function of the two principal stretches."""
         return self.material.energy(self.on(mesh))
+
+    def surface_law(self, mesh: Mesh) -> SurfaceLaw:
+        """The energy of a surface, by its principal stretches and by the invariants of its metric."""
+        return surface_law(self.model, self.on(mesh))
 
 
 def mooney_rivlin_of(ratio: float) -> Chosen:
@@ -97,11 +103,39 @@ class MaterialChoice(Parameters):
         return {**data, **constants}
 
     @property
+    def other_law(self) -> Chosen | None:
+        """The law chosen, unless it is Mooney and Rivlin's."""
+        return None if self.model == MOONEY_RIVLIN else self.material
+
+    @property
     def material(self) -> Chosen:
         """The law chosen."""
         if self.model == MOONEY_RIVLIN and self.ratio:
             return mooney_rivlin_of(getattr(self, self.ratio))
         return Chosen(self.model, self.constants)
+
+
+def require_foldable(what: str, parameters: MaterialChoice, waves: bool) -> None:
+    """Refuse a law that a membrane that wrinkles has no form for.
+
+    Natural width and wrinkling function are those of incompressible laws; waves around the axis need the law
+    as a function of the invariants.
+
+    Raises:
+        InputError: Naming the laws that are allowed.
+    """
+    allowed = [name for name, m in MATERIALS.items() if m.incompressible and (not waves or name in LAWS)]
+    require_model(f"{what}: waves around" if waves else what, parameters, allowed)
+
+
+def require_model(what: str, parameters: MaterialChoice, allowed: Collection[str]) -> None:
+    """Refuse a law that a problem has no sound form for.
+
+    Raises:
+        InputError: Naming the laws that are allowed.
+    """
+    if parameters.model not in allowed:
+        raise InputError(f"{what}: model = {parameters.model!r}; allowed: {', '.join(allowed)}")
 
 
 def _value(name: str, given: Any, allowed: str, contains: Callable[[float], bool]) -> float:

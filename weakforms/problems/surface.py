@@ -15,6 +15,7 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.base import Progress, Requests, StateRequest, check_requests, registry, silent
+from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.surface_fields import fields
 from weakforms.problems.surface_model import Body, SurfaceModel
 from weakforms.problems.surface_parameters import (
@@ -41,6 +42,7 @@ SCALES = {
     "M": "thickness at the lowest point over its mean (2 - M at the highest)",
     "delta": "axial pre-stretch",
     "c2": "C2/C1",
+    "C1": "of another model the stress S its constants are over (weakforms show material)",
     "L": "L_o/Ao",
     "Af": "radius of the held edges over their undeformed one",
     "gamma": "rho g Ao^2/(C1 h)",
@@ -76,7 +78,8 @@ class Surface:
     energy: ClassVar[str] = (
         "Pi/(C1 h Ao^2) = int H W(C) dA + int Phi(z) N_z dA,  Phi = -p z + gamma max(zw - z, 0)^2/2,  "
         "C = (J^T J)^-1 F^T F of each triangle;  W = I1 - 3 + c2 (I2 - 3) where taut, "
-        "lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack"
+        "lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another "
+        "model w and w(lam1, lam1^(-1/2)), its S for C1"
     )
     scales: ClassVar[dict[str, str]] = SCALES
     parameters = SurfaceParameters
@@ -97,6 +100,7 @@ class Surface:
             InputError: Naming the value and what is allowed.
         """
         check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=True)
         kind, full = parameters.kind, parameters.filled()
         for name in ("M", "delta", "L", "Af"):
             value = getattr(parameters, name)
@@ -177,7 +181,8 @@ def _run(full: SurfaceParameters, comm: MPI.Intracomm) -> SurfaceRun:
     """The discrete membrane, its walk begun at the load where a first guess is known to lead."""
     own = {name: getattr(full, name) for name in ("M", "delta", "Af") if name in DEFAULTS[full.kind]}
     gamma = full.gamma if full.load == "fluid" else 0.0
-    body = Body(full.triangles(), **own, c2=full.c2, gamma=gamma, rule=full.rule, potential=full.potential)
+    own |= {"c2": full.c2, "gamma": gamma, "rule": full.rule, "potential": full.potential}
+    body = Body(full.triangles(), **own, material=full.other_law)
     run = SurfaceRun(SurfaceModel(comm, body), full.control, {"p": 0.0, "zw": 0.0})
     run.at(WALK.get((full.kind, full.load), (full.load_start,))[0])
     return run

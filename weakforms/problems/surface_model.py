@@ -27,6 +27,7 @@ from weakforms.forms.relaxed_surface import (
     state,
 )
 from weakforms.forms.wrinkling import principal_stretches
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.surface_symmetry import Meridian, subspace_of
 from weakforms.problems.surface_triangles import Triangulation
 from weakforms.solvers.subspace import Subspace
@@ -54,6 +55,7 @@ class Body:
         delta: Stretch of the heights of the held edges, from the lowest node.
         Af: Radius of the held edges over that in the reference surface.
         c2: ``C2/C1``.
+        material: An incompressible law in the place of Mooney and Rivlin's.
         gamma: Weight of the liquid.
         rule: Quadrature of the load, see :data:`RULES`.
         potential: ``vertical``: the flux of ``Phi`` through the surface; ``horizontal``: the printed one.
@@ -67,6 +69,7 @@ class Body:
     gamma: float = 0.0
     rule: int = 1
     potential: str = "vertical"
+    material: Chosen | None = None
 
     def start(self) -> np.ndarray:
         """First guess of the nodes' positions; its values at the held nodes are the prescribed ones.
@@ -130,6 +133,7 @@ class SurfaceModel:
             constant = fem.Constant(self.mesh, 0.0)
             loads[name] = (constant, ufl.variable(constant))
         gamma, c2 = (fem.Constant(self.mesh, float(v)) for v in (body.gamma, body.c2))
+        law = body.material.surface_law(self.mesh) if body.material else c2
         patch = Patch.of(x, self.mesh)
         self.cauchy_green = patch.cauchy_green()
         normal = patch.area_vector()
@@ -137,7 +141,7 @@ class SurfaceModel:
         once = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 0})
         over = ufl.Measure("dx", self.mesh, metadata=RULES[body.rule])
         exact = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2})
-        strain = self.thickness * relaxed_energy(self.cauchy_green, c2) * once
+        strain = self.thickness * relaxed_energy(self.cauchy_green, law) * once
         if body.potential == "vertical":
             load = pressure_potential(x[2], normal, *given) * over
         else:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
 
-from weakforms.problems.base import Numerics, Parameters
+from weakforms.problems.base import Numerics
+from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.surface_triangles import SUFFIXES, Triangulation, from_file, hemisphere, tube
 from weakforms.problems.wrinkled_tube import PAPER_GAMMA
 
@@ -43,8 +44,10 @@ def _closes(columns: int) -> int:
     return columns
 
 
-class SurfaceParameters(Parameters):
+class SurfaceParameters(MaterialChoice):
     """The membrane, its mesh (which is part of the question here) and its load."""
+
+    ratio: ClassVar[str] = "c2"
 
     geometry: Annotated[str, AfterValidator(_known)] = Field(
         "tube", description="tube, hemisphere, or a file with triangles (msh, vtu, stl)"
@@ -59,7 +62,7 @@ class SurfaceParameters(Parameters):
         None, gt=0, lt=2, description="thickness at the lowest point over its mean (tube: 1.5)"
     )
     delta: float | None = Field(None, ge=1, le=6, description="axial pre-stretch (tube: 3)")
-    c2: float | None = Field(None, ge=0, le=1, description="C2/C1 (tube: 0.01, else 0)")
+    c2: float | None = Field(None, ge=0, le=1, description="C2/C1 of mooney_rivlin (tube: 0.01, else 0)")
     L: float | None = Field(None, ge=1, le=40, description="tube: undeformed length (8)")
     Af: float | None = Field(
         None, gt=0, le=3, description="radius of the held edges over the undeformed (tube: 0.4362)"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,9 +16,13 @@ from mpi4py import MPI
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.problems.surface_checks import edges_of, require_surface
+from weakforms.solvers import compat
 
 SUFFIXES = (".msh", ".vtu", ".stl")
 """Files a surface is read from."""
+
+MAX_BYTES = 512 * 2**20
+"""Size up to which they are."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +66,7 @@ class Triangulation:
         first = comm.rank == 0
         cells = self.triangles if first else np.empty((0, 3), dtype=np.int64)
         points = self.points if first else np.empty((0, 3))
-        mesh = dmesh.create_mesh(comm, cells.astype(np.int64), points, ufl.Mesh(element))
+        mesh = compat.create_mesh(comm, cells.astype(np.int64), points, ufl.Mesh(element))
         mesh.topology.create_connectivity(1, 2)
         return mesh
 
@@ -151,10 +157,15 @@ def from_file(path: Path) -> Triangulation:
         raise EnvironmentLackError("meshio is not installed here: apt install python3-meshio") from error
     if not path.is_file():
         raise InputError(f"surface: geometry = {path}: there is no such file")
+    if path.stat().st_size > MAX_BYTES:
+        raise InputError(f"surface: geometry = {path} is larger than {MAX_BYTES >> 20} MiB")
+    said = io.StringIO()
     try:
-        read = meshio.read(path)
-    except (meshio.ReadError, OSError, ValueError, KeyError, IndexError, AssertionError, SystemExit) as error:
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        with redirect_stderr(said), redirect_stdout(said):  # to say it in one line, or not at all
+            read = meshio.read(path)
+    except (Exception, SystemExit) as error:  # a damaged file raises whatever its reader stumbles over
+        reason = " ".join((said.getvalue() if isinstance(error, SystemExit) else str(error)).split())
+        reason = reason[:200] or type(error).__name__
         raise InputError(f"surface: geometry = {path} cannot be read: {reason}") from None
     other = sorted({block.type for block in read.cells} - {"triangle", "line", "vertex"})
     if other:

@@ -22,9 +22,14 @@ FIRST_TERMS, MORE_TERMS = 14, 4
 """Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
 
 CAP, CAP_UNILATERAL = 2.0, 1.0
-"""Highest order of convergence the uncertainties reckon with. Mesh and series are refined together, and
-tractions hold second derivatives: no more credit than order two is given, than order one where a unilateral
-spring lets go inside a cell."""
+"""Highest order of convergence the uncertainties of a stuck patch reckon with. Mesh and series are refined
+together, and tractions hold second derivatives: no more credit than order two is given, than order one where
+a unilateral spring lets go inside a cell. Without friction, and before contact, it is that of a free tube."""
+
+TRACES = ("line_force", "line_force_membrane", "t2_min")
+SECOND = ("traction_front", "traction_max", "f_t")
+"""Columns of frictionless contact that hold first derivatives at a point: their order is the degree at most;
+and second derivatives. The curvature follows from the balance of forces, and gains an order."""
 
 NO_PATCH = {
     name: 0.0
@@ -48,26 +53,29 @@ def contact_family(
     cap = CAP_UNILATERAL if parameters.spring == "unilateral" else CAP
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 
-    def family(part: Callable[[ContactRun], SolutionCurve]) -> BranchFamily:
+    def family(part: Callable[[ContactRun], SolutionCurve], cap: float) -> BranchFamily:
         def make(level: int) -> SolutionCurve:
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
-        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"))
+        caps = dict.fromkeys(TRACES, min(cap, numerics.degree)) | dict.fromkeys(SECOND, min(cap, 2.0))
+        caps["kappa"] = min(cap, numerics.degree + 1)
+        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps)
 
     runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
     if parameters.phase == "deflation":
-        return PiecewiseFamily([Piece(family(lambda run: run.deflation), {})])
-    law = "frictionless" if parameters.contact == "frictionless" else "adhesive"
+        return PiecewiseFamily([Piece(family(lambda run: run.deflation, cap), {})])
+    free = 2 * numerics.degree
+    law, of_law = ("frictionless", free) if parameters.contact == "frictionless" else ("adhesive", cap)
     pieces = [
-        Piece(family(lambda run: run.free), NO_PATCH | {"kappa": float("nan")}),
-        Piece(family(lambda run: getattr(run, law)), {}),
+        Piece(family(lambda run: run.free, free), NO_PATCH | {"kappa": float("nan")}),
+        Piece(family(lambda run: getattr(run, law), of_law), {}),
     ]
 
     def onset() -> list[SpecialPoint]:
         shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
         same = [run.onset for run in runs]
-        return [special_point(same, shown, CAP, "primary", "p")]
+        return [special_point(same, shown, free, "primary", "p", {"t2_min": 2.0})]
 
     return PiecewiseFamily(pieces, onset)
 

@@ -9,6 +9,7 @@ import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled_body import CYLINDER
 from weakforms.problems.wrinkled_fit import PLACE, Membrane
 from weakforms.problems.wrinkled_model import TAUT, WRINKLED
@@ -27,7 +28,11 @@ SEARCH, LAST = 0.05, 0.05
 
 
 def critical_radius(
-    comm: MPI.Intracomm, values: Mapping[str, float], cells: Sequence[int], degree: int
+    comm: MPI.Intracomm,
+    values: Mapping[str, float],
+    cells: Sequence[int],
+    degree: int,
+    material: Chosen | None = None,
 ) -> Estimate:
     r"""Largest radius of the disks with ``gw <= 1`` everywhere at zero load, with its uncertainty.
 
@@ -39,7 +44,7 @@ def critical_radius(
     Raises:
         ConvergenceError: When the unloaded state is not found.
     """
-    membrane = Membrane(comm, CYLINDER, {**values, "Af": SLIM}, False, cells, degree, "relaxed")
+    membrane = Membrane(comm, CYLINDER, {**values, "Af": SLIM}, False, cells, degree, "relaxed", (), material)
     found = []
     for level in range(len(cells)):
         held = membrane.unloaded(level, WRINKLED)
@@ -49,7 +54,12 @@ def critical_radius(
 
 
 def threshold(
-    comm: MPI.Intracomm, values: Mapping[str, float], cells: Sequence[int], degree: int, towards: int
+    comm: MPI.Intracomm,
+    values: Mapping[str, float],
+    cells: Sequence[int],
+    degree: int,
+    towards: int,
+    material: Chosen | None = None,
 ) -> tuple[Estimate, Estimate]:
     """Thickness ratio ``M`` beyond which the unloaded membrane wrinkles, and where it does first.
 
@@ -62,11 +72,12 @@ def threshold(
         cells: Cells a block on each mesh, coarse to fine.
         degree: Of the elements.
         towards: -1 for the threshold below the uniform thickness, 1 for that above it.
+        material: A law in the place of Mooney and Rivlin's.
 
     Raises:
         ConvergenceError: When the membrane is taut, or wrinkled, in the whole range looked at.
     """
-    membrane = Membrane(comm, CYLINDER, {**values, "M": 1.0}, False, cells, degree, "relaxed")
+    membrane = Membrane(comm, CYLINDER, {**values, "M": 1.0}, False, cells, degree, "relaxed", (), material)
     held = _first_wrinkled(membrane, len(cells) - 1, towards)
     s = np.linspace(0.0, membrane.length, 801)
     place = float(s[np.argmin(held.sampled(s)["gw"])])

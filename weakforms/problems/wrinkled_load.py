@@ -15,7 +15,8 @@ from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.base import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.wave_numbers import MOST_WAVES
 from weakforms.problems.wrinkled_bands import Bands
 from weakforms.problems.wrinkled_koiter import shell_eigenvalue
@@ -42,13 +43,15 @@ PLACE = 1e-6
 """Relative error that is left in the place of a flat maximum."""
 
 
-class LevelParameters(Parameters):
+class LevelParameters(MaterialChoice):
     """The cylinder of Paper 5 and a level."""
+
+    ratio: ClassVar[str] = "c2"
 
     zw: float = Field(5.0, gt=0, le=30, description="level of the fluid")
     M: float = Field(1.5, gt=0, lt=2, description="thickness at the lower end over its mean")
     delta: float = Field(3.0, gt=1, le=6, description="axial pre-stretch")
-    c2: float = Field(0.01, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
     Af: float = Field(0.4362, gt=0, le=3, description="radius of the disks")
     gamma: float | None = Field(None, gt=0, le=10, description="weight of the fluid; by default the paper's")
@@ -80,8 +83,9 @@ class AtLevel:
     scales: ClassVar[dict[str, str]]
 
     def check(self, parameters: Any, requests: Requests) -> None:
-        """Refuse states: there is only one."""
+        """Refuse states: there is only one; and laws without a form for waves."""
         check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=True)
 
     def solve(
         self,
@@ -115,7 +119,8 @@ class AtLevel:
 
 
 def _states(parameters: LevelParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> list[Held]:
-    given = {name: getattr(parameters, name) for name in ("M", "delta", "c2", "L", "Af", "gamma")}
+    given = {name: getattr(parameters, name) for name in ("model", "M", "delta", "L", "Af", "gamma")}
+    given |= {"c2": parameters.c2} if parameters.other_law is None else dict(parameters.constants)
     membrane = wrinkled_membrane(WrinkledParameters(**given, n=(1,)), numerics, comm)
     state, _ = membrane.by_homotopy(parameters.zw)
     return membrane.fitted(membrane.plain(state), fixed.Held("zw", parameters.zw))
@@ -139,7 +144,7 @@ class WrinkledLinear(AtLevel):
     parameters = LinearParameters
     control: ClassVar[str] = "none; the quantities are those of one level and trial function"
     scales: ClassVar[dict[str, str]] = {
-        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "L", "Af", "gamma", "zw")},
+        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw")},
         "A": "part of Pi2/pi that does not depend on n, over C1 h Ao^2",
         "B": "its rate in n",
         "B_exact": "-int p r0 f^2 (r0'^2 + z0'^2) dS",
@@ -175,7 +180,7 @@ class WrinkledBending(AtLevel):
     parameters = BendingParameters
     control: ClassVar[str] = "none; the quantities are those of one level"
     scales: ClassVar[dict[str, str]] = {
-        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "L", "Af", "gamma", "zw", "beta")},
+        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw", "beta")},
         "n": "wave number, real",
         "Lambda_membrane": "lowest eigenvalue for n waves without bending stiffness",
         "Lambda_B1": "the same with it",

@@ -24,8 +24,9 @@ from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.forms.loads import liquid_potential
-from weakforms.forms.materials import mooney_rivlin
+from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface, neo_hookean
 from weakforms.forms.wrinkling import natural_width, relaxed, wrinkling_function
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meshes import tag_points
 from weakforms.problems.wrinkled_body import SHARED, Body
 from weakforms.solvers.system import Formulation, System
@@ -78,6 +79,7 @@ class WrinkledModel:
         cells: Cells a block.
         degree: Of the elements.
         energy: ``relaxed``, ``modified_gradient`` (the same by another form) or ``standard`` (no wrinkling).
+        material: An incompressible law in the place of Mooney and Rivlin's with ``c2``.
     """
 
     def __init__(
@@ -89,7 +91,9 @@ class WrinkledModel:
         cells: int,
         degree: int,
         energy: str = "relaxed",
+        material: Chosen | None = None,
     ) -> None:
+        self.other_law = material
         self.body, self.blocks, self.cells, self.degree, self.energy = body, blocks, cells, degree, energy
         self.mesh = dmesh.create_interval(comm, blocks * cells, [0.0, float(blocks)])
         element = basix.ufl.element("Lagrange", "interval", degree, shape=(2,))
@@ -202,13 +206,25 @@ class WrinkledModel:
             "weight": weight,
         }
 
+    @cached_property
+    def full(self) -> SurfaceLaw:
+        """The law without wrinkling, over ``C1`` or the stress of its constants."""
+        if self.other_law is not None:
+            return self.other_law.surface_law(self.mesh)
+        return mooney_rivlin_surface(self.q["c2"])
+
     def law(self, lam1: Expr, lam2: Expr) -> Expr:
-        """Energy per reference volume over ``C1`` in the state each point is in."""
-        full = lambda a, b: mooney_rivlin(a, b, self.q["c2"])  # noqa: E731
+        """Energy per reference volume in the state each point is in."""
+        full = self.full.stretches
         if self.energy == "standard":
             return full(lam1, lam2)
         taut = self.marked("taut", wrinkling_function(lam1, lam2) - 1 + ON_THE_VERGE)
         eps = self.q["residual_stiffness"]
+        if not self.full.bounded:
+            # Wrinkled, the law may be infinite at the stretches themselves: it is only looked at where the
+            # hoops are as wide as they would be, and the stiffness left to them on the way is another law's.
+            across = ufl.conditional(taut, lam2, natural_width(lam1))
+            return full(lam1, across) + eps * (neo_hookean(lam1, lam2) - neo_hookean(lam1, across))
         if self.energy == "modified_gradient":
             widened = full(lam1, ufl.conditional(taut, lam2, natural_width(lam1)))
             return widened + eps * (full(lam1, lam2) - widened)

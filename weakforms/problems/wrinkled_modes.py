@@ -21,7 +21,6 @@ from ufl.core.expr import Expr
 
 from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
-from weakforms.forms.materials import mooney_rivlin
 from weakforms.problems.wrinkled_fields import Meridian
 from weakforms.problems.wrinkled_model import LOWER, UPPER, WrinkledModel
 from weakforms.solvers.modes import SecondVariation, judged
@@ -72,14 +71,11 @@ class Waves:
         taut = self._taut()
         wet = model.marked("wet", q["zw"] - e["z"])
 
-        def law(a: Expr, b: Expr) -> Expr:
-            return mooney_rivlin(a, b, q["c2"])
-
         radius = e["radius"]
         total = 0.0
         for at in revolution.around(self.base, parts, slopes, self.wave_number):
             c = revolution.gradient_tensor(at, radius)
-            total += e["weight"] * revolution.strain_energy(c, taut, law, q["c2"])
+            total += e["weight"] * revolution.strain_energy(c, taut, model.full)
             total += revolution.gas_energy(at, q["p"])
             total += revolution.liquid_energy(at, q["zw"], q["gamma"], wet)
         curvature = revolution.hoop_bending(self.base, parts, slopes, self.wave_number)

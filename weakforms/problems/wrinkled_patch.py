@@ -23,7 +23,8 @@ from ufl.core.expr import Expr
 from weakforms.errors import InputError
 from weakforms.forms.materials import mooney_rivlin
 from weakforms.forms.wrinkling import metric, principal_stretches, tension_field
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry
+from weakforms.problems.base import Progress, Requests, check_requests, registry
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.refinement import estimate
@@ -34,15 +35,17 @@ POINTS = 21
 """Amplitudes on the branch."""
 
 
-class PatchParameters(Parameters):
+class PatchParameters(MaterialChoice):
     """The patch and its perturbation; the pressure and the patch's width are 1."""
+
+    ratio: ClassVar[str] = "c2"
 
     a: float = Given(0.3, gt=0, le=2, description="stretch along X, that is wrinkled")
     b: float = Given(2.0, gt=0, le=5, description="stretch along Y, that bears the tension")
     c: float = Given(0.1, ge=-10, le=10, description="height of the flat patch")
     n: float = Given(10.0, gt=0, le=100, description="wave number")
     Lx: float = Given(1.0, gt=0, le=100, description="length along X")
-    c2: float = Given(0.01, ge=0, le=1, description="C2/C1")
+    c2: float = Given(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin")
     e_end: float = Given(0.04, gt=0, le=1, description="amplitude at which the branch ends")
 
 
@@ -64,7 +67,9 @@ class Patch:
         x = given.a * along + e * ufl.sin(given.n * along)
         z = given.c + e * ufl.cos(given.n * along)
         tangents = ufl.as_matrix([[x.dx(0), 0], [0, given.b], [z.dx(0), 0]])
-        law = tension_field(lambda p, q: mooney_rivlin(p, q, given.c2))
+        other = given.other_law
+        full = other.law(mesh) if other else lambda p, q: mooney_rivlin(p, q, given.c2)
+        law = tension_field(full)
         c = metric(tangents, ufl.Identity(2))
         strain, pressure = law(*principal_stretches(c)), -given.b * z * x.dx(0)
         dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 2 * degree})
@@ -178,6 +183,7 @@ class WrinkledPatch(PathProblem):
             InputError: For a column that cannot be prescribed.
         """
         check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=False)
         for wanted in requests.states:
             if not 0 <= wanted.value <= 1:
                 raise InputError(f"wrinkled_patch: e = {wanted.value:g}; allowed: from 0 to 1")

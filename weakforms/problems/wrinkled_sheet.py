@@ -21,9 +21,10 @@ from mpi4py import MPI
 from pydantic import Field
 from ufl.core.expr import Expr
 
-from weakforms.forms.materials import mooney_rivlin
-from weakforms.forms.wrinkling import mooney_rivlin_invariants, surface_tension_field
+from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
+from weakforms.forms.wrinkling import surface_tension_field
 from weakforms.problems.base import Numerics, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.twice import solve_twice
 from weakforms.problems.wrinkled_body import CYLINDER, SHARED
 from weakforms.problems.wrinkled_branch import WrinkledBranch
@@ -110,7 +111,9 @@ class Sheet:
         q = {name: fem.Constant(mesh, loads[name]) for name in names}
         dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 4 * self.degree})
         x, y, z = position
-        strain, volume, liquid = sheet_densities(mesh, position, q)
+        material = self.start.model.other_law
+        law = None if material is None else material.surface_law(mesh)
+        strain, volume, liquid = sheet_densities(mesh, position, q, law)
         share = 2 / np.pi  # a quarter of the membrane, per 2 pi
         potential = (strain - q["p"] * volume + liquid) * share * dx
         trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
@@ -152,7 +155,9 @@ def sheet_pressure(z: Expr, q: dict[str, fem.Constant]) -> Expr:
     return q["p"] + ufl.conditional(ufl.gt(q["zw"], z), q["gamma"] * (q["zw"] - z), 0.0)
 
 
-def sheet_densities(mesh: dmesh.Mesh, position: Expr, q: dict[str, fem.Constant]) -> tuple[Expr, Expr, Expr]:
+def sheet_densities(
+    mesh: dmesh.Mesh, position: Expr, q: dict[str, fem.Constant], law: SurfaceLaw | None = None
+) -> tuple[Expr, Expr, Expr]:
     r"""Strain energy, volume and potential of the liquid per unit area of the unrolled cylinder.
 
     .. math:: \eta W(C), \qquad \tfrac12 (x y_X - y x_X) z_Y - \tfrac12 (x y_Y - y x_Y) z_X, \qquad
@@ -161,11 +166,7 @@ def sheet_densities(mesh: dmesh.Mesh, position: Expr, q: dict[str, fem.Constant]
     along = ufl.SpatialCoordinate(mesh)[1]
     gradient = ufl.grad(position)
     c = gradient.T * gradient
-    energy = surface_tension_field(
-        c,
-        lambda trace, area: mooney_rivlin_invariants(trace, area, q["c2"]),
-        lambda a, b: mooney_rivlin(a, b, q["c2"]),
-    )
+    energy = surface_tension_field(c, law or mooney_rivlin_surface(q["c2"]))
     (x, y, z), (x_x, x_y), (y_x, y_y), (z_x, z_y) = (
         position,
         *((gradient[i, 0], gradient[i, 1]) for i in range(3)),
@@ -195,8 +196,9 @@ class WrinkledSheet:
     control: ClassVar[str] = "zw or p; the quantities are at the load `at_load`"
 
     def check(self, parameters: SheetParameters, requests: Requests) -> None:
-        """Refuse states: the load ``at_load`` is the only one."""
+        """Refuse states: the load ``at_load`` is the only one; and laws without a form in two dimensions."""
         check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=True)
 
     def solve(
         self,

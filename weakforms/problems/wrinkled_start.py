@@ -10,6 +10,7 @@ import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled_body import Body
 from weakforms.problems.wrinkled_fields import Zones, zones
 from weakforms.problems.wrinkled_model import BY_STATE, DRY, TAUT, WRINKLED, WrinkledModel
@@ -42,6 +43,7 @@ class PlainMembrane:
         degree: Of the elements.
         energy: See :class:`WrinkledModel`.
         near_fronts: Distances from fronts at which blocks end besides, for short waves.
+        material: A law in the place of Mooney and Rivlin's.
     """
 
     def __init__(
@@ -54,12 +56,13 @@ class PlainMembrane:
         degree: int,
         energy: str,
         near_fronts: Sequence[float] = (),
+        material: Chosen | None = None,
     ) -> None:
         self.body, self.liquid, self.energy = body, liquid, energy
         self.near_fronts = tuple(near_fronts)
         self.values = {"gamma": 0.0, "c2": 0.0, "residual_stiffness": 0.0, "p": 0.0, "zw": 0.0, **values}
         self.length = float(body.length(self.values))
-        self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy) for n in cells]
+        self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy, material) for n in cells]
         self.control = "zw" if liquid else "p"
 
     # -- plain mesh ----------------------------------------------------------------------------

@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 from mpi4py import MPI
 
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled_body import Body
 from weakforms.problems.wrinkled_fields import Meridian, Zones
 from weakforms.problems.wrinkled_model import DRY, WET, WrinkledModel
@@ -37,6 +38,7 @@ class Mesh:
     """Cells a block."""
     degree: int
     energy: str
+    material: Chosen | None = None
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,8 @@ class AtBreak:
 def model_on(mesh: Mesh, blocks: int) -> WrinkledModel:
     """A model and its compiled forms serve all parameters: those are constants of the form."""
     values = {name: 1.0 for name in mesh.body.parameters}
-    return WrinkledModel(mesh.comm, mesh.body, values, blocks, mesh.cells, mesh.degree, mesh.energy)
+    kind = mesh.energy, mesh.material
+    return WrinkledModel(mesh.comm, mesh.body, values, blocks, mesh.cells, mesh.degree, *kind)
 
 
 @lru_cache(maxsize=64)

@@ -9,18 +9,21 @@ from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.base import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.wrinkled_critical import threshold
 from weakforms.problems.wrinkled_tube import ENERGY, SCALES, SOURCE, WrinkledNumerics, quantity
 from weakforms.results import Failure, Result
 from weakforms.solvers.provenance import provenance
 
 
-class ThresholdParameters(Parameters):
+class ThresholdParameters(MaterialChoice):
     """Unloaded membrane whose disks were attached before it was stretched."""
 
+    ratio: ClassVar[str] = "c2"
+
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
-    c2: float = Field(0.01, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
     Af: float = Field(1.0, gt=0, le=3, description="radius of the disks; 1 is Case 2")
     upper: bool = Field(False, description="the threshold above the uniform thickness, not that below it")
@@ -47,6 +50,7 @@ class WrinkledTubeThreshold:
     def check(self, parameters: ThresholdParameters, requests: Requests) -> None:
         """Refuse states: there is only the unloaded one."""
         check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=False)
 
     def solve(
         self,
@@ -67,9 +71,10 @@ class WrinkledTubeThreshold:
             provenance={},
         )
         try:
-            found = threshold(
-                comm, parameters.model_dump(), numerics.meshes, numerics.degree, 1 if parameters.upper else -1
-            )
+            values = {name: getattr(parameters, name) for name in ("delta", "c2", "L", "Af")}
+            side = 1 if parameters.upper else -1
+            mesh = numerics.meshes, numerics.degree
+            found = threshold(comm, values, *mesh, side, parameters.other_law)
             result.quantities |= {name: quantity(one) for name, one in zip("MZ", found, strict=True)}
         except ConvergenceError as error:
             result.failures.append(Failure("threshold", str(error)))

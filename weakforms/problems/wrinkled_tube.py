@@ -16,7 +16,8 @@ from mpi4py import MPI
 from pydantic import BeforeValidator, Field
 
 from weakforms.errors import InputError
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.base import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.problems.wave_numbers import WaveNumbers
 from weakforms.problems.wrinkled_body import CYLINDER
@@ -45,6 +46,7 @@ SCALES = {
     "M": "thickness at the lower end over its mean h (2 - M at the upper end)",
     "delta": "axial pre-stretch L_f/L_o",
     "c2": "C2/C1",
+    "C1": "of another model the stress S its constants are over (weakforms show material)",
     "L": "L_o/Ao",
     "Af": "radius of the disks over Ao",
     "gamma": "rho g Ao^2/(C1 h)",
@@ -84,7 +86,7 @@ ENERGY = (
     "Pi/(2 pi C1 h Ao^2) = int_0^L [ eta W - P r^2 z'/2 ] ds,  eta = M + 2 (1 - M) s/L,  "
     "P = p or gamma max(zw - z, 0);  W = w(lam1, lam2) where gw = lam2 sqrt(lam1) > 1, else "
     "w(lam1, lam1^(-1/2)) = lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3);  "
-    "w = I1 - 3 + c2 (I2 - 3),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r"
+    "w = I1 - 3 + c2 (I2 - 3) or that of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r"
 )
 
 
@@ -114,12 +116,14 @@ class WrinkledNumerics(MeshNumerics):
     step: float = Field(0.5, ge=0.01, le=1, description="largest arc-length step")
 
 
-class WrinkledParameters(Parameters):
+class WrinkledParameters(MaterialChoice):
     """The membrane, its disks and its load."""
+
+    ratio: ClassVar[str] = "c2"
 
     M: float = Field(0.5, gt=0, lt=2, description="thickness at the lower end over its mean")
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
-    c2: float = Field(0.01, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
     Af: Annotated[Literal["critical"] | float, BeforeValidator(_radius)] = Field(
         "critical",
@@ -185,6 +189,7 @@ class WrinkledTube(PathProblem):
             InputError: For a state nobody could solve for, or a load the membrane does not have.
         """
         check_requests(self, requests)
+        require_foldable(self.name, parameters, bool(parameters.n))
         control = parameters.control
         for wanted in requests.states:
             if wanted.name in LOAD.values() and wanted.name != control:
@@ -216,7 +221,7 @@ class WrinkledTube(PathProblem):
         result = self._result(parameters, numerics)
         result.numerics |= {"quadrature_degree": 4 * numerics.degree, "cells": numerics.cells}
         progress("critical radius", 0, 1)
-        critical = critical_radius(comm, _cylinder(parameters), numerics.meshes, numerics.degree)
+        critical = _critical(parameters, numerics, comm)
         result.quantities["Af_critical"] = quantity(critical)
         families = {"primary": self._branch(parameters, numerics, requests, comm, float(critical.value))}
         self._answer(result, families, requests, self.points(parameters), progress)
@@ -233,7 +238,7 @@ class WrinkledTube(PathProblem):
         _progress: Progress,
     ) -> dict[str, Family]:
         """The branch on all meshes."""
-        critical = critical_radius(comm, _cylinder(parameters), numerics.meshes, numerics.degree)
+        critical = _critical(parameters, numerics, comm)
         return {"primary": self._branch(parameters, numerics, requests, comm, float(critical.value))}
 
     def _branch(
@@ -259,6 +264,11 @@ def _cylinder(parameters: WrinkledParameters) -> dict[str, float]:
     return {name: getattr(parameters, name) for name in ("M", "delta", "c2", "L")}
 
 
+def _critical(parameters: WrinkledParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> Estimate:
+    mesh = numerics.meshes, numerics.degree
+    return critical_radius(comm, _cylinder(parameters), *mesh, parameters.other_law)
+
+
 def wrinkled_membrane(
     parameters: WrinkledParameters,
     numerics: WrinkledNumerics,
@@ -277,14 +287,13 @@ def wrinkled_membrane(
     if parameters.Af != "critical":
         values["Af"] = parameters.Af
     else:
-        values["Af"] = critical or float(
-            critical_radius(comm, values, numerics.meshes, numerics.degree).value
-        )
+        values["Af"] = critical or float(_critical(parameters, numerics, comm).value)
     liquid = parameters.load == "fluid"
     if liquid:
         values["gamma"] = parameters.gamma or PAPER_GAMMA
     near = NEAR_FRONTS if parameters.n else ()
-    return Membrane(comm, CYLINDER, values, liquid, numerics.meshes, numerics.degree, parameters.energy, near)
+    kind = parameters.energy, near, parameters.other_law
+    return Membrane(comm, CYLINDER, values, liquid, numerics.meshes, numerics.degree, *kind)
 
 
 def quantity(found: Estimate) -> Quantity:

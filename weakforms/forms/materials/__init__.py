@@ -12,6 +12,7 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.materials.catalogue import MATERIALS, Constant, Material
 from weakforms.forms.materials.phenomenological import mooney_rivlin, neo_hookean
+from weakforms.forms.materials.surface import SurfaceLaw, mooney_rivlin_surface, surface_law
 
 
 def stress_resultants(law, lam1: Expr, lam2: Expr) -> tuple[Expr, Expr]:  # noqa: ANN001
@@ -29,4 +30,14 @@ def stress_resultants(law, lam1: Expr, lam2: Expr) -> tuple[Expr, Expr]:  # noqa
     return diff(w, l1) / l2, diff(w, l2) / l1
 
 
-__all__ = ["MATERIALS", "Constant", "Material", "mooney_rivlin", "neo_hookean", "stress_resultants"]
+__all__ = [
+    "MATERIALS",
+    "Constant",
+    "Material",
+    "SurfaceLaw",
+    "mooney_rivlin",
+    "mooney_rivlin_surface",
+    "neo_hookean",
+    "stress_resultants",
+    "surface_law",
+]

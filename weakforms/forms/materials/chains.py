@@ -111,5 +111,9 @@ def arruda_boyce(lam1: Expr, lam2: Expr, nkt: Expr, links: Expr) -> Expr:
     .. math:: w = NKT\,n \big[\epsilon(\lambda_c/\sqrt n) - \epsilon(1/\sqrt n)\big], \qquad
               \lambda_c^2 = I_1/3
     """
-    square = (lam1**2 + lam2**2 + 1 / (lam1 * lam2) ** 2) / 3
+    return eight_chain((lam1**2 + lam2**2 + 1 / (lam1 * lam2) ** 2) / 3, nkt, links)
+
+
+def eight_chain(square: Expr, nkt: Expr, links: Expr) -> Expr:
+    """The same of the chains' squared stretch, a third of the first invariant."""
     return nkt * links * (chain_energy(sqrt(square / links)) - chain_energy(1 / sqrt(links)))

@@ -49,7 +49,11 @@ def rivlin(lam1: Expr, lam2: Expr, coefficients: Iterable[tuple[int, int, Expr]]
         lam2: Principal stretch 2.
         coefficients: ``(i, j, c_ij)`` of the terms kept.
     """
-    x, y = first_invariant(lam1, lam2), second_invariant(lam1, lam2)
+    return series(first_invariant(lam1, lam2), second_invariant(lam1, lam2), coefficients)
+
+
+def series(x: Expr, y: Expr, coefficients: Iterable[tuple[int, int, Expr]]) -> Expr:
+    """The same of ``x = I1 - 3`` and ``y = I2 - 3``."""
     return sum(c * x**i * y**j for i, j, c in coefficients)
 
 
@@ -102,7 +106,12 @@ def gent(lam1: Expr, lam2: Expr, shear: Expr, jm: Expr) -> Expr:
 
     Not a number where :math:`I_1 - 3 \ge J_m`: there is no such deformation.
     """
-    return -shear * jm / 2 * ln(1 - first_invariant(lam1, lam2) / jm)
+    return limited(first_invariant(lam1, lam2), shear, jm)
+
+
+def limited(x: Expr, shear: Expr, jm: Expr) -> Expr:
+    """The same of ``x = I1 - 3``."""
+    return -shear * jm / 2 * ln(1 - x / jm)
 
 
 def varga(lam1: Expr, lam2: Expr, shear: Expr) -> Expr:

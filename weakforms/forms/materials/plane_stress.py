@@ -57,6 +57,13 @@ def harmonic(lam1: Expr, lam2: Expr, shear: Expr, f2: Expr) -> Expr:
     return harmonic_in_space(lam1, lam2, lam3, shear, f2)
 
 
+def harmonic_of_sum(total: Expr, area: Expr, shear: Expr, f2: Expr) -> Expr:
+    """The same of the sum and of the product of the two stretches."""
+    lam3 = sqrt(3 + (area - 1) / f2 - total) ** 2
+    more = total + lam3 - 3
+    return 2 * shear * (1 + more + f2 * more**2 / 2 - area * lam3)
+
+
 def harmonic_width(lam1: Expr, f2: Expr) -> Expr:
     r"""Width in uniaxial tension, :math:`\lambda_2 = \lambda_3`; none beyond :math:`\lambda_1 = 3 - 1/f_2`.
 

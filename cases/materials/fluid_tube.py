@@ -1,0 +1,126 @@
+"""The fluid-loaded tube of paper 3 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's.
+
+L = 8, delta = 2, gamma = 0.116 with mu = 2 S, S the stress the constants are over. Primary branch, limit
+point, bifurcation with one wave and eigenvalues, against the paper's reference codes, which have laws of
+their own. Gent's and Arruda and Boyce's rubber bifurcate much later than the neo-Hookean one.
+"""
+
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, fluid_tube
+
+ENDS = {"ogden": 0.9, "gent": 0.8, "arruda_boyce": 0.8}
+"""Fraction of the highest level at which a branch ends: beyond the first bifurcation."""
+TUBES = {m: fluid_tube(model=m, zw_end=end) for m, end in ENDS.items()}
+NEO_HOOKEAN = fluid_tube()
+SAME = fluid_tube(model="neo_hookean")
+LIMIT, FIRST = At("limit_point", 1.0), At("bifurcation_point", 1.0)
+EIGENVALUES = ("Lambda_n0", "Lambda_n1", "Lambda_n2", "Lambda_n3", "Lambda_torsion", "LambdaV_n0")
+KINDS = {"limit_point": 0, "bifurcation_point": 1}
+
+
+def zeros(solutions: Solutions) -> Finding:
+    """At the limit point the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
+    good, rows = True, []
+    for model, spec in TUBES.items():
+        for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1")):
+            found = solutions.quantity(spec, at, name)
+            good &= abs(found.value) <= 2 * found.uncertainty < 1e-6
+            rows.append(f"{model} {name}: {found.value:.1e} (+- {found.uncertainty:.1e})")
+    return bool(good), "; ".join(rows)
+
+
+def order(solutions: Solutions) -> Finding:
+    """Negative eigenvalues (axisymmetric) before and behind the limit point, by inertia."""
+    good, rows = True, []
+    for model, spec in TUBES.items():
+        columns = solutions.branch(spec).columns
+        limit = solutions.points(spec, "limit_point")[0].values["V"]
+        first = solutions.points(spec, "bifurcation_point")[0].values
+        off = abs(columns["V"] - limit) > 1e-6
+        behind = columns["V"] > limit
+        good &= bool((columns["n_negative"][off] == behind[off]).all())
+        good &= first["n"] == 1 and first["V"] > limit
+        rows.append(f"{model}: limit at V = {limit:.3f}, one wave at V = {first['V']:.3f}")
+    return good, "; ".join(rows)
+
+
+def same_law(solutions: Solutions) -> Finding:
+    """The neo-Hookean law written in the invariants, against the paper's own form."""
+    good, rows = True, []
+    for kind in KINDS:
+        ours, theirs = (solutions.points(spec, kind)[0] for spec in (SAME, NEO_HOOKEAN))
+        for name in ("zw", "V"):
+            gap = abs(ours.values[name] - theirs.values[name])
+            bound = 2 * (ours.uncertainty[name] + theirs.uncertainty[name])
+            good &= gap <= bound < 1e-7 * ours.values[name]
+            rows.append(f"{kind} {name} {gap:.0e} (bound {bound:.0e})")
+    return bool(good), "; ".join(rows)
+
+
+CASE = Case(
+    title="The fluid-loaded tube of paper 3 with other laws",
+    source="the problem of Patil, Nordmark & Eriksson (2015) with laws of the thesis's chapter 3",
+    panels=(
+        Panel(
+            "branch",
+            x=Axis("V", 0, 450),
+            y=Axis("zw", 0, 10),
+            markers=("limit_point", "bifurcation_point"),
+            note="Not a figure of the paper.",
+            curves=tuple(
+                Curve(spec, m.replace("_", " "), reference=f"fluid_tube_{m}") for m, spec in TUBES.items()
+            ),
+        ),
+        *(
+            Panel(
+                f"eigenvalues_{m}",
+                x=Axis("V", 0, 450),
+                y=Axis("Lambda", -1, 1),
+                title=m.replace("_", " "),
+                note="Not a figure of the paper.",
+                curves=tuple(
+                    Curve(spec, name, reference=f"fluid_tube_spectrum_{m}", y=name) for name in EIGENVALUES
+                ),
+            )
+            for m, spec in TUBES.items()
+        ),
+    ),
+    checks=(
+        *(
+            Points(
+                kind,
+                reference=f"fluid_tube_critical_{m}",
+                base=spec,
+                parameters=(),
+                where={"n": float(n)},
+                asked={"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7},
+            )
+            for m, spec in TUBES.items()
+            for kind, n in KINDS.items()
+        ),
+        Claim(
+            "zeros",
+            "the maximum of the level is a zero of the axisymmetric eigenvalue, the first bifurcation one of "
+            "that with one wave, whatever the law",
+            tuple((spec, at) for spec in TUBES.values() for at in (LIMIT, FIRST)),
+            zeros,
+        ),
+        Claim(
+            "order",
+            "one negative axisymmetric eigenvalue behind the limit point and none before; the bifurcation "
+            "with one wave comes later",
+            tuple((spec, None) for spec in TUBES.values()),
+            order,
+        ),
+        Claim(
+            "same_law",
+            "the neo-Hookean tube by the catalogue's law is the paper's",
+            ((SAME, None), (NEO_HOOKEAN, None)),
+            same_law,
+        ),
+    ),
+    asked={
+        **dict.fromkeys(("zw", "r_mid", "r_max", "Pi"), 1e-6),
+        **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 1e-5),
+        **dict.fromkeys(EIGENVALUES, 1e-6),
+    },
+)

@@ -1,0 +1,52 @@
+"""Waves around the filled, wrinkled cylinder of paper 5 made of other rubbers.
+
+Levels at which they set in and, a taut zone growing from above, vanish again, for Ogden's, Gent's, and Arruda
+and Boyce's rubber, against the paper's reference codes, which have laws of their own.
+"""
+
+from weakforms import Case, Claim, Finding, Points, Solutions, wrinkled_tube
+
+ENDS = {"ogden": 12.0, "gent": 14.0, "arruda_boyce": 14.0}
+"""Levels at which branches end, beyond the last change."""
+WAVES = (10, 20)
+TUBES = {
+    m: wrinkled_tube(model=m, M=1.5, delta=3, Af=0.4362, n=WAVES, load_end=end) for m, end in ENDS.items()
+}
+
+
+def more_waves_earlier(solutions: Solutions) -> Finding:
+    """Levels at which 20 and 10 waves set in, and at which 10 and 20 vanish."""
+    good, rows = True, []
+    for model, spec in TUBES.items():
+        changes = [p.values for p in solutions.points(spec, "stability_change")]
+        order = [(int(v["n"]), int(v["direction"])) for v in sorted(changes, key=lambda v: v["V"])]
+        good &= order == [(20, 1), (10, 1), (10, -1), (20, -1)]
+        rows.append(f"{model}: " + ", ".join(f"{v['zw']:.4f}" for v in changes))
+    return good, "; ".join(rows)
+
+
+CASE = Case(
+    title="Waves around the wrinkled cylinder of paper 5 with other laws",
+    source="the problem of Patil, Nordmark & Eriksson (2016) with laws of the thesis's chapter 3",
+    checks=(
+        *(
+            Points(
+                "stability_change",
+                reference=f"wrinkled_waves_{m}",
+                base=spec,
+                parameters=(),
+                where={"n": float(n), "direction": direction},
+                asked={"zw": 1e-6},
+            )
+            for m, spec in TUBES.items()
+            for n in WAVES
+            for direction in (1.0, -1.0)
+        ),
+        Claim(
+            "more_waves_earlier",
+            "the more waves, the lower the level at which they set in, and the higher where they vanish",
+            tuple((spec, None) for spec in TUBES.values()),
+            more_waves_earlier,
+        ),
+    ),
+)

@@ -1,0 +1,113 @@
+"""The wrinkled cylinder of paper 4 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's.
+
+Critical radius, threshold of wrinkling, levels at which zones open and close, and limit pressure, against
+the paper's reference codes, which have laws of their own. The relaxed energy follows from each law.
+"""
+
+from weakforms import (
+    At,
+    Case,
+    Claim,
+    Count,
+    Finding,
+    Points,
+    Solutions,
+    wrinkled_tube,
+    wrinkled_tube_threshold,
+)
+
+MODELS = ("ogden", "gent", "arruda_boyce")
+EMPTY = {m: wrinkled_tube(model=m, load="gas", load_end=0.02) for m in MODELS}
+THRESHOLDS = {m: wrinkled_tube_threshold(model=m) for m in MODELS}
+FILLED = {m: wrinkled_tube(model=m, M=1.5, delta=2, load_end=10.0) for m in MODELS}
+INFLATED = {m: wrinkled_tube(model=m, M=0.5, delta=2, load="gas", load_end=1.2) for m in MODELS}
+DEEP = At("p", 0.25, profile=())
+
+
+def axial(solutions: Solutions) -> Finding:
+    """Axial force along the meridian at p = 0.25: taut, wrinkled and taut again."""
+    good, rows = True, []
+    for model, spec in INFLATED.items():
+        state, field = solutions.state(spec, DEEP), solutions.profile(spec, DEEP)
+        values, share = field.columns["axial"], state.quantities["wrinkled_fraction"].value
+        spread, bound = float(values.max() - values.min()), 2 * field.uncertainty["axial"]
+        good &= spread <= bound < 1e-6 * abs(values).max() and 0 < share < 1
+        rows.append(f"{model}: spread {spread:.0e} (bound {bound:.0e}), wrinkled {share:.3f}")
+    return bool(good), "; ".join(rows)
+
+
+def stable(solutions: Solutions) -> Finding:
+    """Negative axisymmetric eigenvalues below the first limit pressure and behind it."""
+    good, rows = True, []
+    for model, spec in INFLATED.items():
+        columns = solutions.branch(spec).columns
+        first, second = (p.values["V"] for p in solutions.points(spec, "limit_point"))
+        for inside, count in ((columns["V"] < first - 1e-6, 0), (columns["V"] > first + 1e-6, 1)):
+            before = inside & (columns["V"] < second - 1e-6)
+            good &= bool(before.any() and (columns["n_negative"][before] == count).all())
+        rows.append(f"{model}: limits at V = {first:.3f} and {second:.3f}")
+    return good, "; ".join(rows)
+
+
+CASE = Case(
+    title="The wrinkled cylinder of paper 4 with other laws",
+    source="the problem of Patil, Nordmark & Eriksson (2015) with laws of the thesis's chapter 3",
+    checks=(
+        *(
+            Points(
+                "quantity",
+                reference=f"wrinkled_radii_{m}",
+                base=EMPTY[m],
+                parameters=("M", "delta"),
+                where={"M": 0.5},
+                asked={"Af_critical": 1e-8},
+            )
+            for m in MODELS
+        ),
+        *(
+            Points(
+                "quantity",
+                reference=f"wrinkled_threshold_{m}",
+                base=THRESHOLDS[m],
+                parameters=("delta",),
+                asked={"M": 1e-7, "Z": 1e-5},
+            )
+            for m in MODELS
+        ),
+        *(
+            Points(
+                kind,
+                reference=f"wrinkled_events_{m}",
+                base=FILLED[m],
+                parameters=(),
+                where={"state": state},
+                asked={"zw": 1e-7, "Z": 1e-5},
+            )
+            for m in MODELS
+            for kind, state in (("zone_opening", 1.0), ("zone_closing", -1.0))
+        ),
+        *(
+            Points(
+                "limit_point",
+                reference=f"wrinkled_limits_{m}",
+                base=INFLATED[m],
+                parameters=(),
+                asked={"p": 1e-7, "V": 1e-5, "r_max": 1e-5},
+            )
+            for m in MODELS
+        ),
+        Count("limit_point", dict.fromkeys(INFLATED.values(), 2), "a maximum and a minimum of the pressure"),
+        Claim(
+            "axial",
+            "the axial force of the inflated tube is constant through taut and wrinkled zones",
+            tuple((spec, DEEP) for spec in INFLATED.values()),
+            axial,
+        ),
+        Claim(
+            "stable",
+            "no negative axisymmetric eigenvalue below the first limit pressure, one between the two limits",
+            tuple((spec, None) for spec in INFLATED.values()),
+            stable,
+        ),
+    ),
+)
