@@ -5,7 +5,9 @@
 #          only `./run test`, `./run lint` and `./run report --pdf` need it.
 #   final  deps and this package, with a warm JIT cache: `docker run IMAGE verify`.
 
-FROM debian:trixie-slim AS deps
+# Another release of Debian, such as sid: --build-arg DEBIAN=sid
+ARG DEBIAN=trixie
+FROM debian:${DEBIAN}-slim AS deps
 
 # gcc and g++ are what the JIT compiles the forms with; git tells a result's provenance;
 # tini is the first process, so that Ctrl-C and `docker stop` reach the program.
@@ -78,6 +80,15 @@ RUN pip install --break-system-packages --no-cache-dir --root-user-action=ignore
  && weakforms warm \
  && python3 -m compileall -q weakforms cases reference_data \
  && chmod -R a+rwX /var/cache/weakforms
+# What the image is made of: every Debian package with its version and the licences its copyright file names.
+RUN install -d /usr/share/doc/weakforms && cd /usr/share/doc \
+ && dpkg-query -W -f '${db:Status-Abbrev}${Package} ${Version}\n' | sed -n 's/^ii *//p' \
+  | while read -r package version; do \
+      found=$(sed -n 's/^License: *//p' "$package/copyright" 2>/dev/null | sort -u | paste -s -d ';') \
+      && printf '%s %s: %s\n' "$package" "$version" "${found:-see /usr/share/doc/$package/copyright}"; \
+    done > weakforms/licenses.txt \
+ && printf 'weakforms %s: MIT\n' "$VERSION" >> weakforms/licenses.txt \
+ && grep -q '^python3-dolfinx-real ' weakforms/licenses.txt
 COPY run Dockerfile ./
 COPY tests tests
 # Any user may run the tests; only root could write pytest's own cache into the tree.

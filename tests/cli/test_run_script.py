@@ -131,12 +131,34 @@ def test_help_needs_nothing(machine, args):
         (["--nativ", "list"], "--nativ"),
         (["--engine", "lxc", "list"], "lxc"),
         (["--engine"], "--engine"),
+        (["--image", "bullseye", "list"], "bullseye"),
+        (["--image"], "--image"),
     ],
 )
 def test_bad_option_is_bad_input(machine, args, named):
     done = machine.run(*args)
     assert done.returncode == 2
     assert named in done.stderr
+
+
+# --- which image ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("option", [["--image", "sid"], ["--image=sid"]])
+def test_sid_is_an_image_of_its_own(machine, option):
+    machine.put("docker", "case $1 in image) exit 1 ;; run) exit 0 ;; esac")
+    assert machine.run("list").returncode == 0
+    usual = machine.tag()
+    assert machine.run(*option, "list").returncode == 0
+    assert machine.tag() == f"{usual}-sid"
+    given = [values(call, "--build-arg") for call in machine.calls("docker", "build")]
+    assert given == [["DEBIAN=trixie"], ["DEBIAN=sid"]]
+
+
+def test_sid_is_not_what_is_installed_here(machine):
+    machine.put_dolfinx()
+    machine.put("docker", status_of_run(6))
+    assert machine.run("--image", "sid", "list").returncode == 6
 
 
 # --- which engine --------------------------------------------------------------------------------

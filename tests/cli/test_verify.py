@@ -16,7 +16,7 @@ from weakforms.verification import catalogue, discovery, runner
 from weakforms.verification.effort import Effort
 from weakforms.verification.specs import tube
 
-PAGES = {"index.html", "junit.xml", "paper2.html", "report.json"}
+PAGES = {"faults.html", "index.html", "junit.xml", "paper2.html", "report.json"}
 
 TINY = '''"""Two short branches."""
 from weakforms import At, Axis, Case, Claim, Curve, Panel, tube
@@ -29,6 +29,7 @@ def wider(solutions):
 
 CASE = Case(
     title="tiny",
+    quick=True,
     source="tests",
     panels=(Panel("a", x=Axis("p", 0, 2), y=Axis("u_max", 0, 1), curves=(Curve(ONE, "1.5"),)),),
     checks=(Claim("wider", "is wider", ((ONE, At("p", 0.5)), (TWO, At("p", 0.5))), wider),),

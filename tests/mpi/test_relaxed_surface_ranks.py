@@ -5,7 +5,7 @@ import pytest
 pytestmark = [pytest.mark.mpi, pytest.mark.paper5]
 
 
-def test_surface(same_on_two_ranks):
+def test_surface(same_on_ranks):
     tube = {
         "problem": "surface",
         "meridional": 8,
@@ -24,5 +24,5 @@ def test_surface(same_on_two_ranks):
         "numerics": {"scan": 3, "shown": 1},
         "at": [("zw", -0.65)],
     }
-    found = same_on_two_ranks([tube, bowl], rel=1e-7)
-    assert found[0]["special_points"]
+    found = same_on_ranks([tube, bowl])
+    assert found[0].special_points

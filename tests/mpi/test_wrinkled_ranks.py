@@ -6,15 +6,15 @@ pytestmark = [pytest.mark.mpi, pytest.mark.paper4]
 MESH = {"cells": 4, "levels": 2, "step": 1}
 
 
-def test_wrinkled_tube(same_on_two_ranks):
+def test_wrinkled_tube(same_on_ranks):
     fluid = {"problem": "wrinkled_tube", "M": 1.5, "load_end": 7, "at": [("zw", 6.0)]}
     gas = {"problem": "wrinkled_tube", "load": "gas", "load_end": 0.1, "at": [("p", 0.05)]}
     # The place where a zone opens is that of a flat minimum: the least certain number of all.
-    same_on_two_ranks([item | {"numerics": MESH} for item in (fluid, gas)], rel=1e-7, branches=False)
+    same_on_ranks([item | {"numerics": MESH} for item in (fluid, gas)])
 
 
-def test_threshold_and_sheet(same_on_two_ranks):
+def test_threshold_and_sheet(same_on_ranks):
     threshold = {"problem": "wrinkled_tube_threshold", "delta": 2, "numerics": MESH}
-    coarse = {"along": 2, "around": 2, "degree": 3}
+    coarse = {"along": 4, "around": 4, "degree": 3}  # on less the coarser of two is barely convex
     sheet = {"problem": "wrinkled_sheet", "M": 0.5, "at_load": 2, "numerics": coarse}
-    same_on_two_ranks([threshold, sheet], rel=1e-7)
+    same_on_ranks([threshold, sheet])

@@ -10,7 +10,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
-from weakforms.solvers.refinement import Estimate, estimate
+from weakforms.solvers.refinement import Estimate, estimate, estimate_in_norm
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.stability import Stability
 
@@ -19,6 +19,10 @@ KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
 
 CRITICAL = 1e-6
 """Magnitude below which an eigenvalue at a special point is that point's own zero."""
+
+
+SAMPLED = 1.5
+"""Factor for columns of a profile: where its points lie in their cells makes differences large or small."""
 
 
 class BranchFamily:
@@ -121,6 +125,7 @@ class BranchFamily:
         return self._located
 
     def _locate(self) -> list[tuple[Solved, ...]]:
+        self.levels[0].require_nothing_between()  # the coarsest is cheap, and what it misses all do
         found = [level.special() for level in self.levels]
         kinds = [[solved.kind for solved in item] for item in found]
         if any(item != kinds[-1] for item in kinds):
@@ -172,7 +177,7 @@ class BranchFamily:
             raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
         return {
             "n_negative": Quantity(counts.pop()),
-            "eigenvalue_1": self._quantity([s.eigenvalues[0] for s in spectra]),
+            "eigenvalue_1": self._quantity([s.eigenvalues[0] for s in spectra], "eigenvalue_1"),
         }
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
@@ -185,10 +190,11 @@ class BranchFamily:
         abscissa = self.fine.system.formulation.abscissa
         columns: dict[str, np.ndarray] = {abscissa: points}
         uncertainty = {abscissa: 0.0}
+        order = min(self.cap, self.cap / 2 + 1)  # anywhere in a cell: the degree and one
         for name in samples[-1]:
-            found = estimate([sample[name] for sample in samples], self.caps.get(name, self.cap))
-            columns[name] = found.value
-            uncertainty[name] = float(found.uncertainty.max())
+            cap = min(order, self.caps.get(name, order))
+            columns[name] = samples[-1][name]
+            uncertainty[name] = SAMPLED * estimate_in_norm([sample[name] for sample in samples], cap)
         return Field("profile", columns, uncertainty)
 
     def _sampler(self, k: int, points: np.ndarray) -> Sampler:

@@ -304,6 +304,8 @@ class Case:
     checks: tuple[Check, ...] = ()
     asked: Mapping[str, float] = field(default_factory=dict)
     """Relative accuracy wanted of each column of the curves' reference tables."""
-    quick: bool = True
-    """Part of the quick profile."""
+    quick: bool = False
+    """Part of the quick profile, whose cases take three minutes together."""
+    slow: bool = False
+    """Takes minutes by itself: left to ``verify`` and to the tests marked slow."""
     tags: tuple[str, ...] = ()

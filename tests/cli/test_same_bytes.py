@@ -1,0 +1,47 @@
+"""Two serial runs, each in a process of its own, write the same bytes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SMALL = ["--mesh", "cells=16", "--mesh", "degree=3", "--mesh", "levels=2"]
+FLUID = ["--mesh", "cells=24", "--mesh", "degree=4", "--mesh", "levels=2"]
+BLOCKS = ["--mesh", "cells=4", "--mesh", "levels=2"]
+REQUESTS = {
+    "tube": [*SMALL, "--set", "u_end=2"],
+    "tube_fold": [*SMALL, "--set", "delta1_end=1.3"],
+    "circular": [*SMALL, "--set", "t_end=1"],
+    "fluid_tube": [*FLUID, "--set", "n_max=1", "--set", "zw_end=0.7"],
+    "wrinkled_tube": [*BLOCKS, "--set", "load=gas", "--set", "load_end=0.1"],
+    "hemisphere": [*BLOCKS, "--set", "low_end=-0.9"],
+    "wrinkled_linear": BLOCKS,
+    "wrinkled_patch": [],
+    "sphere": [],
+    "infinite_tube": [],
+    "homogeneous": [],
+}
+"""Every problem with branches that takes seconds."""
+
+
+def solved(problem: str, out: Path) -> bytes:
+    command = [sys.executable, "-P", "-m", "weakforms", "solve", problem, *REQUESTS[problem]]
+    done = subprocess.run(
+        [*command, "--format", "csv", "--out", str(out)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return out.read_bytes()
+
+
+@pytest.mark.parametrize("problem", REQUESTS)
+def test_curves(problem, tmp_path):
+    first = solved(problem, tmp_path / "first.csv")
+    assert first.count(b"\n") > 3
+    assert solved(problem, tmp_path / "second.csv") == first

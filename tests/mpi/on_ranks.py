@@ -1,0 +1,42 @@
+"""Python on several ranks, and how far its numbers may be apart."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TOLERANCE = 1e-9
+"""Relative to each number's scale."""
+LOOSER = dict.fromkeys(("X_iso", "traction_front", "traction_max"), 1e-8)
+"""Numbers that multiply round-off. ``X_iso`` is the place where lam1 - lam2 is 1e-4, and its slope there is
+1e-3. The axial traction of a frictionless patch is zero: second derivatives on the cells of a small patch.
+"""
+
+
+def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
+    """What python prints on several ranks; an error on one of them ends all (mpi4py's runner)."""
+    environment = os.environ | {
+        "PYTHONPATH": str(ROOT),
+        "OMPI_ALLOW_RUN_AS_ROOT": "1",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+        "OMPI_MCA_btl": "self,sm",
+        "OMPI_MCA_mpi_yield_when_idle": "1",  # there may be fewer cores than ranks
+        "OMP_NUM_THREADS": "1",
+    }
+    launch = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    done = subprocess.run(
+        [*launch, sys.executable, "-m", "mpi4py", *arguments],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=timeout,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return done.stdout
+
+
+def allowed(place: str) -> float:
+    """How far a number may be apart."""
+    return LOOSER.get(place.rpartition(", ")[2], TOLERANCE)
