@@ -98,4 +98,5 @@ CASE = Case(
             anchors,
         ),
     ),
+    quick=True,
 )

@@ -70,4 +70,5 @@ CASE = Case(
             between,
         ),
     ),
+    quick=True,
 )

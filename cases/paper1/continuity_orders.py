@@ -59,5 +59,4 @@ CASE = Case(
         )
         for kind, statement in STATEMENTS.items()
     ),
-    quick=False,
 )

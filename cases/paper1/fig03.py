@@ -114,4 +114,5 @@ CASE = Case(
         ),
     ),
     asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4, "sigma": 1e-4},
+    quick=True,
 )

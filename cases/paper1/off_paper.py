@@ -108,4 +108,5 @@ CASE = Case(
         "V": 1e-6,
         "G": 1e-5,
     },
+    slow=True,
 )

@@ -43,5 +43,4 @@ CASE = Case(
             tends_to_limit,
         ),
     ),
-    quick=False,
 )

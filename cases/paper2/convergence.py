@@ -57,5 +57,4 @@ CASE = Case(
         ),
     ),
     asked={},
-    quick=False,
 )

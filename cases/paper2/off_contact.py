@@ -42,4 +42,5 @@ CASE = Case(
         "traction_max": 1e-3,
         "spring_max": 1e-3,
     },
+    quick=True,
 )

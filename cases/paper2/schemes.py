@@ -57,5 +57,4 @@ CASE = Case(
         claim("pressure_steps", "the printed pressure stepping tends to the continuous adhesive history"),
         claim("front_nodes", "following the front from node to node tends to the same history"),
     ),
-    quick=False,
 )

@@ -77,5 +77,4 @@ CASE = Case(
         )
         for kind, statement in STATEMENTS.items()
     ),
-    quick=False,
 )

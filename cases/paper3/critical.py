@@ -112,4 +112,5 @@ CASE = Case(
             falls_with_stretch,
         ),
     ),
+    slow=True,
 )

@@ -85,4 +85,5 @@ CASE = Case(
         ),
     ),
     asked={"zw": 1e-7, "r_mid": 1e-7, "Pi": 1e-7},
+    slow=True,
 )

@@ -50,4 +50,5 @@ CASE = Case(
     source="Patil, Nordmark & Eriksson (2015), sections 6 and 10.1",
     panels=tuple(panel(*which) for which in SETS),
     asked={"zw": 1e-7, **dict.fromkeys(COLUMNS, 1e-6)},
+    slow=True,
 )

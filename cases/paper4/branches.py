@@ -115,5 +115,4 @@ CASE = Case(
         "gw_min": 1e-6,
         "wrinkled_fraction": 1e-5,
     },
-    quick=False,
 )

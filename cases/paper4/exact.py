@@ -164,4 +164,5 @@ CASE = Case(
             "the ratio r' : z', so that of u is small where the meridian is steep, and not zero",
         ),
     ),
+    quick=True,
 )

@@ -41,4 +41,5 @@ CASE = Case(
         ),
     ),
     asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "gw": 1e-6, "tension": 1e-6},
+    quick=True,
 )

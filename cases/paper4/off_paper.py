@@ -67,5 +67,4 @@ CASE = Case(
         **dict.fromkeys(("V", "r_max", "N", "gw_max", "gw_min"), 1e-6),
         "wrinkled_fraction": 1e-5,
     },
-    quick=False,
 )

@@ -47,5 +47,4 @@ CASE = Case(
             agrees,
         ),
     ),
-    quick=False,
 )

@@ -119,5 +119,4 @@ CASE = Case(
         ),
     ),
     asked={"Z_front_1": 1e-5, "Z_front_2": 1e-5, "Z_front_3": 1e-5},
-    quick=False,
 )

@@ -205,5 +205,5 @@ CASE = Case(
             hemisphere_is_stable,
         ),
     ),
-    quick=False,
+    slow=True,
 )

@@ -142,4 +142,5 @@ CASE = Case(
             same_by_modified_gradient,
         ),
     ),
+    quick=True,
 )

@@ -111,4 +111,5 @@ CASE = Case(
             overhangs,
         ),
     ),
+    quick=True,
 )

@@ -125,4 +125,5 @@ CASE = Case(
         ),
     ),
     asked={"gw": 1e-6},
+    quick=True,
 )

@@ -64,4 +64,5 @@ CASE = Case(
             localised,
         ),
     ),
+    quick=True,
 )

@@ -248,5 +248,5 @@ CASE = Case(
             sensitive,
         ),
     ),
-    quick=False,
+    slow=True,
 )

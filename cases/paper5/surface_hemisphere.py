@@ -74,5 +74,4 @@ CASE = Case(
         Claim("state", "its equilibria tend to the axisymmetric ones", WANTS, state),
         Claim("stable", "they are stable at these levels", tuple((s, None) for s in MESHES), stable),
     ),
-    quick=False,
 )

@@ -31,7 +31,7 @@ def checks_of(found: FoundCase) -> list[str]:
 
 def items(names: bool) -> Iterable[object]:
     for found in CASES:
-        marks = getattr(pytest.mark, found.group)
+        marks = [getattr(pytest.mark, found.group), *[pytest.mark.slow] * found.case.slow]
         for name in checks_of(found) if names else [""]:
             ident = f"{found.id}:{name}" if name else found.id
             yield pytest.param(found.id, *[name] * names, marks=marks, id=ident)

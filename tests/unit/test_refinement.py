@@ -29,6 +29,10 @@ def test_accidental_agreement_of_two_meshes_does_not_pass_for_accuracy():
     assert estimate(values, cap=2.0).uncertainty >= 0.1 / 4 / 3
 
 
+def test_an_order_beyond_theory_is_not_believed():
+    assert estimate([1.0, 1.1, 1.1001], cap=2.0).uncertainty >= 0.1 / 4 / 3
+
+
 def test_divergence_widens():
     assert estimate([1.0, 1.1, 1.4], cap=4.0).uncertainty >= 0.3 * 3
 

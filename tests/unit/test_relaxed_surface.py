@@ -232,6 +232,24 @@ def test_gas_presses_along_the_normal():
     assert work[1] - work[0] == pytest.approx(-(volume[1] - volume[0]) / 2e-5, rel=1e-8)
 
 
+def test_liquid_presses_below_its_level_only(model):
+    system, level = model.system, 10.0
+    forces = []
+    for zw in (0.0, level):
+        system.set_state(system.state().u, {"p": 0.0, "zw": zw})
+        forces.append(model.nodal(system.residual()))
+    size = np.linalg.norm(forces[1] - forces[0], axis=1)
+    z, held = model.nodal(system.state().u)[:, 2], model.body.triangles.held
+    ring = 1.1 * np.ptp(z) / 6  # a node feels the triangles around it
+    assert np.all(size[z > level + ring] == 0)
+    assert np.all(size[(z < level - ring) & ~held] > 1e-3)
+
+
+def test_thickness_is_linear_between_the_ends():
+    ends = np.array([[1.0, 1.0, 1.0], [0.0, 0.0, 0.0], [0.0, 4.0, 8.0]])
+    assert body(M=1.5).thickness(ends) == pytest.approx([1.5, 1.0, 0.5])
+
+
 # -- equilibria ----------------------------------------------------------------------------------
 
 

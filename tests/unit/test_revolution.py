@@ -11,6 +11,7 @@ from mpi4py import MPI
 
 from weakforms import Case, InputError, Points, solve, wrinkled_linear
 from weakforms.forms import revolution
+from weakforms.forms.fluid import axisymmetric
 from weakforms.problems import hemisphere, wrinkled_modes, wrinkled_state
 from weakforms.problems.wrinkled_body import CYLINDER, HEMISPHERE
 from weakforms.problems.wrinkled_fields import Meridian
@@ -242,6 +243,14 @@ def test_the_shells_bending_energy_is_near_that_of_hoops_alone_and_starts_from_t
     plain, hoops = (waves_at(held).spectrum(10, 1, beta).eigenvalues[0] for beta in (0.0, 6.7e-5))
     assert shell_eigenvalue(held, 10, 0.0) == pytest.approx(plain, rel=1e-9)
     assert 1.0 < (shell_eigenvalue(held, 10, 6.7e-5) - plain) / (hoops - plain) < 1.05
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 7])
+def test_a_ring_bends_by_what_is_known(n):
+    """Inextensible waves of a unit ring change its curvature by ``(n^2 - 1) u``; one wave is a shift."""
+    ring = axisymmetric(1.0, 0.0, (0.0, 1.0))
+    bent = revolution.hoop_bending(ring, (1.0, -1.0 / n, 0.0), (0.0, 0.0, 0.0), n)
+    assert float(bent) == pytest.approx(-(n**2 - 1), abs=1e-14)
 
 
 def test_eigenvalues_scale_with_the_mass_and_keep_their_sign():
