@@ -5,6 +5,8 @@ from __future__ import annotations
 import logging
 import os
 import sys
+import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -404,6 +406,8 @@ def main() -> None:
     """Console script."""
     # PETSc's own handlers turn a closed pipe or a termination into a crash report.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".strip()
+    with suppress(FileNotFoundError):
+        os.environ["TMPDIR"] = tempfile.gettempdir()  # MPI breaks down over one that cannot be written to
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it does without a folder of its own, aloud
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # closed by whoever called
