@@ -125,4 +125,5 @@ CASE = Case(
         printed("Ogden's rubber: stretch at the maximum", "1.37380869", "ogden", "lam"),
     ),
     asked={"P": 1e-8},
+    quick=True,
 )

@@ -108,4 +108,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 1e-7, "u_max": 1e-7, "delta1": 1e-7, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+    quick=True,
 )
