@@ -39,8 +39,13 @@ LATE = {1: (2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477), 2: (5.4, 5.8, 6.16, 6.7, 7.3
 
 
 def of(beta: int, p: float) -> Spec:
-    """The free membrane below the pressure of first contact, the constrained one above."""
-    return FREE[beta] if p < FIRST_TOUCH[beta] else STICK[beta]
+    """The free membrane below the pressure of first contact, the constrained one above.
+
+    While the patch is small the stretch at the clamp wants more cells.
+    """
+    if p < FIRST_TOUCH[beta]:
+        return FREE[beta]
+    return STICK[beta].on(cells=144) if p < 1.05 * FIRST_TOUCH[beta] else STICK[beta]
 
 
 def samples(solutions: Solutions, beta: int, pressures: tuple[float, ...], name: str) -> np.ndarray:
