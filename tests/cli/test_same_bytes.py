@@ -17,7 +17,6 @@ REQUESTS = {
     "fluid_tube": [*FLUID, "--set", "n_max=1", "--set", "zw_end=0.7"],
     "wrinkled_tube": [*BLOCKS, "--set", "load=gas", "--set", "load_end=0.1"],
     "hemisphere": [*BLOCKS, "--set", "low_end=-0.9"],
-    "wrinkled_linear": BLOCKS,
     "wrinkled_patch": [],
     "sphere": [],
     "infinite_tube": [],
