@@ -103,7 +103,7 @@ CASE = Case(
             for (name, (of, at, top, _)), printed in zip(SHOWN.items(), ("7.336", "7.779"), strict=True)
         ),
     ),
-    # A field has one uncertainty for all of the surface: that of the bulge's foot (Z = 0.93, Theta = 0), where
-    # the coarser meshes are 4e-3 off. Elsewhere the error is far below what is asked here.
+    # A field has one uncertainty for all of the surface: that of the bulge's foot (Z = 0.93, Theta = 0),
+    # where the coarser meshes are 4e-3 off. Elsewhere the error is far below what is asked here.
     asked={"x": 1e-4, "y": 1e-4, "z": 1e-5, "lam1": 1e-3, "lam2": 2e-3, "T1": 1e-3, "T2": 1e-3},
 )
