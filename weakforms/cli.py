@@ -193,9 +193,14 @@ def report(
         Path | None,
         typer.Option("--faults", metavar="FILE", help="What faults left; default: DIR/faults.json."),
     ] = None,
+    others: Annotated[
+        list[Path] | None,
+        typer.Option("--other", metavar="OUT", help="Another run of the cases, to compare all numbers with."),
+    ] = None,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
     from weakforms.verification import pdf
+    from weakforms.verification.elsewhere import elsewhere, write_elsewhere
     from weakforms.verification.faults.outcome import NAME, keep_beside, load_faults
     from weakforms.verification.report import load_run, write_report
     from weakforms.verification.summary import print_summary
@@ -208,6 +213,8 @@ def report(
         load_faults(seeded)
     known = (seeded, folder / NAME, stored / NAME)
     keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
+    if others:
+        write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
     written = [write_report(run, out or stored, stored=True)]
     if as_pdf:
         written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))

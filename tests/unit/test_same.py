@@ -6,8 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from weakforms.errors import InputError
 from weakforms.results import Branch, Failure, Field, Quantity, Result, SpecialPoint, State
 from weakforms.verification import same
+from weakforms.verification.elsewhere import NAME, elsewhere, load_elsewhere, write_elsewhere
+from weakforms.verification.outcome import RunOutcome
+from weakforms.verification.pages import render
 from weakforms.verification.same import Run, differences, main, runs, table
 
 
@@ -116,10 +120,33 @@ def test_runs_are_compared_case_by_case(tmp_path, capsys):
     second = stored(tmp_path / "b", solution(energy=4.4), passed=False)
     (found,) = runs(Run(first), Run(second))
     assert found.worst.relative == pytest.approx(0.4 / 4.4)
-    assert "| paper2.fig03 | 8 | p | 9.1e-02 | `tube()`: quantity energy |" in table(Run(first), Run(second))
+    assert "| paper2.fig03 | 8 | p | 9.1e-02 | `tube(): quantity energy` |" in table(Run(first), Run(second))
     assert main([str(first), str(second)]) == 0
     assert capsys.readouterr().out.count("paper2.fig03") == 1
     assert main([str(first), str(tmp_path / "c")]) == 2
     assert main([str(first)]) == 2
     (second / "solutions" / "a.json").unlink()
     assert runs(Run(first), Run(second))[0].worst.relative == same.np.inf
+
+
+def test_another_run_stands_in_the_report(tmp_path):
+    first = stored(tmp_path / "a", solution())
+    second = stored(tmp_path / "b", solution(energy=4.4), passed=False)
+    report = json.loads((second / "report" / "report.json").read_text())
+    (second / "report" / "report.json").write_text(json.dumps(report | {"environment": {"ranks": "4"}}))
+    found = elsewhere(first, second)
+    write_elsewhere([found], tmp_path)
+    (read,) = load_elsewhere(tmp_path)
+    assert read == found
+    assert found.environment == {"ranks": "4"}
+    page = render(RunOutcome("full", "", "2026-01-01T00:00:00+00:00", 1.0, {}), None, (found,))["index.html"]
+    assert "ranks 4" in page
+    assert "9.1e-02" in page
+    assert load_elsewhere(first) == ()
+    (tmp_path / NAME).write_text('{"runs": [{"rows": 3}]}')
+    with pytest.raises(InputError, match="report --other"):
+        load_elsewhere(tmp_path)
+    report["cases"][0]["id"] = "paper2.fig04"
+    (second / "report" / "report.json").write_text(json.dumps(report))
+    with pytest.raises(InputError, match="no case"):
+        elsewhere(first, second)

@@ -15,6 +15,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from weakforms.verification import summary
+from weakforms.verification.elsewhere import Elsewhere
 from weakforms.verification.faults.outcome import FaultOutcome, Seeded
 from weakforms.verification.figures import LOOK, TEMPLATES, convergence_figure, panel_figure
 from weakforms.verification.junit import clean
@@ -34,6 +35,7 @@ RESERVED = (
     "reading",
     "environment",
     "faults",
+    "elsewhere",
 )
 """Identifiers that the templates use themselves."""
 GROUPS = {
@@ -68,17 +70,20 @@ GROUPS = {
 """Short name, title and source of the groups there are; any other is called by its folder."""
 
 
-def render(run: RunOutcome, seeded: Seeded | None = None) -> dict[str, str]:
+def render(
+    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = ()
+) -> dict[str, str]:
     """Every page of the report.
 
     Args:
         run: What ``verify`` left.
         seeded: What became of seeded faults, where the catalogue was run.
+        others: Runs of the same cases on other ranks or releases.
 
     Returns:
         HTML by file name; the first page is ``index.html``. No page loads anything.
     """
-    facts = _facts(run, seeded)
+    facts = _facts(run, seeded, others)
     pages = {
         group["page"]: template("group.html").render(facts, group=group, here=group["page"])
         for group in facts["groups"]
@@ -87,9 +92,9 @@ def render(run: RunOutcome, seeded: Seeded | None = None) -> dict[str, str]:
     return pages | {"index.html": template("index.html").render(facts, here="index.html")}
 
 
-def render_whole(run: RunOutcome, seeded: Seeded | None = None) -> str:
+def render_whole(run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = ()) -> str:
     """All pages as one, for printing: every link stays within it."""
-    return template("whole.html").render(_facts(run, seeded), here=None)
+    return template("whole.html").render(_facts(run, seeded, others), here=None)
 
 
 def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
@@ -134,8 +139,10 @@ def _environment() -> Environment:
 # -- what the templates show ---------------------------------------------------------------------
 
 
-def _facts(run: RunOutcome, seeded: Seeded | None = None) -> dict[str, Any]:
-    """Everything a template may name, made from the run and the seeded faults alone."""
+def _facts(
+    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = ()
+) -> dict[str, Any]:
+    """Everything a template may name, made from the run and what lies beside it alone."""
     taken = set(RESERVED)
     shapes = {id(surface): name for name, surface in shape_files(run)}
     views = [_case_view(case, taken, shapes) for case in run.cases]
@@ -160,6 +167,7 @@ def _facts(run: RunOutcome, seeded: Seeded | None = None) -> dict[str, Any]:
         "ledger": summary.ledger_counts(run.cases),
         "differing": _differing(views),
         "seeded": seeded or Seeded(),
+        "others": others,
         "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
         "look": LOOK,
     }

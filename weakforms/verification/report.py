@@ -17,6 +17,8 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from weakforms.errors import InputError
+from weakforms.verification.elsewhere import NAME as ELSEWHERE
+from weakforms.verification.elsewhere import Elsewhere, load_elsewhere
 from weakforms.verification.faults.outcome import Seeded
 from weakforms.verification.junit import junit_xml
 from weakforms.verification.outcome import SCHEMA, RunOutcome
@@ -33,7 +35,8 @@ _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "res
 def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
 
-    A ``faults.json`` in the folder gives the page of seeded faults its table.
+    A ``faults.json`` in the folder gives the page of seeded faults its table, an ``elsewhere.json`` the first
+    page that of other runs, until the cases are run anew.
 
     Args:
         run: What ``verify`` left.
@@ -53,12 +56,14 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
         "junit.xml": junit_xml(run),
     }
     folder = Path(folder)
-    seeded = Seeded.beside(folder)
-    drawn = _redrawn(run, seeded) if stored else {}
+    beside = Seeded.beside(folder), load_elsewhere(folder) if stored else ()
+    drawn = _redrawn(run, *beside) if stored else {}
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        if not stored:
+            (folder / ELSEWHERE).unlink(missing_ok=True)  # it compares the numbers of an earlier run
         _write(folder, numbers)  # before anything is drawn: `report` can draw it later
-        drawn = drawn or _drawn(run, seeded)
+        drawn = drawn or _drawn(run, *beside)
         _write(folder, drawn)
         _sweep(folder, set(drawn))
     except OSError as error:
@@ -66,15 +71,15 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
     return folder / "index.html"
 
 
-def _drawn(run: RunOutcome, seeded: Seeded) -> dict[str, str]:
+def _drawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...]) -> dict[str, str]:
     """Shapes and pages by name, ``index.html`` last."""
-    return {name: vtu(surface) for name, surface in shape_files(run)} | render(run, seeded)
+    return {name: vtu(surface) for name, surface in shape_files(run)} | render(run, seeded, others)
 
 
-def _redrawn(run: RunOutcome, seeded: Seeded) -> dict[str, str]:
+def _redrawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...]) -> dict[str, str]:
     """The same of a stored run, the numbers of which may be anybody's."""
     try:
-        return _drawn(run, seeded)
+        return _drawn(run, seeded, others)
     except Exception as error:
         raise InputError(f"what is stored cannot be drawn: {type(error).__name__}: {error}") from error
 

@@ -187,6 +187,7 @@ class Run:
         self.folder = Path(folder)
         report = load_json(self.folder / "report" / "report.json", "report")
         cases = report["cases"]
+        self.environment: dict[str, str] = report.get("environment", {})
         self.specs = {case["id"]: [item["spec"] for item in case["solutions"]] for case in cases}
         self.files = {item["spec"]: self.folder / item["file"] for c in cases for item in c["solutions"]}
         self.verdicts = {case["id"]: {v["check"]: v["passed"] for v in case["verdicts"]} for case in cases}
@@ -219,20 +220,41 @@ def _compared(spec: str, first: Result | None, second: Result | None) -> Compare
 HEAD = "| case | numbers | verdicts that differ | largest difference | where |"
 
 
-def table(first: Run, second: Run) -> str:
-    """Markdown table of two runs: for every case its verdicts and the worst of all its numbers."""
+@dataclass(frozen=True)
+class CaseRow:
+    """One case in two runs."""
+
+    case: str
+    numbers: int
+    """Compared: every stored one."""
+    changed: tuple[str, ...]
+    """Checks whose verdicts differ."""
+    largest: float
+    """Difference relative to a number's scale."""
+    where: str
+
+
+def rows(first: Run, second: Run) -> list[CaseRow]:
+    """For every case of the first run its verdicts and the worst of all its numbers."""
     found = {item.spec: item for item in runs(first, second)}
-    lines = [HEAD, "|---|---|---|---|---|"]
+    out = []
     for case, specs in first.specs.items():
         here = [found[spec] for spec in specs]
         worst = max(here, key=lambda item: item.worst.relative)
-        count = sum(len(item.found) for item in here)
         own, others = first.verdicts[case], second.verdicts.get(case, {})
-        changed = sorted(name for name in {**own, **others} if own.get(name) != others.get(name))
-        where = f"`{worst.spec}`: {worst.worst.place}" if worst.worst.relative else ""
-        lines.append(
-            f"| {case} | {count} | {', '.join(changed) or 'none'} | {worst.worst.relative:.1e} | {where} |"
-        )
+        changed = tuple(sorted(name for name in {**own, **others} if own.get(name) != others.get(name)))
+        where = f"{worst.spec}: {worst.worst.place}" if worst.worst.relative else ""
+        count = sum(len(item.found) for item in here)
+        out.append(CaseRow(case, count, changed, worst.worst.relative, where))
+    return out
+
+
+def table(first: Run, second: Run) -> str:
+    """The same as a Markdown table."""
+    lines = [HEAD, "|---|---|---|---|---|"]
+    for row in rows(first, second):
+        changed, where = ", ".join(row.changed) or "none", f"`{row.where}`" if row.where else ""
+        lines.append(f"| {row.case} | {row.numbers} | {changed} | {row.largest:.1e} | {where} |")
     return "\n".join(lines) + "\n"
 
 
