@@ -68,7 +68,7 @@ def test_damaged_report_is_one_clear_line(damage, folder, tmp_path):
 
 
 def test_missing_report_and_unwritable_folder(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="cannot read"):
         load_run(tmp_path / "nowhere")
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(InputError, match="cannot write"):

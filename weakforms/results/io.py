@@ -29,7 +29,10 @@ MAX_CURVE_BYTES = 64 * 2**20
 """Size up to which a curve file is read; JSON takes up to thirty times that of memory, hence ..."""
 
 MAX_JSON_BYTES = 32 * 2**20
-"""... the size up to which JSON is read, but for a report of our own."""
+"""... the size up to which JSON is read, but for ..."""
+
+MAX_REPORT_BYTES = 256 * 2**20
+"""... a report of our own."""
 
 MAX_ROWS, MAX_COLUMNS = 1_000_000, 1000
 """Rows and columns up to which a table is read."""
@@ -185,9 +188,9 @@ def load_json(path: Path, what: str, limit: int = MAX_JSON_BYTES) -> dict[str, A
     try:
         data = json.loads(_text(path, what, limit))
     except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
-        raise InputError(f"{what} {path} is not JSON: {str(error).splitlines()[0]}") from error
+        raise InputError(f"{what} {path}: not JSON: {str(error).splitlines()[0]}") from error
     if not isinstance(data, dict):
-        raise InputError(f"{what} {path} must hold a JSON object, not {type(data).__name__}")
+        raise InputError(f"{what} {path}: must hold a JSON object, not {type(data).__name__}")
     return data
 
 

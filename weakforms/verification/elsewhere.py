@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from math import isfinite
 from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
 from weakforms.errors import InputError
 from weakforms.results.io import dumps, load_json, write_atomically
-from weakforms.verification.same import Run, rows
+from weakforms.verification.same import CaseRow, Run, rows
 
 NAME = "elsewhere.json"
 SCHEMA = "weakforms.elsewhere/1"
@@ -20,26 +19,12 @@ TOLD = ("dolfinx", "ufl", "petsc", "slepc", "python", "system", "ranks")
 
 
 @dataclass(frozen=True)
-class Row:
-    """One case in both runs."""
-
-    case: str
-    numbers: int
-    """Compared: every stored one."""
-    changed: tuple[str, ...]
-    """Checks whose verdicts differ."""
-    largest: float | None
-    """Difference relative to a number's scale; ``None`` where one of the two has no such number."""
-    where: str
-
-
-@dataclass(frozen=True)
 class Elsewhere:
     """Another run, and how far its numbers are from this one's."""
 
     environment: dict[str, str]
     """In what it differs from this one's."""
-    rows: tuple[Row, ...]
+    rows: tuple[CaseRow, ...]
 
 
 _MANY = TypeAdapter(tuple[Elsewhere, ...])
@@ -52,11 +37,7 @@ def elsewhere(own: Path, other: Path) -> Elsewhere:
         InputError: When one of them has no report, what is stored is damaged, or they share no case.
     """
     first, second = Run(own), Run(other)
-    found = tuple(
-        Row(row.case, row.numbers, row.changed, row.largest if isfinite(row.largest) else None, row.where)
-        for row in rows(first, second)
-        if row.case in second.specs
-    )
+    found = tuple(row for row in rows(first, second) if row.case in second.specs)
     if not found:
         raise InputError(f"{other}: has no case that {own} has")
     facts = {name: second.environment[name] for name in TOLD if name in second.environment}

@@ -17,6 +17,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from weakforms.errors import InputError
+from weakforms.results.io import MAX_REPORT_BYTES, load_json
 from weakforms.verification.elsewhere import NAME as ELSEWHERE
 from weakforms.verification.elsewhere import Elsewhere, load_elsewhere
 from weakforms.verification.faults.outcome import Seeded
@@ -27,8 +28,6 @@ from weakforms.verification.vtu import vtu
 
 OURS = '<meta name="generator" content="weakforms">'
 """What tells a page of an earlier report from somebody else's file."""
-MAX_BYTES = 256 * 2**20
-"""Size up to which a stored report is read."""
 _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "residual_bound")
 
 
@@ -116,17 +115,8 @@ def load_run(folder: Path) -> RunOutcome:
     """
     path = Path(folder)
     path = path / "report.json" if path.suffix != ".json" else path
-    try:
-        with path.open("rb") as stream:
-            text = stream.read(MAX_BYTES + 1)  # a link may lead to a device without end
-        if len(text) > MAX_BYTES:
-            raise InputError(f"{path}: larger than {MAX_BYTES >> 20} MiB")
-        data = json.loads(text.decode("utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: not complete JSON ({str(error).splitlines()[0]})") from error
-    schema = data.get("schema") if isinstance(data, dict) else None
+    data = load_json(path, "report", MAX_REPORT_BYTES)
+    schema = data.get("schema")
     if schema != SCHEMA:
         raise InputError(f"{path}: schema is {schema!r}, expected {SCHEMA!r}")
     try:

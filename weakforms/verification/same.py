@@ -20,7 +20,7 @@ import numpy as np
 
 from weakforms.errors import InputError
 from weakforms.results import Quantity, Result, load_result
-from weakforms.results.io import load_json
+from weakforms.results.io import MAX_REPORT_BYTES, load_json
 
 EFFORT = ("residual", "iterations")
 """Columns that say how a state was found, not what it is: round-off decides about them."""
@@ -185,7 +185,7 @@ class Run:
 
     def __init__(self, folder: Path) -> None:
         self.folder = Path(folder)
-        report = load_json(self.folder / "report" / "report.json", "report")
+        report = load_json(self.folder / "report" / "report.json", "report", MAX_REPORT_BYTES)
         cases = report["cases"]
         self.environment: dict[str, str] = report.get("environment", {})
         self.specs = {case["id"]: [item["spec"] for item in case["solutions"]] for case in cases}
@@ -229,8 +229,8 @@ class CaseRow:
     """Compared: every stored one."""
     changed: tuple[str, ...]
     """Checks whose verdicts differ."""
-    largest: float
-    """Difference relative to a number's scale."""
+    largest: float | None
+    """Difference relative to a number's scale; ``None`` where one of the two has no such number."""
     where: str
 
 
@@ -245,7 +245,8 @@ def rows(first: Run, second: Run) -> list[CaseRow]:
         changed = tuple(sorted(name for name in {**own, **others} if own.get(name) != others.get(name)))
         where = f"{worst.spec}: {worst.worst.place}" if worst.worst.relative else ""
         count = sum(len(item.found) for item in here)
-        out.append(CaseRow(case, count, changed, worst.worst.relative, where))
+        largest = worst.worst.relative
+        out.append(CaseRow(case, count, changed, largest if np.isfinite(largest) else None, where))
     return out
 
 
@@ -254,7 +255,8 @@ def table(first: Run, second: Run) -> str:
     lines = [HEAD, "|---|---|---|---|---|"]
     for row in rows(first, second):
         changed, where = ", ".join(row.changed) or "none", f"`{row.where}`" if row.where else ""
-        lines.append(f"| {row.case} | {row.numbers} | {changed} | {row.largest:.1e} | {where} |")
+        largest = "missing in one" if row.largest is None else f"{row.largest:.1e}"
+        lines.append(f"| {row.case} | {row.numbers} | {changed} | {largest} | {where} |")
     return "\n".join(lines) + "\n"
 
 
