@@ -8,7 +8,7 @@ import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -150,10 +150,11 @@ def check(
     resume: Resume = False,
 ) -> None:
     """Solve and check single cases."""
+    from weakforms.verification import verbs
     from weakforms.verification.discovery import get_case
 
     names = list(dict.fromkeys(names))
-    _verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
+    verbs.verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
 
 
 @app.command()
@@ -168,6 +169,7 @@ def verify(
     out: Out = Path("out"),
 ) -> None:
     """All cases with a progress bar; then the report."""
+    from weakforms.verification import verbs
     from weakforms.verification.discovery import select
 
     if profile not in ("quick", "full"):
@@ -179,7 +181,7 @@ def verify(
             raise InputError("none of the cases selected is in the quick profile")
     words = [f"paper {paper}"] if paper else []
     words += [f"-k {expression!r}"] if expression else []
-    _verify(cases, out, profile, ", ".join(words) or "all cases", jobs, resume)
+    verbs.verify(cases, out, profile, ", ".join(words) or "all cases", jobs, resume)
 
 
 @app.command()
@@ -199,28 +201,9 @@ def report(
     ] = None,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
-    from weakforms.verification import pdf
-    from weakforms.verification.elsewhere import elsewhere, write_elsewhere
-    from weakforms.verification.faults.outcome import NAME, keep_beside, load_faults
-    from weakforms.verification.report import load_run, write_report
-    from weakforms.verification.summary import print_summary
+    from weakforms.verification import verbs
 
-    if as_pdf:
-        pdf.browser()
-    stored = folder / "report" if os.path.isdir(folder / "report") else folder
-    run = load_run(stored)
-    if seeded is not None:
-        load_faults(seeded)
-    known = (seeded, folder / NAME, stored / NAME)
-    keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
-    if others:
-        write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
-    written = [write_report(run, out or stored, stored=True)]
-    if as_pdf:
-        written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))
-    print_summary(run, console())
-    for path in written:
-        console().print(f"report: {plain(path)}", soft_wrap=True)
+    verbs.report(folder, out, as_pdf, seeded, tuple(others or ()))
 
 
 @app.command()
@@ -369,44 +352,6 @@ def warm() -> None:
 
     for name in ("tube", "bent", "surface-small"):
         measure(name, time.time(), only_start=True)
-
-
-# -- shared by the verbs -------------------------------------------------------------------------
-
-
-def _verify(cases: list[Any], out: Path, profile: str, selection: str, jobs: int, resume: bool) -> None:
-    from weakforms import api
-    from weakforms.verification import runner
-    from weakforms.verification.faults.outcome import NAME, keep_beside
-    from weakforms.verification.report import write_report
-    from weakforms.verification.summary import print_summary, run_status
-
-    api.require_environment()
-    first = rank() == 0
-    with runner.alone(cases, out, first):
-        try:
-            with progress_bar() as progress:
-                run = runner.verify(
-                    cases,
-                    out,
-                    profile,
-                    selection,
-                    jobs=jobs,
-                    resume=resume,
-                    writes=first,
-                    report=lambda done, total, what: progress(what, done, total),
-                )
-        except KeyboardInterrupt:
-            complain("interrupted; the same with --resume goes on from what is solved")
-            raise typer.Exit(130) from None
-        if first:
-            keep_beside(out / NAME, out / "report")
-            page = write_report(run, out / "report")
-            print_summary(run, console())
-            console().print(f"report: {plain(page)}", soft_wrap=True)
-    status = run_status(run)
-    if status != "passed":
-        raise typer.Exit(3 if status == "error" else 1)
 
 
 def main() -> None:

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from weakforms import cli
-from weakforms.verification import references
+from weakforms.verification import references, verbs
 from weakforms.verification.outcome import Printed, Verdict
 
 CURVE = ("compare", "paper2.fig03", "--curve", "fig03a_delta1_1.1")
@@ -45,7 +44,7 @@ def orderly(called: object, *allowed: int) -> None:
 @pytest.fixture(scope="module", autouse=True)
 def nothing_is_solved(canned_solves):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cli, "_verify", lambda *_: None)
+        patch.setattr(verbs, "verify", lambda *_: None)
         yield
 
 
