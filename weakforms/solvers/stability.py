@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from petsc4py import PETSc
@@ -17,8 +18,15 @@ from weakforms.solvers.system import State, System
 LOWEST = -1e6
 """Eigenvalue below which none is looked for."""
 
+BACKWARD_ERROR = 1e-12
+"""Of a solve, relative, above which a factorisation is not the matrix's, and one that pivots is made."""
+
 BESIDE = 1e-4
 """Relative distance from a known eigenvalue at which its mode is looked for."""
+
+
+Inverse = Callable[[np.ndarray], np.ndarray]
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
@@ -40,9 +48,11 @@ class Mode:
 class Stability:
     r"""Second variation at fixed loads against the mass matrix, :math:`K x = \mu M x`.
 
-    Shift-and-invert about zero. The mass matrix has zero Dirichlet rows, so the constrained degrees of
-    freedom sit at infinity and add no eigenvalue. The number of negative eigenvalues is taken from the
-    inertia of ``K``; SLEPc must find exactly as many, or the spectrum is refused.
+    Shift-and-invert about zero, by the very factors that the inertia is counted from (one more factorisation
+    would be half the cost of a spectrum); that they are the matrix's own is tested by a solve. The mass
+    matrix has zero Dirichlet rows, so the constrained degrees of freedom sit at infinity and add no
+    eigenvalue. The number of negative eigenvalues is taken from the inertia of ``K``; SLEPc must find
+    exactly as many, or the spectrum is refused.
     """
 
     def __init__(self, system: System, prefix: str = "weakforms_eigen_") -> None:
@@ -50,7 +60,8 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
 
-    def _solver(self, wanted: int, target: float = 0.0) -> SLEPc.EPS:
+    def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
+        """Shift-and-invert about a target, by an inverse at hand (of the matrix as it stands) or by MUMPS."""
         eps = SLEPc.EPS().create(self.system.comm)
         eps.setOptionsPrefix(self._prefix)
         eps.setOperators(self.system.matrix, self.system.mass)
@@ -63,8 +74,12 @@ class Stability:
         st.setType("sinvert")
         st.getKSP().setType("preonly")
         pc = st.getKSP().getPC()
-        pc.setType("cholesky")
-        pc.setFactorSolverType("mumps")
+        if inverse is None:
+            pc.setType("cholesky")
+            pc.setFactorSolverType("mumps")
+        else:
+            pc.setType("python")
+            pc.setPythonContext(_Preconditioner(inverse))
         eps.setFromOptions()
         return eps
 
@@ -84,12 +99,12 @@ class Stability:
         self.system.tangent()
         if shift:
             self.system.matrix.axpy(shift, self.system.mass)
-        self.factor.refactor()
+        self._factorise()
         negative = self.factor.negative_count()
         # A body of one freedom has one eigenvalue.
         wanted = min(max(count, negative + 1), self.system.matrix.getSize()[0])
         for extra in (0, wanted):
-            values = self._eigenvalues(wanted + extra)
+            values = self._eigenvalues(wanted + extra, self.factor.solve)
             if int(np.sum(values < 0)) == negative:
                 return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
         found = int(np.sum(values < 0))
@@ -114,10 +129,9 @@ class Stability:
             further = min(2 * target, -1.0)
             matrix.axpy(target - further, mass)
             target = further
-            self.factor.refactor()
+            self._factorise()
             if not self.factor.negative_count():
-                matrix.axpy(target, mass)
-                return self._eigenvalues(count, target=target)
+                return self._eigenvalues(count, self.factor.solve, target)
         raise ConvergenceError(f"stability: there are eigenvalues below {LOWEST:g}")
 
     def nearest_by_index(self, state: State, index: int) -> float:
@@ -127,9 +141,10 @@ class Stability:
         side, whatever sign round-off gives it.
         """
         self.system.set_state(state.u, state.loads)
-        self.factor.update()
+        self.system.tangent()
+        self._factorise()
         negative = self.factor.negative_count()
-        values = self._eigenvalues(index + 3)
+        values = self._eigenvalues(index + 3, self.factor.solve)
         below, above = values[values < 0], values[values >= 0]
         if negative > index:
             return float(below[-1]) if len(below) else float(values[0])
@@ -154,13 +169,13 @@ class Stability:
         self.system.tangent()
         if shift:
             self.system.matrix.axpy(shift, self.system.mass)
-        self.factor.refactor()
+        self._factorise()
         negative = self.factor.negative_count()
         bordered = BorderedMatrix(self.factor, [border], [border], np.array([[-compliance]]))
         schur = -compliance - self.system.dot(border, self.factor.solve(border))
         negative += int(schur < 0) - 1
         for wanted in (negative + 1, 2 * negative + 4):
-            values = self._eigenvalues(wanted, bordered)
+            values = self._eigenvalues(wanted, lambda rhs: bordered.solve(rhs, np.zeros(1))[0])
             if int(np.sum(values < 0)) == negative:
                 return Spectrum(tuple((values - shift).tolist()), negative)
         raise ConvergenceError(
@@ -176,16 +191,7 @@ class Stability:
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
-        eps = self._solver(count)
-        try:
-            eps.solve()
-            if eps.getConverged() < count:
-                raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {count} eigenvalues")
-            found = self._pairs(eps)
-        except PETSc.Error as error:
-            raise ConvergenceError(f"SLEPc failed: {error}") from error
-        finally:
-            _destroy(eps)
+        found = self._near(self._solver(count), count, self._pairs)
         return sorted(found, key=lambda mode: abs(mode.eigenvalue))
 
     def mode_at(self, state: State, eigenvalue: float) -> Mode:
@@ -198,17 +204,7 @@ class Stability:
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
-        eps = self._solver(1, eigenvalue - BESIDE * max(1.0, abs(eigenvalue)))
-        try:
-            eps.solve()
-            if eps.getConverged() < 1:
-                raise ConvergenceError(f"SLEPc converged to no mode near {eigenvalue:.6g}")
-            vector, _ = self.system.matrix.createVecs()
-            return self._mode(eps.getEigenpair(0, vector).real, vector.array.copy())
-        except PETSc.Error as error:
-            raise ConvergenceError(f"SLEPc failed: {error}") from error
-        finally:
-            _destroy(eps)
+        return self._near(self._solver(1, eigenvalue - BESIDE * max(1.0, abs(eigenvalue))), 1, self._pairs)[0]
 
     def about(self, state: State, target: float, count: int) -> tuple[list[Mode], int]:
         r"""Eigenvalues about a target, and how many lie below it, from one factorisation of ``K - target M``.
@@ -229,26 +225,21 @@ class Stability:
         matrix = self.system.tangent()
         if target:
             matrix.axpy(-target, self.system.mass)
-        self.factor.refactor()
+        self._factorise()
         below = self.factor.negative_count()
-        found = [self._improved(mode, target) for mode in self._with_factor(count)]
+        pairs = self._near(self._solver(count, inverse=self.factor.solve), count, self._pairs)
+        found = [self._improved(mode, target) for mode in pairs]
         return sorted(found, key=lambda mode: abs(mode.eigenvalue - target)), below
 
-    def _with_factor(self, count: int) -> list[Mode]:
-        """Modes nearest to zero of the matrix as it stands and is factorised."""
-        eps = self._solver(count)
-        pc = eps.getST().getKSP().getPC()
-        pc.setType("python")
-        pc.setPythonContext(_Inverse(self.factor.solve))
-        try:
-            eps.solve()
-            if eps.getConverged() < count:
-                raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {count} eigenvalues")
-            return self._pairs(eps)
-        except PETSc.Error as error:
-            raise ConvergenceError(f"SLEPc failed: {error}") from error
-        finally:
-            _destroy(eps)
+    def _factorise(self) -> None:
+        """Factorise the matrix as it stands; with pivoting where round-off would be large otherwise."""
+        system, rhs = self.system, np.cos(np.arange(self.system.size))  # any vector that is not special
+        self.factor.refactor()
+        x = self.factor.solve(rhs)
+        left = rhs - system.multiply(system.matrix, x)
+        scale = system.matrix.norm() * np.sqrt(system.dot(x, x)) + np.sqrt(system.dot(rhs, rhs))
+        if not np.sqrt(system.dot(left, left)) <= BACKWARD_ERROR * scale and self.factor.use_pivoting():
+            self.factor.refactor()
 
     def _pairs(self, eps: SLEPc.EPS) -> list[Mode]:
         vector, _ = self.system.matrix.createVecs()
@@ -267,23 +258,29 @@ class Stability:
         length = np.sqrt(self.system.dot(vector, self.system.mass_times(vector)))
         return Mode(float(eigenvalue), vector / length)
 
-    def _eigenvalues(
-        self, wanted: int, inverse: BorderedMatrix | None = None, target: float = 0.0
-    ) -> np.ndarray:
-        eps = self._solver(wanted, target)
-        if inverse is not None:
-            pc = eps.getST().getKSP().getPC()
-            pc.setType("python")
-            pc.setPythonContext(_Inverse(lambda rhs: inverse.solve(rhs, np.zeros(1))[0]))
+    def _eigenvalues(self, wanted: int, inverse: Inverse, target: float = 0.0) -> np.ndarray:
+        """At least ``wanted`` of those nearest to a target, ascending; the matrix is ``K - target M``."""
+        return np.sort(self._near(self._solver(wanted, inverse=inverse), wanted, _values)) + target
+
+    def _near(self, eps: SLEPc.EPS, wanted: int, read: Callable[[SLEPc.EPS], list[Found]]) -> list[Found]:
+        """What SLEPc finds about its target.
+
+        Raises:
+            ConvergenceError: When fewer than ``wanted`` converge.
+        """
         try:
             eps.solve()
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
-            return np.sort([eps.getEigenvalue(i).real for i in range(eps.getConverged())])
+            return read(eps)
         except PETSc.Error as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
         finally:
             _destroy(eps)
+
+
+def _values(eps: SLEPc.EPS) -> list[float]:
+    return [eps.getEigenvalue(i).real for i in range(eps.getConverged())]
 
 
 def _destroy(eps: SLEPc.EPS) -> None:
@@ -292,10 +289,10 @@ def _destroy(eps: SLEPc.EPS) -> None:
         eps.destroy()
 
 
-class _Inverse:
-    """Preconditioner that is the solver."""
+class _Preconditioner:
+    """One that is the solver."""
 
-    def __init__(self, solve: Callable[[np.ndarray], np.ndarray]) -> None:
+    def __init__(self, solve: Inverse) -> None:
         self._solve = solve
 
     def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
