@@ -48,6 +48,7 @@ TEXTS = (
     "CON",
     "%s %d {0} {x!r}",
     "]]> --> <!-- <![CDATA[",
+    "\x85",
 )
 texts = st.one_of(st.sampled_from(TEXTS), st.text(max_size=12))
 
@@ -120,10 +121,19 @@ def harmless(page: str) -> None:
     assert not re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f]", page)
 
 
+@pytest.mark.parametrize("text", TEXTS)
+def test_reports_escape_what_is_known_to_be_hostile(tmp_path, text):
+    escapes(tmp_path, text)
+
+
 @settings(quickly, max_examples=max(len(TEXTS), quickly.max_examples) // 2)
 @given(texts)
 def test_reports_escape_what_they_show(tmp_path_factory, text):
-    folder = tmp_path_factory.mktemp("run")
+    escapes(tmp_path_factory.mktemp("run"), text)
+
+
+def escapes(folder: Path, text: str) -> None:
+    """A report of a run that says the text everywhere is harmless, or is not written at all."""
     (folder / "report.json").write_text(json.dumps(run_of(text)))
     new = folder / "new"
     called = orderly(call("report", folder, "--out", new), 0, 2)

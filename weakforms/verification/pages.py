@@ -320,8 +320,8 @@ def _flat(value: Any, prefix: str = "") -> Iterable[tuple[str, str]]:
 
 
 def _file(text: str) -> str:
-    """The text as part of a file name."""
-    return re.sub(r"[^A-Za-z0-9_.-]+", "-", text).strip("-.").replace(".", "_") or "item"
+    """The text as part of a file name, of which systems take 255 characters."""
+    return re.sub(r"[^A-Za-z0-9_.-]+", "-", text).strip("-.").replace(".", "_")[:100] or "item"
 
 
 def _anchor(text: str, taken: set[str]) -> str:

@@ -14,6 +14,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from weakforms.terminal import plain
 from weakforms.verification.junit import clean
 from weakforms.verification.outcome import (
     CaseOutcome,
@@ -245,7 +246,7 @@ def print_summary(run: RunOutcome, console: Console) -> None:
         _print_problems(case, console)
     ledger = ", ".join(f"{count} {name}" for name, count in ledger_counts(run.cases).items())
     if ledger:
-        console.print(Text(f"Printed numbers: {clean(ledger)}"))
+        console.print(Text(f"Printed numbers: {_said(ledger)}"))
     status = run_status(run)
     last = Text(f"{status.upper() if status != 'empty' else 'NOTHING JUDGED'}: ")
     last.stylize(STYLES.get(status, "bold"))
@@ -266,7 +267,7 @@ def _table(run: RunOutcome, narrow: bool) -> Table:
         status = case_status(case)
         top = worst(case.verdicts)
         cells = [
-            Text(clean(case.id)),
+            Text(_said(case.id)),
             Text(status, STYLES.get(status, "")),
             Text(f"{sum(v.passed for v in case.verdicts)}/{len(case.verdicts)}"),
             Text(fraction(ratio(top)) if top else "–"),
@@ -274,7 +275,7 @@ def _table(run: RunOutcome, narrow: bool) -> Table:
         if not narrow:
             place = f" at {top.where}" if top and top.where else ""
             cells += [
-                Text(clean(top.check + place) if top else "–"),
+                Text(_said(top.check + place) if top else "–"),
                 Text(duration(case.seconds)),
             ]
         table.add_row(*cells)
@@ -283,20 +284,25 @@ def _table(run: RunOutcome, narrow: bool) -> Table:
 
 def _print_problems(case: CaseOutcome, console: Console) -> None:
     for message in case.errors:
-        console.print(Text(f"error   {clean(case.id)}", STYLES["error"]))
-        console.print(Padding(Text(clean(message)), (0, 0, 0, 8)))
+        console.print(Text(f"error   {_said(case.id)}", STYLES["error"]))
+        console.print(Padding(Text(_said(message)), (0, 0, 0, 8)))
     for verdict in case.verdicts:
         if verdict.passed:
             continue
         line = Text("failed  ", STYLES["failed"])
-        line.append(f"{clean(case.id)}:{clean(verdict.check)}", "not red")
+        line.append(f"{_said(case.id)}:{_said(verdict.check)}", "not red")
         numbers = [f"{n} {scientific(getattr(verdict, n))}" for n in ("error", "bound", "asked")]
-        where = [f"at {plain_tex(verdict.where)}"] if verdict.where else []
+        where = [f"at {_said(plain_tex(verdict.where))}"] if verdict.where else []
         judged = ", ".join(numbers * (verdict.bound is not None) + where)
-        texts = [judged, plain_tex(verdict.statement), plain_tex(verdict.detail)]
+        texts = [judged, _said(plain_tex(verdict.statement)), _said(plain_tex(verdict.detail))]
         console.print(line)
         console.print(Padding(Text("\n".join(filter(None, texts))), (0, 0, 0, 8)))
 
 
 def _rank(value: float | None) -> float:
     return math.inf if value is None or math.isnan(value) else value
+
+
+def _said(text: str) -> str:
+    """The text for a terminal, which control characters would be commands to; its lines stay."""
+    return "\n".join(plain(line) for line in clean(text).split("\n"))
