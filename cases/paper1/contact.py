@@ -79,7 +79,7 @@ CASE = Case(
         Points(
             "contact_onset",
             reference="disk_contact_onset",
-            base=circular(contact="frictionless", p_end=12.0),
+            base=circular(contact="frictionless", p_end=6.0),
             parameters=("alpha", "beta", "l"),
             asked={"p": 1e-8, "lam_pole": 1e-8},
         ),
