@@ -97,15 +97,20 @@ class Fold:
     def vectors(self, solver: ExtendedNewton) -> tuple[np.ndarray, np.ndarray, float]:
         """``(φ, ψ, q)``; ``K`` must be factorised at the state the system holds."""
         rate = solver.system.load_derivative(self.load)
-        nothing, one, corner = np.zeros(solver.system.size), np.ones(1), np.zeros((1, 1))
-        phi, q = BorderedMatrix(solver.factor, [rate], [self.border], corner).solve(nothing, one)
-        psi, _ = BorderedMatrix(solver.factor, [self.border], [rate], corner).solve(nothing, one)
-        return phi, psi, float(q[0])
+        phi, q = self._solution(solver, rate, self.border)
+        psi, _ = self._solution(solver, self.border, rate)
+        return phi, psi, q
+
+    @staticmethod
+    def _solution(solver: ExtendedNewton, column: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, float]:
+        vector, q = BorderedMatrix(solver.factor, [column], [row], np.zeros((1, 1))).solve(None, [1.0])
+        return vector, float(q[0])
 
     def value(self, solver: ExtendedNewton) -> float:
         """``q``; factorises ``K``."""
         solver.factor.update()
-        return self.vectors(solver)[2]
+        _, q = self._solution(solver, solver.system.load_derivative(self.load), self.border)
+        return q
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
         """From the third variation."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.constraints import Plane
+from weakforms.solvers.linear import BorderedMatrix
 from weakforms.solvers.newton import Constraint, ExtendedNewton, SolveRecord
 from weakforms.solvers.system import State
 
@@ -88,13 +90,18 @@ class Continuation:
 
     def _norm(self, u: np.ndarray, dual: np.ndarray, loads: dict[str, float]) -> float:
         square = self.system.dot(u, dual)
-        return float(np.sqrt(square + sum(v * v for v in loads.values())))
+        return sqrt(max(square + sum(v * v for v in loads.values()), 0.0))
 
     def distance(self, a: State, b: State) -> float:
         """Length of the chord between two states."""
-        u = a.u - b.u
-        loads = {name: a.loads[name] - b.loads[name] for name in self.solver.scalars}
-        return self._norm(u, self.system.mass_times(u), loads)
+        return self._length(self._chord(a, b))
+
+    def _chord(self, a: State, b: State) -> Tangent:
+        """From one state to another, of its own length."""
+        return Tangent(b.u - a.u, {name: b.loads[name] - a.loads[name] for name in self.solver.scalars})
+
+    def _length(self, chord: Tangent) -> float:
+        return self._norm(chord.u, self.system.mass_times(chord.u), chord.loads)
 
     def _dual(self, tangent: Tangent) -> np.ndarray:
         return self.system.mass_times(tangent.u) if tangent.dual is None else tangent.dual
@@ -115,11 +122,13 @@ class Continuation:
         """Direction at the state the system holds (factorised), oriented as ``along``."""
         plane = Plane(self._dual(along), along.loads, 0.0)
         bordered = self.solver.border([*self.fixed, plane])
-        goal = np.zeros(len(self.solver.scalars))
-        goal[-1] = 1.0
-        u, values = bordered.solve(np.zeros(self.system.size), goal)
-        loads = dict(zip(self.solver.scalars, values.tolist(), strict=True))
-        return self._unit(u, loads)
+        return self._unit(*self._along(bordered))
+
+    def _along(self, bordered: BorderedMatrix) -> tuple[np.ndarray, dict[str, float]]:
+        """Rate of the state where all of a bordered system's equations hold and the last one changes."""
+        goal = [0.0] * (len(self.solver.scalars) - 1) + [1.0]
+        u, values = bordered.solve(None, goal)
+        return u, dict(zip(self.solver.scalars, values.tolist(), strict=True))
 
     def _unit(self, u: np.ndarray, loads: dict[str, float], sign: float = 1.0) -> Tangent:
         dual = self.system.mass_times(u)
@@ -136,20 +145,19 @@ class Continuation:
     def point(self, state: State, record: SolveRecord, along: Tangent, s: float) -> CurvePoint:
         """Complete a converged state: tangent, inertia, functionals."""
         self.system.set_state(state.u, state.loads)
-        self.solver.factor.update()
-        negative = self._negative_count()
+        negative = self._factorised()
         tangent = self._tangent(along)
         return CurvePoint(state, tangent, s, negative, record, self.system.monitors())
 
-    def _negative_count(self) -> int:
-        factor = self.solver.factor
-        if not self.shift:
-            return factor.negative_count()
-        self.system.matrix.axpy(self.shift, self.system.mass)
-        factor.refactor()
-        negative = factor.negative_count()
+    def _factorised(self) -> int:
+        """Factorise ``K``, and count the negative eigenvalues of ``K + shift M``."""
+        factor, negative = self.solver.factor, None
+        if self.shift:
+            self.system.tangent().axpy(self.shift, self.system.mass)
+            factor.refactor()
+            negative = factor.negative_count()
         factor.update()
-        return negative
+        return factor.negative_count() if negative is None else negative
 
     def start(self, guess: State, constraint: Constraint, towards: dict[str, float]) -> CurvePoint:
         """First point of a curve: solved with ``constraint`` in place of an arc-length step.
@@ -163,10 +171,7 @@ class Continuation:
         self.system.set_state(state.u, state.loads)
         self.solver.factor.update()
         bordered = self.solver.border([*self.fixed, constraint])
-        goal = np.zeros(len(self.solver.scalars))
-        goal[-1] = 1.0
-        u, values = bordered.solve(np.zeros(self.system.size), goal)
-        loads = dict(zip(self.solver.scalars, values.tolist(), strict=True))
+        u, loads = self._along(bordered)
         (name, sign), *_ = towards.items()
         rate = self.rate(name, Tangent(u, loads))
         along = self._unit(u, loads, float(np.sign(rate) * np.sign(sign)))
@@ -202,22 +207,17 @@ class Continuation:
         state, record = self.solver.solve(guess, [*self.fixed, plane], chord=not self.fixed)
         if not self.allowed(state):
             raise ConvergenceError("the step leads out of the range of the problem")
-        chord = self.distance(state, at.state)
-        new = self.point(state, record, at.tangent, at.arclength + chord)
-        if self._inner(new.tangent, at.tangent) < self.control.max_turn:
+        chord = self._chord(at.state, state)
+        length = self._length(chord)
+        new = self.point(state, record, at.tangent, at.arclength + length)
+        turn = self._inner(new.tangent, at.tangent)
+        if turn < self.control.max_turn:
             raise ConvergenceError("the curve turns too sharply within a step")
-        if self._aside(at, new, chord) > self.control.max_aside:
+        along = self._inner(chord, at.tangent) + self._inner(chord, new.tangent)
+        if _aside(along / length, turn) > self.control.max_aside:
             raise ConvergenceError("the step leads aside, to another curve")
         self._error = self.distance(state, guess)
         return new
-
-    def _aside(self, a: CurvePoint, b: CurvePoint, chord: float) -> float:
-        """Sine of the angle between the chord from one point to another and the mean of their tangents."""
-        loads = {name: b.state.loads[name] - a.state.loads[name] for name in self.solver.scalars}
-        across = Tangent(b.state.u - a.state.u, loads)
-        along = self._inner(across, a.tangent) + self._inner(across, b.tangent)
-        mean = np.sqrt(2 + 2 * self._inner(a.tangent, b.tangent))
-        return float(np.sqrt(max(0.0, 1 - (along / (mean * chord)) ** 2)))
 
     def trace(self, start: CurvePoint, stop: Callable[[CurvePoint], bool]) -> Iterator[CurvePoint]:
         """Yield ``start`` and the points after it, up to the first for which ``stop`` is true.
@@ -242,7 +242,7 @@ class Continuation:
             order = 2 if before is None else 4
             grow = (control.predictor_error / max(self._error, 1e-16)) ** (1 / order)
             before, at = at, new
-            step = min(step * float(np.clip(grow, 0.4, 1.8)), control.largest)
+            step = min(step * min(max(grow, 0.4), 1.8), control.largest)
         raise ConvergenceError(f"continuation did not end within {control.max_points} points")
 
 
@@ -256,8 +256,21 @@ def hermite(x: float) -> tuple[float, float, float, float]:
     )
 
 
+def _aside(along: float, turn: float) -> float:
+    """Sine of the angle between a step's chord and the mean of the tangents at its ends.
+
+    Args:
+        along: Sum of the cosines of the chord's angles with the two.
+        turn: Cosine of the angle between them.
+    """
+    return sqrt(max(0.0, 1 - along**2 / (2 + 2 * turn)))
+
+
 def _combine(scalars: Sequence[str], terms: list[tuple[float, State | Tangent]]) -> State:
-    u = sum(weight * part.u for weight, part in terms)
-    loads = {name: float(sum(w * part.loads[name] for w, part in terms)) for name in scalars}
+    (weight, part), *others = terms
+    u = weight * part.u
+    for weight, part in others:
+        u += weight * part.u
+    loads = {name: sum(w * part.loads[name] for w, part in terms) for name in scalars}
     first = next(part for _, part in terms if isinstance(part, State))
     return State(u, {**first.loads, **loads})

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import operator
+from collections.abc import Sequence
+
 import numpy as np
 from petsc4py import PETSc
 
@@ -77,6 +81,7 @@ class Factorization:
         """Factorise the matrix as it stands."""
         self._pc.setOperators(self.system.matrix)
         self._pc.setUp()
+        self._factors = self._pc.getFactorMatrix()
         self.failed = self._pc.getFailedReason() != PETSc.PC.FailedReason.NOERROR
         self.count += 1
 
@@ -107,10 +112,7 @@ class Factorization:
         """``K⁻¹ rhs`` for owned arrays; NaN where a zero pivot ended the factorisation."""
         if self.failed:
             return np.full(self.system.size, np.nan)
-        x, y = self.system._work()
-        x.array[:] = rhs
-        self._pc.getFactorMatrix().solve(x, y)
-        return y.array.copy()
+        return self.system.act(self._factors.solve, rhs)
 
     def negative_count(self) -> int:
         """Number of negative eigenvalues of ``K`` (its Dirichlet rows count as positive).
@@ -120,7 +122,7 @@ class Factorization:
         """
         if self.failed:
             raise ConvergenceError("inertia: the tangent is singular, its factorisation met a zero pivot")
-        negative, _zero, _positive = self._pc.getFactorMatrix().getInertia()
+        negative, _zero, _positive = self._factors.getInertia()
         return int(negative)
 
 
@@ -153,51 +155,60 @@ class BorderedMatrix:
         self._eliminate()
 
     def _eliminate(self) -> None:
-        self.columns, self.rows, self.corner = self._given
+        self.columns, self.rows, corner = self._given
         if self.factor.stiffened is not None:
             tau, unit = self.factor.stiffened
             self.columns, self.rows = [*self.columns, -tau * unit], [*self.rows, unit]
             wider = -np.eye(self._size + 1)
-            wider[: self._size, : self._size] = self.corner
-            self.corner = wider
+            wider[: self._size, : self._size] = corner
+            corner = wider
+        self.corner: list[list[float]] = corner.tolist()
         self._solved = [self.factor.solve(column) for column in self.columns]
-        schur = self.corner.copy()
-        for i, row in enumerate(self.rows):
-            for j, column in enumerate(self._solved):
-                schur[i, j] -= self.system.dot(row, column)
-        self._schur = schur
+        dot = self.system.dot
+        self._schur = [
+            [entry - dot(row, column) for entry, column in zip(line, self._solved, strict=True)]
+            for line, row in zip(self.corner, self.rows, strict=True)
+        ]
 
-    def _once(self, f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        z = self.factor.solve(f)
-        if not len(g):
-            return z, g
-        inner = np.array([self.system.dot(row, z) for row in self.rows])
-        mu = _small_solve(self._schur, g - inner)
+    # The few scalars are lists: a numpy call costs more than all there is to compute with them.
+
+    def _once(self, f: np.ndarray | None, g: list[float]) -> tuple[np.ndarray, list[float]]:
+        if f is None:
+            z = np.zeros(self.system.size)
+        else:
+            z = self.factor.solve(f)
+            g = [value - self.system.dot(row, z) for value, row in zip(g, self.rows, strict=True)]
+        mu = _small_solve(self._schur, g)
         for value, column in zip(mu, self._solved, strict=True):
             z -= value * column
         return z, mu
 
-    def multiply(self, z: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def multiply(self, z: np.ndarray, mu: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
         """The bordered matrix times ``(z, mu)``; a stiffened diagonal entry is taken back."""
-        wide = mu
+        wide = [*mu]
         if self.factor.stiffened is not None:
-            wide = np.append(mu, self.system.dot(self.factor.stiffened[1], z))
-        r, h = self._defect(np.zeros_like(z), np.zeros(len(wide)), z, wide)
-        return -r, -h[: self._size]
+            wide.append(self.system.dot(self.factor.stiffened[1], z))
+        r, h = self._defect(None, [0.0] * len(wide), z, wide)
+        return -r, -np.array(h[: self._size])
 
     def _defect(
-        self, f: np.ndarray, g: np.ndarray, z: np.ndarray, mu: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        r = f - self.system.multiply(self.system.matrix, z)
+        self, f: np.ndarray | None, g: list[float], z: np.ndarray, mu: list[float]
+    ) -> tuple[np.ndarray, list[float]]:
+        r = self.system.multiply(self.system.matrix, z)
+        np.subtract(0.0 if f is None else f, r, out=r)
         for value, column in zip(mu, self.columns, strict=True):
             r -= value * column
-        inner = np.array([self.system.dot(row, z) for row in self.rows])
-        return r, g - inner - self.corner @ mu
+        h = [
+            value - self.system.dot(row, z) - _inner(line, mu)
+            for value, row, line in zip(g, self.rows, self.corner, strict=True)
+        ]
+        return r, h
 
-    def _norm(self, f: np.ndarray, g: np.ndarray) -> float:
-        return float(np.sqrt(self.system.dot(f, f) + g @ g))
+    def _norm(self, f: np.ndarray | None, g: Sequence[float]) -> float:
+        square = 0.0 if f is None else self.system.dot(f, f)
+        return math.sqrt(square + _inner(g, g))
 
-    def _refined(self, f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    def _refined(self, f: np.ndarray | None, g: list[float]) -> tuple[np.ndarray, list[float], float]:
         """Solution by elimination and refinement, and its residual relative to the right-hand side."""
         scale = self._norm(f, g) or 1.0
         z, mu = self._once(f, g)
@@ -208,11 +219,16 @@ class BorderedMatrix:
             if left < REFINED or not left < before:
                 break
             dz, dmu = self._once(r, h)
-            z, mu = z + dz, mu + dmu
+            z += dz
+            mu = [value + change for value, change in zip(mu, dmu, strict=True)]
         return z, mu, left
 
-    def solve(self, f: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def solve(self, f: np.ndarray | None, g: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
         """Solution ``(z, mu)`` of the bordered system.
+
+        Args:
+            f: Right-hand side of ``K``'s rows; ``None`` for zero, which saves solving for it.
+            g: That of the others.
 
         Raises:
             ConvergenceError: When a residual above :data:`REFINEMENT_LIMIT` is left all the same.
@@ -220,10 +236,10 @@ class BorderedMatrix:
         for mend in (None, self._stiffen, self._pivot):
             if mend is not None:
                 mend()
-            wide = np.concatenate([g, np.zeros(len(self.rows) - len(g))])
+            wide = [*map(float, g)] + [0.0] * (len(self.rows) - len(g))
             z, mu, left = self._refined(f, wide)
             if left < REFINEMENT_LIMIT or left * self._norm(f, g) < ROUND_OFF:
-                return z, mu[: self._size]
+                return z, np.array(mu[: self._size])
         raise ConvergenceError(f"bordered linear system is singular (residual {left:.1e} after refinement)")
 
     def _stiffen(self) -> None:
@@ -237,12 +253,15 @@ class BorderedMatrix:
             self._eliminate()
 
 
-def _small_solve(matrix: np.ndarray, rhs: np.ndarray) -> np.ndarray:
+def _small_solve(matrix: list[list[float]], rhs: list[float]) -> list[float]:
     """Solution of a few equations; NaN where they are singular."""
-    if len(rhs) == 1:  # most of them, and the library call would cost more than all of the rest
-        pivot = matrix[0, 0]
-        return rhs / pivot if pivot else np.full(1, np.nan)
+    if len(rhs) <= 1:  # most of them, and the library call would cost more than all of the rest
+        return [value / matrix[0][0] if matrix[0][0] else math.nan for value in rhs]
     try:
-        return np.linalg.solve(matrix, rhs)
+        return np.linalg.solve(matrix, rhs).tolist()
     except np.linalg.LinAlgError:
-        return np.full(len(rhs), np.nan)
+        return [math.nan] * len(rhs)
+
+
+def _inner(a: Sequence[float], b: Sequence[float]) -> float:
+    return sum(map(operator.mul, a, b))

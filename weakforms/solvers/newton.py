@@ -78,20 +78,31 @@ class ExtendedNewton:
         self.failure = ""
         """Why the last linear system could not be solved, if so."""
         self._size = system.size
-        self._chord = False
         self._root = system.comm.size - 1
+        self._rooted = system.comm.rank == self._root
+        self._prefix = prefix
+        self._tolerances = {"stol": stol, "max_it": max_iterations}
+        self._line_search = line_search
         self._norms: list[float] = []
-        self._settings = (prefix, stol, max_iterations, line_search)
         self._renew()
 
     def _renew(self) -> None:
-        extra = len(self.scalars) if self.system.comm.rank == self._root else 0
+        extra = len(self.scalars) if self._rooted else 0
         self._x = PETSc.Vec().createMPI((self._size + extra, None), comm=self.system.comm)
-        self._snes = self._make_snes(*self._settings)
+        self._made: dict[bool, PETSc.SNES] = {}
 
-    def _make_snes(self, prefix: str, stol: float, max_iterations: int, line_search: str) -> PETSc.SNES:
+    def _snes(self, chord: bool) -> PETSc.SNES:
+        """That with a Jacobian each iteration or, for a chord, one at the first (made when first needed)."""
+        if chord not in self._made:
+            options = {"snes_linesearch_type": self._line_search}
+            if chord:  # petsc4py has no call for it
+                options["snes_lag_jacobian"] = self._tolerances["max_it"] + 1
+            self._made[chord] = self._make_snes(options)
+        return self._made[chord]
+
+    def _make_snes(self, defaults: dict[str, str | int]) -> PETSc.SNES:
         snes = PETSc.SNES().create(self.system.comm)
-        snes.setOptionsPrefix(prefix)
+        snes.setOptionsPrefix(self._prefix)
         snes.setFunction(self._residual, self._x.duplicate())
         sizes = (self._x.getSizes(), self._x.getSizes())
         shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
@@ -102,32 +113,32 @@ class ExtendedNewton:
         ksp.setType("preonly")
         ksp.getPC().setType("python")
         ksp.getPC().setPythonContext(_BorderedSolve(self))
-        snes.setTolerances(rtol=0.0, atol=0.0, stol=stol, max_it=max_iterations)
+        snes.setTolerances(rtol=0.0, atol=0.0, **self._tolerances)
         snes.setMonitor(lambda _snes, _its, norm: self._norms.append(norm))
         options = PETSc.Options()
-        key = f"{prefix}snes_linesearch_type"
-        given = options.hasName(key)
-        if not given:
-            options[key] = line_search
+        missing = {self._prefix + name: value for name, value in defaults.items()}
+        missing = {key: value for key, value in missing.items() if not options.hasName(key)}
+        for key, value in missing.items():
+            options[key] = value
         snes.setFromOptions()
-        if not given:
+        for key in missing:
             options.delValue(key)  # the option table is global: leave it as it was found
         return snes
 
     # -- the extended vector -----------------------------------------------------------------
 
-    def _split(self, x: PETSc.Vec) -> tuple[np.ndarray, np.ndarray]:
+    def _split(self, x: PETSc.Vec) -> tuple[np.ndarray, list[float]]:
         array = x.array_r
-        scalars = np.array(array[self._size :])
+        scalars = array[self._size :].tolist()
         comm = self.system.comm
         if comm.size > 1:
             scalars = comm.bcast(scalars, root=self._root)
         return array[: self._size], scalars
 
-    def _join(self, x: PETSc.Vec, u: np.ndarray, scalars: np.ndarray) -> None:
+    def _join(self, x: PETSc.Vec, u: np.ndarray, scalars: Sequence[float]) -> None:
         array = x.array_w
         array[: self._size] = u
-        if self.system.comm.rank == self._root:
+        if self._rooted:
             array[self._size :] = scalars
 
     # -- SNES callbacks ----------------------------------------------------------------------
@@ -138,14 +149,13 @@ class ExtendedNewton:
 
     def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
         self._put(x)
-        values = np.array([c.value(self) for c in self.constraints])
+        values = [c.value(self) for c in self.constraints]
         self._join(out, self.system.residual(), values)
 
-    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
-        if not (self._chord and snes.getIterationNumber() > 0):
-            self._put(x)
-            self.factor.update()
-            self.bordered = self.border(self.constraints)
+    def _jacobian(self, _snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
+        self._put(x)
+        self.factor.update()
+        self.bordered = self.border(self.constraints)
         mat.assemble()
 
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
@@ -183,21 +193,22 @@ class ExtendedNewton:
         self.constraints = constraints
         self._norms.clear()
         system.set_state(guess.u, guess.loads)
-        self._join(self._x, guess.u, np.array([guess.loads[name] for name in self.scalars]))
-        self._chord, self.failure = chord, ""
-        self._snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
+        self._join(self._x, guess.u, [guess.loads[name] for name in self.scalars])
+        self.failure = ""
+        snes = self._snes(chord)
+        snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
         try:
-            self._snes.solve(None, self._x)
+            snes.solve(None, self._x)
         except PETSc.Error as error:
             self._renew()  # what was interrupted keeps its vectors locked
             for cause in _causes(error):
                 if isinstance(cause, EnvironmentLackError):  # a form met here first, and no compiler
                     raise cause from None
             raise ConvergenceError(f"SNES failed: {_innermost(error)}") from error
-        reason = self._snes.getConvergedReason()
+        reason = snes.getConvergedReason()
         record = SolveRecord(
             _REASONS.get(reason, str(reason)),
-            self._snes.getIterationNumber(),
+            snes.getIterationNumber(),
             self.factor.count - before,
             tuple(self._norms),
         )

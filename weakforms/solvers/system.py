@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
 import ufl
-from dolfinx import fem
+from dolfinx import fem, la
 from mpi4py import MPI
 from petsc4py import PETSc
 from ufl.core.expr import Expr
@@ -91,13 +91,21 @@ class System:
         self._levels: FirstLevels | None = None
         self._ufl = self._ufl_forms()
 
-        self.vec = self.unknown.x.petsc_vec.duplicate()
-        self.size = self.vec.getLocalSize()
+        self.size = self.unknown.x.petsc_vec.getLocalSize()
+        # Views of what the forms read and of what is assembled into: asking dolfinx for one takes 2 to 4 µs,
+        # and a point of a path would ask some thirty times.
+        self._owned = self.unknown.x.array[: self.size]
+        constants = {k: load for k, (load, _) in formulation.loads.items() if isinstance(load, fem.Constant)}
+        self._constants = {name: constant.value for name, constant in constants.items()}
+        self._sums = fem.Function(space).x
+        self._assembled = self._sums.array
+        arrays = np.zeros((2, self.size))
+        self._work = [(PETSc.Vec().createWithArray(array, comm=self.comm), array) for array in arrays]
         # The number of owned ones that dof_indices gives counts ghosts where dofs are given in blocks.
         owned = [dofs[dofs < self.size] for dofs, _count in (bc.dof_indices() for bc in formulation.bcs)]
         self.bc_dofs = np.concatenate(owned) if owned else np.empty(0, dtype=np.int32)
-        fem_petsc.set_bc(self.vec, formulation.bcs)
-        self._bc_values = self.vec.array[self.bc_dofs].copy()
+        fem_petsc.set_bc(self._sums.petsc_vec, formulation.bcs)
+        self._bc_values = self._assembled[self.bc_dofs]
         self._fixed = len(self.bc_dofs)
         self.matrix = fem_petsc.create_matrix(self._form("tangent"))
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
@@ -146,44 +154,45 @@ class System:
 
     def set_state(self, u: np.ndarray, loads: Mapping[str, float]) -> None:
         """Put a state into the forms."""
-        self.unknown.x.array[: self.size] = u
+        self._owned[:] = u
         self.unknown.x.scatter_forward()
         self.set_loads(loads)
 
     def set_loads(self, loads: Mapping[str, float]) -> None:
         """Put scalars into the forms."""
         for name, value in loads.items():
-            self.formulation.loads[name][0].value = value
+            if name in self._constants:
+                self._constants[name].fill(value)
+            else:  # a point of a mesh that moves
+                self.formulation.loads[name][0].value = value
 
     def state(self) -> State:
         """Copy of the state the forms hold."""
-        loads = {k: float(constant.value) for k, (constant, _) in self.formulation.loads.items()}
-        return State(self.unknown.x.array[: self.size].copy(), loads)
+        return State(self._owned.copy(), {name: self.load(name) for name in self.formulation.loads})
 
     def owned(self) -> np.ndarray:
         """View of the degrees of freedom of the state held that this rank owns."""
-        return self.unknown.x.array[: self.size]
+        return self._owned
 
     def load(self, name: str) -> float:
         """One scalar of the state held."""
-        return float(self.formulation.loads[name][0].value)
+        known = self._constants.get(name)
+        return float(self.formulation.loads[name][0].value) if known is None else known.item()
 
     # -- assembly ----------------------------------------------------------------------------
 
     def _vector(self, name: str) -> np.ndarray:
-        vec = self.vec
-        with vec.localForm() as local:
-            local.set(0.0)
-        fem_petsc.assemble_vector(vec, self._form(name))
-        vec.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
-        out = vec.array.copy()
+        self._assembled.fill(0.0)
+        fem.assemble_vector(self._assembled, self._form(name))
+        self._sums.scatter_reverse(la.InsertMode.add)
+        out = self._assembled[: self.size].copy()
         out[self.bc_dofs] = 0.0
         return out
 
     def residual(self) -> np.ndarray:
         """``R(U; λ)``; on Dirichlet rows the distance from the prescribed value, which mends round-off."""
         out = self._vector("residual")
-        out[self.bc_dofs] = self.owned()[self.bc_dofs] - self._bc_values
+        out[self.bc_dofs] = self._owned[self.bc_dofs] - self._bc_values
         return out
 
     def load_derivative(self, name: str) -> np.ndarray:
@@ -204,7 +213,7 @@ class System:
         fem_petsc.assemble_matrix(self.matrix, self._form("tangent"), self.formulation.bcs)
         self.matrix.assemble()
         held = self.bc_dofs[self._fixed :]
-        if self.comm.allreduce(len(held)):
+        if self.sum(len(held)):
             self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0], diag=1.0)
         return self.matrix
 
@@ -291,11 +300,11 @@ class System:
 
     def sum(self, local: np.ndarray | float) -> np.ndarray | float:
         """Sum over ranks."""
-        return local if self.comm.size == 1 else self.comm.allreduce(local, op=MPI.SUM)
+        return local if self._alone else self.comm.allreduce(local, op=MPI.SUM)
 
     def dot(self, a: np.ndarray, b: np.ndarray) -> float:
         """Euclidean inner product over all ranks."""
-        local = float(a @ b)
+        local = float(a.dot(b))
         return local if self._alone else self.comm.allreduce(local, op=MPI.SUM)
 
     def mass_times(self, u: np.ndarray) -> np.ndarray:
@@ -304,15 +313,14 @@ class System:
 
     def multiply(self, matrix: PETSc.Mat, u: np.ndarray) -> np.ndarray:
         """``matrix @ u`` for owned arrays."""
-        x, y = self._work()
-        x.array[:] = u
-        matrix.mult(x, y)
-        return y.array.copy()
+        return self.act(matrix.mult, u)
 
-    def _work(self) -> tuple[PETSc.Vec, PETSc.Vec]:
-        if not hasattr(self, "_work_vectors"):
-            self._work_vectors = self.matrix.createVecs()
-        return self._work_vectors
+    def act(self, operation: Callable[[PETSc.Vec, PETSc.Vec], None], u: np.ndarray) -> np.ndarray:
+        """What an operation on PETSc vectors, such as a matrix's ``mult`` or ``solve``, makes of an array."""
+        (x, given), (y, found) = self._work
+        given[:] = u
+        operation(x, y)
+        return found.copy()
 
     def _require_monitor(self, name: str) -> None:
         if name not in self.formulation.monitors:
