@@ -68,18 +68,12 @@ class Bands:
         """Bending stiffness at which the lowest eigenvalue of ``n`` waves is zero; 0 where it is stable."""
         if not self.unstable(n):
             return 0.0
-        high = 1e-8
-        while self.lowest(n, high) < 0:
-            high *= 10
-            if high > STIFF:
+        waves, stiff = waves_at(self.held), 1e-8
+        while waves.negative_count(n, stiff):
+            stiff *= 10
+            if stiff > STIFF:
                 raise ConvergenceError(f"n = {n:g} is unstable at any bending stiffness up to {STIFF:g}")
-
-        def eigenvalue(logarithm: float) -> float:
-            return self.lowest(n, float(np.exp(logarithm)))
-
-        top = float(np.log(high))
-        bottom = top - np.log(10) if high > 1e-8 else top - 20 * np.log(10)
-        return float(np.exp(brentq(eigenvalue, bottom, top, xtol=TOLERANCE, rtol=TOLERANCE)))
+        return waves.stiffness(n, stiff)
 
     def most_stiffness(self, most: int) -> float | None:
         """Wave number that takes most bending stiffness to be stable, roughly; ``None`` if all are stable."""

@@ -141,6 +141,26 @@ class Waves:
         """Negative eigenvalues at the state held, by inertia."""
         return self.variation(n, beta).negative_count()
 
+    def stiffness(self, n: float, stiff: float) -> float:
+        r"""Bending stiffness at which the lowest eigenvalue is zero, given one at which all are positive.
+
+        The operator is linear in it, :math:`K(\beta) = K_0 + \beta K_1`: what is missing of the greater
+        stiffness is itself an eigenvalue, the lowest :math:`\nu` of :math:`K(\beta) x = \nu K_1 x`.
+
+        Raises:
+            ConvergenceError: When something is unstable at the greater stiffness as well.
+        """
+        without = self.variation(n, 0.0).tangent().copy()
+        variation = self.variation(n, stiff)
+        bending = variation.tangent().copy()
+        bending.axpy(-1.0, without)
+        bending.scale(1.0 / stiff)
+        try:
+            return stiff - variation.lowest_against(bending)
+        finally:
+            bending.destroy()
+            without.destroy()
+
     def near_zero(self, n: float, beta: float = 0.0) -> float:
         """The lowest eigenvalue where it is near zero: its sign is the inertia's."""
         variation = self.variation(n, beta)

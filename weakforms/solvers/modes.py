@@ -88,6 +88,10 @@ class SecondVariation(System):
         self.factor.update()
         return self.factor.negative_count()
 
+    def lowest_against(self, other: PETSc.Mat) -> float:
+        """The lowest eigenvalue against another matrix than the mass: see :meth:`Stability.lowest_against`."""
+        return self.stability.lowest_against(self._at_rest(), other)
+
     def _at_rest(self) -> State:
         return State(np.zeros(self.size), {})
 

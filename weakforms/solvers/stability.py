@@ -262,6 +262,21 @@ class Stability:
         """At least ``wanted`` of those nearest to a target, ascending; the matrix is ``K - target M``."""
         return np.sort(self._near(self._solver(wanted, inverse=inverse), wanted, _values)) + target
 
+    def lowest_against(self, state: State, other: PETSc.Mat) -> float:
+        r"""The lowest eigenvalue of :math:`K x = \nu A x`, where ``K`` is positive and ``A`` is not negative.
+
+        Raises:
+            ConvergenceError: When ``K`` has negative eigenvalues, or none is found.
+        """
+        self.system.set_state(state.u, state.loads)
+        self.system.tangent()
+        self._factorise()
+        if self.factor.negative_count():
+            raise ConvergenceError("stability: the stiffness to compare with is not positive")
+        eps = self._solver(1, inverse=self.factor.solve)
+        eps.setOperators(self.system.matrix, other)
+        return float(min(self._near(eps, 1, _values)))
+
     def _near(self, eps: SLEPc.EPS, wanted: int, read: Callable[[SLEPc.EPS], list[Found]]) -> list[Found]:
         """What SLEPc finds about its target.
 
