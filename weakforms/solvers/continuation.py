@@ -153,7 +153,8 @@ class Continuation:
         """Factorise ``K``, and count the negative eigenvalues of ``K + shift M``."""
         factor, negative = self.solver.factor, None
         if self.shift:
-            self.system.tangent().axpy(self.shift, self.system.mass)
+            self.system.tangent()
+            self.system.shift(self.shift)
             factor.refactor()
             negative = factor.negative_count()
         factor.update()

@@ -68,11 +68,10 @@ class Lowest:
 
     def _below(self, shift: float) -> int:
         """Number of eigenvalues below a shift."""
-        matrix, mass = self.system.matrix, self.system.mass
-        matrix.axpy(-shift, mass)
+        self.system.shift(-shift)
         self.factor.refactor()
         count = self.factor.negative_count()
-        matrix.axpy(shift, mass)
+        self.system.shift(shift)
         return count
 
     def _target(self) -> float:

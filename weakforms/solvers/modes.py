@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-import dolfinx.fem.petsc as fem_petsc
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -40,7 +39,6 @@ class SecondVariation(System):
     def __init__(self, formulation: Formulation, base: System) -> None:
         self.base = base
         super().__init__(formulation)
-        self._mass_form = fem.form(formulation.mass)
         self.factor = Factorization(self)
         self.stability = Stability(self)
         self.mode = fem.Function(self.unknown.function_space)
@@ -48,9 +46,7 @@ class SecondVariation(System):
 
     def tangent(self) -> PETSc.Mat:
         """``K`` at the base's state, always the same matrix object; the mass matrix follows the loads."""
-        self.mass.zeroEntries()
-        fem_petsc.assemble_matrix(self.mass, self._mass_form, self.formulation.bcs, 0.0)
-        self.mass.assemble()
+        self.update_mass()
         return super().tangent()
 
     def spectrum(self, count: int = 1) -> Spectrum:
@@ -89,7 +85,7 @@ class SecondVariation(System):
         return self.factor.negative_count()
 
     def lowest_against(self, other: PETSc.Mat) -> float:
-        """The lowest eigenvalue against another matrix than the mass: see :meth:`Stability.lowest_against`."""
+        """The lowest eigenvalue against another matrix: see :meth:`Stability.lowest_against`."""
         return self.stability.lowest_against(self._at_rest(), other)
 
     def _at_rest(self) -> State:

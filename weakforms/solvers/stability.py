@@ -98,7 +98,7 @@ class Stability:
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
         if shift:
-            self.system.matrix.axpy(shift, self.system.mass)
+            self.system.shift(shift)
         self._factorise()
         negative = self.factor.negative_count()
         # A body of one freedom has one eigenvalue.
@@ -124,10 +124,10 @@ class Stability:
 
         A few far from zero would otherwise be reached only past all the small ones.
         """
-        matrix, mass, target = self.system.matrix, self.system.mass, 0.0
+        target = 0.0
         while target > LOWEST:
             further = min(2 * target, -1.0)
-            matrix.axpy(target - further, mass)
+            self.system.shift(target - further)
             target = further
             self._factorise()
             if not self.factor.negative_count():
@@ -168,7 +168,7 @@ class Stability:
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
         if shift:
-            self.system.matrix.axpy(shift, self.system.mass)
+            self.system.shift(shift)
         self._factorise()
         negative = self.factor.negative_count()
         bordered = BorderedMatrix(self.factor, [border], [border], np.array([[-compliance]]))
@@ -222,9 +222,9 @@ class Stability:
             ConvergenceError: When fewer converge, or the factorisation fails.
         """
         self.system.set_state(state.u, state.loads)
-        matrix = self.system.tangent()
+        self.system.tangent()
         if target:
-            matrix.axpy(-target, self.system.mass)
+            self.system.shift(-target)
         self._factorise()
         below = self.factor.negative_count()
         pairs = self._near(self._solver(count, inverse=self.factor.solve), count, self._pairs)
