@@ -61,7 +61,7 @@ def test_points_carry_their_wave_number(weakforms):
 
 @pytest.mark.slow
 def test_the_secondary_state_is_returned_with_its_lowest_eigenvalues(weakforms):
-    surface = ("--mesh", "secondary_cells=16", "--mesh", "secondary_levels=2")
+    surface = ("--mesh", "secondary_cells=12", "--mesh", "secondary_levels=2")
     words = ("--set", "L=8", "--set", "delta=2", "--set", "secondary=true", "--at", "zw=7.336")
     called = weakforms(*SOLVE, *surface, *words)
     assert called.status == 0

@@ -10,9 +10,11 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from weakforms import Case, InputError, Points, solve, wrinkled_linear
+from weakforms.errors import ConvergenceError
 from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
 from weakforms.problems import hemisphere, wrinkled_modes, wrinkled_state
+from weakforms.problems.wrinkled_bands import Bands
 from weakforms.problems.wrinkled_body import CYLINDER, HEMISPHERE
 from weakforms.problems.wrinkled_fields import Meridian
 from weakforms.problems.wrinkled_fit import Membrane
@@ -259,11 +261,21 @@ def test_eigenvalues_scale_with_the_mass_and_keep_their_sign():
     light = variation.spectrum(2).eigenvalues
     variation.tangent()
     heavy = ufl.replace(variation.formulation.mass, {})
-    variation._mass_form = fem.form(4 * heavy)
+    variation._forms["mass"] = fem.form(4 * heavy)
     try:
         assert np.array(variation.spectrum(2).eigenvalues) == pytest.approx(np.array(light) / 4, rel=1e-8)
     finally:
-        variation._mass_form = fem.form(heavy)
+        variation._forms["mass"] = fem.form(heavy)
+
+
+@pytest.mark.parametrize("n", [6, 9.5])
+def test_the_stabilising_stiffness_makes_the_lowest_eigenvalue_zero(n):
+    bands = Bands(cylinder(6.0))
+    beta = bands.stiffness(n)
+    assert bands.lowest(n, 0.99 * beta) < -1e-6 < 1e-6 < bands.lowest(n, 1.01 * beta)
+    assert abs(bands.lowest(n, beta)) < 1e-9
+    with pytest.raises(ConvergenceError, match="not positive"):
+        waves_at(bands.held).stiffness(n, 0.5 * beta)
 
 
 # -- the problems -------------------------------------------------------------------------------------

@@ -168,3 +168,16 @@ def test_a_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch):
     monkeypatch.setattr(stability, "_eigenvalues", positive)
     with pytest.raises(ConvergenceError, match="inertia counts 1 negative eigenvalues, SLEPc finds 0"):
         stability.spectrum(system.state())
+
+
+def test_a_factorisation_that_does_not_solve_is_made_again_with_pivoting(monkeypatch):
+    system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
+    stability = Stability(system)
+    expected = stability.spectrum(system.state())
+    assert stability.factor.package == "petsc"
+    right = stability.factor.solve
+    wrong = {"petsc": 1 + 1e-6, "mumps": 1.0}
+    monkeypatch.setattr(stability.factor, "solve", lambda rhs: wrong[stability.factor.package] * right(rhs))
+    found = stability.spectrum(system.state())
+    assert stability.factor.package == "mumps"
+    assert found.eigenvalues == pytest.approx(expected.eigenvalues, rel=1e-11)
