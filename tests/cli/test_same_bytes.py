@@ -1,5 +1,6 @@
 """Two serial runs, each in a process of its own, write the same bytes."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,7 @@ REQUESTS = {
     "homogeneous": [],
 }
 """Every problem with branches that takes seconds."""
+TIMES = ("seconds", "wall_s", "started")
 
 
 def solved(problem: str, out: Path) -> bytes:
@@ -44,3 +46,27 @@ def test_curves(problem, tmp_path):
     first = solved(problem, tmp_path / "first.csv")
     assert first.count(b"\n") > 3
     assert solved(problem, tmp_path / "second.csv") == first
+
+
+def verified(out: Path) -> dict[str, object]:
+    """What a run of a case stores, but for when it ran and how long."""
+    command = [sys.executable, "-P", "-m", "weakforms", "verify", "-k", "paper2.fig05", "--out", str(out)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=600, check=False)
+    assert done.returncode == 0, done.stderr
+    stored = sorted((out / "solutions").iterdir())
+    found = {path.name: json.loads(path.read_text()) for path in [*stored, out / "report" / "report.json"]}
+    return {name: timeless(data) for name, data in found.items()}
+
+
+def timeless(data: object) -> object:
+    if isinstance(data, list):
+        return [timeless(item) for item in data]
+    if isinstance(data, dict):
+        return {key: timeless(value) for key, value in data.items() if key not in TIMES}
+    return data
+
+
+def test_verification(tmp_path):
+    first = verified(tmp_path / "first")
+    assert len(first) > 2
+    assert json.dumps(verified(tmp_path / "second")) == json.dumps(first)
