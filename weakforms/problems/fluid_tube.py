@@ -215,8 +215,8 @@ class TubeModel:
     def _rings(self, space: fem.FunctionSpace) -> list[fem.DirichletBC]:
         """No displacement at the disks."""
         ends = np.concatenate([self.tags.find(LOWER), self.tags.find(UPPER)])
-        zero = np.zeros(space.ufl_element().reference_value_shape)
-        return [fem.dirichletbc(zero, fem.locate_dofs_topological(space, 0, ends), space)]
+        # A function, not a constant: of which shape that would be for one component depends on the release.
+        return [fem.dirichletbc(fem.Function(space), fem.locate_dofs_topological(space, 0, ends))]
 
     def _variation(
         self, name: str, space: fem.FunctionSpace, held: tuple[int, ...], angles: list[tuple[float, float]]
