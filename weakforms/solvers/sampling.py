@@ -98,7 +98,7 @@ def _first(x: np.ndarray, values: np.ndarray, level: float) -> float:
 
 
 def _through(x: np.ndarray, values: np.ndarray) -> Callable[[float], float]:
-    """The polynomial through points, by the barycentric formula: three times faster than scipy for one cell."""
+    """The polynomial through points, by barycentric weights: three times faster than scipy for one cell."""
     apart = x[:, None] - x
     np.fill_diagonal(apart, 1.0)
     weights = 1 / np.prod(apart, axis=1)
