@@ -10,8 +10,8 @@ from mpi4py import MPI
 from weakforms import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.base import Requests, silent, validated
+from weakforms.problems.fluid_tube_beginning import position
 from weakforms.problems.fluid_tube_bent_stability import SHIFT
-from weakforms.problems.fluid_tube_branching import position
 from weakforms.problems.fluid_tube_critical import PrimaryBranch, first_bifurcation
 from weakforms.problems.fluid_tube_secondary import THETAS, secondary_family
 from weakforms.results import Field, Result
@@ -51,6 +51,15 @@ def test_level_and_volume_fall_and_one_eigenvalue_is_negative(family):
     assert np.all(columns["r_mid"][1:] > columns["r_mid_pi"][1:]), "the bulge is at Theta = 0"
     assert np.any(np.diff(columns["r_mid"]) < 0), "r_mid turns down before the end"
     assert columns["residual"].max() < 1e-8
+
+
+def test_negative_eigenvalues_are_those_of_the_state_itself(family):
+    fine = family.fine
+    for point in family.levels[0].points[1::4]:
+        (*_, last), (counted, *_) = family._on_all(point)
+        fine.system.set_state(last.state.u, last.state.loads)
+        fine.solver.factor.update()
+        assert fine.solver.factor.negative_count() == counted
 
 
 def test_it_starts_at_the_axisymmetric_bifurcation(family):

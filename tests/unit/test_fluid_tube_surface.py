@@ -17,10 +17,11 @@ from weakforms.forms.fluid import (
     submerged_flux,
 )
 from weakforms.problems.fluid_tube import TubeData
-from weakforms.problems.fluid_tube_branching import bifurcation_on, position
+from weakforms.problems.fluid_tube_beginning import bifurcation_on, position
 from weakforms.problems.fluid_tube_critical import PrimaryBranch
 from weakforms.problems.fluid_tube_fitting import Fitting, KeptNewton
 from weakforms.problems.fluid_tube_path import FluidPath
+from weakforms.problems.fluid_tube_secondary import free_surface
 from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
 from weakforms.problems.meshes_surface import fitted_heights, flat_sheet, heights, polygon, prism
 from weakforms.solvers.constraints import Held
@@ -341,12 +342,24 @@ def test_eigenvalues_about_a_target_are_those_of_the_spectrum(primary):
 def test_bifurcation_on_the_surface_is_the_axisymmetric_one(primary):
     begin = primary.bifurcation(np.linspace(0, L / DELTA, 121))
     model = SurfaceModel(ONE, data(cells=12, around=6, degree=4))
-    point, mode, beside = bifurcation_on(model, primary, begin)
+    point, mode, beside, _ = bifurcation_on(model, primary, begin)
     assert point.kind == "bifurcation_point"
     assert beside == 1, "past the limit point of the level"
     assert model.system.dot(mode, model.system.mass_times(mode)) == pytest.approx(1)
     assert point.state.loads["zw"] == pytest.approx(begin.values["zw"], rel=1e-6)
     assert point.values["V"] == pytest.approx(begin.values["V"], rel=1e-5)
+
+
+def test_bifurcation_is_the_same_by_comparison_with_a_coarser_mesh(primary):
+    begin = primary.bifurcation(np.linspace(0, L / DELTA, 121))
+    coarse, fine = (
+        SurfaceModel(ONE, data(cells, around, 4, front=free_surface(begin)))
+        for cells, around in ((6, 4), (12, 8))
+    )
+    trend = bifurcation_on(coarse, primary, begin)[-1]
+    whole, compared = (bifurcation_on(fine, primary, begin, below)[0] for below in (None, trend))
+    for name in ("zw", "V", "z_quarter_pi"):
+        assert compared.values[name] == pytest.approx(whole.values[name], rel=1e-8), "from fewer states"
 
 
 # -- the whole circumference ---------------------------------------------------------------------

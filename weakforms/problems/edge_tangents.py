@@ -39,10 +39,7 @@ class EdgeTangents:
     ) -> None:
         self._front, self._comm = front, space.mesh.comm
         degree = space.ufl_element().degree
-        kind = basix.create_element(
-            basix.ElementFamily.P, basix.CellType.interval, degree, basix.LagrangeVariant.gll_warped
-        )
-        self._t = np.sort(kind.points[:, 0])
+        self._t = lobatto(degree)
         self._points, self._width = dict(points), np.pi / around
         owned = space.dofmap.index_map.size_local
         tree = cKDTree(space.tabulate_dof_coordinates()[:owned, :2])
@@ -87,6 +84,13 @@ class EdgeTangents:
         local[here, :3], local[here, 3] = values[index[here]], 1.0
         total = self._comm.allreduce(local) if self._comm.size > 1 else local
         return total[:, :3] / total[:, 3:]
+
+
+def lobatto(degree: int) -> np.ndarray:
+    """Nodes of an element along an edge, on ``[0, 1]``."""
+    variant = basix.LagrangeVariant.gll_warped
+    kind = basix.create_element(basix.ElementFamily.P, basix.CellType.interval, degree, variant)
+    return np.sort(kind.points[:, 0])
 
 
 def derivative_weights(x: np.ndarray, k: int) -> np.ndarray:

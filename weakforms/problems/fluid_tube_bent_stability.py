@@ -10,6 +10,8 @@ all but the turn's, known by its vector.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
 import ufl
@@ -29,6 +31,9 @@ SHIFT = 0.01
 
 ZERO = 1e-3
 """Size above which an eigenvalue of the turn is no zero, on any mesh that is of use."""
+
+BEYOND = 1.1
+"""How far beyond another mesh's lowest eigenvalue this one's is looked for: at it the tangent is singular."""
 
 FURTHER = 12
 """Targets tried for a negative eigenvalue far from zero, each twice as far."""
@@ -57,17 +62,22 @@ class BentStability:
         self._lowest = -1.0
         """Last one found: where the next one is looked for first."""
 
-    def spectra(self, state: State, critical: float = 0.0) -> dict[str, float]:
+    def spectra(
+        self, state: State, critical: float = 0.0, coarser: Mapping[str, float] | None = None
+    ) -> dict[str, float]:
         """Eigenvalues and counts of negative ones: C1v at fixed level and volume, and symmetry-breaking.
 
         Args:
             state: An equilibrium.
             critical: Magnitude up to which an eigenvalue is a special point's own zero; it does not count as
                 negative, and there is no judgement at fixed volume.
+            coarser: The same on a coarser mesh: where the lowest one is looked for first.
 
         Raises:
             ConvergenceError: When counts by inertia and by SLEPc disagree, or a sign cannot be told.
         """
+        if coarser is not None and coarser["Lambda_1"] < -critical:
+            self._lowest = BEYOND * coarser["Lambda_1"]
         values, negative = self._keeping(state, critical)
         out: dict[str, float] = {f"Lambda_{i + 1}": value for i, value in enumerate(values[:3])}
         out["n_negative"] = negative

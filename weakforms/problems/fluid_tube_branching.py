@@ -1,148 +1,42 @@
-r"""Paper 3: where the secondary branch starts, and the branch on one mesh.
+"""Paper 3: the secondary branch on one mesh.
 
 It starts at the first ``n = 1`` bifurcation point of the primary branch, by injecting the null vector found
 on the mesh of the whole surface itself, and is followed by arc-length: neither ``zw`` nor ``r_mid`` need be
-monotone. The axisymmetric side gives only guesses (a state and a mode as columns over ``Z``).
+monotone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cached_property
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from mpi4py import MPI
-from numpy.polynomial import chebyshev
-from scipy.interpolate import BarycentricInterpolator, CubicSpline
-from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.fluid_tube_beginning import READINGS, Trend, bifurcation_on
 from weakforms.problems.fluid_tube_bent_stability import BentStability
-from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBranch
+from weakforms.problems.fluid_tube_critical import PrimaryBranch
 from weakforms.problems.fluid_tube_fitting import Fitting, KeptNewton
-from weakforms.problems.fluid_tube_surface import Shape, SurfaceData, SurfaceModel
+from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
 from weakforms.solvers.branch import EquilibriumBranch, Solved
-from weakforms.solvers.constraints import Held, MonitorPlane, Plane
+from weakforms.solvers.constraints import MonitorPlane, Plane
 from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.newton import RESIDUAL_LIMIT, Constraint, SolveRecord
-from weakforms.solvers.stability import Mode, Stability
 from weakforms.solvers.system import State
-
-NODES, SPAN = 4, 0.005
-"""Volumes over which a mesh's own bifurcation is interpolated: a Chebyshev grid within this fraction of the
-axisymmetric one's. Four nodes leave an error of ``SPAN^4``."""
-
-LOOKED_AT = 3
-"""Eigenvalues near zero among which that of the axisymmetric branch's mode is found."""
-
-BESIDE = 1e-3
-"""Distance from zero at which the singular tangent is factorised for its null vector."""
-
-READINGS = 121
-"""Material points ``Z`` over which axisymmetric guesses are splined."""
 
 AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
 """Root mean square displacements along the mode from which initial slopes are extrapolated."""
 
-LIKENESS = 0.9
-"""Least overlap of the surface's null vector with the axisymmetric branch's mode."""
+COMPARED = AMPLITUDES[::2]
+"""Those of them at which the finest mesh is compared with the next coarser one."""
 
 CORRECTIONS, EQUILIBRIUM = 3, 1e-11
-"""Newton steps, at most, that make an equilibrium of an interpolated bifurcation point, and the residual at
-which there is nothing left to mend."""
+"""Steps, at most, that make an equilibrium of an interpolated bifurcation point, and the residual at which
+there is nothing left to mend."""
 
 ASTRAY = 0.05
 """Root mean square distance from a coarser mesh's state beyond which a solution is another one."""
-
-
-# -- where it starts -----------------------------------------------------------------------------
-
-
-def position(of: AxisymmetricState) -> Shape:
-    """An axisymmetric state as a surface."""
-    r, z = CubicSpline(of.Z, of.r), CubicSpline(of.Z, of.z)
-    return lambda s, theta: np.vstack([r(s) * np.cos(theta), r(s) * np.sin(theta), z(s)])
-
-
-def displacement(of: AxisymmetricState) -> Shape:
-    """The mode at a bifurcation point as a displacement; at ``Theta = 0`` it bulges."""
-    u, beta, w = (CubicSpline(of.Z, part) for part in of.mode)
-    n = of.n
-
-    def mode(s: np.ndarray, theta: np.ndarray) -> np.ndarray:
-        c, sn = np.cos(n * theta), np.sin(n * theta)
-        out, around = u(s) * c, beta(s) * sn
-        return np.vstack(
-            [
-                out * np.cos(theta) - around * np.sin(theta),
-                out * np.sin(theta) + around * np.cos(theta),
-                w(s) * c,
-            ]
-        )
-
-    return mode
-
-
-def turned(shape: Shape) -> Shape:
-    """The same displacement a quarter turn on: the other mode of a double eigenvalue."""
-
-    def mode(s: np.ndarray, theta: np.ndarray) -> np.ndarray:
-        x, y, z = shape(s, theta - np.pi / 2)
-        return np.vstack([-y, x, z])
-
-    return mode
-
-
-def bifurcation_on(
-    model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState
-) -> tuple[Solved, np.ndarray, int]:
-    """The bifurcation on the surface's own mesh: state, null vector, and negative eigenvalues beside it.
-
-    At the point itself even the bordered matrix is singular (the null vector breaks the symmetry of the
-    branch): the eigenvalue, the columns and the state are interpolated from axisymmetric states around it,
-    solved for at given volumes.
-
-    Raises:
-        ConvergenceError: When the mode's eigenvalue has no zero there, or the null vector is not that mode.
-    """
-    system, volume = model.system, at.values["V"]
-    stability, fitting = Stability(system), Fitting(model, KeptNewton(system, ["zw"]))
-
-    def overlap(mode: Mode) -> float:
-        like = model.interpolated(displacement(at))
-        like /= np.sqrt(system.dot(like, system.mass_times(like)))
-        return system.dot(like, system.mass_times(mode.vector))
-
-    along, states, eigenvalues, counts = chebyshev.chebpts1(NODES), [], [], []
-    for s in along:
-        begin = primary.at("V", volume * (1 + SPAN * s), at.Z)
-        guess = State(model.interpolated(position(begin)), {"zw": begin.values["zw"]})
-        state = fitting.solve(guess, [Held("V", begin.values["V"])], chord=True)
-        modes, negative = stability.about(state, 0.0, LOOKED_AT)
-        critical = max(modes, key=lambda mode: abs(overlap(mode)))
-        system.set_state(state.u, state.loads)
-        states.append(Solved({"zw": state.loads["zw"], **system.monitors()}, state))
-        eigenvalues.append(critical.eigenvalue)
-        counts.append(negative - int(critical.eigenvalue < 0))
-    if eigenvalues[0] * eigenvalues[-1] > 0 or len(set(counts)) > 1:
-        raise ConvergenceError(
-            f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
-            f"negative ones beside them {counts}"
-        )
-    zero = brentq(BarycentricInterpolator(along, eigenvalues), -1.0, 1.0, xtol=1e-14)
-
-    def at_zero(values: list) -> np.ndarray:
-        return BarycentricInterpolator(along, np.array(values))(zero)
-
-    loads = {name: float(at_zero([s.state.loads[name] for s in states])) for name in states[0].state.loads}
-    state = State(at_zero([s.state.u for s in states]), loads)
-    values = {name: float(at_zero([s.values[name] for s in states])) for name in states[0].values}
-    modes, _ = stability.about(state, -BESIDE, LOOKED_AT)
-    mode = max(modes, key=lambda mode: abs(overlap(mode)))
-    if abs(overlap(mode)) < LIKENESS:
-        raise ConvergenceError("the null vector on the surface is not the axisymmetric branch's mode")
-    return Solved(values, state, "bifurcation_point"), np.sign(overlap(mode)) * mode.vector, counts[0]
 
 
 def secondary_branch(
@@ -152,6 +46,7 @@ def secondary_branch(
     step: float,
     end: float,
     followed: bool = True,
+    below: Trend | None = None,
 ) -> SecondaryBranch:
     """The secondary branch on one mesh.
 
@@ -162,13 +57,17 @@ def secondary_branch(
         step: Largest arc-length step, as a root mean square displacement.
         end: The branch ends when ``zw`` has fallen to this fraction of its value at the bifurcation.
         followed: False where its states will be solved for from another mesh's.
+        below: Trend beside the bifurcation on the next coarser mesh.
 
     Raises:
         ConvergenceError: When no bifurcation with that mode is found on the surface's mesh.
     """
     model = SurfaceModel(comm, data)
     begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
-    return SecondaryBranch(model, *bifurcation_on(model, primary, begin), step, end, followed)
+    *found, trend = bifurcation_on(model, primary, begin, below)
+    branch = SecondaryBranch(model, *found, step, end, followed)
+    branch.trend = trend
+    return branch
 
 
 class SecondaryBranch(EquilibriumBranch):
@@ -177,7 +76,7 @@ class SecondaryBranch(EquilibriumBranch):
     Args:
         model: The surface.
         bifurcation: Where it begins.
-        mode: Null vector there, of unit length in the mass norm, bulging at ``Theta = 0``.
+        mode: Nearly the null vector there, bulging at ``Theta = 0``.
         n_negative: Negative eigenvalues there, the null one left out.
         step: Largest arc-length step, as a root mean square displacement.
         end: Fraction of the bifurcation's ``zw`` at which the branch ends.
@@ -185,7 +84,14 @@ class SecondaryBranch(EquilibriumBranch):
 
     It is followed on the mesh fitted to the bifurcation point's free surface; any state asked for is solved
     for on a mesh fitted to it.
+
+    Attributes:
+        small: States at small amplitudes, as far as they were wanted.
+        mode: The null vector, of unit length in the mass norm.
+        trend: Beside the bifurcation, for the next finer mesh.
     """
+
+    trend: Trend | None = None
 
     def __init__(
         self,
@@ -208,6 +114,7 @@ class SecondaryBranch(EquilibriumBranch):
         self._lowest = end * bifurcation.state.loads["zw"]
         self.control, self.loads, self.stalled = "zw", self.solver.scalars, None
         self.points = [self._first(self.solver.factor, n_negative)]
+        self.small: dict[float, Solved] = {}
         if followed:
             self.follow()
 
@@ -221,28 +128,32 @@ class SecondaryBranch(EquilibriumBranch):
         )
 
     def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
-        """The bifurcation point with the mode for a direction.
+        """The bifurcation point with the mode for a direction, both corrected.
 
-        Its state was interpolated; it is corrected at the same ``zw`` across the mode, where ``K`` is
-        regular.
+        The state was interpolated; it is corrected at the same ``zw`` across the mode, where ``K`` is
+        regular. The null vector is what the bordered matrix makes of a displacement along the mode.
         """
         state, system = self.bifurcation.state.copy(), self.model.system
-        across = system.mass_times(self.mode)
         norms: list[float] = []
+        system.set_state(state.u, state.loads)
+        across, nothing = system.mass_times(self.mode), np.zeros(system.size)
+        factor.update()
+        bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
         for step in range(CORRECTIONS + 1):
             system.set_state(state.u, state.loads)
             residual = system.residual()
             norms.append(float(np.sqrt(system.dot(residual, residual))))
             if step == CORRECTIONS or norms[-1] < EQUILIBRIUM:
                 break
-            factor.update()
-            bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
             state.u += bordered.solve(-residual, np.zeros(1))[0]
+        null = bordered.solve(nothing, np.ones(1))[0]
+        self.mode = null / np.sqrt(system.dot(null, system.mass_times(null)))
+        self._across = system.mass_times(self.mode)
         if not norms[-1] < RESIDUAL_LIMIT:
             raise ConvergenceError(f"the bifurcation point has a residual of {norms[-1]:.1e}")
         values = self.bifurcation.values | system.monitors()
         self.bifurcation = Solved(values, state, self.bifurcation.kind)
-        record = SolveRecord("corrected", len(norms) - 1, len(norms) - 1, tuple(norms))
+        record = SolveRecord("corrected", len(norms) - 1, 1, tuple(norms))
         direction = Tangent(self.mode, {"zw": 0.0})
         return CurvePoint(state, direction, 0.0, n_negative, record, system.monitors())
 
@@ -252,10 +163,11 @@ class SecondaryBranch(EquilibriumBranch):
         Raises:
             ConvergenceError: When it does not converge, or not to the same state.
         """
+        self.system.set_state(guess.u, guess.loads)
+        shape = self.fitting.shape()
         state = self.fitting.solve(guess, [constraint], near=True, chord=True)
         values = self._values(state)
-        gap = self.continuation.distance(self.fitting.moved(state, guess), guess) / self.size
-        self.system.set_state(state.u, state.loads)
+        gap = self.fitting.apart(shape)
         if gap > ASTRAY:
             raise ConvergenceError(f"converged {gap:.2g} away from another mesh's state")
         return Solved(values, state)
@@ -293,29 +205,24 @@ class SecondaryBranch(EquilibriumBranch):
             guess: Gives a start from another mesh; by default the bifurcation point plus the mode.
         """
         base, offset = self.bifurcation.state, amplitude * self.size
-        self.system.set_state(base.u, base.loads)
-        row = self.system.mass_times(self.mode)
-        plane = Plane(row, {}, self.system.dot(row, base.u) + offset)
+        plane = Plane(self._across, {}, self.system.dot(self._across, base.u) + offset)
         begin = State(base.u + offset * self.mode, base.loads) if guess is None else guess()
         state = self.fitting.solve(begin, [plane], near=True, chord=guess is not None)
         return Solved(self._values(state), state)
 
-    @cached_property
-    def small(self) -> list[Solved]:
-        """States at the small amplitudes."""
-        return [self.at_amplitude(a) for a in AMPLITUDES]
-
-    def initial(self, count: int = len(AMPLITUDES)) -> dict[str, float]:
+    def initial(self, given: Sequence[float] = AMPLITUDES) -> dict[str, float]:
         """Slopes at the bifurcation and its ``zw`` from the branch alone.
 
         ``zw`` and ``V`` are even in the amplitude, and the half turn that takes one amplitude to its negative
         swaps ``r_mid`` and ``r_mid_pi``: polynomials in the square of the amplitude through a few small ones.
 
         Args:
-            count: How many of :data:`AMPLITUDES` to use.
+            given: The amplitudes.
         """
-        amplitudes = np.array(AMPLITUDES[:count])
-        states = [solved.values for solved in self.small[:count]]
+        for amplitude in given:
+            if amplitude not in self.small:
+                self.small[amplitude] = self.at_amplitude(amplitude)
+        amplitudes, states = np.array(given), [self.small[a].values for a in given]
         squares = amplitudes**2
 
         def lowest(values: list[float] | np.ndarray) -> np.ndarray:

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from petsc4py import PETSc
 from scipy.interpolate import RectBivariateSpline
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.edge_tangents import lobatto
 from weakforms.problems.fluid_tube_front import NAME
 from weakforms.problems.fluid_tube_surface import Shape, SurfaceModel
 from weakforms.solvers.newton import Constraint, ExtendedNewton, SolveRecord
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.system import State
 
-SUBDIVIDED = 4
-"""Intervals of the splines' grid in each cell."""
+SPLINE = 5
+"""Degree of the splines through the nodes of a mesh, where these are enough."""
 
 FITS, FITTED = 8, 1e-9
 """Moves of the mesh, at most, and the last one, over the length: it changes a state by its square, and the
@@ -26,14 +29,25 @@ second variation in proportion to it."""
 SMALL = 1e-3
 """Move, over the length, after which a factorised tangent still serves."""
 
+CAME_NEAR = 1e-6
+"""Residual of a solve that did not converge, below which the next one goes on from where it ended."""
+
 LOOKED_AT = 400
 """Points of a meridian among which the free surface is looked for from afar."""
+
+PLACES = 49, 25
+"""Material points along and around at which two positions are compared."""
 
 
 class KeptNewton(ExtendedNewton):
     """Newton's method that can go on with the last factorised tangent."""
 
     keep = False
+
+    @property
+    def left(self) -> float:
+        """Norm of the residual the last solve ended with."""
+        return self._norms[-1] if self._norms else np.inf
 
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, p: PETSc.Mat) -> None:
         if self.keep and self.bordered is not None:
@@ -56,11 +70,15 @@ class Fitting:
         self.model, self.system, self.solver, self.front = model, model.system, solver, model.front
         self.record: SolveRecord | None = None
         """Of the last solve."""
-        self._grid: Sampler | None = None
         self._row: Sampler | None = None
 
     def solve(
-        self, guess: State, constraints: Sequence[Constraint], near: bool = False, chord: bool = False
+        self,
+        guess: State,
+        constraints: Sequence[Constraint],
+        near: bool = False,
+        chord: bool = False,
+        kept: bool = False,
     ) -> State:
         """The solution on the mesh fitted to it; the system holds it afterwards.
 
@@ -69,6 +87,7 @@ class Fitting:
             constraints: One a scalar unknown.
             near: The guess's mesh is almost fitted.
             chord: One factorisation is tried first.
+            kept: The last solve's factorisation is, that of a neighbour.
 
         Raises:
             ConvergenceError: When it does not converge, or the mesh does not come to rest.
@@ -76,27 +95,28 @@ class Fitting:
         self.system.set_state(guess.u, guess.loads)
         if not near:
             self.find_front()
-        state = self._solved(constraints, chord)
+        state = self._solved(constraints, chord, kept)
         for _ in range(FITS):
-            move = self.refit()
+            wanted = self._refitted()
+            move = self._length_of(wanted)
             if move < FITTED * self.model.data.length:
-                self.system.set_state(state.u, state.loads)
                 return state
-            self.solver.keep = move < SMALL * self.model.data.length
-            try:
-                state = self._solved(constraints, chord=True)
-            finally:
-                self.solver.keep = False
+            self._move(wanted)
+            state = self._solved(constraints, True, move < SMALL * self.model.data.length)
         raise ConvergenceError("the mesh does not come to rest on the free surface")
 
-    def _solved(self, constraints: Sequence[Constraint], chord: bool) -> State:
+    def _solved(self, constraints: Sequence[Constraint], chord: bool, kept: bool) -> State:
         """From the state held: with the tangent at hand if that converges, else by Newton's method."""
         guess = self.system.state()
-        if chord or self.solver.keep:
+        if chord or kept:
+            self.solver.keep = kept
             try:
                 state, self.record = self.solver.solve(guess, constraints, chord=True)
                 return state
             except ConvergenceError:
+                if self.solver.left < CAME_NEAR:
+                    guess = self.system.state()
+            finally:
                 self.solver.keep = False
         state, self.record = self.solver.solve(guess, constraints)
         return state
@@ -108,26 +128,28 @@ class Fitting:
 
         Returns how far that moved.
         """
+        return self._move(self._refitted())
+
+    def _refitted(self) -> np.ndarray:
+        """The front's coefficients after that step."""
         if self.front is None:
-            return 0.0
+            return np.zeros(0)
         zw = self.system.load("zw")
         if zw >= self.model.data.L:
-            return self._move(np.array([self.front.row]))
+            return np.array([self.front.row])
         angles = self.front.angles
         if self._row is None:
             at = self.model.surface(self.model.unknown)
             places = np.column_stack([np.full_like(angles, self.front.row), angles])
             self._row = Sampler(self.model.unknown, {"z": at.x[2], "rate": at.a[2]}, places)
         found = self._row()
-        return self._move(self.front.fitted(self.front.at(angles) + (zw - found["z"]) / found["rate"]))
+        return self.front.fitted(self.front.at(angles) + (zw - found["z"]) / found["rate"])
 
     def find_front(self) -> float:
         """The same from afar: where meridians, followed down from the upper ring, meet the level."""
-        if self.front is None:
-            return 0.0
         zw = self.system.load("zw")
-        if zw >= self.model.data.L:
-            return self._move(np.array([self.front.row]))
+        if self.front is None or zw >= self.model.data.L:
+            return self.refit()
         shape, z = self.shape(), np.linspace(0, self.model.data.length, LOOKED_AT)
         wanted = []
         for theta in self.front.angles:
@@ -149,14 +171,20 @@ class Fitting:
         self.system.set_loads(loads)
         return State(self.model.interpolated(shape), loads)
 
-    def _move(self, coefficients: np.ndarray) -> float:
-        before, shape = self.front.at(self.front.angles), self.shape()
-        zw, moves = self.system.load("zw"), self.front.moves
-        self.front.put(coefficients)
-        if self.front.moves == moves:
+    def _length_of(self, coefficients: np.ndarray) -> float:
+        """How far a move to a front is."""
+        if self.front is None:
             return 0.0
-        self.system.set_state(self.model.interpolated(shape), {"zw": zw})
-        return float(np.abs(self.front.at(self.front.angles) - before).max())
+        angles = self.front.angles
+        return float(np.abs(chebyshev.chebval(np.cos(angles), coefficients) - self.front.at(angles)).max())
+
+    def _move(self, coefficients: np.ndarray) -> float:
+        length = self._length_of(coefficients)
+        if length:
+            shape, zw = self.shape(), self.system.load("zw")
+            self.front.put(coefficients)
+            self.system.set_state(self.model.interpolated(shape), {"zw": zw})
+        return length
 
     # -- the position over material points -------------------------------------------------------
 
@@ -175,23 +203,36 @@ class Fitting:
 
         return position
 
+    def apart(self, other: Shape) -> float:
+        """Root mean square distance of the position held from another one."""
+        ends = self.model.data.length, np.pi
+        lines = [np.linspace(0, end, count) for end, count in zip(ends, PLACES, strict=True)]
+        z, theta = (part.ravel() for part in np.meshgrid(*lines))
+        return float(np.sqrt(np.mean(np.sum((self.shape()(z, theta) - other(z, theta)) ** 2, axis=0))))
+
+    @cached_property
+    def _nodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Nodes along and around of the half circumference, and where on that grid this rank's own lie."""
+        space, t = self.model.space, lobatto(self.model.data.degree)
+        edges = self.model.nodes, np.linspace(0, np.pi, self.model.data.around + 1)
+        lines = [np.append((e[:-1, None] + np.diff(e)[:, None] * t[:-1]).ravel(), e[-1]) for e in edges]
+        owned = space.tabulate_dof_coordinates()[: space.dofmap.index_map.size_local]
+        places = [np.searchsorted((x[1:] + x[:-1]) / 2, owned[:, i]) for i, x in enumerate(lines)]
+        return *lines, *places
+
     def _splines(self) -> list[tuple[float, float, list[RectBivariateSpline]]]:
         """Of the position over the mesh, from row to row where the mesh bends: only between it is smooth."""
-        nodes = self.model.nodes
-        theta = np.linspace(0, np.pi, SUBDIVIDED * self.model.data.around + 1)
-        t = np.arange(SUBDIVIDED) / SUBDIVIDED
-        x = np.append((nodes[:-1, None] + np.diff(nodes)[:, None] * t).ravel(), nodes[-1])
-        if self._grid is None:
-            places = np.column_stack([part.ravel() for part in np.meshgrid(x, theta, indexing="ij")])
-            position = {name: self.model.unknown[i] for i, name in enumerate("xyz")}
-            self._grid = Sampler(self.model.unknown, position, places)
-        found = {name: values.reshape(len(x), -1) for name, values in self._grid().items()}
-        ends = [0.0, nodes[-1]]
+        x, theta, i, j = self._nodes
+        found = np.zeros((len(x), len(theta), 3))
+        found[i, j] = self.system.owned().reshape(-1, 3)
+        found = self.system.sum(found)
+        ends = [0.0, x[-1]]
         if self.front is not None:
             ends = sorted({*ends, *self.front.between, self.front.row})
         out = []
         for low, high in pairwise(ends):
             here = (x > low - 1e-9) & (x < high + 1e-9)
-            parts = [RectBivariateSpline(x[here], theta, found[name][here]) for name in "xyz"]
+            degrees = {"kx": min(SPLINE, here.sum() - 1), "ky": min(SPLINE, len(theta) - 1)}
+            parts = [RectBivariateSpline(x[here], theta, found[here, :, k], **degrees) for k in range(3)]
             out.append((low, high, parts))
         return out

@@ -1,6 +1,7 @@
 """Paper 3: the secondary branch, where the tube bends sideways, on a family of meshes.
 
-See :mod:`weakforms.problems.fluid_tube_branching` for where it starts and how its stability is judged.
+See :mod:`weakforms.problems.fluid_tube_beginning` for where it starts and
+:mod:`weakforms.problems.fluid_tube_bent_stability` for how its stability is judged.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.base import Progress
+from weakforms.problems.fluid_tube_beginning import READINGS
 from weakforms.problems.fluid_tube_branching import (
     AMPLITUDES,
-    READINGS,
+    COMPARED,
     SecondaryBranch,
     secondary_branch,
 )
@@ -67,6 +69,8 @@ def secondary_family(
     primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
     begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
 
+    made: list[SecondaryBranch] = []
+
     def make(level: int) -> SecondaryBranch:
         progress("secondary branch", level, numerics.secondary_levels)
         coarser = 2 ** (numerics.secondary_levels - 1 - level)
@@ -81,7 +85,9 @@ def secondary_family(
             front=free_surface(begin),
         )
         step, end = numerics.secondary_step, numerics.secondary_end
-        return secondary_branch(comm, data, primary, step, end, followed=level == 0)
+        below = made[-1].trend if made else None
+        made.append(secondary_branch(comm, data, primary, step, end, level == 0, below))
+        return made[-1]
 
     degree = numerics.secondary_degree
     caps = dict.fromkeys(RESULTANTS, float(degree + READ))
@@ -151,10 +157,19 @@ class SecondaryFamily(BranchFamily):
             begin, plane = self.levels[0].across(point, self.across)
             near = point.arclength / self.levels[0].points[-1].arclength
             solved = self._raised(begin, plane, lambda level: level.at_position(point, plane.weights, near))
-            record = fine.fitting.record
-            fine.solver.factor.update()
-            negative = fine.solver.factor.negative_count()
+            record, negative = fine.fitting.record, self._negative_count(point)
         return solved, [negative, record.norms[-1], record.iterations]
+
+    def _negative_count(self, point: CurvePoint) -> int:
+        """Negative eigenvalues on the finest mesh, whose system holds a point of the trace.
+
+        Its solve ended with a tangent factorised on the way, as far off as the coarser mesh's state at most.
+        Where that has as many as the coarsest mesh's own, none is near zero and the state has no others.
+        """
+        factor = self.fine.solver.factor
+        if factor.stiffened is not None or factor.negative_count() != point.n_negative:
+            factor.update()
+        return factor.negative_count()
 
     def _raised(
         self, begin: Solved, constraint: Constraint, own: Callable[[SecondaryBranch], Solved]
@@ -180,30 +195,39 @@ class SecondaryFamily(BranchFamily):
         return solved
 
     def special_points(self) -> list[SpecialPoint]:
-        """As for any branch; the bifurcation point carries the branch's initial slopes."""
+        """As for any branch; the bifurcation point carries the branch's initial slopes.
+
+        The finest mesh's are those of the next coarser one and what they differ by, far smaller, for which
+        fewer amplitudes will do.
+        """
         points = super().special_points()
         for below, level in pairwise(self.levels):
-            level.small = [self._like(below, level, k) for k in range(len(AMPLITUDES))]
-        slopes = [level.initial() for level in self.levels]
-        fewer = self.fine.initial(len(AMPLITUDES) - 1)  # for the error of the extrapolation
+            for amplitude in COMPARED if level is self.fine else AMPLITUDES:
+                level.small[amplitude] = self._like(below, level, amplitude)
+        *_, last = coarser = self.levels[:-1]
+        slopes = [level.initial() for level in coarser]
+        fewer = last.initial(AMPLITUDES[:-1])  # for the error of the extrapolation
+        near, fine = last.initial(COMPARED), self.fine.initial(COMPARED)
         for name in SLOPES:
-            found = estimate([s[name] for s in slopes], self.cap)
+            whole = slopes[-1][name]
+            found = estimate([*(s[name] for s in slopes), whole + fine[name] - near[name]], self.cap)
             points[0].values[name] = float(found.value)
-            missed = abs(fewer[name] - slopes[-1][name])
-            points[0].uncertainty[name] = float(found.uncertainty) + missed
+            points[0].uncertainty[name] = float(found.uncertainty) + abs(fewer[name] - whole)
         points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
         return points
 
     @staticmethod
-    def _like(below: SecondaryBranch, level: SecondaryBranch, k: int) -> Solved:
-        """The state of one of the small amplitudes on a mesh, from that of the next coarser one."""
+    def _like(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
+        """The state of a small amplitude on a mesh, from that of the next coarser one."""
 
         def guess() -> State:
-            state = below.small[k].state
+            if amplitude not in below.small:
+                below.small[amplitude] = below.at_amplitude(amplitude)
+            state = below.small[amplitude].state
             below.system.set_state(state.u, state.loads)
             return level.fitting.taken(below.fitting)
 
-        return level.at_amplitude(AMPLITUDES[k], guess)
+        return level.at_amplitude(amplitude, guess)
 
     def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
         """On the coarsest mesh by the branch traced there; every other mesh starts from the one before."""
@@ -235,9 +259,9 @@ class SecondaryFamily(BranchFamily):
         if least.value + least.uncertainty < 0:
             lowest = [level.stability.lowest(s.state) for level, s in zip(self.levels, solved, strict=True)]
             return out | {"Lambda_1": self._quantity(lowest)}
-        spectra = [
-            level.stability.spectra(s.state, critical) for level, s in zip(self.levels, solved, strict=True)
-        ]
+        spectra: list[dict[str, float]] = []
+        for level, s in zip(self.levels, solved, strict=True):
+            spectra.append(level.stability.spectra(s.state, critical, spectra[-1] if spectra else None))
         for name in spectra[-1]:
             values = [spectrum[name] for spectrum in spectra]
             if not name.startswith("n_negative"):

@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.base import Numerics, Parameters, Progress, Requests, registry, silent
-from weakforms.problems.fluid_tube_branching import READINGS, displacement, position, turned
+from weakforms.problems.fluid_tube_beginning import READINGS, displacement, position, turned
 from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
 from weakforms.results import Failure, Quantity, Result
