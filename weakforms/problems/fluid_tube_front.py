@@ -145,17 +145,6 @@ class HalfSystem(System):
         """As assembled by whoever makes or updates the system."""
         self._mass = matrix
 
-    def _mass_matrix(self) -> PETSc.Mat:
-        """Without the zeros between components: what is left is a third, and so is the cost of a product."""
-        full = super()._mass_matrix()
-        starts, columns, values = full.getValuesCSR()
-        kept = values != 0
-        starts = np.append(0, np.cumsum(kept))[starts].astype(starts.dtype)
-        parts = starts, columns[kept], values[kept]
-        matrix = PETSc.Mat().createAIJ(full.getSizes(), csr=parts, comm=self.comm)
-        full.destroy()
-        return matrix
-
     def set_loads(self, loads: Mapping[str, float]) -> None:
         """Put scalars into the forms, and the row where they have the front."""
         super().set_loads({name: value for name, value in loads.items() if not name.startswith(NAME)})
