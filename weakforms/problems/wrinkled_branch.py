@@ -242,8 +242,11 @@ class WrinkledBranch:
                 f"{len(limits)} limit loads between V = {low:.6g} and {high:.6g} on a fitted mesh"
             )
         state = limits[0].state
-        fronts = tuple(state.loads[name] for name in held.scalars[1 : 1 + len(held.zones.fronts)])
-        return replace(held, state=state, zones=replace(held.zones, fronts=fronts), record=begin.record)
+        moved = [state.loads[name] for name in held.scalars[1:]]
+        count = len(held.zones.fronts)
+        surface = None if held.zones.surface is None else moved[count]
+        zones = replace(held.zones, fronts=tuple(moved[:count]), surface=surface)
+        return replace(held, state=state, zones=zones, record=begin.record)
 
     # -- states --------------------------------------------------------------------------------
 
