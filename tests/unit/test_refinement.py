@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from weakforms.solvers.refinement import ALGEBRAIC, estimate
+from weakforms.solvers.refinement import ALGEBRAIC, doubt, estimate, order_in_mean
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 4.0, 8.0])
@@ -41,6 +41,34 @@ def test_two_meshes_are_taken_to_converge_at_first_order():
     found = estimate([1.0, 1.1], cap=4.0)
     assert found.uncertainty >= 0.3
     assert np.isnan(found.order)
+
+
+def test_an_order_known_from_elsewhere_counts_where_a_lower_one_is_observed():
+    values = [1.0, 1.0001, 1.0201]  # the first difference is small by accident
+    plain, known = (estimate(values, cap=4.0, least=least).uncertainty for least in (0.0, 3.0))
+    assert known == pytest.approx(1.25 * 0.02 / 7, rel=1e-6)
+    assert plain == pytest.approx(3 * 0.02, rel=1e-6)
+    steady = [1.0 + 0.25**k for k in range(3)]
+    assert estimate(steady, cap=4.0, least=1.0) == estimate(steady, cap=4.0)
+
+
+@pytest.mark.parametrize("order", [1.0, 3.0, 5.5])
+def test_order_of_a_field_does_not_heed_where_single_differences_vanish(order):
+    x = np.linspace(0, 1, 201)
+    levels = [np.cosh(x) + 1e-3 * np.sin((7 + k) * x) * 2.0 ** (-order * k) for k in range(4)]
+    assert order_in_mean(levels) == pytest.approx(order, abs=0.3)
+
+
+def test_order_of_a_field_is_unknown_from_two_meshes_or_from_round_off():
+    x = np.linspace(1, 2, 11)
+    assert order_in_mean([x, x + 1e-3]) == 0.0
+    assert order_in_mean([x, x + 1e-3, x + 1e-3 + 1e-15]) == 0.0
+
+
+def test_doubt_begins_where_a_field_falls_faster_than_its_elements():
+    assert doubt([], 4.0) == doubt([2.0, 4.4], 4.0) == 1.0
+    assert doubt([2.0, 4.75], 4.0) == pytest.approx(4**0.75)
+    assert doubt([5.0], 4.0) == doubt([7.0], 4.0) == pytest.approx(4.0)
 
 
 def test_one_mesh_is_refused():

@@ -14,7 +14,7 @@ from weakforms.forms.materials import neo_hookean
 from weakforms.forms.wrinkling import natural_width
 from weakforms.problems import wrinkled_state
 from weakforms.problems.wrinkled_body import CYLINDER, Body
-from weakforms.problems.wrinkled_critical import critical_radius
+from weakforms.problems.wrinkled_critical import critical_radii
 from weakforms.problems.wrinkled_fit import Membrane
 from weakforms.problems.wrinkled_model import BY_STATE, TAUT, WRINKLED
 from weakforms.problems.wrinkled_tube import PAPER_GAMMA
@@ -45,7 +45,7 @@ def membrane(liquid=True, radius=0.5, energy="relaxed", **values):
 
 @pytest.fixture
 def critical():
-    return float(critical_radius(MPI.COMM_SELF, VALUES, CELLS, 6).value)
+    return critical_radii(MPI.COMM_SELF, VALUES, CELLS, 6)[-1]
 
 
 def fitted(tube, load):
@@ -114,6 +114,15 @@ def test_unloaded_membrane_on_small_disks_is_a_cylinder_of_constant_tension():
     assert found["r"] == pytest.approx(0.5, abs=1e-13)
     assert np.ptp(found["tension"]) < 1e-9
     assert found["gw"].max() < 1
+
+
+def test_each_mesh_has_the_radius_that_it_finds_critical():
+    radii = critical_radii(MPI.COMM_SELF, VALUES, CELLS, 6)
+    tube = membrane(radius=radii[-1])
+    tube.on_meshes = [{"Af": radius} for radius in radii]
+    levels = fitted(tube, 6.0)
+    assert [held.state.loads["Af"] for held in levels] == radii
+    assert len(set(radii)) == len(levels)
 
 
 def test_critical_radius_puts_the_thin_end_on_the_verge(critical):

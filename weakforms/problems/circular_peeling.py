@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import ClassVar
 
 import numpy as np
 
@@ -135,6 +136,8 @@ def _lowered(run: DiskRun, p: float) -> State:
 
 class PeelingFamily(BranchFamily):
     """A peeling curve on all meshes; asked for the state at its pressure, it gives the pull-off point."""
+
+    located_by: ClassVar[Mapping[str, str]] = {"pull_off": "G"}
 
     def state(
         self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None

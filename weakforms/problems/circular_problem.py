@@ -27,10 +27,6 @@ SOURCE = "Patil, DasGupta & Eriksson (2015), Int. J. Solids Struct. 67-68, 250-2
 FIRST_TERMS, MORE_TERMS = 10, 3
 """Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
 
-CAP = 2.0
-"""Highest order of convergence the uncertainties of a stuck patch reckon with: mesh and series are refined
-together, the series by little each time. Without friction it is that of a free disk."""
-
 SCALES = {
     "length": "R_f, radius of the clamp (= beta R_0)",
     "alpha": "C2/C1",
@@ -90,16 +86,25 @@ NO_PATCH = {
 """Their values before contact."""
 
 
-TRACES = ("lam1_rim", "lam1_contact", "lam1_contact_outer", "kappa", "lam1", "t1", "t2")
+TRACES = ("lam1_rim", "lam1_contact", "lam1_contact_outer", "kappa", "lam1", "t1", "t2", "X_iso")
 """Columns that hold first derivatives at a point: their order is the degree at most."""
 
 
-MOVING = ("X_iso", "t_min")
+MOVING = ("t_min",)
 """Columns taken where something happens on the mesh: their error depends on where in a cell that is."""
 
 
 OF_EIGENVALUES = 4.0
 """Order at which the eigenvalues converge, cubic and quartic elements alike: the pole is a singular point."""
+
+
+POLE = ("t0", "lam_pole")
+"""Columns at the pole: a vertex of the mesh, but a singular point, and nothing is superconvergent there."""
+
+
+def order_at_pole(degree: int) -> float:
+    """Order of values at the pole: that of the first even power that elements miss, the solution is even."""
+    return 2.0 * (degree // 2 + 1)
 
 
 class CircularNumerics(MeshNumerics):
@@ -201,7 +206,7 @@ class Circular(PathProblem):
         progress: Progress,
     ) -> dict[str, Family]:
         """The branch of the phase, on all meshes."""
-        degree = numerics.degree
+        degree, cap = numerics.degree, 2.0 * numerics.degree
         terms = range(FIRST_TERMS, FIRST_TERMS + MORE_TERMS * numerics.levels, MORE_TERMS)
         runs = [
             inflation(
@@ -215,33 +220,32 @@ class Circular(PathProblem):
             for cells, count in zip(numerics.meshes, terms, strict=True)
         ]
 
-        def family(
-            part: Callable[[DiskRun], SolutionCurve], cap: float, of: type = BranchFamily
-        ) -> BranchFamily:
+        def family(part: Callable[[DiskRun], SolutionCurve], of: type = BranchFamily) -> BranchFamily:
             def make(level: int) -> SolutionCurve:
                 progress("branch", level, numerics.levels)
                 return part(runs[level])
 
             across = ("front", "rho_contact") if of is PeelingFamily else ("p", "t0")
-            caps = dict.fromkeys(TRACES, min(cap, degree)) | dict.fromkeys(MOVING, 2.0)
+            caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
+            caps |= dict.fromkeys(POLE, order_at_pole(degree))
             caps["eigenvalue_1"] = min(cap, OF_EIGENVALUES)
+            if of is PeelingFamily:  # where G is not zero it is a jump of such derivatives
+                caps |= {"G": float(degree), "G_difference": degree + 1.0}
             return of(make, numerics.levels, cap, across=across, caps=caps)
 
         if parameters.phase == "peeling":
             p = peeling_pressure(parameters, requests)
             runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
-            return {"primary": family(lambda run: PeelingBranch(run, p), CAP, PeelingFamily)}
+            return {"primary": family(lambda run: PeelingBranch(run, p), PeelingFamily)}
         if parameters.contact == "none":
-            free = family(lambda run: run.free(parameters.t_end), 2 * numerics.degree)
+            free = family(lambda run: run.free(parameters.t_end))
             return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)])}
         runs[-1].onset  # noqa: B018
         if parameters.phase == "deflation":
-            return {"primary": family(lambda run: run.deflation, CAP)}
-        free = 2 * numerics.degree
-        law, of_law = ("frictionless", free) if parameters.contact == "frictionless" else ("adhesive", CAP)
+            return {"primary": family(lambda run: run.deflation)}
         pieces = [
-            Piece(family(lambda run: run.before_contact, free), NO_PATCH),
-            Piece(family(lambda run: getattr(run, law), of_law), {}),
+            Piece(family(lambda run: run.before_contact), NO_PATCH),
+            Piece(family(lambda run: getattr(run, parameters.contact)), {}),
         ]
         return {"primary": PiecewiseFamily(pieces, lambda: [_onset(runs, numerics.degree)])}
 
@@ -270,7 +274,8 @@ def peeling_pressure(parameters: CircularParameters, requests: Requests) -> floa
 def _onset(runs: list[DiskRun], degree: int) -> SpecialPoint:
     shown = [n for n in runs[-1].before_contact.shown if n not in NO_PATCH]
     caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
-    return special_point([run.onset for run in runs], shown, 2 * degree, "primary", "p", caps)
+    highest = order_at_pole(degree)  # of all: the height of the pole is what is prescribed
+    return special_point([run.onset for run in runs], shown, highest, "primary", "p", caps)
 
 
 def _data(parameters: CircularParameters, cells: int, degree: int) -> DiskData:

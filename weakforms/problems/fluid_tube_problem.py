@@ -76,6 +76,9 @@ CAPS = {"r_mid": 4.0, "r_max": 4.0, **dict.fromkeys(("T1_ring", "T2_ring", "T1_m
 which lie now here, now there in a cell that follows the front: the order is the elements', the error's size
 is any."""
 
+MATERIAL = {"r_mid": "r", "r_max": "r", "T1_mid": "T1", "T2_mid": "T2"}
+"""The columns at such points, and of which field they are values."""
+
 TORN = "Z_front", "r_front"
 """Columns of a partially filled tube only."""
 
@@ -265,7 +268,10 @@ def primary_family(
 
         still = {name: numerics.degree + float(name.startswith("r")) for name in CAPS}
         caps = CAPS if k % 2 else still  # without a front the mesh stays where it is
-        return ModalFamily(make, numerics.levels, 2 * numerics.degree, across=("zw", "V"), caps=caps)
+        moving = MATERIAL if k % 2 else {}
+        return ModalFamily(
+            make, numerics.levels, 2 * numerics.degree, across=("zw", "V"), caps=caps, points_of=moving
+        )
 
     length = parameters.L / parameters.delta
     dry, full = dict(zip(TORN, (0.0, 1.0), strict=True)), dict(zip(TORN, (length, np.nan), strict=True))

@@ -21,15 +21,14 @@ if TYPE_CHECKING:
 FIRST_TERMS, MORE_TERMS = 14, 4
 """Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
 
-CAP, CAP_UNILATERAL = 2.0, 1.0
-"""Highest order of convergence the uncertainties of a stuck patch reckon with. Mesh and series are refined
-together, and tractions hold second derivatives: no more credit than order two is given, than order one where
-a unilateral spring lets go inside a cell. Without friction, and before contact, it is that of a free tube."""
+CAP_UNILATERAL = 1.0
+"""Highest order of convergence reckoned with where a unilateral spring lets go inside a cell. Else it is that
+of a free tube: what the series of a stuck patch leaves out is less than what the mesh does."""
 
-TRACES = ("line_force", "line_force_membrane", "t2_min")
+TRACES = ("line_force", "line_force_membrane")
 SECOND = ("traction_front", "traction_max", "f_t")
-"""Columns of frictionless contact that hold first derivatives at a point: their order is the degree at most;
-and second derivatives. The curvature follows from the balance of forces, and gains an order."""
+"""Columns that hold first derivatives at the edge of the patch: their order is the degree at most; and second
+derivatives. The curvature there follows from the balance of forces at a vertex: one order below energies."""
 
 NO_PATCH = {
     name: 0.0
@@ -50,7 +49,8 @@ def contact_family(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> PiecewiseFamily:
     """The branch of a constrained tube: free and in contact, or deflating."""
-    cap = CAP_UNILATERAL if parameters.spring == "unilateral" else CAP
+    free = 2 * numerics.degree
+    cap = CAP_UNILATERAL if parameters.spring == "unilateral" else free
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 
     def family(part: Callable[[ContactRun], SolutionCurve], cap: float) -> BranchFamily:
@@ -59,17 +59,15 @@ def contact_family(
             return part(runs[level])
 
         caps = dict.fromkeys(TRACES, min(cap, numerics.degree)) | dict.fromkeys(SECOND, min(cap, 2.0))
-        caps["kappa"] = min(cap, numerics.degree + 1)
+        caps["kappa"] = min(cap, free - 1)
         return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps)
 
     runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
     if parameters.phase == "deflation":
         return PiecewiseFamily([Piece(family(lambda run: run.deflation, cap), {})])
-    free = 2 * numerics.degree
-    law, of_law = ("frictionless", free) if parameters.contact == "frictionless" else ("adhesive", cap)
     pieces = [
         Piece(family(lambda run: run.free, free), NO_PATCH | {"kappa": float("nan")}),
-        Piece(family(lambda run: getattr(run, law), of_law), {}),
+        Piece(family(lambda run: getattr(run, parameters.contact), free), {}),
     ]
 
     def onset() -> list[SpecialPoint]:

@@ -149,6 +149,7 @@ class Membrane(PlainMembrane):
             layout = replace(start.layout, breaks=start.model.breaks_of(start.state.loads))
         model = model_on(self.meshes[level], len(layout.breaks) - 1)
         guess = self._moved(start, model, layout.breaks)
+        guess.loads |= self.on_meshes[level]
         model.mark(layout.taut, layout.wet)
         nodes = [*layout.fronts, *([] if layout.surface is None else [layout.surface])]
         own = [AtBreak(model, "gw", k) for k in layout.fronts]

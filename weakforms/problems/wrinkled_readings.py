@@ -29,6 +29,9 @@ VALUES = ("V", "Pi", "N")
 LOWEST = 3
 """Eigenvalues of each wave number that are shown."""
 
+POLE = ("z_pole", "lam_pole", "gw_max")
+"""Columns of a body with a pole that are values there: its ``gw`` is largest there."""
+
 
 @dataclass(frozen=True)
 class Readings:
@@ -101,9 +104,15 @@ class Readings:
     # -- all meshes ----------------------------------------------------------------------------
 
     def order(self, name: str) -> float:
-        """Highest order of convergence to reckon with: of energies, or of stretches, which all else holds."""
+        """Highest order of convergence to reckon with: of energies, or of stretches, which all else holds.
+
+        All else too where a radius follows from the stretches, and energies from that.
+        """
+        if self.membrane.on_meshes[-1]:
+            return self.cap / 2
         energetic = name in (self.membrane.control, "load", "V", "Pi", "eigenvalue_1")
-        return self.cap if energetic or name.startswith("Lambda") else self.cap / 2
+        at_pole = self.membrane.body.pole and name in POLE  # nodal values, as exact as energies
+        return self.cap if energetic or at_pole or name.startswith("Lambda") else self.cap / 2
 
     def estimate(self, name: str, values: list[float] | list[np.ndarray]) -> Estimate:
         """Value and uncertainty from values on meshes, coarse to fine."""
@@ -175,6 +184,8 @@ class Readings:
         """
         shown = list(same[-1].values)
         caps = {name: self.order(name) for name in shown}
+        if same[-1].kind in EVENTS:  # where stretches at one place have a value: all is of their order
+            caps = dict.fromkeys(shown, self.cap / 2)
         point = special_point(same, shown, self.cap, branch, self.membrane.control, caps)
         left = {n: ROUND_OFF * max(1.0, abs(v)) for n, v in point.values.items()}
         if point.kind in EVENTS:

@@ -64,6 +64,9 @@ class PlainMembrane:
         self.length = float(body.length(self.values))
         self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy, material) for n in cells]
         self.control = "zw" if liquid else "p"
+        self.on_meshes: list[dict[str, float]] = [{} for _ in cells]
+        """Parameters that are results themselves, as each mesh has them: what they err then shows in the
+        differences of meshes. Those of the finest stand in ``values`` too."""
 
     # -- plain mesh ----------------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ material coordinate from the lower end.
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -22,12 +23,12 @@ from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.problems.wave_numbers import WaveNumbers
 from weakforms.problems.wrinkled_body import CYLINDER
 from weakforms.problems.wrinkled_branch import WrinkledBranch
-from weakforms.problems.wrinkled_critical import critical_radius
+from weakforms.problems.wrinkled_critical import critical_radii
 from weakforms.problems.wrinkled_fit import Membrane
 from weakforms.problems.wrinkled_readings import Readings
 from weakforms.results import Quantity, Result
 from weakforms.solvers.provenance import provenance
-from weakforms.solvers.refinement import Estimate
+from weakforms.solvers.refinement import Estimate, estimate
 
 SOURCE = "Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10"
 
@@ -222,8 +223,8 @@ class WrinkledTube(PathProblem):
         result.numerics |= {"quadrature_degree": 4 * numerics.degree, "cells": numerics.cells}
         progress("critical radius", 0, 1)
         critical = _critical(parameters, numerics, comm)
-        result.quantities["Af_critical"] = quantity(critical)
-        families = {"primary": self._branch(parameters, numerics, requests, comm, float(critical.value))}
+        result.quantities["Af_critical"] = quantity(estimate(critical, 2 * numerics.degree))
+        families = {"primary": self._branch(parameters, numerics, requests, comm, critical)}
         self._answer(result, families, requests, self.points(parameters), progress)
         result.special_points.extend(families["primary"].fronts)
         result.provenance = provenance(comm, time.perf_counter() - begun)
@@ -239,7 +240,7 @@ class WrinkledTube(PathProblem):
     ) -> dict[str, Family]:
         """The branch on all meshes."""
         critical = _critical(parameters, numerics, comm)
-        return {"primary": self._branch(parameters, numerics, requests, comm, float(critical.value))}
+        return {"primary": self._branch(parameters, numerics, requests, comm, critical)}
 
     def _branch(
         self,
@@ -247,7 +248,7 @@ class WrinkledTube(PathProblem):
         numerics: WrinkledNumerics,
         requests: Requests,
         comm: MPI.Intracomm,
-        critical: float,
+        critical: Sequence[float],
     ) -> WrinkledBranch:
         wanted = [r.value for r in requests.states if r.name == parameters.control]
         end = max([parameters.load_end or LOAD_END[parameters.load], *wanted])
@@ -264,16 +265,16 @@ def _cylinder(parameters: WrinkledParameters) -> dict[str, float]:
     return {name: getattr(parameters, name) for name in ("M", "delta", "c2", "L")}
 
 
-def _critical(parameters: WrinkledParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> Estimate:
+def _critical(parameters: WrinkledParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> list[float]:
     mesh = numerics.meshes, numerics.degree
-    return critical_radius(comm, _cylinder(parameters), *mesh, parameters.other_law)
+    return critical_radii(comm, _cylinder(parameters), *mesh, parameters.other_law)
 
 
 def wrinkled_membrane(
     parameters: WrinkledParameters,
     numerics: WrinkledNumerics,
     comm: MPI.Intracomm,
-    critical: float | None = None,
+    critical: Sequence[float] | None = None,
 ) -> Membrane:
     """The membrane of some parameters, whose states can be solved for one by one.
 
@@ -281,19 +282,25 @@ def wrinkled_membrane(
         parameters: Of the problem.
         numerics: Meshes.
         comm: Ranks.
-        critical: The critical radius, where it is known already.
+        critical: The critical radius on each mesh, where it is known already.
     """
     values: dict[str, Any] = _cylinder(parameters)
+    radii: Sequence[float] = ()
     if parameters.Af != "critical":
         values["Af"] = parameters.Af
     else:
-        values["Af"] = critical or float(_critical(parameters, numerics, comm).value)
+        radii = critical or _critical(parameters, numerics, comm)
+        values["Af"] = radii[-1]
     liquid = parameters.load == "fluid"
     if liquid:
         values["gamma"] = parameters.gamma or PAPER_GAMMA
     near = NEAR_FRONTS if parameters.n else ()
     kind = parameters.energy, near, parameters.other_law
-    return Membrane(comm, CYLINDER, values, liquid, numerics.meshes, numerics.degree, *kind)
+    mesh = numerics.meshes, numerics.degree
+    membrane = Membrane(comm, CYLINDER, values, liquid, *mesh, *kind)
+    for own, radius in zip(membrane.on_meshes, radii, strict=False):
+        own["Af"] = radius
+    return membrane
 
 
 def quantity(found: Estimate) -> Quantity:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
-from weakforms.solvers.refinement import Estimate, estimate, estimate_in_norm
+from weakforms.solvers.refinement import Estimate, doubt, estimate, estimate_in_norm, order_in_mean
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.stability import Stability
 
@@ -24,6 +26,9 @@ CRITICAL = 1e-6
 SAMPLED = 1.5
 """Factor for columns of a profile: where its points lie in their cells makes differences large or small."""
 
+PLACES = 101
+"""Places of a meridian at which the order of convergence of its fields is observed."""
+
 
 class BranchFamily:
     """A branch traced on meshes from coarse to fine.
@@ -36,11 +41,15 @@ class BranchFamily:
         cap: Highest order of convergence to reckon with ...
         across: Columns that span the plane in which branches of two meshes are compared.
         caps: ... and for some columns a lower one (one-sided traces of derivatives).
+        points_of: Columns that are a column of the profile at a point which moves through the cells.
         name: Name of the branch.
     """
 
     judges_points = True
     """Whether a state without a profile, a mere point of a curve, is judged for stability too."""
+
+    located_by: ClassVar[Mapping[str, str]] = {}
+    """Kinds of special points found where a column has an extremum, as which all other columns err there."""
 
     def __init__(
         self,
@@ -50,8 +59,10 @@ class BranchFamily:
         across: tuple[str, ...],
         name: str = "primary",
         caps: Mapping[str, float] | None = None,
+        points_of: Mapping[str, str] | None = None,
     ) -> None:
         self.caps = dict(caps or {})
+        self.points_of = dict(points_of or {})
         self.levels = [make(level) for level in range(levels)]
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
@@ -95,7 +106,7 @@ class BranchFamily:
         if not kept:
             raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
         table = np.array(errors)  # (points, levels, columns)
-        caps = np.array([self.caps.get(n, self.cap) for n in names])
+        caps = np.array([self._cap(name, *self.across) for name in names])
         found = estimate([table[:, k] for k in range(table.shape[1])], caps)
         wide = _widen(found.uncertainty)
         return Branch(
@@ -113,10 +124,12 @@ class BranchFamily:
         Raises:
             ConvergenceError: When it does.
         """
-        return [
-            special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, self.caps)
-            for same in self._special()
-        ]
+        points = []
+        for same in self._special():
+            held = self.located_by.get(same[-1].kind, "")
+            caps = {name: self._cap(name, held) for name in self.fine.shown}
+            points.append(special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, caps))
+        return points
 
     def _special(self) -> list[tuple[Solved, ...]]:
         """Each special point on all meshes; located once."""
@@ -149,15 +162,34 @@ class BranchFamily:
             solved = points[int(value) - 1]
         else:
             solved = self._at(name, value, crossing)
-        quantities = self._columns(solved)
+        orders = self._orders_in_mean(solved)
+        held = self.located_by.get(name, "") if special else name
+        quantities = self._columns(solved, held, orders)
         if profile is not None or self.judges_points:
             quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
+        quantities = self._doubted(quantities, orders)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)
 
-    def _columns(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
-        """The finest mesh's columns with their uncertainties."""
-        return {k: self._quantity([s.values[k] for s in solved], k) for k in self.fine.shown}
+    def _columns(
+        self, solved: Sequence[Solved], held: str, orders: Mapping[str, float]
+    ) -> dict[str, Quantity]:
+        """The finest mesh's columns with their uncertainties; what errs in the one ``held`` does in all."""
+        return {
+            name: self._quantity(
+                [s.values[name] for s in solved], name, held, orders.get(self.points_of.get(name, ""), 0.0)
+            )
+            for name in self.fine.shown
+        }
+
+    def _doubted(self, quantities: dict[str, Quantity], orders: Mapping[str, float]) -> dict[str, Quantity]:
+        """The same, with wider uncertainties where the coarse meshes do not resolve the state's fields."""
+        element = self.fine.system.unknown.function_space.ufl_element()
+        wider = doubt(orders.values(), element.embedded_superdegree + 1)
+        return {
+            name: replace(q, uncertainty=wider * q.uncertainty) if q.uncertainty else q
+            for name, q in quantities.items()
+        }
 
     def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
         """The state on every mesh, coarse to fine."""
@@ -183,10 +215,9 @@ class BranchFamily:
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         samples = []
         for k, (level, s) in enumerate(zip(self.levels, solved, strict=True)):
-            level.system.set_state(s.state.u, s.state.loads)
             locate = level.system.formulation.locate
             places = points if locate is None else locate(points, s.state.loads)
-            samples.append(self._sampler(k, places)())
+            samples.append(self._sample(k, s, places))
         abscissa = self.fine.system.formulation.abscissa
         columns: dict[str, np.ndarray] = {abscissa: points}
         uncertainty = {abscissa: 0.0}
@@ -196,6 +227,22 @@ class BranchFamily:
             columns[name] = samples[-1][name]
             uncertainty[name] = SAMPLED * estimate_in_norm([sample[name] for sample in samples], cap)
         return Field("profile", columns, uncertainty)
+
+    def _orders_in_mean(self, solved: Sequence[Solved]) -> dict[str, float]:
+        """Orders of the profile's columns over the whole of a meridian, whatever points are asked for."""
+        mesh = self.fine.system.unknown.function_space.mesh
+        if mesh.topology.dim > 1 or len(solved) < 3:
+            return {}
+        ends = mesh.comm.allgather((mesh.geometry.x[:, 0].min(), mesh.geometry.x[:, 0].max()))
+        places = np.linspace(np.min(ends), np.max(ends), PLACES)
+        samples = [self._sample(k, s, places) for k, s in enumerate(solved)]
+        return {name: order_in_mean([sample[name] for sample in samples]) for name in samples[-1]}
+
+    def _sample(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
+        """Columns of the profile at places on one mesh."""
+        system = self.levels[k].system
+        system.set_state(solved.state.u, solved.state.loads)
+        return self._sampler(k, places)()
 
     def _sampler(self, k: int, points: np.ndarray) -> Sampler:
         """Sampler on one mesh, kept: locating points costs more than evaluating there."""
@@ -207,10 +254,25 @@ class BranchFamily:
 
     # -- estimates ---------------------------------------------------------------------------
 
-    def _quantity(self, values: list[float], name: str = "") -> Quantity:
-        found = estimate(values, self.caps.get(name, self.cap))
+    def _cap(self, *names: str) -> float:
+        """Highest order to reckon with in a number that errs as each of some columns does."""
+        return min(self.caps.get(name, self.cap) for name in names)
+
+    def _quantity(
+        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0
+    ) -> Quantity:
+        """A number with its uncertainty.
+
+        One at a point that lies now here, now there in its cell has differences of any size, whose order is
+        accident: that of the field ``in_mean`` counts where it is higher.
+        """
+        cap = self._cap(name, held)
+        found = estimate(values, cap)
+        spread = float(found.uncertainty)
+        if in_mean:
+            spread = min(spread, SAMPLED * float(estimate(values, cap, least=in_mean).uncertainty))
         order = float(found.order)
-        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
+        return Quantity(float(found.value), spread, order if order > 0 else None)
 
 
 def special_point(

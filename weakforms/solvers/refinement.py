@@ -8,6 +8,7 @@ That is tested over sets of parameters: :mod:`weakforms.verification.coverage`,
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -22,6 +23,9 @@ SAFETY = 1.25
 SAFETY_UNRESOLVED = 3.0
 """... and where the observed order is below one."""
 
+TOO_FAST = 0.5
+"""Orders by which a field may fall faster than its elements can converge and still count as resolved."""
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -33,7 +37,10 @@ class Estimate:
 
 
 def estimate(
-    levels: list[np.ndarray | float], cap: float | np.ndarray, guard: float | None = None
+    levels: list[np.ndarray | float],
+    cap: float | np.ndarray,
+    guard: float | None = None,
+    least: float = 0.0,
 ) -> Estimate:
     r"""Grid convergence estimate from values on meshes of widths ``h``, ``h/2``, ``h/4``...
 
@@ -51,6 +58,7 @@ def estimate(
             derivatives at a point); one number or one a value.
         guard: Order at which ``d_1`` is taken to fall, where that is not ``cap``: where an error of low order
             shows on fine meshes only, the coarse ones' falls faster.
+        least: Order that is known from elsewhere, reckoned with where a lower one is observed.
 
     Raises:
         ValueError: With fewer than two meshes: one mesh has no uncertainty.
@@ -66,8 +74,9 @@ def estimate(
     first = np.abs(values[-2] - values[-3])
     tiny = np.finfo(float).tiny
     order = np.log2(np.maximum(first, tiny) / np.maximum(last, tiny))
-    used = np.clip(order, 1.0, cap)
-    safety = np.where(order >= 1.0, SAFETY, SAFETY_UNRESOLVED)
+    known = np.maximum(order, least)
+    used = np.clip(known, 1.0, cap)
+    safety = np.where(known >= 1.0, SAFETY, SAFETY_UNRESOLVED)
     left = np.maximum(last, first / 2.0 ** (cap if guard is None else guard))
     observed = np.where(last > floor, order, np.nan)
     return Estimate(fine, safety * left / (2.0**used - 1.0) + floor, observed)
@@ -89,3 +98,41 @@ def estimate_in_norm(levels: list[np.ndarray], cap: float, guard: float | None =
     size = float(np.max(np.abs(values[-1])))
     like = [size + sum(steps[k:]) for k in range(len(values))]  # scalars with these differences
     return float(estimate(like, cap, guard).uncertainty)
+
+
+def order_in_mean(levels: list[np.ndarray]) -> float:
+    """Order at which the last two differences of a field fall in the root mean square over its points.
+
+    Args:
+        levels: Values at the same points from coarse to fine.
+
+    Returns:
+        The order; 0 with fewer than three meshes, or where only round-off is left.
+    """
+    if len(levels) < 3:
+        return 0.0
+    first, last = (float(np.sqrt(np.mean((b - a) ** 2))) for a, b in pairwise(levels[-3:]))
+    floor = ALGEBRAIC * max(float(np.max(np.abs(levels[-1]))), 1.0)
+    return float(np.log2(first / last)) if first > floor and last > floor else 0.0
+
+
+def doubt(orders: Iterable[float], highest: float) -> float:
+    r"""Factor for the uncertainties of a state whose coarse meshes do not resolve it; else 1.
+
+    No field can converge faster than its elements, at an order :math:`q_0`. One whose differences, in the
+    mean where nothing cancels, fall at an order :math:`q_0 + e` was not resolved where they were large. The
+    numbers of an equilibrium err by the square of its fields: their differences may have fallen :math:`2e`
+    orders faster than what is left will,
+
+    .. math:: f = 4^{\min(e, 1)}, \quad e = \max_\mathrm{fields} q - q_0 > \tfrac12
+
+    An excess beyond one order says that the coarsest mesh is far off, no more of the finer ones.
+
+    One number alone cannot tell: where its difference passes through zero, any order is seen.
+
+    Args:
+        orders: Of the state's fields (:func:`order_in_mean`).
+        highest: Order of the elements in the mean: their degree and one.
+    """
+    excess = max(orders, default=0.0) - highest
+    return float(4.0 ** min(excess, 1.0)) if excess > TOO_FAST else 1.0
