@@ -4,6 +4,9 @@ ffcx marks a form that is being compiled by the file ``NAME.c``, and a finished 
 process killed in between leaves the first without the second, for which every later one would wait in
 vain. Here whoever compiles holds a lock, which the system takes back from a dead process, and compiles in a
 folder of its own, from which the finished files are moved.
+
+ffcx names an expression after how many variables (``ufl.variable``) the process had made before: the same one
+on another mesh, or after something else was solved, was compiled again. Here they count from zero.
 """
 
 from __future__ import annotations
@@ -24,6 +27,10 @@ import cffi
 from dolfinx import jit as dolfinx_jit
 from ffcx import options as ffcx_options
 from ffcx.codegeneration import jit
+from ufl.algorithms import signature
+from ufl.classes import Label
+from ufl.core.expr import Expr
+from ufl.corealg.traversal import traverse_unique_terminals
 
 from weakforms.errors import EnvironmentLackError
 
@@ -45,10 +52,23 @@ def install() -> None:
     # the arguments of the compiler (a plugin is one) nor the numbers' precision.
     for options in (dolfinx_jit, ffcx_options):
         options._load_options = lambda: ({}, {})
+    signature.compute_expression_signature = _counting_from_zero(signature.compute_expression_signature)
     jit.get_cached_module = _finding(jit.get_cached_module)
     jit._compile_objects = _compiling(jit._compile_objects)
     for name in ("compile_forms", "compile_expressions"):
         setattr(jit, name, _releasing(getattr(jit, name)))
+
+
+def _counting_from_zero(compute: Callable) -> Callable:
+    """The signature of an expression, its variables numbered by where they stand in it, as in forms."""
+
+    @functools.wraps(compute)
+    def computed(expression: Expr, renumbering: dict[Any, int]) -> str:
+        terminals = traverse_unique_terminals(expression)
+        labels = dict.fromkeys(terminal for terminal in terminals if isinstance(terminal, Label))
+        return compute(expression, renumbering | {label: i for i, label in enumerate(labels)})
+
+    return computed
 
 
 def _finding(find: Callable) -> Callable:
