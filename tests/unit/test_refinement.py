@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from weakforms.solvers.refinement import ALGEBRAIC, doubt, estimate, order_in_mean
+from weakforms.solvers.refinement import ALGEBRAIC, Slow, doubt, estimate, order_in_mean
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 4.0, 8.0])
@@ -50,6 +50,16 @@ def test_an_order_known_from_elsewhere_counts_where_a_lower_one_is_observed():
     assert plain == pytest.approx(3 * 0.02, rel=1e-6)
     steady = [1.0 + 0.25**k for k in range(3)]
     assert estimate(steady, cap=4.0, least=1.0) == estimate(steady, cap=4.0)
+
+
+@pytest.mark.parametrize("width", [1.0, 0.1, 0.01])
+def test_a_slow_part_counts_where_it_shows(width):
+    """An error of order 6, and a small one of order 1.5: all that fine meshes leave."""
+    values = [1.0 + 0.3 * h**6 + 1e-9 * (h / width) ** 1.5 for h in width * 0.5 ** np.arange(3)]
+    error, slow = values[-1] - 1.0, Slow(size=1e-8, order=2.0)
+    found = estimate(values, 6.0, slow=slow).uncertainty
+    assert error <= found <= 30 * error
+    assert found - estimate(values, 6.0).uncertainty <= 1.25 * slow.size
 
 
 @pytest.mark.parametrize("order", [1.0, 3.0, 5.5])

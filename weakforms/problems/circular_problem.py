@@ -21,6 +21,7 @@ from weakforms.results import SpecialPoint
 from weakforms.solvers.branch import SolutionCurve
 from weakforms.solvers.family import BranchFamily, special_point
 from weakforms.solvers.pieces import Piece, PiecewiseFamily
+from weakforms.solvers.refinement import SERIES, Slow
 
 SOURCE = "Patil, DasGupta & Eriksson (2015), Int. J. Solids Struct. 67-68, 250-262"
 
@@ -220,7 +221,9 @@ class Circular(PathProblem):
             for cells, count in zip(numerics.meshes, terms, strict=True)
         ]
 
-        def family(part: Callable[[DiskRun], SolutionCurve], of: type = BranchFamily) -> BranchFamily:
+        def family(
+            part: Callable[[DiskRun], SolutionCurve], slow: Slow | None = None, of: type = BranchFamily
+        ) -> BranchFamily:
             def make(level: int) -> SolutionCurve:
                 progress("branch", level, numerics.levels)
                 return part(runs[level])
@@ -231,21 +234,22 @@ class Circular(PathProblem):
             caps["eigenvalue_1"] = min(cap, OF_EIGENVALUES)
             if of is PeelingFamily:  # where G is not zero it is a jump of such derivatives
                 caps |= {"G": float(degree), "G_difference": degree + 1.0}
-            return of(make, numerics.levels, cap, across=across, caps=caps)
+            return of(make, numerics.levels, cap, across=across, caps=caps, slow=slow)
 
         if parameters.phase == "peeling":
             p = peeling_pressure(parameters, requests)
             runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
-            return {"primary": family(lambda run: PeelingBranch(run, p), PeelingFamily)}
+            return {"primary": family(lambda run: PeelingBranch(run, p), SERIES, PeelingFamily)}
         if parameters.contact == "none":
             free = family(lambda run: run.free(parameters.t_end))
             return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)])}
         runs[-1].onset  # noqa: B018
         if parameters.phase == "deflation":
-            return {"primary": family(lambda run: run.deflation)}
+            return {"primary": family(lambda run: run.deflation, SERIES)}
+        history = SERIES if parameters.contact == "adhesive" else None
         pieces = [
             Piece(family(lambda run: run.before_contact), NO_PATCH),
-            Piece(family(lambda run: getattr(run, parameters.contact)), {}),
+            Piece(family(lambda run: getattr(run, parameters.contact), history), {}),
         ]
         return {"primary": PiecewiseFamily(pieces, lambda: [_onset(runs, numerics.degree)])}
 

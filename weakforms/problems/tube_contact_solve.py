@@ -14,6 +14,7 @@ from weakforms.results import SpecialPoint
 from weakforms.solvers.branch import SolutionCurve
 from weakforms.solvers.family import BranchFamily, special_point
 from weakforms.solvers.pieces import Piece, PiecewiseFamily
+from weakforms.solvers.refinement import SERIES, Slow
 
 if TYPE_CHECKING:
     from weakforms.problems.tube_problem import TubeNumerics, TubeParameters
@@ -23,7 +24,7 @@ FIRST_TERMS, MORE_TERMS = 14, 4
 
 CAP_UNILATERAL = 1.0
 """Highest order of convergence reckoned with where a unilateral spring lets go inside a cell. Else it is that
-of a free tube: what the series of a stuck patch leaves out is less than what the mesh does."""
+of a free tube, but for what the series of a stuck patch leaves out."""
 
 TRACES = ("line_force", "line_force_membrane")
 SECOND = ("traction_front", "traction_max", "f_t")
@@ -53,21 +54,22 @@ def contact_family(
     cap = CAP_UNILATERAL if parameters.spring == "unilateral" else free
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 
-    def family(part: Callable[[ContactRun], SolutionCurve], cap: float) -> BranchFamily:
+    def family(part: Callable[[ContactRun], SolutionCurve], cap: float, slow: Slow | None) -> BranchFamily:
         def make(level: int) -> SolutionCurve:
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
         caps = dict.fromkeys(TRACES, min(cap, numerics.degree)) | dict.fromkeys(SECOND, min(cap, 2.0))
         caps["kappa"] = min(cap, free - 1)
-        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps)
+        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
 
     runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
     if parameters.phase == "deflation":
-        return PiecewiseFamily([Piece(family(lambda run: run.deflation, cap), {})])
+        return PiecewiseFamily([Piece(family(lambda run: run.deflation, cap, SERIES), {})])
+    history = SERIES if parameters.contact == "adhesive" else None
     pieces = [
-        Piece(family(lambda run: run.free, free), NO_PATCH | {"kappa": float("nan")}),
-        Piece(family(lambda run: getattr(run, parameters.contact), free), {}),
+        Piece(family(lambda run: run.free, free, None), NO_PATCH | {"kappa": float("nan")}),
+        Piece(family(lambda run: getattr(run, parameters.contact), free, history), {}),
     ]
 
     def onset() -> list[SpecialPoint]:

@@ -12,7 +12,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
-from weakforms.solvers.refinement import Estimate, doubt, estimate, estimate_in_norm, order_in_mean
+from weakforms.solvers.refinement import Estimate, Slow, doubt, estimate, estimate_in_norm, order_in_mean
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.stability import Stability
 
@@ -42,6 +42,7 @@ class BranchFamily:
         across: Columns that span the plane in which branches of two meshes are compared.
         caps: ... and for some columns a lower one (one-sided traces of derivatives).
         points_of: Columns that are a column of the profile at a point which moves through the cells.
+        slow: A part of all errors that falls slower.
         name: Name of the branch.
     """
 
@@ -60,9 +61,11 @@ class BranchFamily:
         name: str = "primary",
         caps: Mapping[str, float] | None = None,
         points_of: Mapping[str, str] | None = None,
+        slow: Slow | None = None,
     ) -> None:
         self.caps = dict(caps or {})
         self.points_of = dict(points_of or {})
+        self.slow = slow
         self.levels = [make(level) for level in range(levels)]
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
@@ -107,7 +110,7 @@ class BranchFamily:
             raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
         table = np.array(errors)  # (points, levels, columns)
         caps = np.array([self._cap(name, *self.across) for name in names])
-        found = estimate([table[:, k] for k in range(table.shape[1])], caps)
+        found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow)
         wide = _widen(found.uncertainty)
         return Branch(
             self.name,
@@ -128,7 +131,8 @@ class BranchFamily:
         for same in self._special():
             held = self.located_by.get(same[-1].kind, "")
             caps = {name: self._cap(name, held) for name in self.fine.shown}
-            points.append(special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, caps))
+            about = self.fine.shown, self.cap, self.name, self.fine.control, caps
+            points.append(special_point(same, *about, self.slow))
         return points
 
     def _special(self) -> list[tuple[Solved, ...]]:
@@ -225,7 +229,9 @@ class BranchFamily:
         for name in samples[-1]:
             cap = min(order, self.caps.get(name, order))
             columns[name] = samples[-1][name]
-            uncertainty[name] = SAMPLED * estimate_in_norm([sample[name] for sample in samples], cap)
+            uncertainty[name] = SAMPLED * estimate_in_norm(
+                [sample[name] for sample in samples], cap, slow=self.slow
+            )
         return Field("profile", columns, uncertainty)
 
     def _orders_in_mean(self, solved: Sequence[Solved]) -> dict[str, float]:
@@ -267,10 +273,10 @@ class BranchFamily:
         accident: that of the field ``in_mean`` counts where it is higher.
         """
         cap = self._cap(name, held)
-        found = estimate(values, cap)
+        found = estimate(values, cap, slow=self.slow)
         spread = float(found.uncertainty)
         if in_mean:
-            spread = min(spread, SAMPLED * float(estimate(values, cap, least=in_mean).uncertainty))
+            spread = min(spread, SAMPLED * float(estimate(values, cap, None, in_mean, self.slow).uncertainty))
         order = float(found.order)
         return Quantity(float(found.value), spread, order if order > 0 else None)
 
@@ -282,10 +288,11 @@ def special_point(
     branch: str,
     control: str,
     caps: Mapping[str, float] | None = None,
+    slow: Slow | None = None,
 ) -> SpecialPoint:
     """A special point located on several meshes, coarse to fine, with its uncertainties."""
     lower = caps or {}
-    values = {k: estimate([s.values[k] for s in same], lower.get(k, cap)) for k in shown}
+    values = {k: estimate([s.values[k] for s in same], lower.get(k, cap), slow=slow) for k in shown}
     return SpecialPoint(
         same[-1].kind,
         branch,

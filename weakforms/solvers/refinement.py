@@ -28,6 +28,20 @@ TOO_FAST = 0.5
 
 
 @dataclass(frozen=True)
+class Slow:
+    """Part of an error that falls slower than the rest, and shows where that is small: on fine meshes."""
+
+    size: float
+    """Largest difference between two meshes that it may make, of a number or of 1 ..."""
+    order: float
+    """... and the highest order it has."""
+
+
+SERIES = Slow(size=1e-7, order=2.0)
+"""The series in which a stuck patch keeps its history, refined by a few terms a mesh."""
+
+
+@dataclass(frozen=True)
 class Estimate:
     """Finest value, absolute uncertainty and observed order (``nan`` where two meshes cannot tell)."""
 
@@ -41,6 +55,7 @@ def estimate(
     cap: float | np.ndarray,
     guard: float | None = None,
     least: float = 0.0,
+    slow: Slow | None = None,
 ) -> Estimate:
     r"""Grid convergence estimate from values on meshes of widths ``h``, ``h/2``, ``h/4``...
 
@@ -50,7 +65,8 @@ def estimate(
     .. math:: u = F \frac{\max(|d_2|, |d_1|/2^{cap})}{2^q - 1} + u_\mathrm{algebraic}
 
     The maximum keeps an accidentally small ``d_2`` (a change of sign) from passing for accuracy. Two
-    meshes alone are taken to converge at first order.
+    meshes alone are taken to converge at first order. To a slow part of the error belongs of the maximum as
+    much as it may make, and that is added with its own ``cap``.
 
     Args:
         levels: Values from coarse to fine, scalars or arrays of one shape; two or more.
@@ -59,6 +75,7 @@ def estimate(
         guard: Order at which ``d_1`` is taken to fall, where that is not ``cap``: where an error of low order
             shows on fine meshes only, the coarse ones' falls faster.
         least: Order that is known from elsewhere, reckoned with where a lower one is observed.
+        slow: A part of the error that falls slower.
 
     Raises:
         ValueError: With fewer than two meshes: one mesh has no uncertainty.
@@ -75,14 +92,32 @@ def estimate(
     tiny = np.finfo(float).tiny
     order = np.log2(np.maximum(first, tiny) / np.maximum(last, tiny))
     known = np.maximum(order, least)
+    spread = _left(first, last, known, cap, guard)
+    if slow is not None:
+        most = slow.size * np.maximum(np.abs(fine), 1.0)
+        spread += _left(first, last, known, np.minimum(cap, slow.order), None, most)
+    observed = np.where(last > floor, order, np.nan)
+    return Estimate(fine, spread + floor, observed)
+
+
+def _left(
+    first: np.ndarray,
+    last: np.ndarray,
+    known: np.ndarray,
+    cap: float | np.ndarray,
+    guard: float | None,
+    most: float | np.ndarray = np.inf,
+) -> np.ndarray:
+    """What two differences leave, if no more than ``most`` of them counts."""
     used = np.clip(known, 1.0, cap)
     safety = np.where(known >= 1.0, SAFETY, SAFETY_UNRESOLVED)
     left = np.maximum(last, first / 2.0 ** (cap if guard is None else guard))
-    observed = np.where(last > floor, order, np.nan)
-    return Estimate(fine, safety * left / (2.0**used - 1.0) + floor, observed)
+    return safety * np.minimum(left, most) / (2.0**used - 1.0)
 
 
-def estimate_in_norm(levels: list[np.ndarray], cap: float, guard: float | None = None) -> float:
+def estimate_in_norm(
+    levels: list[np.ndarray], cap: float, guard: float | None = None, slow: Slow | None = None
+) -> float:
     r"""One uncertainty for a whole field: :func:`estimate` with differences in the maximum norm.
 
     Point by point differences of two meshes oscillate within cells and pass through zero anywhere, so that
@@ -92,12 +127,13 @@ def estimate_in_norm(levels: list[np.ndarray], cap: float, guard: float | None =
         levels: Values at the same points from coarse to fine; two or more.
         cap: Highest order the method can have.
         guard: As for :func:`estimate`.
+        slow: As for :func:`estimate`.
     """
     values = [np.asarray(level, dtype=float) for level in levels]
     steps = [float(np.max(np.abs(b - a))) for a, b in pairwise(values)]
     size = float(np.max(np.abs(values[-1])))
     like = [size + sum(steps[k:]) for k in range(len(values))]  # scalars with these differences
-    return float(estimate(like, cap, guard).uncertainty)
+    return float(estimate(like, cap, guard, slow=slow).uncertainty)
 
 
 def order_in_mean(levels: list[np.ndarray]) -> float:
