@@ -21,12 +21,15 @@ from weakforms.results import SpecialPoint
 from weakforms.solvers.branch import SolutionCurve
 from weakforms.solvers.family import BranchFamily, special_point
 from weakforms.solvers.pieces import Piece, PiecewiseFamily
-from weakforms.solvers.refinement import SERIES, Slow
+from weakforms.solvers.refinement import Slow
 
 SOURCE = "Patil, DasGupta & Eriksson (2015), Int. J. Solids Struct. 67-68, 250-262"
 
 FIRST_TERMS, MORE_TERMS = 10, 3
 """Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
+
+SERIES = Slow(size=6e-9, order=2.0)
+"""What the series leaves out, which falls by little from mesh to mesh."""
 
 SCALES = {
     "length": "R_f, radius of the clamp (= beta R_0)",

@@ -14,13 +14,16 @@ from weakforms.results import SpecialPoint
 from weakforms.solvers.branch import SolutionCurve
 from weakforms.solvers.family import BranchFamily, special_point
 from weakforms.solvers.pieces import Piece, PiecewiseFamily
-from weakforms.solvers.refinement import SERIES, Slow
+from weakforms.solvers.refinement import Slow
 
 if TYPE_CHECKING:
     from weakforms.problems.tube_problem import TubeNumerics, TubeParameters
 
 FIRST_TERMS, MORE_TERMS = 14, 4
 """Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
+
+SERIES = Slow(size=6e-8, order=2.0)
+"""What the series leaves out, which falls by little from mesh to mesh."""
 
 CAP_UNILATERAL = 1.0
 """Highest order of convergence reckoned with where a unilateral spring lets go inside a cell. Else it is that

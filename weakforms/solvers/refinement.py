@@ -37,10 +37,6 @@ class Slow:
     """... and the highest order it has."""
 
 
-SERIES = Slow(size=1e-7, order=2.0)
-"""The series in which a stuck patch keeps its history, refined by a few terms a mesh."""
-
-
 @dataclass(frozen=True)
 class Estimate:
     """Finest value, absolute uncertainty and observed order (``nan`` where two meshes cannot tell)."""

@@ -5,7 +5,7 @@ as fine with polynomials two degrees higher: against the coarse uncertainty :mat
 truth, its own :math:`u_t` being known and smaller by orders. What is claimed of every number:
 
 * its true error is within :math:`u + u_t` for 95 % of all numbers, and within the bound that verdicts use,
-  :math:`2u + u_t`, for 99 % of them;
+  :math:`2u + u_t`, for all of them;
 * for each column, over the sets, :math:`u` is at most 30 times the error (:func:`statistics`), where an error
   below the floor counts as the floor: ten times :data:`~weakforms.solvers.refinement.ALGEBRAIC` of the number
   or of 1, the part of each uncertainty that is there for round-off, which no mesh can show.
