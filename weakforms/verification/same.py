@@ -31,6 +31,10 @@ ZERO = 1e-11
 LEAST = 1e-5
 """Smallest scale: what is smaller is told apart to 1e-14 and no further."""
 
+FRICTION = ("line_force", "line_force_membrane", "traction_front", "traction_max", "f_t")
+"""Their scale is 1 at least, that of a patch that sticks: without friction there are none, and what shows is
+derivatives of round-off."""
+
 NOISE = 1e-7
 """Uncertainty, relative to a number's scale, below which round-off has a part in it: a difference of two
 meshes' numbers that agree to seven digits. Below, uncertainties are not compared."""
@@ -109,7 +113,8 @@ def scales(*results: Result) -> dict[str, float]:
         largest[number.name] = max(top, largest.get(number.name, 0.0))
         beyond = top > max(ZERO, float(np.nanmax(number.uncertainty, initial=0.0)))
         known[number.name] = beyond or known.get(number.name, False)
-    return {name: max(top, LEAST) if known[name] else 1.0 for name, top in largest.items()}
+    least = dict.fromkeys(FRICTION, 1.0)
+    return {name: max(top, least.get(name, LEAST)) if known[name] else 1.0 for name, top in largest.items()}
 
 
 def differences(first: Result, second: Result) -> list[Difference]:
