@@ -288,8 +288,8 @@ class Stability:
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
             return read(eps)
-        except PETSc.Error as error:
-            raise ConvergenceError(f"SLEPc failed: {error}") from error
+        except (PETSc.Error, SystemError) as error:  # the second is how what ``inverse`` raises may arrive
+            raise ConvergenceError(f"SLEPc failed: {error.__cause__ or error}") from error
         finally:
             _destroy(eps)
 
