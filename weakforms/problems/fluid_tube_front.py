@@ -129,7 +129,7 @@ class HalfSystem(System):
         self, formulation: Formulation, front: FrontMap | None, read: Callable[[], dict[str, float]]
     ) -> None:
         self.front, self._read = front, read
-        self._weighed, self._mass = -1, None
+        self._weighed = -1
         super().__init__(formulation)
 
     @property
@@ -137,13 +137,9 @@ class HalfSystem(System):
         """Mass matrix over the material surface: it goes with the mesh."""
         moves = 0 if self.front is None else self.front.moves
         if self._weighed != moves:
-            self._weighed, self._mass = moves, self._mass_matrix()
-        return self._mass
-
-    @mass.setter
-    def mass(self, matrix: PETSc.Mat) -> None:
-        """As assembled by whoever makes or updates the system."""
-        self._mass = matrix
+            self._weighed = moves
+            self.update_mass()
+        return super().mass
 
     def set_loads(self, loads: Mapping[str, float]) -> None:
         """Put scalars into the forms, and the row where they have the front."""

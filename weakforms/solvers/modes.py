@@ -38,16 +38,21 @@ class SecondVariation(System):
 
     def __init__(self, formulation: Formulation, base: System) -> None:
         self.base = base
+        self._weighed: tuple[float, ...] | None = None
         super().__init__(formulation)
         self.factor = Factorization(self)
         self.stability = Stability(self)
         self.mode = fem.Function(self.unknown.function_space)
         self._quadratic: ufl.Form | None = None
 
-    def tangent(self) -> PETSc.Mat:
-        """``K`` at the base's state, always the same matrix object; the mass matrix follows the loads."""
-        self.update_mass()
-        return super().tangent()
+    @property
+    def mass(self) -> PETSc.Mat:
+        """Mass matrix at the base's loads."""
+        loads = tuple(map(self.load, self.load_names))
+        if self._weighed != loads:
+            self._weighed = loads
+            self.update_mass()
+        return super().mass
 
     def spectrum(self, count: int = 1) -> Spectrum:
         """The lowest eigenvalues at the base's state and the inertia's count of negative ones.

@@ -111,7 +111,7 @@ class System:
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
         self._mass_entries: PETSc.Mat | None = None
-        self.mass = self._mass_matrix()
+        self._mass: PETSc.Mat | None = None
 
     def _ufl_forms(self) -> dict[str, ufl.Form]:
         given = self.formulation
@@ -136,9 +136,16 @@ class System:
         self._mass_entries.assemble()
         return without_zeros(self._mass_entries)
 
+    @property
+    def mass(self) -> PETSc.Mat:
+        """Mass matrix, assembled when it is first asked for."""
+        if self._mass is None:
+            self.update_mass()
+        return self._mass
+
     def update_mass(self) -> None:
         """Assemble the mass matrix anew, where it depends on loads or on a mesh that has moved."""
-        self.mass = self._mass_matrix()
+        self._mass = self._mass_matrix()
 
     def shift(self, tau: float) -> None:
         """``K + τ M`` in place of ``K``, until the next :meth:`tangent`."""
