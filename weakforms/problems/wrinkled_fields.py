@@ -45,12 +45,14 @@ class Meridian:
         self._interpolant = Interpolant(model.unknown, columns)
         self._local = model.mesh.topology.index_map(1).size_local
         self._comm = model.mesh.comm
+        self._order: np.ndarray | None = None
 
     def _nodes(self) -> np.ndarray:
         """Values at this rank's nodes, shape ``(cells, nodes, columns)``, in order along each cell."""
         nodes = self._interpolant.values().reshape(self._local, -1, len(self.names))
-        order = np.argsort(nodes[:, :, 0], axis=1)[:, :, None]
-        return np.take_along_axis(nodes, order, axis=1)
+        if self._order is None:
+            self._order = np.argsort(nodes[:, :, 0], axis=1) + np.arange(self._local)[:, None] * nodes.shape[1]
+        return nodes.reshape(-1, len(self.names))[self._order]
 
     def at(self, x: np.ndarray) -> dict[str, np.ndarray]:
         """Columns at mesh coordinates; between two cells the mean of both sides."""
@@ -61,9 +63,10 @@ class Meridian:
             places = (nodes[0, :, 0] - nodes[0, 0, 0]) * cells
             row_of = np.full(self.model.blocks * cells, -1)
             row_of[first] = np.arange(self._local)
-            for cell in (np.ceil(x * cells - 1e-9).astype(int) - 1, np.floor(x * cells + 1e-9).astype(int)):
+            left, right = np.ceil(x * cells - 1e-9).astype(int) - 1, np.floor(x * cells + 1e-9).astype(int)
+            for cell, meant in ((left, np.full(len(x), True)), (right, right != left)):
                 rows = np.where(
-                    (cell >= 0) & (cell < len(row_of)), row_of[np.clip(cell, 0, len(row_of) - 1)], -1
+                    meant & (cell >= 0) & (cell < len(row_of)), row_of[np.clip(cell, 0, len(row_of) - 1)], -1
                 )
                 mine = np.flatnonzero(rows >= 0)
                 basis = _lagrange(places, x[mine] * cells - cell[mine])
@@ -86,30 +89,33 @@ class Meridian:
             grid = np.linspace(0.0, 1.0, FINE + 1)
             peaks = (column @ _lagrange(places, grid).T).max(axis=1)
             # Of two cells that share the best sample the top may be in either.
-            best = max(_top(places, column[cell]) for cell in np.argsort(peaks)[-CANDIDATES:])
+            best = _top(places, column[np.argsort(peaks)[-CANDIDATES:]])
         return sign * float(self._comm.allreduce(best, op=MPI.MAX))
 
 
 def _top(places: np.ndarray, values: np.ndarray) -> float:
-    """Largest value on [0, 1] of a polynomial given by its values at ``places``."""
-    low, high, best = 0.0, 1.0, -np.inf
+    """Largest value on [0, 1] of polynomials, each given by a row of its values at ``places``."""
+    rows, share = np.arange(len(values)), np.linspace(0.0, 1.0, FINE + 1)
+    low, high, best = np.zeros(len(values)), np.ones(len(values)), -np.inf
     for _ in range(ZOOMS):
-        t = np.linspace(low, high, FINE + 1)
-        found = _lagrange(places, t) @ values
-        i = int(np.argmax(found))
-        best = max(best, float(found[i]))
-        low, high = t[max(i - 1, 0)], t[min(i + 1, FINE)]
+        t = low[:, None] + (high - low)[:, None] * share
+        found = np.einsum("rpn,rn->rp", _lagrange(places, t), values)
+        i = found.argmax(axis=1)
+        best = max(best, float(found.max()))
+        low, high = t[rows, np.maximum(i - 1, 0)], t[rows, np.minimum(i + 1, FINE)]
     return best
 
 
 def _lagrange(nodes: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """Lagrange basis of ``nodes`` at points ``t``, shape ``(points, nodes)``."""
-    own = np.arange(len(nodes))
+    """Lagrange basis of ``nodes`` at points ``t``, shape ``(*t.shape, nodes)``."""
     gaps = nodes[:, None] - nodes[None, :]
-    distance = np.repeat((t[:, None] - nodes[None, :])[:, None, :], len(nodes), axis=1)
-    gaps[own, own] = 1.0
-    distance[:, own, own] = 1.0
-    return distance.prod(axis=2) / gaps.prod(axis=1)
+    np.fill_diagonal(gaps, 1.0)
+    distance = t[..., None] - nodes
+    # The product of all but one distance: of those before it and of those after it.
+    before, after = np.ones_like(distance), np.ones_like(distance)
+    before[..., 1:] = np.cumprod(distance[..., :-1], axis=-1)
+    after[..., :-1] = np.cumprod(distance[..., :0:-1], axis=-1)[..., ::-1]
+    return before * after / gaps.prod(axis=1)
 
 
 @dataclass(frozen=True)
