@@ -36,7 +36,7 @@ app = typer.Typer(
 
 Out = Annotated[Path, typer.Option("--out", help="Folder for solutions and report.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
-Jobs = Annotated[int, typer.Option("-j", "--jobs", min=1, max=64, help="Solves side by side.")]
+Jobs = Annotated[int, typer.Option("-j", "--jobs", min=1, max=64, help="Processes side by side.")]
 Resume = Annotated[bool, typer.Option("--resume", help="Take over what an interrupted run stored.")]
 
 
@@ -199,11 +199,12 @@ def report(
         list[Path] | None,
         typer.Option("--other", metavar="OUT", help="Another run of the cases, to compare all numbers with."),
     ] = None,
+    jobs: Jobs = 1,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
     from weakforms.verification import verbs
 
-    verbs.report(folder, out, as_pdf, seeded, tuple(others or ()))
+    verbs.report(folder, out, as_pdf, seeded, tuple(others or ()), jobs)
 
 
 @app.command()

@@ -51,7 +51,8 @@ class Meridian:
         """Values at this rank's nodes, shape ``(cells, nodes, columns)``, in order along each cell."""
         nodes = self._interpolant.values().reshape(self._local, -1, len(self.names))
         if self._order is None:
-            self._order = np.argsort(nodes[:, :, 0], axis=1) + np.arange(self._local)[:, None] * nodes.shape[1]
+            first = np.arange(self._local)[:, None] * nodes.shape[1]
+            self._order = first + np.argsort(nodes[:, :, 0], axis=1)
         return nodes.reshape(-1, len(self.names))[self._order]
 
     def at(self, x: np.ndarray) -> dict[str, np.ndarray]:

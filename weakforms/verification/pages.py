@@ -6,8 +6,10 @@ A group is what stands before the dot in a case's id: a paper, or a folder of ca
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from itertools import chain, count
+from operator import call
 from statistics import quantiles
 from typing import Any
 
@@ -21,6 +23,7 @@ from weakforms.verification.figures import LOOK, TEMPLATES, convergence_figure, 
 from weakforms.verification.junit import clean
 from weakforms.verification.outcome import CaseOutcome, Convergence, RunOutcome, SurfaceOutcome, Verdict
 from weakforms.verification.surface_figures import surface_figure
+from weakforms.verification.workers import workers
 
 FOLDED = 30
 """More passed checks than this in one case stand folded under their summary."""
@@ -71,7 +74,7 @@ GROUPS = {
 
 
 def render(
-    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = ()
+    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = (), jobs: int = 1
 ) -> dict[str, str]:
     """Every page of the report.
 
@@ -79,11 +82,12 @@ def render(
         run: What ``verify`` left.
         seeded: What became of seeded faults, where the catalogue was run.
         others: Runs of the same cases on other ranks or releases.
+        jobs: Processes that draw, side by side.
 
     Returns:
         HTML by file name; the first page is ``index.html``. No page loads anything.
     """
-    facts = _facts(run, seeded, others)
+    facts = _facts(run, seeded, others, jobs)
     pages = {
         group["page"]: template("group.html").render(facts, group=group, here=group["page"])
         for group in facts["groups"]
@@ -140,12 +144,13 @@ def _environment() -> Environment:
 
 
 def _facts(
-    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = ()
+    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = (), jobs: int = 1
 ) -> dict[str, Any]:
     """Everything a template may name, made from the run and what lies beside it alone."""
     taken = set(RESERVED)
     shapes = {id(surface): name for name, surface in shape_files(run)}
     views = [_case_view(case, taken, shapes) for case in run.cases]
+    _draw([shown for view in views for shown in (*view["figures"], *view["histories"])], jobs)
     groups = _groups(views)
     checks = [(view, row) for view in views for row in view["rows"]]
     verdicts = [row["verdict"] for _, row in checks]
@@ -236,8 +241,20 @@ def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str
     }
 
 
+def _draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
+    """Pictures in place of what is to be called for them."""
+    calls = [entry["svg"] for entry in shown]
+    if jobs == 1:
+        drawn = map(call, calls)
+    else:
+        with workers(jobs) as pool:
+            drawn = list(pool.map(call, calls, chunksize=4))
+    for entry, picture in zip(shown, drawn, strict=True):
+        entry["svg"] = Markup(picture)
+
+
 def _case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> dict[str, Any]:
-    """What the template shows of one case: figures drawn, checks sorted, anchors made."""
+    """What the template shows of one case: figures to be drawn, checks sorted, anchors made."""
     anchor = _anchor(case.id, taken)
     rows = [
         {
@@ -250,7 +267,7 @@ def _case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) ->
     passing = [row for row in rows if row["verdict"].passed]
     histories = []
     for records in _by_quantity(case.convergence):
-        drawing = Markup(convergence_figure(records, _anchor("f", taken)))
+        drawing = partial(convergence_figure, records, _anchor("f", taken))
         histories.append({"records": records, "svg": drawing})
     return {
         "case": case,
@@ -273,11 +290,11 @@ def _figures(
     figures = []
     for panel in case.panels:
         ident = _anchor(f"{anchor}:panel-{panel.name}", taken)
-        drawing = Markup(panel_figure(panel, _anchor("f", taken), case.verdicts))
+        drawing = partial(panel_figure, panel, _anchor("f", taken), case.verdicts)
         figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": None})
     for surface in case.surfaces:
         ident = _anchor(f"{anchor}:surface-{surface.name}", taken)
-        picture = Markup(surface_figure(surface, _anchor("f", taken)))
+        picture = partial(surface_figure, surface, _anchor("f", taken))
         figures.append({"panel": surface, "anchor": ident, "svg": picture, "shape": shapes[id(surface)]})
     return figures
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from weakforms.errors import InputError
+from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
 from weakforms.verification.elsewhere import NAME as ELSEWHERE
 from weakforms.verification.elsewhere import Elsewhere, load_elsewhere
@@ -31,7 +31,7 @@ OURS = '<meta name="generator" content="weakforms">'
 _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "residual_bound")
 
 
-def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
+def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int = 1) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
 
     A ``faults.json`` in the folder gives the page of seeded faults its table, an ``elsewhere.json`` the first
@@ -41,6 +41,7 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
         run: What ``verify`` left.
         folder: Where to; made when missing. Pages and shapes of an earlier report go.
         stored: Whether the run was read from a file: then nothing is written before all of it is drawn.
+        jobs: Processes that draw, side by side.
 
     Returns:
         The path of ``index.html``.
@@ -56,13 +57,13 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
     }
     folder = Path(folder)
     beside = Seeded.beside(folder), load_elsewhere(folder) if stored else ()
-    drawn = _redrawn(run, *beside) if stored else {}
+    drawn = _redrawn(run, *beside, jobs) if stored else {}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if not stored:
             (folder / ELSEWHERE).unlink(missing_ok=True)  # it compares the numbers of an earlier run
         _write(folder, numbers)  # before anything is drawn: `report` can draw it later
-        drawn = drawn or _drawn(run, *beside)
+        drawn = drawn or _drawn(run, *beside, jobs)
         _write(folder, drawn)
         _sweep(folder, set(drawn))
     except OSError as error:
@@ -70,15 +71,17 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False) -> Path:
     return folder / "index.html"
 
 
-def _drawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...]) -> dict[str, str]:
+def _drawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], jobs: int) -> dict[str, str]:
     """Shapes and pages by name, ``index.html`` last."""
-    return {name: vtu(surface) for name, surface in shape_files(run)} | render(run, seeded, others)
+    return {name: vtu(surface) for name, surface in shape_files(run)} | render(run, seeded, others, jobs)
 
 
-def _redrawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...]) -> dict[str, str]:
+def _redrawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], jobs: int) -> dict[str, str]:
     """The same of a stored run, the numbers of which may be anybody's."""
     try:
-        return _drawn(run, seeded, others)
+        return _drawn(run, seeded, others, jobs)
+    except EnvironmentLackError:
+        raise
     except Exception as error:
         raise InputError(f"what is stored cannot be drawn: {type(error).__name__}: {error}") from error
 

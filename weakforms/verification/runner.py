@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import time
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import as_completed
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
-from multiprocessing import get_context, parent_process
 from pathlib import Path
-from threading import Thread
 
-from weakforms.errors import EnvironmentLackError, InputError, WeakformsError
+from weakforms.errors import InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
 from weakforms.results.io import dumps, require_writable, sole_use
 from weakforms.verification import (
@@ -33,6 +29,7 @@ from weakforms.verification.machine import environment
 from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
+from weakforms.verification.workers import workers
 
 Report = Callable[[float, float, str], None]
 """Progress: seconds of work done, seconds in all as far as is known, what is being done."""
@@ -124,11 +121,6 @@ def _task(spec: Spec, states: list[At]) -> str:
     return dumps(solve_spec(spec, states).to_json())
 
 
-def _end_with_parent() -> None:
-    """In a process that solves: end when the one it solves for is gone, even by a kill."""
-    Thread(target=lambda: (parent_process().join(), os._exit(1)), daemon=True).start()
-
-
 SOLVING = ("forms", "problems", "solvers", "results")
 """The folders whose code a solution depends on; judging and drawing it may change."""
 
@@ -215,22 +207,13 @@ class Solver:
                 except WeakformsError as error:
                     yield spec, error
             return
-        # Spawned, not forked: MPI and PETSc do not survive a fork.
-        pool = ProcessPoolExecutor(self.jobs, mp_context=get_context("spawn"), initializer=_end_with_parent)
-        try:
+        with workers(self.jobs) as pool:
             futures = {pool.submit(_task, spec, states): spec for spec, states, _ in todo}
             for future in as_completed(futures):
                 error = future.exception()
                 if error is not None and not isinstance(error, WeakformsError):
                     raise error
                 yield futures[future], error or future.result()
-        except BrokenProcessPool:
-            raise EnvironmentLackError(
-                "a process that was solving died, perhaps for want of memory; "
-                f"with fewer than -j {self.jobs} and --resume the run goes on from what is solved"
-            ) from None
-        finally:
-            pool.shutdown(cancel_futures=True)  # after Ctrl-C nothing more is begun
 
 
 # -- judging -------------------------------------------------------------------------------------

@@ -47,7 +47,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
             raise typer.Exit(130) from None
         if first:
             keep_beside(out / FAULTS, out / "report")
-            page = write_report(run, out / "report")
+            page = write_report(run, out / "report", jobs=jobs)
             print_summary(run, console())
             console().print(f"report: {plain(page)}", soft_wrap=True)
     status = run_status(run)
@@ -56,7 +56,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
 
 
 def report(
-    folder: Path, out: Path | None, as_pdf: bool, seeded: Path | None, others: tuple[Path, ...]
+    folder: Path, out: Path | None, as_pdf: bool, seeded: Path | None, others: tuple[Path, ...], jobs: int
 ) -> None:
     """Draw the report of a stored run again, with what lies beside it.
 
@@ -66,6 +66,7 @@ def report(
         as_pdf: Print it too.
         seeded: What ``faults`` left, elsewhere than in the folder.
         others: Output folders of other runs, whose numbers are compared with this one's.
+        jobs: Processes that draw, side by side.
 
     Raises:
         InputError: When something stored cannot be read or drawn, or the folder not be written.
@@ -83,7 +84,7 @@ def report(
     keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
     if others:
         write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
-    written = [write_report(run, out or stored, stored=True)]
+    written = [write_report(run, out or stored, stored=True, jobs=jobs)]
     if as_pdf:
         written.append(pdf.write_pdf(run, written[0].with_name(pdf.NAME)))
     print_summary(run, console())

@@ -1,0 +1,40 @@
+"""Processes that work side by side."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing import get_context, parent_process
+from threading import Thread
+
+from weakforms.errors import EnvironmentLackError
+
+
+@contextmanager
+def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """Processes that end with this one, even by a kill; after Ctrl-C nothing more is begun in them.
+
+    Args:
+        jobs: How many.
+
+    Raises:
+        EnvironmentLackError: When one of them died.
+    """
+    # Spawned, not forked: MPI and PETSc do not survive a fork.
+    pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_parent)
+    try:
+        yield pool
+    except BrokenProcessPool:
+        raise EnvironmentLackError(
+            "a process at work died, perhaps for want of memory; "
+            f"with fewer than -j {jobs} and --resume the run goes on from what is solved"
+        ) from None
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _end_with_parent() -> None:
+    Thread(target=lambda: (parent_process().join(), os._exit(1)), daemon=True).start()
