@@ -117,15 +117,20 @@ class System:
         given = self.formulation
         tangent = given.tangent or ufl.derivative(given.residual, self.unknown, self.trial)
         forms = {"residual": given.residual, "tangent": tangent, "mass": given.mass}
-        forms |= {f"d_{name}": ufl.diff(given.residual, v) for name, (_, v) in given.loads.items()}
         forms |= {f"monitor_{name}": form for name, form in given.monitors.items()}
         return forms
 
     def _form(self, name: str) -> fem.Form:
         """Compile on first use; the compiler's cache makes that cheap for every further mesh."""
         if name not in self._forms:
+            if name not in self._ufl:
+                self._ufl[name] = self._rate_form(name.removeprefix("d_"))
             self._forms[name] = fem.form(self._ufl[name])
         return self._forms[name]
+
+    def _rate_form(self, load: str) -> ufl.Form:
+        """``∂R/∂λ``; there are many loads, and few of these derivatives are ever asked for."""
+        return ufl.diff(self.formulation.residual, self.formulation.loads[load][1])
 
     def _mass_matrix(self) -> PETSc.Mat:
         """Mass matrix with *zero* Dirichlet rows: they must add no finite eigenvalue."""
@@ -302,7 +307,7 @@ class System:
         key, gradient = f"third_{load}", f"gradient_third_{load}"
         if key not in self._ufl:
             scalar = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._psi)
-            scalar += self._rate * ufl.action(self._ufl[f"d_{load}"], self._psi)
+            scalar += self._rate * ufl.action(self._rate_form(load), self._psi)
             self._ufl[key] = scalar
             self._ufl[gradient] = ufl.derivative(scalar, self.unknown, self.test)
         self._rate.value = rate
