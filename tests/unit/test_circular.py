@@ -269,3 +269,11 @@ def test_states_before_contact_have_no_patch():
     quantities = result.states[0].quantities
     assert quantities["rho_contact"].value == 0.0
     assert "lam1_contact" not in quantities
+
+
+def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
+    """Springs that hardly resist leave the free disk's, whatever mesh is used for the state."""
+    free = solve("circular", p_end=4.0, at={"p": 3.0}).states[0].quantities
+    contact = solve("circular", contact="frictionless", k=1e-8, p_end=4.0, at={"p": 3.0}).states[0].quantities
+    assert contact["X_contact"].value > 0.4
+    assert contact["eigenvalue_1"].value == pytest.approx(free["eigenvalue_1"].value, rel=5e-9)

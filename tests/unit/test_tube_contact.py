@@ -125,3 +125,10 @@ def test_a_fault_in_the_foundation_is_noticed(fault, monkeypatch):
         assert "onverge" in str(error) or "crossed" in str(error) or "not met" in str(error)  # noqa: PT017
         return
     assert abs(found.value - table_value()) > 1e4 * found.uncertainty
+
+
+def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
+    """A foundation that hardly resists leaves the free tube's, whatever mesh is used for the state."""
+    contact = solve("tube", contact="frictionless", k=1e-8, at={"Z_front": 0.5}).states[0].quantities
+    free = solve("tube", at={"u_max": contact["u_max"].value}).states[0].quantities
+    assert contact["eigenvalue_1"].value == pytest.approx(free["eigenvalue_1"].value, rel=1e-8)

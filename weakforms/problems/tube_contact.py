@@ -183,7 +183,7 @@ class ContactModel:
             residual=ufl.derivative(energy, unknown, test),
             loads=self.loads,
             bcs=self._conditions(),
-            mass=ufl.inner(ufl.TrialFunction(self.space), test) * (self.fixed["half"] / 2) * dx,
+            mass=ufl.inner(ufl.TrialFunction(self.space), test) * jacobian * dx,
             monitors={
                 "u_max": (rho - 1) * ends(MIDPLANE),
                 "lam1_mid": stretches.lam1 * ends(MIDPLANE),

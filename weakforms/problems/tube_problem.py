@@ -53,7 +53,7 @@ SCALES = {
     "kappa": "curvature of the free part at the front times R_f; negative: bulged outward",
     "f_t": "axial traction of the substrate on the membrane times R_f/(C1 h_o)",
     "f_k": "radial spring density times R_f/(C1 h_o); negative: pushes inward",
-    "eigenvalue_1": "lowest eigenvalue of the second variation at fixed p against the mass matrix",
+    "eigenvalue_1": "lowest eigenvalue of the second variation at fixed p against int |u|^2 dZ",
 }
 
 ENERGY = (

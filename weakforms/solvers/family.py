@@ -14,7 +14,7 @@ from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, St
 from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.refinement import Estimate, Slow, doubt, estimate, estimate_in_norm, order_in_mean
 from weakforms.solvers.sampling import Sampler
-from weakforms.solvers.stability import Stability
+from weakforms.solvers.stability import Spectrum, Stability
 
 KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
 """Special points located on a curve; a state can be asked for at one."""
@@ -204,10 +204,7 @@ class BranchFamily:
 
         At a special point the critical eigenvalue is zero to round-off and does not count as negative.
         """
-        spectra = [
-            Stability(level.system).spectrum(s.state, shift=max(critical, level.continuation.shift))
-            for level, s in zip(self.levels, solved, strict=True)
-        ]
+        spectra = [_spectrum(level, s, critical) for level, s in zip(self.levels, solved, strict=True)]
         counts = {spectrum.n_negative for spectrum in spectra}
         if len(counts) != 1:
             raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
@@ -305,6 +302,13 @@ def special_point(
 
 def _orders(values: dict[str, Estimate]) -> dict[str, float]:
     return {k: float(v.order) for k, v in values.items() if v.order > 0}
+
+
+def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:
+    """The lowest eigenvalues of a state against its own mass: fronts, and the mesh with them, have moved."""
+    level.system.set_state(solved.state.u, solved.state.loads)
+    with level.system.weighed_here():
+        return Stability(level.system).spectrum(solved.state, shift=max(critical, level.continuation.shift))
 
 
 def _widen(uncertainty: np.ndarray) -> np.ndarray:

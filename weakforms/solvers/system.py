@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import dolfinx.fem.petsc as fem_petsc
@@ -111,7 +112,7 @@ class System:
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
         self._mass_entries: PETSc.Mat | None = None
-        self._mass: PETSc.Mat | None = None
+        self.update_mass()
 
     def _ufl_forms(self) -> dict[str, ufl.Form]:
         given = self.formulation
@@ -143,14 +144,25 @@ class System:
 
     @property
     def mass(self) -> PETSc.Mat:
-        """Mass matrix, assembled when it is first asked for."""
-        if self._mass is None:
-            self.update_mass()
+        """Mass matrix: what arc length and the length of a mode are measured by."""
         return self._mass
 
     def update_mass(self) -> None:
         """Assemble the mass matrix anew, where it depends on loads or on a mesh that has moved."""
         self._mass = self._mass_matrix()
+
+    @contextmanager
+    def weighed_here(self) -> Iterator[None]:
+        """While it lasts, the mass matrix is that at the loads held, which may move the mesh.
+
+        Arc length is measured by the old one again afterwards: no path depends on what was asked before.
+        """
+        kept = self._mass
+        self.update_mass()
+        try:
+            yield
+        finally:
+            self._mass = kept
 
     def shift(self, tau: float) -> None:
         """``K + τ M`` in place of ``K``, until the next :meth:`tangent`."""
