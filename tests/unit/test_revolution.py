@@ -255,6 +255,14 @@ def test_a_ring_bends_by_what_is_known(n):
     assert float(bent) == pytest.approx(-(n**2 - 1), abs=1e-14)
 
 
+def test_axisymmetric_eigenvalues_are_the_limit_of_very_long_waves():
+    """The equilibrium's own tangent and mass against the second variation in waves, which has torsion too."""
+    waves = waves_at(cylinder(6.0))
+    long = np.array(waves.spectrum(1e-3, 6).eigenvalues)
+    for eigenvalue in waves.spectrum(0, 4).eigenvalues:
+        assert np.abs(long - eigenvalue).min() < 1e-5
+
+
 def test_eigenvalues_scale_with_the_mass_and_keep_their_sign():
     held = cylinder(3.0)
     variation = waves_at(held).variation(50)

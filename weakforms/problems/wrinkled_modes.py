@@ -133,8 +133,8 @@ class Waves:
         """
         if n == 0:
             system = self.model.system
-            system.update_mass()
-            return judged(Stability(system), system.state(), count)
+            with system.weighed_here():
+                return judged(Stability(system), system.state(), count)
         return self.variation(n, beta).spectrum(count)
 
     def negative_count(self, n: float, beta: float = 0.0) -> int:

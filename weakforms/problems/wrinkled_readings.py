@@ -166,8 +166,8 @@ class Readings:
         spectra = []
         for held in levels:
             held.put()
-            held.model.system.update_mass()
-            spectra.append(Stability(held.model.system).spectrum(held.state, shift=critical))
+            with held.model.system.weighed_here():
+                spectra.append(Stability(held.model.system).spectrum(held.state, shift=critical))
         counts = {spectrum.n_negative for spectrum in spectra}
         if len(counts) != 1:
             raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
