@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mpi4py import MPI
+from scipy.special import jn_zeros
 
 import weakforms.problems.circular as disk_module
 from weakforms import Axis, Case, Curve, InputError, Panel, circular, solve
@@ -269,6 +270,14 @@ def test_states_before_contact_have_no_patch():
     quantities = result.states[0].quantities
     assert quantities["rho_contact"].value == 0.0
     assert "lam1_contact" not in quantities
+
+
+@pytest.mark.parametrize(("beta", "alpha"), [(1.3, 0.1), (2.0, 0.0)])
+def test_the_flat_disk_vibrates_as_a_drum(beta, alpha):
+    r"""At vanishing pressure :math:`\mu = t (j_{0,1} \beta)^2`, by the tension of the flat disk."""
+    tension = 2 * (1 - beta**-6) * (1 + alpha * beta**2)
+    found = solve("circular", beta=beta, alpha=alpha, at={"p": 1e-4}).states[0].quantities["eigenvalue_1"]
+    assert found.value == pytest.approx(tension * (jn_zeros(0, 1)[0] * beta) ** 2, rel=1e-9)
 
 
 def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
