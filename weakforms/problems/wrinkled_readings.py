@@ -111,8 +111,9 @@ class Readings:
         if self.membrane.on_meshes[-1]:
             return self.cap / 2
         energetic = name in (self.membrane.control, "load", "V", "Pi", "eigenvalue_1")
-        at_pole = self.membrane.body.pole and name in POLE  # nodal values, as exact as energies
-        return self.cap if energetic or at_pole or name.startswith("Lambda") else self.cap / 2
+        # Nodal values are as exact as energies; the level is a node at which one of them is known.
+        nodal = self.membrane.body.pole and name in (*POLE, f"{self.abscissa}_level")
+        return self.cap if energetic or nodal or name.startswith("Lambda") else self.cap / 2
 
     def estimate(self, name: str, values: list[float] | list[np.ndarray]) -> Estimate:
         """Value and uncertainty from values on meshes, coarse to fine."""
