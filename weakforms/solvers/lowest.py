@@ -42,9 +42,13 @@ class Lowest:
         self.factor = Factorization(system, prefix + "factor_")
         self.factor.use_pivoting()
         self._prefix = prefix
+        self._generic = _generic(system)
 
     def __call__(self, state: State, count: int) -> list[Mode]:
         """The ``count`` lowest eigenvalues in ascending order, multiple ones repeated, with their modes.
+
+        The first mode is the same on any number of ranks, in sign and, of a multiple eigenvalue, in
+        direction: the projection of a generic displacement.
 
         Raises:
             ConvergenceError: When SLEPc finds fewer than the inertia counts.
@@ -62,7 +66,7 @@ class Lowest:
             last = found[count - 1][0]
             edge = last + APART * max(1.0, abs(last))
             if self._below(edge) <= sum(value < edge for value, _ in found):
-                return [self._mode(*pair) for pair in found[:count]]
+                return self._directed([self._mode(*pair) for pair in found])[:count]
             found += self._solve(count, target, SHARP, [vector for _, vector in found])
         raise ConvergenceError("stability: SLEPc finds fewer lowest eigenvalues than the inertia counts")
 
@@ -120,3 +124,24 @@ class Lowest:
         array = vector.array.copy()
         length = np.sqrt(self.system.dot(array, self.system.mass_times(array)))
         return Mode(eigenvalue, array / length)
+
+    def _directed(self, modes: list[Mode]) -> list[Mode]:
+        """Copies of the lowest eigenvalue, the first of them all that a generic displacement has of them."""
+        lowest = modes[0].eigenvalue
+        copies = [m for m in modes if m.eigenvalue < lowest + APART * max(1.0, abs(lowest))]
+        weighed = self.system.mass_times(self._generic)
+        parts = np.array([self.system.dot(mode.vector, weighed) for mode in copies])
+        turn, _ = np.linalg.qr(np.column_stack([parts, np.eye(len(parts))]))
+        turn[:, 0] *= np.sign(turn[:, 0] @ parts)
+        vectors = np.column_stack([mode.vector for mode in copies]) @ turn
+        turned = [Mode(m.eigenvalue, vector) for m, vector in zip(copies, vectors.T, strict=True)]
+        return turned + modes[len(copies) :]
+
+
+def _generic(system: System) -> np.ndarray:
+    """A displacement without symmetry, by place and component, not by number of a degree of freedom."""
+    space = system.unknown.function_space
+    blocks = space.dofmap.index_map_bs
+    places = space.tabulate_dof_coordinates()[: system.size // blocks]
+    phases = places @ np.array([2.0, 3.0, 5.0])
+    return np.cos(1.0 + phases[:, None] + 7.0 * np.arange(blocks)).ravel()

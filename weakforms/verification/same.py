@@ -35,6 +35,13 @@ FRICTION = ("line_force", "line_force_membrane", "traction_front", "traction_max
 """Their scale is 1 at least, that of a patch that sticks: without friction there are none, and what shows is
 derivatives of round-off."""
 
+EIGENVALUES, USUAL = "Lambda", 1e-2
+"""Their names and least scale: at a change of stability they are zero to what a bracket leaves, and their
+round-off is that of matrices whose other eigenvalues are of order one and more."""
+
+DIGITS = 1e-4
+"""Relative difference of two uncertainties that is none: they are estimates."""
+
 NOISE = 1e-7
 """Uncertainty, relative to a number's scale, below which round-off has a part in it: a difference of two
 meshes' numbers that agree to seven digits. Below, uncertainties are not compared."""
@@ -113,8 +120,14 @@ def scales(*results: Result) -> dict[str, float]:
         largest[number.name] = max(top, largest.get(number.name, 0.0))
         beyond = top > max(ZERO, float(np.nanmax(number.uncertainty, initial=0.0)))
         known[number.name] = beyond or known.get(number.name, False)
-    least = dict.fromkeys(FRICTION, 1.0)
-    return {name: max(top, least.get(name, LEAST)) if known[name] else 1.0 for name, top in largest.items()}
+    return {name: max(top, _least(name)) if known[name] else 1.0 for name, top in largest.items()}
+
+
+def _least(name: str) -> float:
+    """Smallest scale of a number by its name."""
+    if name in FRICTION:
+        return 1.0
+    return USUAL if name.startswith(EIGENVALUES) else LEAST
 
 
 def differences(first: Result, second: Result) -> list[Difference]:
@@ -149,7 +162,8 @@ def _spread(a: Number, b: Number, scale: float) -> Difference:
     if a.uncertainty.shape != b.uncertainty.shape:
         return Difference(place, np.nan, np.nan, np.inf)
     apart = _apart(a.uncertainty, b.uncertainty)
-    apart[(a.uncertainty < NOISE * scale) & (b.uncertainty < NOISE * scale)] = 0.0
+    largest = np.maximum(a.uncertainty, b.uncertainty)
+    apart[(largest < NOISE * scale) | (apart < DIGITS * largest)] = 0.0
     i = int(np.argmax(apart))
     return Difference(place, float(a.uncertainty[i]), float(b.uncertainty[i]), float(apart[i] / scale))
 
