@@ -42,4 +42,4 @@ def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
 
 def allowed(place: str) -> float:
     """How far a number may be apart."""
-    return LOOSER.get(place.rpartition(", ")[2], TOLERANCE)
+    return LOOSER.get(place.removesuffix(", uncertainty").split()[-1], TOLERANCE)

@@ -25,6 +25,7 @@ def solution(**changed: float) -> Result:
         "mode": 5.0,
         "split": 1e-14,
         "count": 1,
+        "critical": 1e-6,
     } | changed
     field = Field("profile", {"Z": np.array([0.0, 1.0]), "rho": np.array([1.0, at["rho"]])}, {"rho": 1e-6})
     return Result(
@@ -45,7 +46,8 @@ def solution(**changed: float) -> Result:
             )
         ],
         special_points=[SpecialPoint("limit_point", "primary", "p", {"p": at["limit"]}, {"p": 1e-3})],
-        quantities={"energy": Quantity(at["energy"]), "split": Quantity(at["split"], 1e-10)},
+        quantities={"energy": Quantity(at["energy"]), "split": Quantity(at["split"], 1e-10)}
+        | {"Lambda_1_stable": Quantity(at["critical"])},
         states=[State({"p": 1.0}, "primary", {"eigenvalue_1": Quantity(at["mode"], 1e-9)}, (field,))],
     )
 
@@ -97,6 +99,14 @@ def test_uncertainties_count_where_they_are_no_noise():
     worst = differences(solution(), other)[0]
     assert worst.place.endswith("p, uncertainty")
     assert worst.relative == pytest.approx(1e-3 / 3)
+    other.special_points[0].uncertainty["p"] = 1.0005e-3
+    assert differences(solution(), other)[0].relative == 0
+
+
+def test_eigenvalues_near_zero_have_the_scale_of_others():
+    worst = differences(solution(), solution(critical=1e-6 + 1e-12))[0]
+    assert worst.place == "quantity Lambda_1_stable"
+    assert worst.relative == pytest.approx(1e-10, rel=1e-3)
 
 
 def stored(folder: Path, result: Result, passed: bool = True) -> Path:
@@ -120,7 +130,7 @@ def test_runs_are_compared_case_by_case(tmp_path, capsys):
     second = stored(tmp_path / "b", solution(energy=4.4), passed=False)
     (found,) = runs(Run(first), Run(second))
     assert found.worst.relative == pytest.approx(0.4 / 4.4)
-    assert "| paper2.fig03 | 8 | p | 9.1e-02 | `tube(): quantity energy` |" in table(Run(first), Run(second))
+    assert "| paper2.fig03 | 9 | p | 9.1e-02 | `tube(): quantity energy` |" in table(Run(first), Run(second))
     assert main([str(first), str(second)]) == 0
     assert capsys.readouterr().out.count("paper2.fig03") == 1
     assert main([str(first), str(tmp_path / "c")]) == 2

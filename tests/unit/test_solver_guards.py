@@ -1,6 +1,7 @@
 """What the solvers refuse: states and points that look like what was wanted and are not."""
 
 from dataclasses import replace
+from math import cos, sin
 from types import SimpleNamespace
 
 import basix.ufl
@@ -153,6 +154,21 @@ def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
     monkeypatch.setattr(lowest, "_solve", forgetful)
     assert [mode.eigenvalue for mode in lowest(system.state(), 4)] == pytest.approx(exact, rel=2e-5)
     assert max(looks) > 0, "it looked again, apart from those found"
+
+
+def test_the_mode_of_a_double_eigenvalue_is_the_same_whichever_copies_are_found(monkeypatch):
+    system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
+    first = Lowest(system)(system.state(), 2)[0].vector
+    lowest = Lowest(system)
+    right = lowest._solve
+
+    def turned(*given):
+        (one, a), (other, b), *rest = right(*given)
+        return [(one, a * cos(2) + b * sin(2)), (other, b * cos(2) - a * sin(2)), *rest]
+
+    monkeypatch.setattr(lowest, "_solve", turned)
+    assert np.abs(first).max() > 0.1
+    assert np.abs(lowest(system.state(), 2)[0].vector - first).max() < 1e-9
 
 
 def test_a_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch):

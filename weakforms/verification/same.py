@@ -39,7 +39,7 @@ EIGENVALUES, USUAL = "Lambda", 1e-2
 """Their names and least scale: at a change of stability they are zero to what a bracket leaves, and their
 round-off is that of matrices whose other eigenvalues are of order one and more."""
 
-DIGITS = 1e-4
+DIGITS = 1e-3
 """Relative difference of two uncertainties that is none: they are estimates."""
 
 NOISE = 1e-7
