@@ -174,7 +174,7 @@ def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeyp
     monkeypatch.setattr(runner, "_task", die)
     called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
     assert (called.status, called.err.count("\n")) == (4, 1)
-    assert "a process that was solving died" in called.err
+    assert "a process at work died" in called.err
 
 
 # -- an interrupted run --------------------------------------------------------------------------

@@ -15,8 +15,10 @@ from weakforms.forms.wrinkling import natural_width
 from weakforms.problems import wrinkled_state
 from weakforms.problems.wrinkled_body import CYLINDER, Body
 from weakforms.problems.wrinkled_critical import critical_radii
+from weakforms.problems.wrinkled_fields import Zones
 from weakforms.problems.wrinkled_fit import Membrane
 from weakforms.problems.wrinkled_model import BY_STATE, TAUT, WRINKLED
+from weakforms.problems.wrinkled_state import BLOCKS, Layout
 from weakforms.problems.wrinkled_tube import PAPER_GAMMA
 from weakforms.solvers.constraints import Held
 from weakforms.verification.discovery import FoundCase
@@ -309,3 +311,12 @@ def test_without_a_fault_the_same_checks_hold(tmp_path):
     (outcome,) = verify([found], tmp_path, "full", "").cases
     assert outcome.status == "passed"
     assert len(outcome.verdicts) == 3
+
+
+@pytest.mark.parametrize("shift", [4e-15, -4e-15])
+def test_which_blocks_are_halved_does_not_hang_on_round_off(shift):
+    """Four of one length, two of which are to be halved: the same two on any number of ranks."""
+    breaks = Layout.of(Zones(TAUT, (2.5, 4.0, 5.5)), 8.0).breaks
+    moved = Layout.of(Zones(TAUT, (2.5, 4.0 + shift, 5.5)), 8.0).breaks
+    assert len(breaks) == BLOCKS + 1
+    assert moved == pytest.approx(breaks, abs=1e-12)

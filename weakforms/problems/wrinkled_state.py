@@ -22,6 +22,9 @@ BLOCKS = 10
 GROWTH = 4.0
 """How many times as long as its neighbour a block may be where meshes are graded to fronts."""
 
+ALIKE = 1e-6
+"""Relative difference of two blocks' lengths below which they are equal."""
+
 NEAR_DISKS = (1 / 32, 1 / 8, 7 / 8, 31 / 32)
 """Shares of the length at which blocks end besides, to resolve the layers at the ends."""
 
@@ -186,7 +189,9 @@ class Layout:
             if np.abs(np.array(breaks) - point).min() > 0.5 * min(point, length - point):
                 breaks = sorted([*breaks, point])
         while len(breaks) < BLOCKS + 1:
-            k = int(np.argmax(np.diff(breaks)))
+            widths = np.diff(breaks)
+            # Of equal ones the first: which is longest only round-off would say, and so the number of ranks.
+            k = int(np.argmax(widths > widths.max() * (1 - ALIKE)))
             breaks.insert(k + 1, (breaks[k] + breaks[k + 1]) / 2)
         points = np.array(breaks)
         middles = (points[1:] + points[:-1]) / 2
