@@ -44,11 +44,6 @@ class KeptNewton(ExtendedNewton):
 
     keep = False
 
-    @property
-    def left(self) -> float:
-        """Norm of the residual the last solve ended with."""
-        return self._norms[-1] if self._norms else np.inf
-
     def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, p: PETSc.Mat) -> None:
         if self.keep and self.bordered is not None:
             mat.assemble()

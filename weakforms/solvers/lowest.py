@@ -13,7 +13,7 @@ from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.linear import Factorization
-from weakforms.solvers.stability import LOWEST, Mode
+from weakforms.solvers.stability import LOWEST, Mode, give_back
 from weakforms.solvers.system import State, System
 
 ROUGH, SHARP = 1e-3, 1e-11
@@ -118,7 +118,7 @@ class Lowest:
         except PETSc.Error as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
         finally:
-            eps.destroy()
+            give_back(eps)
 
     def _mode(self, eigenvalue: float, vector: PETSc.Vec) -> Mode:
         array = vector.array.copy()

@@ -8,14 +8,15 @@ evaluation, so every rank knows them); the linear systems are bordered ones.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from petsc4py import PETSc
 
-from weakforms.errors import ConvergenceError, EnvironmentLackError
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.callbacks import Deferred
 from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.system import State, System
 
@@ -75,15 +76,15 @@ class ExtendedNewton:
         self.factor = Factorization(system, prefix + "factor_")
         self.constraints: Sequence[Constraint] = ()
         self.bordered: BorderedMatrix | None = None
-        self.failure = ""
-        """Why the last linear system could not be solved, if so."""
+        self.left = np.inf
+        """Norm of the residual that the last solve ended with."""
+        self._callbacks = Deferred()
         self._size = system.size
         self._root = system.comm.size - 1
         self._rooted = system.comm.rank == self._root
         self._prefix = prefix
         self._tolerances = {"stol": stol, "max_it": max_iterations}
         self._line_search = line_search
-        self._norms: list[float] = []
         self._renew()
 
     def _renew(self) -> None:
@@ -114,7 +115,7 @@ class ExtendedNewton:
         ksp.getPC().setType("python")
         ksp.getPC().setPythonContext(_BorderedSolve(self))
         snes.setTolerances(rtol=0.0, atol=0.0, **self._tolerances)
-        snes.setMonitor(lambda _snes, _its, norm: self._norms.append(norm))
+        snes.setConvergenceHistory(self._tolerances["max_it"] + 1, reset=True)
         options = PETSc.Options()
         missing = {self._prefix + name: value for name, value in defaults.items()}
         missing = {key: value for key, value in missing.items() if not options.hasName(key)}
@@ -148,14 +149,21 @@ class ExtendedNewton:
         self.system.set_state(u, dict(zip(self.scalars, scalars, strict=True)))
 
     def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
-        self._put(x)
-        values = [c.value(self) for c in self.constraints]
-        self._join(out, self.system.residual(), values)
+        def work() -> None:
+            self._put(x)
+            values = [c.value(self) for c in self.constraints]
+            self._join(out, self.system.residual(), values)
+
+        self._callbacks.run(work, lambda: out.set(np.nan))
 
     def _jacobian(self, _snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
-        self._put(x)
-        self.factor.update()
-        self.bordered = self.border(self.constraints)
+        def work() -> None:
+            self.bordered = None
+            self._put(x)
+            self.factor.update()
+            self.bordered = self.border(self.constraints)
+
+        self._callbacks.run(work, lambda: None)  # the linear solve that follows fails
         mat.assemble()
 
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
@@ -191,33 +199,22 @@ class ExtendedNewton:
             raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
         system, before = self.system, self.factor.count
         self.constraints = constraints
-        self._norms.clear()
         system.set_state(guess.u, guess.loads)
         self._join(self._x, guess.u, [guess.loads[name] for name in self.scalars])
-        self.failure = ""
         snes = self._snes(chord)
         snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
         try:
-            snes.solve(None, self._x)
-        except PETSc.Error as error:
-            self._renew()  # what was interrupted keeps its vectors locked
-            for cause in _causes(error):
-                if isinstance(cause, EnvironmentLackError):  # a form met here first, and no compiler
-                    raise cause from None
-            raise ConvergenceError(f"SNES failed: {_innermost(error)}") from error
-        reason = snes.getConvergedReason()
-        record = SolveRecord(
-            _REASONS.get(reason, str(reason)),
-            snes.getIterationNumber(),
-            self.factor.count - before,
-            tuple(self._norms),
-        )
-        if self.failure:
-            raise ConvergenceError(f"SNES ended with {record.reason}: {self.failure}")
-        if reason <= 0 or not record.norms[-1] < RESIDUAL_LIMIT:
+            run_snes(snes, self._x, self._callbacks)
+        except ConvergenceError:
+            self._renew()  # what PETSc broke off keeps its vectors locked
+            raise
+        finally:
+            record = solve_record(snes, self.factor.count - before)
+            self.left = record.norms[-1] if record.norms else np.inf
+        if snes.getConvergedReason() <= 0 or not self.left < RESIDUAL_LIMIT:
             raise ConvergenceError(
                 f"SNES ended with {record.reason} after {record.iterations} iterations, "
-                f"residual {record.norms[-1] if record.norms else float('nan'):.1e}"
+                f"residual {self.left:.1e}"
             )
         self._put(self._x)
         return system.state(), record
@@ -232,7 +229,9 @@ class _BorderedOperator:
     def mult(self, _mat: PETSc.Mat, x: PETSc.Vec, out: PETSc.Vec) -> None:
         """``out = J x``."""
         newton = self._newton
-        newton._join(out, *newton.bordered.multiply(*newton._split(x)))
+        newton._callbacks.run(
+            lambda: newton._join(out, *newton.bordered.multiply(*newton._split(x))), lambda: out.set(0.0)
+        )
 
 
 class _BorderedSolve:
@@ -242,25 +241,34 @@ class _BorderedSolve:
         self._newton = newton
 
     def apply(self, pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
-        """``out = J⁻¹ rhs``; a failure is noted for SNES to end with: nothing may be raised through PETSc."""
+        """``out = J⁻¹ rhs``."""
         newton = self._newton
-        f, g = newton._split(rhs)
-        try:
-            newton._join(out, *newton.bordered.solve(f, g))
-        except ConvergenceError as error:
-            newton.failure = str(error)
+
+        def spoil() -> None:
             out.set(0.0)
             pc.setFailedReason(PETSc.PC.FailedReason.SUBPC_ERROR)
 
-
-def _causes(error: BaseException | None) -> Iterator[BaseException]:
-    """The error, what it was raised from, and so on."""
-    while error is not None:
-        yield error
-        error = error.__cause__
+        newton._callbacks.run(lambda: newton._join(out, *newton.bordered.solve(*newton._split(rhs))), spoil)
 
 
-def _innermost(error: BaseException) -> str:
-    """The reason at the bottom: PETSc wraps what a Python callback raised."""
-    *_, error = _causes(error)
-    return str(error).splitlines()[0] if str(error) else type(error).__name__
+def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
+    """Solve, with the start in ``x``; whether it converged remains to be asked.
+
+    Raises:
+        ConvergenceError: When PETSc breaks off, or what it calls cannot be computed.
+    """
+    try:
+        snes.solve(None, x)
+        callbacks.release()
+    except (ConvergenceError, PETSc.Error, ArithmeticError, np.linalg.LinAlgError) as error:
+        reason = snes.getConvergedReason()
+        raise ConvergenceError(f"SNES ended with {_REASONS.get(reason, reason)}: {error}") from error
+
+
+def solve_record(snes: PETSc.SNES, factorizations: int) -> SolveRecord:
+    """How the last solve ended; the number of factorisations is the caller's to count."""
+    reason = snes.getConvergedReason()
+    norms, _ = snes.getConvergenceHistory()
+    return SolveRecord(
+        _REASONS.get(reason, str(reason)), snes.getIterationNumber(), factorizations, tuple(norms.tolist())
+    )

@@ -12,6 +12,7 @@ from petsc4py import PETSc
 from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.callbacks import Deferred
 from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.system import State, System
 
@@ -59,6 +60,7 @@ class Stability:
         self.system = system
         self.factor = Factorization(system)
         self._prefix = prefix
+        self._callbacks = Deferred()
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
         """Shift-and-invert about a target, by an inverse at hand (of the matrix as it stands) or by MUMPS."""
@@ -79,7 +81,7 @@ class Stability:
             pc.setFactorSolverType("mumps")
         else:
             pc.setType("python")
-            pc.setPythonContext(_Preconditioner(inverse))
+            pc.setPythonContext(_Preconditioner(inverse, self._callbacks))
         eps.setFromOptions()
         return eps
 
@@ -281,25 +283,32 @@ class Stability:
         """What SLEPc finds about its target.
 
         Raises:
-            ConvergenceError: When fewer than ``wanted`` converge.
+            ConvergenceError: When fewer than ``wanted`` converge, SLEPc breaks off, or an inverse fails.
         """
         try:
-            eps.solve()
+            self._run(eps)
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
             return read(eps)
-        except (PETSc.Error, SystemError) as error:  # the second is how what ``inverse`` raises may arrive
-            raise ConvergenceError(f"SLEPc failed: {error.__cause__ or error}") from error
         finally:
-            _destroy(eps)
+            give_back(eps)
+
+    def _run(self, eps: SLEPc.EPS) -> None:
+        try:
+            try:
+                eps.solve()
+            finally:
+                self._callbacks.release()
+        except (ConvergenceError, PETSc.Error) as error:
+            raise ConvergenceError(f"SLEPc failed: {error}") from error
 
 
 def _values(eps: SLEPc.EPS) -> list[float]:
     return [eps.getEigenvalue(i).real for i in range(eps.getConverged())]
 
 
-def _destroy(eps: SLEPc.EPS) -> None:
-    """Give it back; one that broke off (a singular matrix) has parts in use, and what it raised counts."""
+def give_back(eps: SLEPc.EPS) -> None:
+    """Destroy it; one that broke off (a singular matrix) has parts in use, and what it raised counts."""
     with suppress(PETSc.Error):
         eps.destroy()
 
@@ -307,9 +316,13 @@ def _destroy(eps: SLEPc.EPS) -> None:
 class _Preconditioner:
     """One that is the solver."""
 
-    def __init__(self, solve: Inverse) -> None:
-        self._solve = solve
+    def __init__(self, solve: Inverse, callbacks: Deferred) -> None:
+        self._solve, self._callbacks = solve, callbacks
 
     def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
         """``out`` is the solution for ``rhs``."""
-        out.array_w[:] = self._solve(rhs.array_r.copy())
+
+        def work() -> None:
+            out.array_w[:] = self._solve(rhs.array_r.copy())
+
+        self._callbacks.run(work, lambda: out.set(0.0))  # of which all is an eigenvector

@@ -12,10 +12,9 @@ import numpy as np
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.newton import SolveRecord
+from weakforms.solvers.callbacks import Deferred
+from weakforms.solvers.newton import SolveRecord, run_snes, solve_record
 from weakforms.solvers.system import State, System
-
-_REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
 
 
 class Subspace:
@@ -43,7 +42,7 @@ class Subspace:
     ) -> None:
         self.system, self.basis, self.lift = system, basis, lift
         self._q, self._u = basis.createVecs()
-        self._norms: list[float] = []
+        self._callbacks = Deferred()
         self._reduced = system.tangent().ptap(basis)
         snes = PETSc.SNES().create(system.comm)
         snes.setOptionsPrefix(prefix)
@@ -53,7 +52,7 @@ class Subspace:
         ksp.setType("preonly")
         self._direct(ksp.getPC())
         snes.setTolerances(rtol=0.0, atol=0.0, stol=stol, max_it=max_iterations)
-        snes.setMonitor(lambda _snes, _its, norm: self._norms.append(norm))
+        snes.setConvergenceHistory(max_iterations + 1, reset=True)
         options, key = PETSc.Options(), f"{prefix}snes_linesearch_type"
         given = options.hasName(key)
         if not given:
@@ -73,13 +72,19 @@ class Subspace:
         self.system.set_state(self.lift + self._u.array_r, {})
 
     def _residual(self, _snes: PETSc.SNES, q: PETSc.Vec, out: PETSc.Vec) -> None:
-        self._put(q)
-        self._u.array_w[:] = self.system.residual()
-        self.basis.multTranspose(self._u, out)
+        def work() -> None:
+            self._put(q)
+            self._u.array_w[:] = self.system.residual()
+            self.basis.multTranspose(self._u, out)
+
+        self._callbacks.run(work, lambda: out.set(np.nan))
 
     def _jacobian(self, _snes: PETSc.SNES, q: PETSc.Vec, jacobian: PETSc.Mat, _p: PETSc.Mat) -> None:
-        self._put(q)
-        self.system.tangent().ptap(self.basis, result=jacobian)
+        def work() -> None:
+            self._put(q)
+            self.system.tangent().ptap(self.basis, result=jacobian)
+
+        self._callbacks.run(work, lambda: None)  # the residual that follows is spoilt
 
     def nearest(self, u: np.ndarray) -> np.ndarray:
         """Member of the subspace nearest to a vector of owned degrees of freedom (least squares)."""
@@ -107,19 +112,13 @@ class Subspace:
         self.system.set_loads(guess.loads | dict(loads or {}))
         self.nearest(guess.u)
         q = self._q.copy()
-        self._norms.clear()
-        try:
-            self._snes.solve(None, q)
-        except PETSc.Error as error:
-            raise ConvergenceError(f"SNES failed in the subspace: {error}") from error
-        reason = self._snes.getConvergedReason()
-        iterations = self._snes.getIterationNumber()
-        record = SolveRecord(_REASONS.get(reason, str(reason)), iterations, iterations, tuple(self._norms))
-        if reason <= 0:
-            last = self._norms[-1] if self._norms else float("nan")
+        run_snes(self._snes, q, self._callbacks)
+        its = self._snes.getIterationNumber()
+        record = solve_record(self._snes, its)
+        if self._snes.getConvergedReason() <= 0:
+            last = record.norms[-1] if record.norms else np.nan
             raise ConvergenceError(
-                f"SNES ended with {record.reason} in the subspace after {iterations} iterations, "
-                f"residual {last:.1e}"
+                f"SNES ended with {record.reason} in the subspace after {its} iterations, residual {last:.1e}"
             )
         self._put(q)
         return self.system.state(), record
