@@ -258,8 +258,10 @@ def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
         ConvergenceError: When PETSc breaks off, or what it calls cannot be computed.
     """
     try:
-        snes.solve(None, x)
-        callbacks.release()
+        try:
+            snes.solve(None, x)
+        finally:
+            callbacks.release()
     except (ConvergenceError, PETSc.Error, ArithmeticError, np.linalg.LinAlgError) as error:
         reason = snes.getConvergedReason()
         raise ConvergenceError(f"SNES ended with {_REASONS.get(reason, reason)}: {error}") from error
