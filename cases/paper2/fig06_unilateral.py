@@ -2,15 +2,15 @@
 
 The paper remarks that inflation and deflation curves closely match. With the spring of its equation (9),
 which pulls a receding membrane outwards, they do not; with this reading they do, all the way down.
-Tractions are not compared here: where the spring lets go the solution has a kink inside a cell, which limits
-their bounds.
+The traction is not compared here: at low pressure the spring lets go close to the edge of the patch, and the
+kink limits its bound to more than 1e-3.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 STICK = {s: tube(contact="adhesive", alpha=s[0], delta1=s[1]) for s in SETS}
-PUSHING = {s: STICK[s].at(phase="deflation", spring="unilateral").on(cells=192) for s in SETS}
+PUSHING = {s: STICK[s].at(phase="deflation", spring="unilateral") for s in SETS}
 LEVELS = (1.6, 2.0, 2.5)
 
 
@@ -52,10 +52,11 @@ CASE = Case(
         ),
     ),
     asked={
-        "u_max": 1e-5,
-        "lam1_mid": 1e-5,
-        "t1_mid": 1e-5,
+        "u_max": 1e-6,
+        "lam1_mid": 1e-6,
+        "t1_mid": 1e-6,
         "line_force": 1e-3,
+        "line_force_membrane": 1e-3,
         "spring_max": 1e-3,
     },
 )

@@ -13,7 +13,7 @@ SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 BONDED = {
     s: tube(contact="adhesive", phase="deflation", spring="bilateral", alpha=s[0], delta1=s[1]) for s in SETS
 }
-PUSHING = {s: BONDED[s].at(spring="unilateral").on(cells=192) for s in SETS}
+PUSHING = {s: BONDED[s].at(spring="unilateral") for s in SETS}
 
 
 def starts_at_zero(solutions: Solutions) -> Finding:

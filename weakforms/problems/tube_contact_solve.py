@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, ClassVar
 
 from mpi4py import MPI
 
@@ -25,14 +25,22 @@ FIRST_TERMS, MORE_TERMS = 14, 4
 SERIES = Slow(size=6e-8, order=2.0)
 """What the series leaves out, which falls by little from mesh to mesh."""
 
-CAP_UNILATERAL = 1.0
-"""Highest order of convergence reckoned with where a unilateral spring lets go inside a cell. Else it is that
-of a free tube, but for what the series of a stuck patch leaves out."""
+LET_GO = Slow(size=1e-7, order=2.0)
+"""The same with what quadrature leaves of the kink of a unilateral spring's force, inside a cell."""
 
 TRACES = ("line_force", "line_force_membrane")
 SECOND = ("traction_front", "traction_max", "f_t")
 """Columns that hold first derivatives at the edge of the patch: their order is the degree at most; and second
 derivatives. The curvature there follows from the balance of forces at a vertex: one order below energies."""
+
+KINKED = (
+    dict.fromkeys(("rho", "lam2"), 3.0)
+    | dict.fromkeys(("lam1", "t1", "t2", "F_axial", "H", "f_k"), 2.0)
+    | {"f_t": 1.0, "eigenvalue_1": 1.5}
+)
+"""Highest orders where a unilateral spring lets go inside a cell: at a point of profiles whose third
+derivative jumps there, and of eigenvalues, whose stiffness jumps itself: quadrature errs at first order, by
+where the place lies in its cell."""
 
 NO_PATCH = {
     name: 0.0
@@ -49,30 +57,39 @@ NO_PATCH = {
 """Columns of the free part, where there is no patch."""
 
 
+class LettingGo(BranchFamily):
+    """That of a tube with a unilateral spring, which lets go inside a cell."""
+
+    least: ClassVar[Mapping[str, float]] = {"eigenvalue_1": 1.0}
+
+
 def contact_family(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> PiecewiseFamily:
     """The branch of a constrained tube: free and in contact, or deflating."""
     free = 2 * numerics.degree
-    cap = CAP_UNILATERAL if parameters.spring == "unilateral" else free
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 
-    def family(part: Callable[[ContactRun], SolutionCurve], cap: float, slow: Slow | None) -> BranchFamily:
+    def family(part: Callable[[ContactRun], SolutionCurve], slow: Slow | None) -> BranchFamily:
         def make(level: int) -> SolutionCurve:
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
-        caps = dict.fromkeys(TRACES, min(cap, numerics.degree)) | dict.fromkeys(SECOND, min(cap, 2.0))
-        caps["kappa"] = min(cap, free - 1)
-        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
+        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(SECOND, min(free, 2.0))
+        caps["kappa"] = free - 1
+        kind = BranchFamily
+        if runs[-1].data.unilateral:
+            kind, caps = LettingGo, caps | KINKED
+        return kind(make, numerics.levels, free, across=("p", "u_max"), caps=caps, slow=slow)
 
     runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
     if parameters.phase == "deflation":
-        return PiecewiseFamily([Piece(family(lambda run: run.deflation, cap, SERIES), {})])
+        slow = LET_GO if runs[-1].data.unilateral else SERIES
+        return PiecewiseFamily([Piece(family(lambda run: run.deflation, slow), {})])
     history = SERIES if parameters.contact == "adhesive" else None
     pieces = [
-        Piece(family(lambda run: run.free, free, None), NO_PATCH | {"kappa": float("nan")}),
-        Piece(family(lambda run: getattr(run, parameters.contact), free, history), {}),
+        Piece(family(lambda run: run.free, None), NO_PATCH | {"kappa": float("nan")}),
+        Piece(family(lambda run: getattr(run, parameters.contact), history), {}),
     ]
 
     def onset() -> list[SpecialPoint]:

@@ -52,6 +52,9 @@ class BranchFamily:
     located_by: ClassVar[Mapping[str, str]] = {}
     """Kinds of special points found where a column has an extremum, as which all other columns err there."""
 
+    least: ClassVar[Mapping[str, float]] = {}
+    """Orders that quantities have at least; a lower one observed is accident."""
+
     def __init__(
         self,
         make: Callable[[int], SolutionCurve],
@@ -270,7 +273,7 @@ class BranchFamily:
         accident: that of the field ``in_mean`` counts where it is higher.
         """
         cap = self._cap(name, held)
-        found = estimate(values, cap, slow=self.slow)
+        found = estimate(values, cap, least=self.least.get(name, 0.0), slow=self.slow)
         spread = float(found.uncertainty)
         if in_mean:
             spread = min(spread, SAMPLED * float(estimate(values, cap, None, in_mean, self.slow).uncertainty))
