@@ -115,15 +115,24 @@ class Readings:
         nodal = self.membrane.body.pole and name in (*POLE, f"{self.abscissa}_level")
         return self.cap if energetic or nodal or name.startswith("Lambda") else self.cap / 2
 
-    def estimate(self, name: str, values: list[float] | list[np.ndarray]) -> Estimate:
-        """Value and uncertainty from values on meshes, coarse to fine."""
-        found = estimate(values, self.order(name))
+    def _resolved(self, name: str) -> bool:
+        """Fronts of a state, and what follows from them, where waves are judged: cells are graded there."""
+        return bool(self.waves) and (self._is_front(name) or name in ("wrinkled_fraction", "r_max", "gw_min"))
+
+    def estimate(self, name: str, values: list[float] | list[np.ndarray], resolved: bool = False) -> Estimate:
+        """Value and uncertainty from values on meshes, coarse to fine.
+
+        Where what is around a front is resolved, its place is as exact as energies, and never less than
+        stretches are.
+        """
+        order = self.order(name)
+        found = estimate(values, self.cap, order, order) if resolved else estimate(values, order)
         left = ROUND_OFF * np.maximum(1.0, np.abs(found.value))
         return replace(found, uncertainty=found.uncertainty + left)
 
     def quantity(self, name: str, values: list[float]) -> Quantity:
         """The same as results state it."""
-        found = self.estimate(name, values)
+        found = self.estimate(name, values, self._resolved(name))
         order = float(found.order)
         return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
 
