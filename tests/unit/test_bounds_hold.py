@@ -10,7 +10,8 @@ import pytest
 from weakforms import solve
 from weakforms.api import solve_requests
 from weakforms.problems.base import StateRequest
-from weakforms.verification.coverage import FAMILIES, QUICK, WIDE, Family, Judged, judged, statistics
+from weakforms.verification.coverage import Judged, judged, statistics
+from weakforms.verification.coverage_families import FAMILIES, QUICK, WIDE, Family
 
 RATE, MOST = 0.95, 30.0
 
