@@ -32,8 +32,8 @@ LEAST = 1e-5
 """Smallest scale: what is smaller is told apart to 1e-14 and no further."""
 
 FRICTION = ("line_force", "line_force_membrane", "traction_front", "traction_max", "f_t")
-"""Their scale is 1 at least, that of a patch that sticks: without friction there are none, and what shows is
-derivatives of round-off."""
+"""Their scale is 1 at least, that of a patch that sticks and is let go: without friction, and of line forces
+in inflation, there are none, and what shows is derivatives of round-off."""
 
 EIGENVALUES, USUAL = "Lambda", 1e-2
 """Their names and least scale: at a change of stability they are zero to what a bracket leaves, and their
