@@ -36,7 +36,7 @@ derivatives. The curvature there follows from the balance of forces at a vertex:
 KINKED = (
     dict.fromkeys(("rho", "lam2"), 3.0)
     | dict.fromkeys(("lam1", "t1", "t2", "F_axial", "H", "f_k"), 2.0)
-    | {"f_t": 1.0, "eigenvalue_1": 1.5}
+    | {"f_t": 1.0, "eigenvalue_1": 1.0}
 )
 """Highest orders where a unilateral spring lets go inside a cell: at a point of profiles whose third
 derivative jumps there, and of eigenvalues, whose stiffness jumps itself: quadrature errs at first order, by
