@@ -31,9 +31,9 @@ def run(requests: list[dict], ranks: int) -> list[Result]:
 
 def beyond(first: Result, second: Result) -> list[str]:
     """The numbers of two results that differ by more than they may, the worst first."""
-    slips = first.parameters.get("contact") == "frictionless"
+    spec = f"contact={first.parameters.get('contact')}, degree={first.numerics.get('degree')}"
     return [
-        str(item) for item in differences(first, second) if not item.relative <= allowed(item.place, slips)
+        str(item) for item in differences(first, second) if not item.relative <= allowed(item.place, spec)
     ]
 
 

@@ -36,11 +36,7 @@ def compare(first: Path, second: Path) -> None:
     found = runs(*both)
     numbers = [(item.spec, number) for item in found for number in item.found]
     assert numbers
-    far = [
-        f"{spec}: {number}"
-        for spec, number in numbers
-        if not number.relative <= allowed(number.place, "contact=frictionless" in spec)
-    ]
+    far = [f"{spec}: {x}" for spec, x in numbers if not x.relative <= allowed(x.place, spec)]
     assert far == []
 
 

@@ -163,8 +163,8 @@ class ContactModel:
         contact = self._in_patch(1.0, 0.0)
         if data.unilateral:
             contact = contact * ufl.conditional(ufl.gt(rho, s), 1.0, 0.0)
-        points = UNILATERAL_QUADRATURE if data.unilateral else 2 * data.degree + 4
-        dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": points})
+        quadrature = UNILATERAL_QUADRATURE if data.unilateral else 2 * data.degree + 4
+        dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": quadrature})
         law = (data.material or mooney_rivlin_of(data.alpha)).law(self.mesh)
         density = law(stretches.lam1, stretches.lam2) / ufl.sqrt(delta1) * jacobian
         density += gas_potential(rho, axial, p) + substrate_potential(rho, axial, k, s, contact)

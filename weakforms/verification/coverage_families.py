@@ -44,6 +44,8 @@ class Family:
 LINE = {"coarse": {"cells": 16, "degree": 3}, "fine": {"cells": 48, "degree": 5, "levels": 2}}
 MORE = {"coarse": {"cells": 32, "degree": 3}, "fine": {"cells": 64, "degree": 5, "levels": 2}}
 BLOCKS = {"coarse": {"cells": 8, "degree": 3}, "fine": {"cells": 12, "degree": 6, "levels": 2}}
+DEFLATION = {"contact": "adhesive", "phase": "deflation", "delta1": 1.2, "p_end": 2.4}
+FLUID = {"load_end": 7.0, "Af": 0.6}
 FAMILIES = (
     Family(
         "tube",
@@ -87,7 +89,7 @@ FAMILIES = (
         "tube",
         {"alpha": (0.05, 0.15), "k": (5.0, 40.0)},
         **LINE,
-        fixed={"contact": "adhesive", "phase": "deflation", "delta1": 1.2, "p_end": 2.4},
+        fixed=DEFLATION,
         at=(("p", 2.2),),
         label="tube, deflation",
     ),
@@ -96,13 +98,7 @@ FAMILIES = (
         {"alpha": (0.05, 0.15), "k": (5.0, 40.0)},
         coarse=LINE["coarse"],
         fine={"cells": 128, "degree": 5},
-        fixed={
-            "contact": "adhesive",
-            "phase": "deflation",
-            "spring": "unilateral",
-            "delta1": 1.2,
-            "p_end": 2.4,
-        },
+        fixed=DEFLATION | {"spring": "unilateral"},
         at=(("p", 2.2),),
         label="tube, unilateral",
     ),
@@ -140,7 +136,7 @@ FAMILIES = (
         "wrinkled_tube",
         {"M": (1.3, 1.6), "delta": (1.9, 2.2)},
         **BLOCKS,
-        fixed={"load_end": 7.0, "Af": 0.6},
+        fixed=FLUID,
         at=(("zw", 6.0),),
         label="wrinkled_tube, fluid",
     ),
@@ -156,7 +152,7 @@ FAMILIES = (
         "wrinkled_tube",
         {"M": (1.3, 1.6), "delta": (1.9, 2.2)},
         **BLOCKS,
-        fixed={"load_end": 7.0, "Af": 0.6, "n": [2]},
+        fixed=FLUID | {"n": [2]},
         at=(("zw", 6.0),),
         label="wrinkled_tube, waves",
     ),
