@@ -16,6 +16,7 @@ from weakforms.errors import InputError
 from weakforms.terminal import (
     complain,
     console,
+    free_cores,
     guarded,
     pairs,
     plain,
@@ -36,7 +37,19 @@ app = typer.Typer(
 
 Out = Annotated[Path, typer.Option("--out", help="Folder for solutions and report.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
-Jobs = Annotated[int, typer.Option("-j", "--jobs", min=1, max=64, help="Processes side by side.")]
+Jobs = Annotated[
+    int,
+    typer.Option(
+        "-j",
+        "--jobs",
+        min=1,
+        max=64,
+        envvar="WEAKFORMS_JOBS",
+        default_factory=free_cores,
+        show_default="as many as there are cores; 1 under mpirun",
+        help="Processes side by side.",
+    ),
+]
 Resume = Annotated[bool, typer.Option("--resume", help="Take over what an interrupted run stored.")]
 
 
@@ -145,8 +158,8 @@ def shape(
 @app.command()
 def check(
     names: Annotated[list[str], typer.Argument(metavar="CASE...", help="Ids of cases.")],
+    jobs: Jobs,
     out: Out = Path("out"),
-    jobs: Jobs = 1,
     resume: Resume = False,
 ) -> None:
     """Solve and check single cases."""
@@ -159,11 +172,11 @@ def check(
 
 @app.command()
 def verify(
+    jobs: Jobs,
     paper: Annotated[int | None, typer.Option(min=1, max=5, help="Only this paper.")] = None,
     expression: Annotated[
         str | None, typer.Option("-k", metavar="EXPR", help="Cases by name, with and, or, not.")
     ] = None,
-    jobs: Jobs = 1,
     profile: Annotated[str, typer.Option(help="quick or full.")] = "full",
     resume: Resume = False,
     out: Out = Path("out"),
@@ -187,6 +200,7 @@ def verify(
 @app.command()
 def report(
     folder: Annotated[Path, typer.Argument(help="Output folder of a run.")],
+    jobs: Jobs,
     out: Annotated[Path | None, typer.Option(help="Folder for the report; default: its old place.")] = None,
     as_pdf: Annotated[
         bool, typer.Option("--pdf", help="Print it as report.pdf as well; a browser does that.")
@@ -199,7 +213,6 @@ def report(
         list[Path] | None,
         typer.Option("--other", metavar="OUT", help="Another run of the cases, to compare all numbers with."),
     ] = None,
-    jobs: Jobs = 1,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
     from weakforms.verification import verbs
@@ -303,6 +316,7 @@ def bench(
 
 @app.command()
 def faults(
+    jobs: Jobs,
     only: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Only this fault; may be repeated.")
     ] = None,
@@ -311,7 +325,6 @@ def faults(
     ] = None,
     listed: Annotated[bool, typer.Option("--list", help="Say what they are, and run nothing.")] = False,
     out: Out = Path("out"),
-    jobs: Jobs = 1,
     resume: Resume = False,
     as_json: Json = False,
 ) -> None:
@@ -329,8 +342,8 @@ def faults(
 
 @app.command()
 def docs(
+    jobs: Jobs,
     out: Annotated[Path, typer.Option("--out", help="Folder for the pages.")] = Path("out/docs"),
-    jobs: Jobs = 1,
     pictures: Annotated[bool, typer.Option(help="Solve the problems' examples for their pictures.")] = True,
 ) -> None:
     """Write the documentation as static pages: guides, a page a problem, cases, API."""
@@ -340,7 +353,7 @@ def docs(
     from weakforms.docs.site import write_docs
 
     with progress_bar() as progress:
-        page = write_docs(out, jobs, pictures, lambda done, total, what: progress(what, done, total))
+        page = write_docs(out, jobs, pictures, progress)
     console().print(f"documentation: {plain(page)}", soft_wrap=True)
 
 

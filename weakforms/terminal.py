@@ -7,10 +7,12 @@ import json
 import os
 import re
 import sys
+import time
 import traceback
-from collections.abc import Callable
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from threading import Event, Thread
 from typing import Any
 
 import click
@@ -72,6 +74,17 @@ def rank() -> int:
     return MPI.COMM_WORLD.rank
 
 
+def free_cores() -> int:
+    """Processes that work side by side by default: one a core, and one where ranks share the work already."""
+    try:
+        from mpi4py import MPI
+    except ImportError:
+        ranks = 1
+    else:
+        ranks = MPI.COMM_WORLD.size
+    return min(len(os.sched_getaffinity(0)), 64) if ranks == 1 else 1
+
+
 def console(stderr: bool = False) -> Console:
     """A plain console on standard output or standard error; square brackets and colons mean themselves."""
     return Console(stderr=stderr, highlight=False, markup=False, emoji=False)
@@ -87,9 +100,61 @@ def print_json(data: Any) -> None:
     sys.stdout.write(json.dumps(data, indent=1) + "\n")
 
 
+PULSE = 15.0
+"""Longest silence in a log, in seconds."""
+
+
+class WorkProgress:
+    """What long work says of itself: a bar on a terminal, lines in a log; this one keeps silent.
+
+    Calling it says where the work is.
+    """
+
+    def __call__(self, what: str, done: float, total: float) -> None:
+        """The work is at ``what``; ``done`` of ``total`` is behind it."""
+
+    def line(self, text: str) -> None:
+        """Something came to its end: a line in a log; a terminal shows the bar alone."""
+
+
+class _Bar(WorkProgress):
+    def __init__(self, bar: Any) -> None:
+        self._bar, self._task = bar, bar.add_task("starting", total=None)
+
+    def __call__(self, what: str, done: float, total: float) -> None:
+        self._bar.update(self._task, description=plain(what), completed=done, total=total)
+
+
+class _Log(WorkProgress):
+    """Lines on standard error; one at least every :data:`PULSE` seconds while the work goes on."""
+
+    def __init__(self) -> None:
+        self._begun, self._latest, self._ended = time.monotonic(), "starting", Event()
+        # The stream of now: what is redirected later belongs to others.
+        self._stream = sys.stderr
+
+    def __call__(self, what: str, done: float, total: float) -> None:
+        self._latest = what
+
+    def line(self, text: str) -> None:
+        if self._stream is None:
+            return
+        minutes, seconds = divmod(int(time.monotonic() - self._begun), 60)
+        with suppress(OSError, ValueError):  # a reader that went away is no reason to end the work
+            self._stream.write(f"[{minutes}:{seconds:02}] {plain(text)}\n")
+            self._stream.flush()
+
+    def beat(self) -> None:
+        while not self._ended.wait(PULSE):
+            self.line(self._latest)
+
+    def end(self) -> None:
+        self._ended.set()
+
+
 @contextmanager
-def progress_bar() -> Any:
-    """A bar on a terminal, nothing elsewhere; yields the callback solvers report to."""
+def progress_bar() -> Iterator[WorkProgress]:
+    """A bar on a terminal, lines in a log, silence on all ranks but the first; yields what to report to."""
     from rich.progress import (
         BarColumn,
         Progress,
@@ -99,7 +164,18 @@ def progress_bar() -> Any:
         TimeRemainingColumn,
     )
 
+    if rank() != 0:
+        yield WorkProgress()
+        return
     screen = console(stderr=True)
+    if not screen.is_terminal:
+        log = _Log()
+        Thread(target=log.beat, daemon=True).start()
+        try:
+            yield log
+        finally:
+            log.end()
+        return
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),
@@ -108,17 +184,9 @@ def progress_bar() -> Any:
         TextColumn("left:"),
         TimeRemainingColumn(),
     )
-    if not screen.is_terminal or rank() != 0:
-        yield lambda _what, _done, _total: None
-        return
     # One solution may take minutes: the speed is that of the last hour, not of the last 30 s.
     with Progress(*columns, console=screen, transient=True, speed_estimate_period=3600) as bar:
-        task = bar.add_task("starting", total=None)
-
-        def report(what: str, done: int, total: int) -> None:
-            bar.update(task, description=plain(what), completed=done, total=total)
-
-        yield report
+        yield _Bar(bar)
 
 
 def complain(text: str) -> None:

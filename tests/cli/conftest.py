@@ -21,6 +21,11 @@ class Called:
     out: str
     err: str
 
+    @property
+    def complaints(self) -> list[str]:
+        """Lines on standard error that are no signs of life."""
+        return [line for line in self.err.splitlines() if line.startswith("weakforms: ")]
+
 
 def call(*words: object) -> Called:
     """The console script's own way through ``guarded``."""

@@ -2,15 +2,17 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import pytest
 
-from weakforms import api
+from weakforms import api, terminal
 from weakforms.errors import ConvergenceError
 from weakforms.verification import catalogue, discovery, runner
 from weakforms.verification.effort import Effort
@@ -125,6 +127,23 @@ def test_report_as_pdf_needs_a_browser(weakforms, tiny, tmp_path, monkeypatch):
     assert {path: path.stat().st_mtime_ns for path in (out / "report").iterdir()} == before
 
 
+def test_a_log_says_what_is_planned_and_how_each_case_went(weakforms, tiny, tmp_path, monkeypatch):
+    monkeypatch.setattr(terminal, "PULSE", 0.001)
+    lines = weakforms("verify", "--out", tmp_path / "out").err.splitlines()
+    assert all(re.match(r"\[\d+:\d\d\] ", line) for line in lines)
+    said = [line.partition("] ")[2] for line in lines]
+    assert said[0] == "1 case: 2 solutions to solve"
+    assert sum(line.startswith("1 of 1 case: paper2.tiny passed, 1 check, ") for line in said) == 1
+    assert any(line.startswith("0 of 2 solved; tube(") for line in said)  # where the work is, meanwhile
+
+
+def test_work_is_shared_by_all_cores_unless_ranks_share_it(monkeypatch):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(6)))
+    assert terminal.free_cores() == 6
+    monkeypatch.setattr("mpi4py.MPI.COMM_WORLD", SimpleNamespace(size=2))
+    assert terminal.free_cores() == 1
+
+
 def test_jobs_give_the_same_numbers(weakforms, tiny, tmp_path):
     def numbers(*options: str) -> list[str]:
         out = tmp_path / f"out{len(options)}"
@@ -148,7 +167,7 @@ def test_jobs_give_the_same_numbers(weakforms, tiny, tmp_path):
 def test_a_case_that_does_not_hold(weakforms, tiny, tmp_path, old, new, status, said):
     tiny(old, new)
     called = weakforms("verify", "--out", tmp_path / "out")
-    assert (called.status, called.err) == (status, "")
+    assert (called.status, called.complaints) == (status, [])
     assert said in " ".join(called.out.split())
     assert (tmp_path / "out" / "report" / "index.html").exists()
 
@@ -173,8 +192,8 @@ def test_a_solve_that_fails_leaves_the_others(weakforms, tiny, tmp_path, monkeyp
 def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "_task", die)
     called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
-    assert (called.status, called.err.count("\n")) == (4, 1)
-    assert "a process at work died" in called.err
+    assert (called.status, len(called.complaints)) == (4, 1)
+    assert "a process at work died" in called.complaints[0]
 
 
 # -- an interrupted run --------------------------------------------------------------------------

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 from markupsafe import Markup
 
 from weakforms.results import Result
+from weakforms.terminal import WorkProgress
 from weakforms.verification.figures import panel_figure
 from weakforms.verification.gallery import SHOWN, Shown
 from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome
@@ -19,7 +19,7 @@ MARGIN = 0.05
 
 
 def pictures(
-    folder: Path, jobs: int, names: list[str], progress: Callable[[float, float, str], None]
+    folder: Path, jobs: int, names: list[str], progress: WorkProgress | None
 ) -> dict[str, tuple[Markup | None, str]]:
     """Pictures and captions by problem; one that cannot be solved has a caption that says why.
 
@@ -27,7 +27,7 @@ def pictures(
         folder: Where solutions are kept, so that the same code need not solve them again.
         jobs: Solves side by side.
         names: Problems.
-        progress: Told seconds done, seconds in all, and what is being solved.
+        progress: Is told what is being solved.
     """
     specs = {name: SHOWN[name].specs(name) for name in names if name in SHOWN}
     plan = Plan({spec: [] for of in specs.values() for spec in of}, {})

@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import re
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -21,6 +20,7 @@ from weakforms.errors import InputError
 from weakforms.results import write_atomically
 from weakforms.results.io import require_writable
 from weakforms.solvers.provenance import revision
+from weakforms.terminal import WorkProgress
 from weakforms.verification import gallery
 from weakforms.verification.catalogue import describe
 from weakforms.verification.discovery import find_cases
@@ -28,7 +28,6 @@ from weakforms.verification.figures import LOOK, TEMPLATES
 from weakforms.verification.references import ROOT
 from weakforms.verification.summary import html_tex
 
-Progress = Callable[[float, float, str], None]
 VARIATIONS = (
     r"\delta\Pi(u; v) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} \Pi(u + \epsilon v) \,|_{\epsilon = 0} = 0, "
     r"\quad K(u; v, w) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} "
@@ -36,14 +35,14 @@ VARIATIONS = (
 )
 
 
-def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: Progress = lambda *_: None) -> Path:
+def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgress | None = None) -> Path:
     """Write the documentation as static pages.
 
     Args:
         out: Folder; made when missing. Solutions of the pictures are kept in ``out/solutions``.
         jobs: Solves side by side.
         solve: Whether to solve the problems' examples for their pictures.
-        progress: Told seconds of work done, in all, and what is being solved.
+        progress: Is told what is being solved.
 
     Returns:
         The path of the first page.

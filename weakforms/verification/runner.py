@@ -16,6 +16,7 @@ from pathlib import Path
 from weakforms.errors import InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
 from weakforms.results.io import dumps, require_writable, sole_use
+from weakforms.terminal import WorkProgress
 from weakforms.verification import (
     curves,
     ledger,  # noqa: F401  (registers its checks)
@@ -29,10 +30,8 @@ from weakforms.verification.machine import environment
 from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
+from weakforms.verification.summary import case_line, plural
 from weakforms.verification.workers import workers
-
-Report = Callable[[float, float, str], None]
-"""Progress: seconds of work done, seconds in all as far as is known, what is being done."""
 
 
 @dataclass
@@ -158,8 +157,20 @@ class Solver:
         self.results: dict[Spec, Result] = {}
         self.files: dict[Spec, str] = {}
 
-    def run(self, plan: Plan, report: Report) -> None:
-        """Solve everything; a spec that fails is noted and the others go on."""
+    def run(
+        self,
+        plan: Plan,
+        progress: WorkProgress | None = None,
+        settled: Callable[[Spec], None] = lambda _: None,
+    ) -> None:
+        """Solve everything; a spec that fails is noted and the others go on.
+
+        Args:
+            plan: What to solve.
+            progress: Is told what is being solved, and the seconds of work done and to do.
+            settled: Called with each spec once its result is there or is known to fail.
+        """
+        progress = progress or WorkProgress()
         effort = Effort(self.folder.parent / "times.json", plan.states)
         todo = []
         for spec, states in plan.states.items():
@@ -167,11 +178,12 @@ class Solver:
             self.files[spec] = path.name
             if self.resume and self._take(spec, path):
                 effort.finish(spec)
+                settled(spec)
                 continue
             todo.append((spec, states, path))
 
         def tell(spec: Spec) -> None:
-            report(*effort.share(), f"{effort.count} solved; {str(spec)[:48]}")
+            progress(f"{effort.count} solved; {str(spec)[:48]}", *effort.share())
 
         for spec, outcome in self._outcomes(todo, tell):
             if isinstance(outcome, WeakformsError):
@@ -183,6 +195,7 @@ class Solver:
             if self.writes:
                 effort.keep()
             tell(spec)
+            settled(spec)
 
     def _take(self, spec: Spec, path: Path) -> bool:
         if not path.exists():
@@ -336,7 +349,7 @@ def verify(
     jobs: int = 1,
     resume: bool = False,
     writes: bool = True,
-    report: Report = lambda *_: None,
+    progress: WorkProgress | None = None,
 ) -> RunOutcome:
     """Solve and judge cases; the caller writes the report.
 
@@ -347,18 +360,29 @@ def verify(
     plan = Plan.of(cases)
     require_writable(out / "solutions")
     require_writable(out / "report")
+    progress = progress or WorkProgress()
+    at_once = f", {jobs} at a time" if jobs > 1 else ""
+    progress.line(f"{plural(len(cases), 'case')}: {plural(len(plan.states), 'solution')} to solve{at_once}")
     solver = Solver(out / "solutions", jobs, resume, writes)
-    solver.run(plan, report)
-    outcomes = []
-    for found in cases:
-        report(len(outcomes), len(cases), f"judging {found.id}")
-        outcomes.append(judge_case(found, plan, solver))
-    report(len(cases), len(cases), "drawing the report")
+    outcomes: dict[str, CaseOutcome] = {}
+    missing = {found.id: set(plan.by_case[found.id]) for found in cases}
+
+    def settle(spec: Spec | None) -> None:
+        """Judge the cases that waited for this solution only."""
+        for found in cases:
+            missing[found.id].discard(spec)
+            if not missing[found.id] and found.id not in outcomes:
+                outcomes[found.id] = judge_case(found, plan, solver)
+                progress.line(case_line(outcomes[found.id], len(outcomes), len(cases)))
+
+    settle(None)
+    solver.run(plan, progress, settle)
+    progress("drawing the report", 1, 1)
     return RunOutcome(
         profile=profile,
         selection=selection,
         started=started,
         seconds=time.perf_counter() - begun,
         environment=environment(),
-        cases=outcomes,
+        cases=[outcomes[found.id] for found in cases],
     )

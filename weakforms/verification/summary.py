@@ -234,6 +234,15 @@ def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
     return {name: counts[name] for name in names if counts[name]}
 
 
+def case_line(case: CaseOutcome, done: int, total: int) -> str:
+    """A case just judged, for a log: ``3 of 92 cases: paper2.fig03 passed, 53 checks, 12.0 s of solving``."""
+    checks, failed = len(case.verdicts), sum(not v.passed for v in case.verdicts)
+    held = f"{failed} of {plural(checks, 'check')} failed" if failed else plural(checks, "check")
+    return (
+        f"{done} of {plural(total, 'case')}: {case.id} {case_status(case)}, {held}, {duration(case.seconds)}"
+    )
+
+
 def print_summary(run: RunOutcome, console: Console) -> None:
     """Print the run to a terminal: a row per case, what failed and why, and one last line.
 

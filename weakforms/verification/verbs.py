@@ -40,7 +40,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
                     jobs=jobs,
                     resume=resume,
                     writes=first,
-                    report=lambda done, total, what: progress(what, done, total),
+                    progress=progress,
                 )
         except KeyboardInterrupt:
             complain("interrupted; the same with --resume goes on from what is solved")
