@@ -1,7 +1,15 @@
-"""What holds for all tests."""
+"""What holds for all tests: how they crash, how they are interrupted, and how they run side by side.
+
+``pyproject.toml`` asks for a process (a worker) per core. What is handed to a worker is a case, with all its
+checks, or a whole file, so that what a file prepares once is prepared in one worker.
+"""
 
 import os
+import re
 import signal
+import time
+from pathlib import Path
+from threading import Event, Thread
 
 # PETSc takes over the signals of a crash when it starts. Started here, before pytest does, it leaves them to
 # pytest, which says what Python was doing.
@@ -14,3 +22,85 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # Tests call the verbs within their own process and look at what is solved there: one process, unless -j says
 # more.
 os.environ.setdefault("WEAKFORMS_JOBS", "1")
+
+# PETSc would end all tests when a worker is gone while something is sent to it.
+signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+
+CASE = re.compile(r"test_cases\.py::\w+\[([^]:]+)")
+RANKS = "tests/mpi"
+"""Several ranks each: one of them at a time."""
+LONG: tuple[str, ...] = (RANKS,)
+"""What takes minutes begins first, so that no worker is left to be waited for."""
+SILENCE = 60.0
+"""Seconds after which a log shows how far the tests are."""
+
+
+def pytest_xdist_auto_num_workers(config) -> int:
+    """A worker per core; none for one file, whose output and debugger are then at hand."""
+    files = {Path(str(name).split("::")[0]) for name in config.args}
+    if len(files) == 1 and all(path.is_file() and path.name != "test_cases.py" for path in files):
+        return 0
+    return len(os.sched_getaffinity(0))
+
+
+def pytest_xdist_make_scheduler(config, log):
+    """Hand out cases and files; another ``--dist`` than ours is left alone."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class CasesAndFiles(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            if case := CASE.search(nodeid):
+                return case[1]
+            return RANKS if nodeid.startswith(f"{RANKS}/") else nodeid.split("::")[0]
+
+        def _assign_work_unit(self, node):
+            for scope in reversed(LONG):
+                if scope in self.workqueue:
+                    self.workqueue.move_to_end(scope, last=False)
+            super()._assign_work_unit(node)
+
+        def remove_node(self, node):
+            """Name the test that a worker died of, and do not begin it again, as xdist would."""
+            units = self.assigned_work[node].values()
+            left = ((unit, nodeid) for unit in units for nodeid, done in unit.items() if not done)
+            unit, crashed = next(left, ({}, None))
+            unit[crashed] = True
+            super().remove_node(node)
+            return crashed
+
+    return CasesAndFiles(config, log) if config.getoption("dist") == "loadscope" else None
+
+
+class SignOfLife:
+    """In a log, a line a minute: how many tests are done, and which of them run."""
+
+    def __init__(self, reporter, session) -> None:
+        self.reporter, self.session = reporter, session
+        self.begun, self.done, self.running = time.monotonic(), 0, {}
+        self.over = Event()
+        Thread(target=self.watch, daemon=True).start()
+
+    def pytest_runtest_logstart(self, nodeid):  # noqa: D102
+        self.running[nodeid] = None
+
+    def pytest_runtest_logfinish(self, nodeid):  # noqa: D102
+        self.running.pop(nodeid, None)
+        self.done += 1
+
+    def pytest_sessionfinish(self):  # noqa: D102
+        self.over.set()
+
+    def watch(self) -> None:
+        """Print until the session is over."""
+        while not self.over.wait(SILENCE):
+            minutes = (time.monotonic() - self.begun) / 60
+            done = f"{minutes:.0f} min, {self.done} of {self.session.testscollected} tests done"
+            self.reporter.write_line(f"\n{done}; now {', '.join(list(self.running)) or 'none'}")
+
+
+def pytest_sessionstart(session) -> None:
+    """The process that prints shows signs of life, unless it has a terminal for its dots."""
+    config = session.config
+    reporter = config.pluginmanager.getplugin("terminalreporter")
+    if not (reporter is None or reporter.isatty or hasattr(config, "workerinput")):
+        config.pluginmanager.register(SignOfLife(reporter, session))

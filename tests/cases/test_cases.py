@@ -1,19 +1,19 @@
 """The physics: every case of the suite, each of its checks an item of its own.
 
-All cases are solved once a session, by the code path of ``weakforms verify``.
+Each solution is solved once a session, by the code path of ``weakforms verify``, in the worker that first
+needs it.
 """
 
-import fcntl
-import os
 from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+from shared_run import SharedRun
 
 from weakforms.errors import InputError
 from weakforms.verification.discovery import FoundCase, find_cases
-from weakforms.verification.outcome import CaseOutcome, RunOutcome, Verdict
-from weakforms.verification.runner import check_ids, verify
+from weakforms.verification.outcome import Verdict
+from weakforms.verification.runner import check_ids
 from weakforms.verification.summary import scientific
 
 CASES = find_cases()
@@ -38,25 +38,17 @@ def items(names: bool) -> Iterable[object]:
 
 
 @pytest.fixture(scope="session")
-def run(request, tmp_path_factory) -> RunOutcome:
-    """Outcomes of the cases among the items selected; workers side by side share the solutions."""
+def run(request, tmp_path_factory) -> SharedRun:
+    """The run of all cases among the items selected."""
     shared = tmp_path_factory.getbasetemp()
     if hasattr(request.config, "workerinput"):
         shared = shared.parent
     wanted = {i.callspec.params["case"] for i in request.session.items if "case" in callspec(i)}
-    out = shared / "cases"
-    with (shared / "cases.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        chosen = [c for c in CASES if c.id in wanted - set(UNSOUND)]
-        return verify(chosen, out, "full", "pytest", jobs=len(os.sched_getaffinity(0)), resume=True)
+    return SharedRun([c for c in CASES if c.id in wanted - set(UNSOUND)], shared / "cases")
 
 
 def callspec(item: pytest.Item) -> dict:
     return item.callspec.params if hasattr(item, "callspec") and item.path == Path(__file__) else {}
-
-
-def outcome_of(run: RunOutcome, case: str) -> CaseOutcome:
-    return next(outcome for outcome in run.cases if outcome.id == case)
 
 
 def explained(verdict: Verdict) -> str:
@@ -67,7 +59,7 @@ def explained(verdict: Verdict) -> str:
 
 @pytest.mark.parametrize(("case", "check"), items(names=True))
 def test_check(run, case, check):
-    verdict = next(v for v in outcome_of(run, case).verdicts if v.check == check)
+    verdict = next(v for v in run.outcome(case).verdicts if v.check == check)
     if not verdict.passed:
         pytest.fail(explained(verdict), pytrace=False)
 
@@ -75,7 +67,7 @@ def test_check(run, case, check):
 @pytest.mark.parametrize("case", items(names=False))
 def test_case_is_complete(run, case):
     assert case not in UNSOUND, UNSOUND[case]
-    outcome = outcome_of(run, case)
+    outcome = run.outcome(case)
     found = next(c for c in CASES if c.id == case)
     assert outcome.errors == []
     assert sorted(v.check for v in outcome.verdicts) == sorted(check_ids(found))

@@ -97,7 +97,7 @@ def run_tests(expectation: Expectation) -> dict[str, Any]:
     import pytest
 
     recorder = Recorder()
-    words = ["-q", "-x", "-p", "no:cacheprovider", "-m", "", expectation.text]
+    words = ["-q", "-x", "-n", "0", "-p", "no:cacheprovider", "-m", "", expectation.text]
     status = int(pytest.main(words, plugins=[recorder]))
     verdicts = recorder.verdicts
     good = status == 0 and bool(verdicts) and all(verdict["passed"] for verdict in verdicts)
