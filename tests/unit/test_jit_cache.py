@@ -8,7 +8,7 @@ from dolfinx import fem, mesh
 from ffcx.naming import compute_signature
 from mpi4py import MPI
 
-import weakforms.solvers  # noqa: F401  (puts the cache in place)
+from weakforms.solvers import jit_cache
 
 POINTS = np.array([[0.0], [1.0]])
 
@@ -53,3 +53,19 @@ def test_both_compile_to_what_they_say():
         stretch = ufl.variable(u.dx(0))
         slope = fem.Expression(ufl.diff(a * stretch**2 + b**2 * stretch, stretch), POINTS)
         assert slope.eval(body, np.array([0], dtype=np.int32)).ravel() == pytest.approx([expected] * 2)
+
+
+def volume_and_moment(cells: int) -> list[ufl.Form]:
+    """Integrals over ``[0, 1]`` of 2 and of ``3 x``, on a new mesh, with a constant of their own."""
+    body = mesh.create_unit_interval(MPI.COMM_SELF, cells)
+    x, factors = ufl.SpatialCoordinate(body)[0], [fem.Constant(body, value) for value in (2.0, 3.0)]
+    return [factors[0] * ufl.dx(body), factors[1] * x * ufl.dx(body)]
+
+
+def test_forms_compiled_together_are_one_module_and_are_found_alone_on_every_mesh():
+    jit_cache.compile_together(MPI.COMM_SELF, volume_and_moment(2))
+    one, two = (fem.form(form) for form in volume_and_moment(5))
+    assert one.module is two.module
+    assert [fem.assemble_scalar(form) for form in (one, two)] == pytest.approx([2.0, 1.5])
+    alone = fem.form(2.0 * ufl.dx(mesh.create_unit_interval(MPI.COMM_SELF, 2)))  # no constant: another form
+    assert alone.module is not one.module

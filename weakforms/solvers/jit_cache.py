@@ -5,6 +5,9 @@ process killed in between leaves the first without the second, for which every l
 vain. Here whoever compiles holds a lock, which the system takes back from a dead process, and compiles in a
 folder of its own, from which the finished files are moved.
 
+A module of its own for each form costs more than the form: the compiler's start, its headers, the linker.
+:func:`compile_together` makes one module of the forms that a system needs anyway.
+
 ffcx names an expression after how many variables (``ufl.variable``) the process had made before: the same one
 on another mesh, or after something else was solved, was compiled again. Here they count from zero.
 """
@@ -16,7 +19,7 @@ import functools
 import os
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import module_from_spec, spec_from_file_location
@@ -24,9 +27,12 @@ from pathlib import Path
 from typing import Any
 
 import cffi
+import ufl
+from dolfinx import default_scalar_type
 from dolfinx import jit as dolfinx_jit
 from ffcx import options as ffcx_options
 from ffcx.codegeneration import jit
+from mpi4py import MPI
 from ufl.algorithms import signature
 from ufl.classes import Label
 from ufl.core.expr import Expr
@@ -40,6 +46,9 @@ PATIENCE = 180
 
 _held: list[int] = []
 """The lock of the form that this process is compiling."""
+
+_together: dict[str, tuple[Any, Any]] = {}
+"""Compiled forms, with their module, that stand in one module with others; by their signatures."""
 
 
 def install() -> None:
@@ -57,6 +66,39 @@ def install() -> None:
     jit._compile_objects = _compiling(jit._compile_objects)
     for name in ("compile_forms", "compile_expressions"):
         setattr(jit, name, _releasing(getattr(jit, name)))
+    jit.compile_forms = _looking(jit.compile_forms)
+
+
+def compile_together(comm: MPI.Intracomm, forms: Iterable[ufl.Form]) -> None:
+    """Compile forms into one module, where :func:`dolfinx.fem.form` then finds each of them.
+
+    Collective. Signatures hold no names of meshes: forms of the next mesh find the module of the first.
+    """
+    missing = {form.signature(): form for form in forms}
+    if not missing.keys() <= _together.keys():
+        _compile_module(comm, list(missing.values()))
+
+
+@dolfinx_jit.mpi_jit_decorator
+def _compile_module(forms: list[ufl.Form]) -> None:
+    options = ffcx_options.get_options({"scalar_type": default_scalar_type})
+    objects, module, _ = jit.compile_forms(forms, options=options, **dolfinx_jit.get_options())
+    for form, compiled in zip(forms, objects, strict=True):
+        _together[form.signature()] = compiled, module
+
+
+def _looking(compile_forms: Callable) -> Callable:
+    """The way from forms to compiled ones; a form that stands in a module with others is taken from there."""
+
+    @functools.wraps(compile_forms)
+    def compiled(forms: list[ufl.Form], *args: Any, **kwargs: Any) -> Any:
+        found = _together.get(forms[0].signature()) if len(forms) == 1 else None
+        if found is None:
+            return compile_forms(forms, *args, **kwargs)
+        one, module = found
+        return [one], module, (None, None)
+
+    return compiled
 
 
 def _counting_from_zero(compute: Callable) -> Callable:

@@ -15,6 +15,7 @@ from petsc4py import PETSc
 from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
+from weakforms.solvers.jit_cache import compile_together
 from weakforms.solvers.sampling import FirstLevels, Interpolant
 
 
@@ -91,6 +92,7 @@ class System:
         self._peaks: Interpolant | None = None
         self._levels: FirstLevels | None = None
         self._ufl = self._ufl_forms()
+        compile_together(self.comm, self._ufl.values())
 
         self.size = self.unknown.x.petsc_vec.getLocalSize()
         # Views of what the forms read and of what is assembled into: asking dolfinx for one takes 2 to 4 µs,
