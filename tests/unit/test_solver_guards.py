@@ -18,6 +18,7 @@ from weakforms.solvers.linear import BorderedMatrix, Factorization
 from weakforms.solvers.lowest import Lowest
 from weakforms.solvers.modal import ModalBranch
 from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.roots import root
 from weakforms.solvers.stability import Stability
 from weakforms.solvers.subspace import Subspace
 from weakforms.solvers.system import State
@@ -57,6 +58,19 @@ def test_a_bifurcation_is_where_the_eigenvalue_is_zero():
     (point,) = branch.special()
     assert point.kind == "bifurcation_point"
     assert point.values["load"] == pytest.approx(-(np.pi**2), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "function", [lambda x: x**2 + 1, lambda _: np.nan, lambda x: np.nan if x > 0 else -1.0]
+)
+def test_a_zero_that_is_not_there_is_no_zero(function):
+    with pytest.raises(ConvergenceError, match="the turn is not found between -1 and 2"):
+        root(function, -1.0, 2.0, "the turn")
+
+
+def test_a_special_point_that_is_not_bracketed_is_named():
+    with pytest.raises(ConvergenceError, match="limit_point in load is not found"):
+        half_circle()._root(2, lambda _: 1.0, "limit_point")
 
 
 def test_a_fold_the_inertia_does_not_see_is_named():

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from weakforms.problems.closed_body import Body, system_of
 from weakforms.problems.material_choice import Chosen
@@ -18,6 +17,7 @@ from weakforms.results import Quantity
 from weakforms.solvers.constraints import Held
 from weakforms.solvers.newton import ExtendedNewton
 from weakforms.solvers.refinement import ALGEBRAIC
+from weakforms.solvers.roots import root
 from weakforms.solvers.system import State
 
 NAMES = {"thin": "", "thick": "_2"}
@@ -67,5 +67,5 @@ def _guess(body: Body, traced: Mapping[str, np.ndarray]) -> tuple[float, list[fl
 
     if low >= high or gap(low) * gap(high) > 0:
         return None
-    x = brentq(gap, low, high)
+    x = root(gap, low, high, "the pressure of equal potentials")
     return x, [float(part[n](x)) for part in parts for n in body.unknowns]

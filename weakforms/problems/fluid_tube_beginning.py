@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.interpolate import BarycentricInterpolator, CubicSpline
-from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBranch
@@ -20,6 +19,7 @@ from weakforms.problems.fluid_tube_fitting import Fitting, KeptNewton
 from weakforms.problems.fluid_tube_surface import Shape, SurfaceModel
 from weakforms.solvers.branch import Solved
 from weakforms.solvers.constraints import Held
+from weakforms.solvers.roots import root
 from weakforms.solvers.stability import Stability
 from weakforms.solvers.system import State
 
@@ -121,7 +121,7 @@ def bifurcation_on(
             f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
             f"negative ones beside them {counts}"
         )
-    zero = brentq(lambda s: trend.row(s)[0], -1.0, 1.0, xtol=1e-14)
+    zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
     _, *found = trend.row(zero).tolist()
     u, mode = (
         BarycentricInterpolator(along, np.array(v))(zero) for v in ([s.state.u for s in solved], modes)

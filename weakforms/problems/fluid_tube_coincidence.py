@@ -12,7 +12,6 @@ from typing import ClassVar
 
 from mpi4py import MPI
 from pydantic import Field
-from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
@@ -29,6 +28,7 @@ from weakforms.solvers.modes import Singular
 from weakforms.solvers.newton import ExtendedNewton
 from weakforms.solvers.provenance import provenance
 from weakforms.solvers.refinement import estimate
+from weakforms.solvers.roots import root
 
 NEAR = 1e-3
 """Accuracy of ``delta`` from branches on the coarsest mesh, from which the extended system is solved."""
@@ -164,7 +164,7 @@ class _Finder:
                 "fluid_tube_coincidence: limit point and bifurcation come in the same order at "
                 f"delta = {ends[0]:g} and {ends[1]:g}; allowed: a range over which the order changes"
             )
-        return float(brentq(ahead, *ends, xtol=NEAR, rtol=NEAR))
+        return root(ahead, *ends, "delta of equal volumes", xtol=NEAR, rtol=NEAR)
 
     def exactly(self, level: int, delta: float) -> dict[str, float]:
         """The state on one mesh at which both second variations are singular."""

@@ -14,7 +14,6 @@ import numpy as np
 from mpi4py import MPI
 from numpy.polynomial import chebyshev
 from pydantic import Field, model_validator
-from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.base import Numerics, Parameters, Progress, Requests, registry, silent
@@ -25,6 +24,7 @@ from weakforms.results import Failure, Quantity, Result
 from weakforms.solvers.constraints import Held, Plane
 from weakforms.solvers.newton import ExtendedNewton
 from weakforms.solvers.provenance import provenance
+from weakforms.solvers.roots import root
 from weakforms.solvers.stability import Stability
 from weakforms.solvers.system import State
 
@@ -204,12 +204,12 @@ class WholeRun:
         }
         if np.sign(means[0]) == np.sign(means[-1]):
             raise ConvergenceError(f"the n = 1 eigenvalue is not zero within {SPAN:g} of V = {at_zero:g}")
-        root = brentq(lambda s: chebyshev.chebval(s, fits["mean"]), -1, 1, xtol=1e-14)
-        pair = np.sort(np.atleast_1d(chebyshev.chebval(root, fits["pair"])))
-        other = float(chebyshev.chebval(root, fits["next"]))
+        zero = root(lambda s: chebyshev.chebval(s, fits["mean"]), -1, 1, "the bifurcation", xtol=1e-14)
+        pair = np.sort(np.atleast_1d(chebyshev.chebval(zero, fits["pair"])))
+        other = float(chebyshev.chebval(zero, fits["next"]))
         out = {
-            "zw_bifurcation": float(chebyshev.chebval(root, fits["zw"])),
-            "V_bifurcation": at_zero * (1 + SPAN * root),
+            "zw_bifurcation": float(chebyshev.chebval(zero, fits["zw"])),
+            "V_bifurcation": at_zero * (1 + SPAN * zero),
             "Lambda_pair_1": float(pair[0]),
             "multiplicity": float(np.sum(np.abs(pair) < 1e-9 * other)),
         }

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled_modes import waves_at
 from weakforms.problems.wrinkled_state import Held
+from weakforms.solvers.roots import root
 
 TOLERANCE = 1e-11
 """Relative, of roots."""
@@ -62,7 +63,7 @@ class Bands:
         low = max(low, 1e-3)
         if self.lowest(low) * self.lowest(high) > 0:
             raise ConvergenceError(f"no change of stability between n = {low:g} and {high:g} on a mesh")
-        return float(brentq(self.lowest, low, high, xtol=TOLERANCE, rtol=TOLERANCE))
+        return root(self.lowest, low, high, "a change of stability in n", xtol=TOLERANCE, rtol=TOLERANCE)
 
     def stiffness(self, n: float) -> float:
         """Bending stiffness at which the lowest eigenvalue of ``n`` waves is zero; 0 where it is stable."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import BarycentricInterpolator
-from scipy.optimize import brentq
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.solvers.constraints import Fold, Held, MonitorPlane
 from weakforms.solvers.continuation import Continuation, CurvePoint, hermite
 from weakforms.solvers.newton import Constraint
+from weakforms.solvers.roots import root
 from weakforms.solvers.stability import Stability
 from weakforms.solvers.system import State
 
@@ -117,7 +117,7 @@ class SolutionCurve:
     def _fraction(self, i: int, name: str, value: float) -> float:
         """Where between two neighbours a column has a value; a load by its own cubic, next to a turn too."""
         if name in self.loads:
-            return float(brentq(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0))
+            return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
         before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
         return before / (before - after)
 
@@ -197,7 +197,7 @@ class SolutionCurve:
             last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
             return function(last[-1])
 
-        value(brentq(value, 0.0, 1.0, xtol=1e-13, rtol=1e-13))
+        value(root(value, 0.0, 1.0, f"{kind} in {self.control}", xtol=1e-13, rtol=1e-13))
         self._require_within(i, last[-1], f"{kind} in {self.control}")
         return last[-1]
 
@@ -341,10 +341,10 @@ class EquilibriumBranch(SolutionCurve):
             solved.append(self._solve(guess, self.continuation.plane(guess, tangent)))
             eigenvalues.append(stability.nearest_by_index(solved[-1].state, index))
         along = BarycentricInterpolator(nodes, eigenvalues)
-        root = brentq(lambda x: float(along(x)), 0.0, 1.0, xtol=1e-14)
+        zero = root(lambda x: float(along(x)), 0.0, 1.0, "a change of stability", xtol=1e-14)
 
         def at_root(values: list) -> np.ndarray:
-            return BarycentricInterpolator(nodes, np.array(values))(root)
+            return BarycentricInterpolator(nodes, np.array(values))(zero)
 
         names = solved[0].values
         loads = {k: float(at_root([s.state.loads[k] for s in solved])) for k in solved[0].state.loads}

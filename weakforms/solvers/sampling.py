@@ -10,10 +10,10 @@ from dolfinx import fem, geometry
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from numpy.polynomial import Polynomial
-from scipy.optimize import brentq
 from ufl.core.expr import Expr
 
 from weakforms.solvers import compat
+from weakforms.solvers.roots import root
 
 
 class Interpolant:
@@ -93,8 +93,8 @@ def _first(x: np.ndarray, values: np.ndarray, level: float) -> float:
     if node == 0:
         return float(x[cell, 0])
     polynomial, sign = _through(x[cell], values[cell]), np.sign(values[cell, node])
-    root = brentq(lambda at: sign * polynomial(at) - level, x[cell, node - 1], x[cell, node], xtol=1e-15)
-    return float(root)
+    ends = x[cell, node - 1], x[cell, node]
+    return root(lambda at: sign * polynomial(at) - level, *ends, f"|value| = {level:g}", xtol=1e-15)
 
 
 def _through(x: np.ndarray, values: np.ndarray) -> Callable[[float], float]:
