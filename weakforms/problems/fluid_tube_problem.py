@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry, sample_points
+from weakforms.problems.base import Progress, Requests, check_requests, registry, sample_points
 from weakforms.problems.fluid_tube import TubeData
 from weakforms.problems.fluid_tube_path import STEP, ZW_END, FluidPath
 from weakforms.problems.fluid_tube_secondary import secondary_family
@@ -206,11 +206,6 @@ class FluidTube(PathProblem):
     def points(self, parameters: FluidTubeParameters) -> np.ndarray:
         """61 points from the lower ring to the upper one."""
         return np.linspace(0, parameters.L / parameters.delta, 61)
-
-    def _result(self, parameters: Parameters, numerics: MeshNumerics) -> Result:
-        result = super()._result(parameters, numerics)
-        result.numerics["quadrature_degree"] = 4 * numerics.degree
-        return result
 
     def _answer(
         self,

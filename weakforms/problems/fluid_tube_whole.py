@@ -23,7 +23,7 @@ from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
 from weakforms.results import Failure, Quantity, Result
 from weakforms.solvers.constraints import Held, Plane
 from weakforms.solvers.newton import ExtendedNewton
-from weakforms.solvers.provenance import provenance
+from weakforms.solvers.provenance import provenance, quadrature_degree
 from weakforms.solvers.roots import root
 from weakforms.solvers.stability import Stability
 from weakforms.solvers.system import State
@@ -138,12 +138,12 @@ class FluidTubeSurface:
             scales=self.scales,
             numerics={
                 **numerics.model_dump(),
-                "quadrature_degree": 5 * numerics.degree,
                 "stopping": "relative Newton step 1e-10, residual norm below 1e-8",
             },
             provenance={},
         )
         run = WholeRun(parameters, numerics, comm)
+        result.numerics["quadrature_degree"] = quadrature_degree(run.system.formulation.residual)
         for i, (what, part) in enumerate({"bifurcation": run.critical, "bent state": run.bent}.items()):
             progress(what, i, 2)
             try:

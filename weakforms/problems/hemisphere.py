@@ -15,7 +15,7 @@ from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import InputError
-from weakforms.problems.base import Parameters, Progress, Requests, check_requests, registry
+from weakforms.problems.base import Progress, Requests, check_requests, registry
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.path import Family, PathProblem
 from weakforms.problems.wave_numbers import WaveNumbers
@@ -196,11 +196,6 @@ class Hemisphere(PathProblem):
     def points(self, _parameters: HemisphereParameters) -> np.ndarray:
         """81 points from the pole to the equator."""
         return np.linspace(0.0, math.pi / 2, 81)
-
-    def _result(self, parameters: Parameters, numerics: Any) -> Result:
-        result = super()._result(parameters, numerics)
-        result.numerics["quadrature_degree"] = 4 * numerics.degree
-        return result
 
     def _answer(self, result: Result, families: dict[str, Family], *rest: Any) -> None:
         super()._answer(result, families, *rest)

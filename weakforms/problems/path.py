@@ -42,6 +42,10 @@ class Family(Protocol):
     name: str
 
     @property
+    def quadrature_degree(self) -> int:
+        """Read off the form it solves."""
+
+    @property
     def failures(self) -> list[Failure]:
         """What did not converge."""
 
@@ -95,7 +99,6 @@ class PathProblem:
             numerics={
                 **numerics.model_dump(),
                 "meshes": numerics.meshes,
-                "quadrature_degree": 2 * numerics.degree + 2,
                 "stopping": "relative Newton step 1e-10, residual norm below 1e-8",
             },
             provenance={},
@@ -110,6 +113,9 @@ class PathProblem:
         progress: Progress,
     ) -> None:
         """Put branches, special points and the states wanted into a result; what fails is listed there."""
+        degrees = {name: family.quadrature_degree for name, family in families.items()}
+        alike = len(set(degrees.values())) == 1
+        result.numerics["quadrature_degree"] = next(iter(degrees.values())) if alike else degrees
         for name, family in families.items():
             if requests.branch_uncertainty:
                 progress(f"uncertainty of the {name} branch", 0, 1)

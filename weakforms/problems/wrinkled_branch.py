@@ -19,6 +19,7 @@ from weakforms.solvers import constraints as fixed
 from weakforms.solvers.branch import DIAGNOSTICS, FittedBranch, SolutionCurve, Solved
 from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.family import CRITICAL
+from weakforms.solvers.provenance import quadrature_degree
 
 NEAR_TURN = 2
 """Points around a limit load at which the volume is held in place of the load."""
@@ -93,6 +94,11 @@ class WrinkledBranch:
         return [*([Failure(f"branch {self.name}", stalled)] if stalled else []), *self._failures]
 
     # -- single states -------------------------------------------------------------------------
+
+    @property
+    def quadrature_degree(self) -> int:
+        """Of the residual, as it is solved."""
+        return quadrature_degree(self.membrane.plain_model.system.formulation.residual)
 
     def near(self, name: str, value: float, crossing: int = 1) -> Solved:
         """The state of the plain mesh at a value of a column.

@@ -27,6 +27,7 @@ from weakforms.problems.base import Progress, Requests, check_requests, registry
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.solvers.provenance import quadrature_degree
 from weakforms.solvers.refinement import estimate
 
 SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
@@ -73,6 +74,7 @@ class Patch:
         c = metric(tangents, ufl.Identity(2))
         strain, pressure = law(*principal_stretches(c)), -given.b * z * x.dx(0)
         dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 2 * degree})
+        self.quadrature_degree = quadrature_degree(strain * dx)
         self._forms: dict[str, fem.Form] = {}
         for name, density in (("U", strain), ("W", pressure)):
             self._forms |= _with_derivatives(name, density, e, lambda part: fem.form(part * dx))
@@ -107,6 +109,7 @@ class PatchFamily:
     def __init__(self, parameters: PatchParameters, numerics: PatchNumerics) -> None:
         self._given, self._cap = parameters, 2 * numerics.degree
         self._levels = [Patch(parameters, cells, numerics.degree) for cells in numerics.meshes]
+        self.quadrature_degree = self._levels[-1].quadrature_degree
 
     def _quantities(self, e: float) -> dict[str, Quantity]:
         rows = [level(e) for level in self._levels]

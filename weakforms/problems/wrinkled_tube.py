@@ -220,7 +220,7 @@ class WrinkledTube(PathProblem):
         """Critical radius, then branch, special points and the states wanted with their fronts."""
         begun = time.perf_counter()
         result = self._result(parameters, numerics)
-        result.numerics |= {"quadrature_degree": 4 * numerics.degree, "cells": numerics.cells}
+        result.numerics["cells"] = numerics.cells
         progress("critical radius", 0, 1)
         critical = _critical(parameters, numerics, comm)
         result.quantities["Af_critical"] = quantity(estimate(critical, 2 * numerics.degree))

@@ -12,6 +12,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.branch import DIAGNOSTICS, SolutionCurve, Solved
+from weakforms.solvers.provenance import quadrature_degree
 from weakforms.solvers.refinement import Estimate, Slow, doubt, estimate, estimate_in_norm, order_in_mean
 from weakforms.solvers.sampling import Sampler
 from weakforms.solvers.stability import Spectrum, Stability
@@ -78,6 +79,11 @@ class BranchFamily:
         stalled = [level.stalled for level in self.levels if level.stalled]
         if stalled:
             self.failures.append(Failure(f"branch {name}", stalled[-1]))
+
+    @property
+    def quadrature_degree(self) -> int:
+        """Of the residual, as it is solved."""
+        return quadrature_degree(self.fine.system.formulation.residual)
 
     # -- the branch itself -------------------------------------------------------------------
 

@@ -37,6 +37,11 @@ class PiecewiseFamily:
         """Of all pieces."""
         return [failure for piece in self.pieces for failure in piece.family.failures]
 
+    @property
+    def quadrature_degree(self) -> int:
+        """The highest of the pieces."""
+        return max(piece.family.quadrature_degree for piece in self.pieces)
+
     def branch(self, with_uncertainty: bool = True) -> Branch:
         """All pieces as one branch; a column that a piece has no number for is left out."""
         parts = []

@@ -49,6 +49,11 @@ def revision() -> str:
     return described.stdout.strip()
 
 
+def quadrature_degree(form: ufl.Form) -> int:
+    """Degree up to which the integrals of a form are exact, of the one with the most points."""
+    return max(integral.metadata().get("quadrature_degree", 0) for integral in form.integrals())
+
+
 def provenance(comm: MPI.Intracomm, wall: float) -> dict[str, Any]:
     """Provenance block of a result."""
     return {**versions(), "git": revision(), "ranks": comm.size, "wall_s": round(wall, 3)}
