@@ -258,7 +258,7 @@ def test_curve_that_is_no_file(refused, monkeypatch):
     refused(f"{COMPARE} missing.csv", "missing.csv", "No such file")
     refused(f"{COMPARE} folder", "folder", "Is a directory")
     refused([*COMPARE.split(), "\x1b[31m/none"], "No such file")
-    monkeypatch.setattr("weakforms.results.io.MAX_CURVE_BYTES", 2**20)
+    monkeypatch.setattr("weakforms.results.curves.MAX_CURVE_BYTES", 2**20)
     refused(f"{COMPARE} /dev/zero", "/dev/zero", "larger than 1 MiB")
 
 

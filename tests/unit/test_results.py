@@ -220,7 +220,7 @@ COLUMNS = {"u": [1.0, 2.5], "p": [3.0, -4e-3]}
 )
 def test_curves_are_read(tmp_path, name, content):
     (tmp_path / name).write_text(content)
-    found = read_curve(tmp_path / name)
+    found = read_curve(tmp_path / name).columns
     assert {key: values.tolist() for key, values in found.items()} == COLUMNS
 
 

@@ -1,6 +1,7 @@
 """What came out: branches, special points, states and fields, in and out of JSON and CSV. numpy only."""
 
-from weakforms.results.io import load_result, read_curve, validate, write_atomically
+from weakforms.results.curves import CurveFile, read_curve
+from weakforms.results.io import load_result, validate, write_atomically
 from weakforms.results.model import (
     Branch,
     Failure,
@@ -13,6 +14,7 @@ from weakforms.results.model import (
 
 __all__ = [
     "Branch",
+    "CurveFile",
     "Failure",
     "Field",
     "Quantity",

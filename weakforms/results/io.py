@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import fcntl
-import io
 import json
-import math
 import os
 import re
 import tempfile
-from array import array
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -20,22 +16,18 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
-import numpy as np
 
 from weakforms.errors import InputError
 from weakforms.results.model import Result
 
-MAX_CURVE_BYTES = 64 * 2**20
-"""Size up to which a curve file is read; JSON takes up to thirty times that of memory, hence ..."""
-
 MAX_JSON_BYTES = 32 * 2**20
-"""... the size up to which JSON is read, but for ..."""
+"""Size up to which JSON is read, which takes up to thirty times that of memory; but for ..."""
 
 MAX_REPORT_BYTES = 256 * 2**20
 """... a report of our own."""
 
-MAX_ROWS, MAX_COLUMNS = 1_000_000, 1000
-"""Rows and columns up to which a table is read."""
+BRANCH = "branch"
+"""Column of names, not of numbers, in the table that :func:`branch_csv` writes."""
 
 
 @cache
@@ -186,7 +178,7 @@ def load_json(path: Path, what: str, limit: int = MAX_JSON_BYTES) -> dict[str, A
         InputError: When it is missing, too large, not UTF-8, not JSON or not an object.
     """
     try:
-        data = json.loads(_text(path, what, limit))
+        data = json.loads(read_text(path, what, limit))
     except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
         raise InputError(f"{what} {path}: not JSON: {str(error).splitlines()[0]}") from error
     if not isinstance(data, dict):
@@ -211,7 +203,7 @@ def load_result(path: Path) -> Result:
 def branch_csv(result: Result) -> str:
     """All branches as one CSV table; the first column names the branch."""
     keys = list(dict.fromkeys(key for b in result.branches for key in b.columns))
-    lines = [",".join(["branch", *keys])]
+    lines = [",".join([BRANCH, *keys])]
     for branch in result.branches:
         for i in range(len(branch)):
             cells = [f"{branch.columns[k][i]:.12g}" if k in branch.columns else "" for k in keys]
@@ -219,28 +211,12 @@ def branch_csv(result: Result) -> str:
     return "\n".join(lines) + "\n"
 
 
-def read_curve(path: Path) -> dict[str, np.ndarray]:
-    """Columns of somebody's curve: a CSV with a header row, a JSON ``{"column": [...]}``, or a result.
+def read_text(path: Path, what: str, limit: int) -> str:
+    """UTF-8 text from a file of up to ``limit`` bytes.
 
     Raises:
-        InputError: When the file cannot be read, is no table, or holds something that is not a finite number.
+        InputError: When it is missing, too large or not UTF-8.
     """
-    path = Path(path)
-    if path.suffix.lower() == ".json":
-        data = load_json(path, "curve file")
-        if data.get("schema") == "weakforms.result/1":
-            validate(data)
-            if not data["branches"]:
-                raise InputError(f"curve file {path} is a result without a branch")
-            data = data["branches"][0]
-        columns = data.get("columns", data)
-        if not isinstance(columns, dict):
-            raise InputError(f"curve file {path}: 'columns' must be an object of lists")
-        return _numbers(path, columns)
-    return _read_csv(path)
-
-
-def _text(path: Path, what: str, limit: int) -> str:
     try:
         with Path(path).open("rb") as stream:
             raw = stream.read(limit + 1)  # a pipe or device does not tell its size
@@ -252,67 +228,3 @@ def _text(path: Path, what: str, limit: int) -> str:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{what} {path} is not UTF-8 text (byte {error.start})") from error
-
-
-def _read_csv(path: Path) -> dict[str, np.ndarray]:
-    text = _text(path, "curve file", MAX_CURVE_BYTES)
-    try:
-        return _columns(path, csv.reader(_lines(path, text)))
-    except csv.Error as error:
-        raise InputError(f"curve file {path} is not CSV: {error}") from error
-
-
-def _lines(path: Path, text: str) -> Iterator[str]:
-    """Lines, of which none becomes more cells than a table may have columns."""
-    for line in io.StringIO(text):
-        if line.count(",") >= MAX_COLUMNS:
-            raise InputError(f"curve file {path} has more than {MAX_COLUMNS} columns")
-        yield line
-
-
-def _columns(path: Path, reader: Any) -> dict[str, np.ndarray]:
-    rows = (row for row in reader if row)
-    header = [name.strip() for name in next(rows, [])]
-    if len(set(header)) != len(header):
-        raise InputError(f"curve file {path}: a column name stands twice in {header}")
-    columns = [array("d") for _ in header]
-    for count, row in enumerate(rows, start=1):
-        if len(row) != len(header):
-            raise InputError(
-                f"curve file {path}, line {reader.line_num}: "
-                f"{len(row)} cells under {len(header)} column names"
-            )
-        if count > MAX_ROWS:
-            raise InputError(f"curve file {path} has more than {MAX_ROWS} rows")
-        for name, column, cell in zip(header, columns, row, strict=True):
-            column.append(_number(path, name, count, cell))
-    if not columns or not columns[0]:
-        raise InputError(f"curve file {path} needs a header row and at least one row of numbers")
-    return {name: np.array(column) for name, column in zip(header, columns, strict=True)}
-
-
-def _numbers(path: Path, columns: dict[str, Any]) -> dict[str, np.ndarray]:
-    out: dict[str, np.ndarray] = {}
-    for name, values in columns.items():
-        if not isinstance(values, list) or not values:
-            raise InputError(f"curve file {path}: column {name!r} must be a list of numbers")
-        if len(values) > MAX_ROWS:
-            raise InputError(f"curve file {path} has more than {MAX_ROWS} rows")
-        out[str(name)] = np.array([_number(path, name, i, v) for i, v in enumerate(values, start=1)])
-    if not out:
-        raise InputError(f"curve file {path} holds no columns")
-    if len({len(values) for values in out.values()}) > 1:
-        lengths = {name: len(values) for name, values in out.items()}
-        raise InputError(f"curve file {path}: columns differ in length: {lengths}")
-    return out
-
-
-def _number(path: Path, name: str, row: int, value: object) -> float:
-    try:
-        number = float(value) if not isinstance(value, bool) else math.nan
-    except (TypeError, ValueError, OverflowError):
-        number = math.nan
-    if not math.isfinite(number):
-        shown = str(value)[:40]
-        raise InputError(f"curve file {path}, column {name!r}, row {row}: {shown!r} is not a finite number")
-    return number
