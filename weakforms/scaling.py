@@ -21,9 +21,9 @@ class Scaling:
     """What the columns of a problem are multiples of."""
 
     length: str
-    """Constant that lengths are divided by."""
+    """Constant that lengths are divided by; empty where no column has one, as the other two."""
     modulus: str
-    """Constant whose product with ``thickness`` forces per length are divided by."""
+    """Constant that stresses are divided by; its product with ``thickness``, what forces per length are."""
     thickness: str
     kinds: Mapping[str, str]
     """Per column one of :data:`KINDS`; a column that is not listed has no unit."""
@@ -31,40 +31,56 @@ class Scaling:
     """Energies and volumes are divided by this too: ``2 pi`` where they count a radian."""
 
     @property
-    def constants(self) -> tuple[str, str, str]:
+    def constants(self) -> tuple[str, ...]:
         """Names of the constants, all in units of one system."""
-        return self.length, self.modulus, self.thickness
+        return tuple(name for name in (self.length, self.modulus, self.thickness) if name)
 
     def unit(self, column: str, constants: Mapping[str, float]) -> float:
         """What one unit of a column is, with the constants' values.
 
         Raises:
-            InputError: For a constant that is missing, unknown, not a number or not positive.
+            InputError: For a constant that is missing, not a number or not positive.
         """
-        kind = self.kinds.get(column, "number")
-        length, modulus, thickness = (_constant(name, constants, self) for name in self.constants)
-        powers, turned = KINDS[kind]
+        powers, turned = KINDS[self.kinds.get(column, "number")]
+        names = (self.length, self.modulus, self.thickness)
+        used = {name: power for name, power in zip(names, powers, strict=True) if power}
+        values = {name: _constant(name, constants, self) for name in used}
         try:
-            unit = length ** powers[0] * (modulus * thickness) ** powers[1] * (self.turn if turned else 1.0)
+            unit = math.prod(values[name] ** power for name, power in used.items())
         except OverflowError:
             unit = math.inf
+        unit *= self.turn if turned else 1.0
         if not 0 < unit < math.inf:
-            stated = ", ".join(f"{name} = {float(constants[name]):g}" for name in self.constants)
+            stated = ", ".join(f"{name} = {value:g}" for name, value in values.items())
             raise InputError(f"with {stated} a unit of {column} is {unit:g}; it must be positive and finite")
         return unit
 
+    def symbols(self, column: str) -> str:
+        """The same unit in symbols, such as ``C1 h_o/R_f``; empty for a column without one."""
+        powers, turned = KINDS[self.kinds.get(column, "number")]
+        above, below = ["2 pi"] if turned and self.turn != 1 else [], []
+        for name, power in zip((self.modulus, self.thickness, self.length), np.roll(powers, -1), strict=True):
+            words = above if power > 0 else below
+            if power:
+                words.append(name if abs(power) == 1 else f"{name}^{abs(power)}")
+        if not below:
+            return " ".join(above)
+        return f"{' '.join(above) or '1'}/{' '.join(below)}"
 
-KINDS: dict[str, tuple[tuple[int, int], bool]] = {
-    "number": ((0, 0), False),
-    "length": ((1, 0), False),
-    "curvature": ((-1, 0), False),
-    "pressure": ((-1, 1), False),
-    "resultant": ((0, 1), False),
-    "force": ((1, 1), False),
-    "volume": ((3, 0), True),
-    "energy": ((2, 1), True),
+
+KINDS: dict[str, tuple[tuple[int, int, int], bool]] = {
+    "number": ((0, 0, 0), False),
+    "length": ((1, 0, 0), False),
+    "curvature": ((-1, 0, 0), False),
+    "stress": ((0, 1, 0), False),
+    "pressure": ((-1, 1, 1), False),
+    "resultant": ((0, 1, 1), False),
+    "force": ((1, 1, 1), False),
+    "axial": ((1, 1, 1), True),
+    "volume": ((3, 0, 0), True),
+    "energy": ((2, 1, 1), True),
 }
-"""Powers of the length and of modulus times thickness, and whether ``turn`` comes with it."""
+"""Powers of length, modulus and thickness, and whether ``turn`` comes with it."""
 
 
 def _of(**columns: str) -> dict[str, str]:
@@ -104,12 +120,13 @@ _FLUID_TUBE = Scaling(
     "mu",
     "H",
     _of(
-        length="zw r_mid r_max r_front Z_front r_mid_pi x_quarter_0 x_quarter_pi z_quarter_0 z_quarter_pi "
+        length="zw zw_bifurcation zw_bent amplitude r_mid r_max r_front Z_front r_mid_pi "
+        "x_quarter_0 x_quarter_pi z_quarter_0 z_quarter_pi "
         "z_min Z r z x y",
         resultant="T1_ring T2_ring T1_mid T2_mid T1 T2 T_min T1_quarter_0 T1_quarter_pi T2_quarter_0 "
         "T2_quarter_pi",
-        volume="V",
-        energy="Pi",
+        volume="V V_bifurcation V_bent",
+        energy="Pi Pi_bent",
     ),
 )
 _WRINKLED = Scaling(
@@ -126,6 +143,27 @@ _WRINKLED = Scaling(
     2 * math.pi,
 )
 
+_INFINITE_TUBE = Scaling(
+    "R_o",
+    "S",
+    "h_o",
+    _of(pressure="p p_maxwell", axial="force", resultant="Pi"),
+    2 * math.pi,
+)
+_LAW = _of(
+    stress=" ".join(
+        f"{name}{suffix}"
+        for name in ("W", "W1", "W2", "W11", "W12", "W22")
+        for suffix in ("", "_relaxed", "_modified")
+    )
+)
+"""Energies per volume, and their derivatives: stresses."""
+_SURFACE = Scaling(
+    "Ao",
+    "C1",
+    "h",
+    _of(pressure="p", length="zw r_max departure x y z", volume="V", energy="Pi"),
+)
 _SPHERE = Scaling("r_o", "S", "h_o", _of(pressure="P", resultant="Pi"))
 _HEMISPHERE = Scaling(
     "Ao",
@@ -151,16 +189,23 @@ SCALINGS: dict[str, Scaling] = {
     "wrinkled_tube": _WRINKLED,
     "hemisphere": _HEMISPHERE,
     "sphere": _SPHERE,
+    "fluid_tube_coincidence": _FLUID_TUBE,
+    "fluid_tube_surface": _FLUID_TUBE,
+    "wrinkled_sheet": _WRINKLED,
+    "wrinkled_tube_threshold": _WRINKLED,
+    "surface": _SURFACE,
+    "infinite_tube": _INFINITE_TUBE,
+    "homogeneous": Scaling("", "S", "", _of(stress="T Pi")),
+    "material": Scaling("", "S", "", _LAW),
+    "wrinkled_material": Scaling("", "C1", "", _LAW),
 }
 """By problem; a test holds them against the scalings that the problems state."""
 
 
 def _constant(name: str, constants: Mapping[str, float], scaling: Scaling) -> float:
     if name not in constants:
-        raise InputError(
-            f"the constant {name} is missing: lengths are divided by {scaling.length}, forces per length by "
-            f"{scaling.modulus} {scaling.thickness}"
-        )
+        units = "; ".join(_divided(scaling, kind) for kind in _kinds(scaling))
+        raise InputError(f"the constant {name} is missing: {units}")
     try:
         value = float(constants[name])
     except (TypeError, ValueError, OverflowError):
@@ -168,6 +213,16 @@ def _constant(name: str, constants: Mapping[str, float], scaling: Scaling) -> fl
     if not 0 < value < math.inf:
         raise InputError(f"constant {name} = {value:g} must be positive and finite")
     return value
+
+
+def _kinds(scaling: Scaling) -> list[str]:
+    """Kinds that a problem's columns have, and that have a unit."""
+    return [kind for kind in KINDS if kind in scaling.kinds.values()]
+
+
+def _divided(scaling: Scaling, kind: str) -> str:
+    name = next(name for name, found in scaling.kinds.items() if found == kind)
+    return f"{kind} is divided by {scaling.symbols(name)}"
 
 
 def scaling_of(problem: str) -> Scaling:
@@ -213,6 +268,8 @@ def _converted(
         raise InputError(
             f"{problem} has no constant {unknown[0]!r}; its scaling takes {', '.join(scaling.constants)}"
         )
+    for name in constants:
+        _constant(name, constants, scaling)
     return {
         name: np.asarray(values, dtype=float) * scaling.unit(name, constants) ** power
         for name, values in columns.items()
