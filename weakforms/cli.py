@@ -18,7 +18,7 @@ from weakforms.terminal import (
     console,
     free_cores,
     guarded,
-    pairs,
+    once,
     plain,
     print_json,
     progress_bar,
@@ -221,7 +221,7 @@ def report(
 
 
 @app.command()
-def compare(
+def compare(  # noqa: PLR0913, PLR0917  (one an option)
     case: Annotated[str, typer.Argument(help="Id of a case.")],
     file: Annotated[Path, typer.Argument(help="CSV or JSON with the curve.")],
     curve: Annotated[str | None, typer.Option(help="Which curve of the case.")] = None,
@@ -241,17 +241,29 @@ def compare(
             "--constant", metavar="NAME=VALUE", help="Radius, modulus, thickness of a curve with units."
         ),
     ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--column", metavar="NAME", help="Judge only this column; may be repeated."),
+    ] = None,
+    branch: Annotated[
+        str | None, typer.Option(help="Which branch of the file; default: the one the case draws.")
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Folder for verdicts.json, the pictures and a page of both.")
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Hold somebody else's curve against the reference."""
+    """Hold somebody else's curve against the reference.
+
+    Every column of the table that the case judges is wanted, unless --column names some. Exit status: 0
+    within bounds, 1 out of bounds, 2 bad input (a result for other parameters too), 5 not judged: a column is
+    missing, or most of its rows lie where the table cannot tell to the accuracy asked.
+    """
     from weakforms.verification.catalogue import print_verdicts
     from weakforms.verification.compare import compare as compare_curve
 
-    given = dict(pairs("--map", names)), dict(pairs("--constant", constants))
-    verdicts = compare_curve(case, file, curve, accuracy, *given)
+    given = (once("--map", names), once("--constant", constants))
+    verdicts = compare_curve(case, file, curve, accuracy, *given, only, branch)
     if out is not None:
         from weakforms.verification.verdict_page import write_verdicts
 
@@ -261,7 +273,7 @@ def compare(
     else:
         print_verdicts(verdicts, console())
     if not verdicts.passed:
-        raise typer.Exit(1)
+        raise typer.Exit(verdicts.exit_status)
 
 
 @app.command()
@@ -270,7 +282,11 @@ def batch(
     out: Annotated[Path | None, typer.Option(help="Folder for the answers; default: DIR/results.")] = None,
     resume: Resume = False,
 ) -> None:
-    """Answer a folder of requests: solutions and verdicts, one file each."""
+    """Answer a folder of requests: solutions and verdicts, one file each.
+
+    Exit status: the largest of all requests' own (0 within bounds, 1 out of bounds, 2 bad input, 3 a solve
+    did not converge, 4 something is not installed, 5 not judged).
+    """
     from weakforms.verification.requests import run_batch
 
     with progress_bar() as progress:

@@ -21,10 +21,12 @@ CurveLike = str | Path | Mapping[str, Sequence[float]]
 def weakforms_check() -> Callable[..., Verdicts]:
     """``weakforms_check(case, curve, name=None, accuracy=None)``: fails with the table of verdicts.
 
-    Everything that :func:`weakforms.compare` takes, it takes too.
+    Everything that :func:`weakforms.compare` takes, it takes too. It fails too where there is no verdict
+    ("not judged"), unless ``unjudged=True`` lets that pass.
     """
     from weakforms.errors import InputError
     from weakforms.verification.compare import compare
+    from weakforms.verification.crosscheck.rows import NOT_JUDGED
 
     def check(
         case: str,
@@ -33,13 +35,16 @@ def weakforms_check() -> Callable[..., Verdicts]:
         accuracy: float | None = None,
         columns: Mapping[str, str] | None = None,
         constants: Mapping[str, float] | None = None,
+        only: Sequence[str] | None = None,
+        branch: str | None = None,
+        unjudged: bool = False,
     ) -> Verdicts:
         __tracebackhide__ = True
         try:
-            verdicts = compare(case, curve, name, accuracy, columns, constants)
+            verdicts = compare(case, curve, name, accuracy, columns, constants, only, branch)
         except InputError as error:
             pytest.fail(f"nothing was compared: {error}", pytrace=False)
-        if not verdicts.passed:
+        if not verdicts.passed and not (unjudged and verdicts.status == NOT_JUDGED):
             pytest.fail(_table(verdicts), pytrace=False)
         return verdicts
 

@@ -65,6 +65,20 @@ def pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:
     return pairs
 
 
+def once(option: str, given: list[str] | None) -> dict[str, str]:
+    """Names and values of a repeatable option in which no name stands twice.
+
+    Raises:
+        InputError: For an item that is no ``NAME=VALUE``, or a name that comes again.
+    """
+    found: dict[str, str] = {}
+    for name, value in pairs(option, given):
+        if name in found:
+            raise InputError(f"{option} {name}={value}: {name} is given twice")
+        found[name] = value
+    return found
+
+
 def rank() -> int:
     """This process's rank; 0 where MPI is not there."""
     try:

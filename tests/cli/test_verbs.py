@@ -18,7 +18,7 @@ from weakforms.problems import tube as tube_module
 from weakforms.results import load_result, validate
 from weakforms.solvers.continuation import StepControl
 from weakforms.verification import references
-from weakforms.verification.compare import interpolated
+from weakforms.verification.crosscheck.rows import interpolated
 
 TUBE = ("solve", "tube", "--set", "contact=none", "--set", "alpha=0.1", "--set", "delta1=1.1")
 COARSE = ("--mesh", "cells=32", "--mesh", "levels=2")

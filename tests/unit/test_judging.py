@@ -11,7 +11,7 @@ from weakforms import Case, Claim, Constant, Count, Curve, Order, Points, circul
 from weakforms.errors import InputError
 from weakforms.verification import curves, ledger, references  # noqa: F401  (registers its checks)
 from weakforms.verification.case import Printed
-from weakforms.verification.compare import _judge as judge_foreign
+from weakforms.verification.crosscheck.rows import judge_column
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.judge import judge
 from weakforms.verification.references import Reference
@@ -163,6 +163,6 @@ def test_a_wrong_row_fails_where_the_table_is_coarse():
     table = Reference("t", "independent", "", "", "x", {"x": x, "y": np.sin(5 * x)}, {"x": 0.0, "y": 0.0}, {})
     at = np.array([x[0], x[1], 0.5 * (x[4] + x[5]), x[7]])
     right = np.sin(5 * at)
-    assert judge_foreign(table, "y", at, right, 1e-8).verdict.passed
+    assert judge_column(table, "y", at, right, 1e-8, np.arange(1, 5)).verdict.passed
     wrong = right + np.array([0, 0, 30.0, 0])
-    assert not judge_foreign(table, "y", at, wrong, 1e-8).verdict.passed
+    assert not judge_column(table, "y", at, wrong, 1e-8, np.arange(1, 5)).verdict.passed

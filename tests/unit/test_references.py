@@ -8,7 +8,8 @@ from scipy.interpolate import make_interp_spline
 
 from weakforms.errors import InputError
 from weakforms.verification import references
-from weakforms.verification.compare import compare, interpolated
+from weakforms.verification.compare import compare
+from weakforms.verification.crosscheck.rows import interpolated
 
 FACTS = """
 type = "independent"
@@ -148,7 +149,7 @@ def test_columns_of_python_lists_and_numpy_arrays_are_curves():
     columns = references.load(2, "fig03a_delta1_1").columns
     for kind in (list, np.asarray):
         curve = {name: kind(columns[name]) for name in ("u_max", "p")}
-        verdicts = compare("paper2.fig03", curve, "fig03a_delta1_1")
+        verdicts = compare("paper2.fig03", curve, "fig03a_delta1_1", only=["p"])
         assert verdicts.passed
         assert not verdicts.partial
         assert verdicts.unjudged_rows == {"p": 0}
@@ -157,7 +158,8 @@ def test_columns_of_python_lists_and_numpy_arrays_are_curves():
 def test_rows_outside_the_table_are_counted_not_judged():
     columns = references.load(2, "fig03a_delta1_1").columns
     u = np.r_[0.0, columns["u_max"], 7.0]
-    verdicts = compare("paper2.fig03", {"u_max": u, "p": np.r_[99, columns["p"], 99]}, "fig03a_delta1_1")
+    curve = {"u_max": u, "p": np.r_[99, columns["p"], 99]}
+    verdicts = compare("paper2.fig03", curve, "fig03a_delta1_1", only="p")
     assert (verdicts.ignored_rows, verdicts.rows, verdicts.passed) == (2, len(columns["p"]), True)
     assert not verdicts.partial
 
@@ -175,4 +177,8 @@ def test_columns_the_case_does_not_ask_for_need_an_accuracy(monkeypatch):
     monkeypatch.setattr(module, "get_case", lambda _: found)
     with pytest.raises(InputError, match="that are judged: p"):
         compare("paper2.fig03", curve, "fig03a_delta1_1")
-    assert compare("paper2.fig03", curve, "fig03a_delta1_1", 1e-6).passed
+    # p, which the case asks for, is missing: V alone is judged when it is asked for by name.
+    assert compare("paper2.fig03", curve, "fig03a_delta1_1", 1e-6).status == "not judged"
+    assert compare("paper2.fig03", curve, "fig03a_delta1_1", 1e-6, only=["V"]).passed
+    with pytest.raises(InputError, match="state --accuracy"):
+        compare("paper2.fig03", curve, "fig03a_delta1_1", only=["V"])

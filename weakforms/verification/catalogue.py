@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification import gallery, references
-from weakforms.verification.compare import Verdicts
+from weakforms.verification.compare import Verdicts, tables_of
+from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, scale_text
 from weakforms.verification.discovery import FoundCase, among, find_cases
-from weakforms.verification.summary import plain_tex, scientific
+from weakforms.verification.summary import plain_tex, plural, scientific, signed
 
 
 def _problems() -> dict[str, Any]:
@@ -40,7 +41,8 @@ def listing(paper: int | None = None) -> list[dict[str, Any]]:
             )
     for found in find_cases():
         if paper in (None, found.paper):
-            entries.append({"kind": "case", "id": found.id, "paper": found.paper, "title": found.case.title})
+            entry = {"kind": "case", "id": found.id, "paper": found.paper, "title": found.case.title}
+            entries.append(entry | {"curves": tables_of(found)})
     if not entries:
         raise InputError(f"there is no problem or case of paper {paper}")
     return entries
@@ -152,6 +154,7 @@ def _case_facts(found: FoundCase) -> dict[str, Any]:
             for check in case.checks
         ],
         "asked": dict(case.asked),
+        "curves": tables_of(found),
         "references": [
             {
                 "name": n,
@@ -215,6 +218,8 @@ def _print_case(facts: dict[str, Any], console: Console) -> None:
         console.print(f"  {plain_tex(check)}", markup=False)
     asked = ", ".join(f"{name} {value:g}" for name, value in facts["asked"].items())
     console.print(f"accuracy asked (relative): {asked}")
+    curves = ", ".join(facts["curves"]) or "none (no table over an abscissa)"
+    console.print(f"curves to compare with: {curves}", markup=False, soft_wrap=True)
     for table in facts["references"]:
         largest = max(table["uncertainty"].values())
         console.print(
@@ -226,23 +231,34 @@ def _print_case(facts: dict[str, Any], console: Console) -> None:
 
 def print_verdicts(verdicts: Verdicts, console: Console) -> None:
     """Verdicts on a foreign curve as a table."""
-    part = "part of it" if verdicts.partial else "all of it"
-    console.print(
-        f"{verdicts.case}, {verdicts.curve}: {verdicts.rows} rows over {verdicts.abscissa} in "
+
+    def line(text: str) -> None:
+        console.print(text, markup=False, soft_wrap=True)
+
+    line(
+        f"{verdicts.case}, {verdicts.curve}: {plural(verdicts.rows, 'row')} over {verdicts.abscissa} in "
         f"[{verdicts.covered[0]:g}, {verdicts.covered[1]:g}]; the table has "
-        f"[{verdicts.table[0]:g}, {verdicts.table[1]:g}]: {part} is judged"
-        + (f", {verdicts.ignored_rows} rows lie outside" if verdicts.ignored_rows else ""),
-        markup=False,
-        soft_wrap=True,
+        f"[{verdicts.table[0]:g}, {verdicts.table[1]:g}]: {verdicts.extent}"
+        + (f", {plural(verdicts.ignored_rows, 'row')} outside of it" if verdicts.ignored_rows else "")
     )
-    table = Table("column", "verdict", "error", "bound", "worst at")
+    table = Table("column", *(Column(h, no_wrap=True) for h in ("verdict", "error", "bound")), "at", "row")
     for v in verdicts.verdicts:
-        word = "within" if v.passed else "OUT OF BOUNDS"
-        column = v.check.split(":")[-1]
-        if verdicts.unjudged_rows[column] == verdicts.rows:
-            word = "NOT JUDGED"
-        table.add_row(column, word, scientific(v.error), scientific(v.bound), v.where)
+        found = [(v.signed_error, v.bound, v.where, v.row)] if v.largest else []
+        if v.largest and abs(v.largest["error"]) > v.error:
+            found.append(tuple(v.largest.values()))
+        cells = [(signed(error), scientific(bound), at, str(row)) for error, bound, at, row in found]
+        for k, numbers in enumerate(cells or [("–", "–", "missing", "–")]):
+            table.add_row(*((v.column, WORDS[v.status]) if k == 0 else ("", "largest error")), *numbers)
     console.print(table)
     for v in verdicts.verdicts:
-        if verdicts.unjudged_rows[v.check.split(":")[-1]]:
-            console.print(f"{v.check}: {v.detail}", markup=False, soft_wrap=True)
+        if v.units:
+            line(f"{v.check}: {v.units}")
+        if v.judged_rows < v.rows:
+            line(f"{v.check}: {v.detail}")
+    line(f"errors are relative to {scale_text(verdicts.abscissa)}")
+    if verdicts.left_out:
+        line(f"left out: {', '.join(verdicts.left_out)}")
+
+
+WORDS = {PASSED: "within", FAILED: "OUT OF BOUNDS", NOT_JUDGED: "NOT JUDGED"}
+"""What the table says of a column."""

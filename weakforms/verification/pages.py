@@ -127,7 +127,7 @@ def _environment() -> Environment:
     )
     filters: dict[str, Callable[..., Any]] = {
         name: getattr(summary, name)
-        for name in ("scientific", "fraction", "ratio", "duration", "order", "plural", "worst")
+        for name in ("scientific", "signed", "fraction", "ratio", "duration", "order", "plural", "worst")
     }
     environment.filters |= filters | {
         "tex": lambda text: Markup(summary.html_tex(text)),

@@ -18,6 +18,7 @@ import jsonschema
 
 from weakforms.errors import InputError, WeakformsError
 from weakforms.results.io import dumps, first_error, load_json, require_writable, write_atomically
+from weakforms.verification.crosscheck.rows import EXIT_STATUS, FAILED, PASSED
 
 SCHEMA = "weakforms.request/1"
 ERROR_SCHEMA = "weakforms.error/1"
@@ -85,8 +86,10 @@ def answer(data: Mapping[str, Any], folder: Path, progress: Any = None) -> tuple
             data.get("accuracy"),
             data.get("map"),
             data.get("constants"),
+            data.get("columns"),
+            data.get("branch"),
         )
-        return (0 if verdicts.passed else 1), verdicts.to_json()
+        return verdicts.exit_status, verdicts.to_json()
     from weakforms import api
 
     solve = api.prepare(
@@ -162,7 +165,7 @@ def run_batch(
 def _answered(path: Path, target: Path, writes: bool) -> Answer:
     try:
         status, data = answer(read_request(path), path.parent)
-        message = "" if status == 0 else {1: "out of bounds", 3: "not all converged"}[status]
+        message = {0: "", 1: "out of bounds", 3: "not all converged", 5: "not judged"}[status]
     except WeakformsError as error:
         status, message = error.exit_status, str(error)
         data = {"schema": ERROR_SCHEMA, "exit_status": status, "message": message}
@@ -180,7 +183,8 @@ def _kept(path: Path, target: Path) -> Answer | None:
     except (OSError, InputError):
         return None
     if data.get("schema") == "weakforms.verdicts/1":
-        return Answer(path.stem, 0 if data["passed"] else 1, "kept")
+        status = data.get("status", PASSED if data["passed"] else FAILED)
+        return Answer(path.stem, EXIT_STATUS[status], "kept")
     if data.get("schema") == "weakforms.result/1" and not data["failures"]:
         return Answer(path.stem, 0, "kept")
     return None

@@ -190,6 +190,12 @@ def scientific(value: float | None, digits: int = 2) -> str:
     return "0" if value == 0 else f"{value:.{digits - 1}e}"
 
 
+def signed(value: float | None) -> str:
+    """A relative error with its sign: ``+3.2e-10``."""
+    text = scientific(value)
+    return f"+{text}" if value is not None and value > 0 else text
+
+
 def fraction(value: float | None) -> str:
     """A ratio to one for people: three decimals at most, large ones rounded."""
     if value is None or math.isnan(value):

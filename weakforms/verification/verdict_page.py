@@ -26,9 +26,10 @@ def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
         InputError: When the folder cannot be written to.
     """
     require_writable(folder)
+    of = {verdict.column: verdict for verdict in verdicts.verdicts}
     pictures = {
-        picture.name: panel_figure(picture, f"verdict-{picture.name}", (verdict,))
-        for picture, verdict in zip(verdicts.pictures, verdicts.verdicts, strict=True)
+        picture.name: panel_figure(picture, f"verdict-{picture.name}", (of[picture.name],))
+        for picture in verdicts.pictures
     }
     for name, svg in pictures.items():
         write_atomically(folder / f"{name}.svg", f'<?xml version="1.0" encoding="UTF-8"?>\n{svg}\n')

@@ -1,0 +1,1 @@
+"""The judging of somebody else's curve: row by row, with its units, as pictures."""

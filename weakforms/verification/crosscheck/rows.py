@@ -1,0 +1,275 @@
+"""A column of somebody else's curve against the same column of a table, row by row."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from weakforms.errors import InputError
+from weakforms.verification.outcome import Verdict
+from weakforms.verification.references import Reference
+
+PASSED, FAILED, NOT_JUDGED = "passed", "failed", "not judged"
+EXIT_STATUS = {PASSED: 0, FAILED: 1, NOT_JUDGED: 5}
+"""What a command ends with, by the verdict."""
+
+FLOOR = 0.01
+"""Part of a column's largest value, over the range the curve covers, that an error is divided by at least."""
+
+FEWEST = 3
+"""Rows that must be judged for a verdict: two points are no curve."""
+
+ROUNDING = 4 * np.finfo(float).eps
+"""Relative to the size of the abscissa, how far rounding may carry it off what was meant."""
+
+NEAR = 32
+"""The interpolation's error grows from zero at a row to its bound within this part of the interval (1/32)."""
+
+
+@dataclass
+class ColumnVerdict(Verdict):
+    """The verdict on one column of a curve.
+
+    ``error`` and ``bound`` are those of the row whose error comes closest to its bound, or exceeds it most;
+    the row with the largest error may be another one, ``largest``.
+    """
+
+    column: str = ""
+    status: str = NOT_JUDGED
+    """passed, failed, or not judged."""
+    rows: int = 0
+    """Rows of the curve within the table's range."""
+    judged_rows: int = 0
+    signed_error: float | None = None
+    """``error`` with its sign: positive where the curve lies above the table."""
+    row: int | None = None
+    """Row of the curve, from 1, that ``error``, ``bound`` and ``where`` belong to."""
+    largest: dict[str, Any] | None = None
+    """``error`` (signed), ``bound``, ``where`` and ``row`` of the largest error."""
+    scale: str = ""
+    """What errors and bounds are divided by."""
+    scale_floor: float | None = None
+    """The least that errors are divided by, in the column's own scaling."""
+    units: str = ""
+    """What a constant ratio between curve and table looks like, where there is one."""
+
+    @property
+    def unjudged_rows(self) -> int:
+        """Rows at which the table is not known closely enough for the accuracy asked."""
+        return self.rows - self.judged_rows
+
+
+@dataclass(frozen=True)
+class JudgedColumn:
+    """A verdict and the rows it rests on."""
+
+    verdict: ColumnVerdict
+    x: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    expected: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    """The table at the curve's rows."""
+    error: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    """Signed, over the scale of its row."""
+    bound: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+
+def tolerance(rows: np.ndarray) -> float:
+    """How far rounding may carry an abscissa of the size of the table's off what was meant."""
+    return ROUNDING * float(np.max(np.abs(rows)))
+
+
+def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Quintic spline through a table at ``x``, and a bound of its error (zero at the rows themselves).
+
+    Where the table resolves the curve at all, the quintic spline is nearer to it than the cubic one. At the
+    ends and in steep parts it may be worse: four times the largest distance between the two, in the interval
+    and its neighbours, held for every function it was tried on. Close to a row the error is in proportion to
+    the distance from it, so that an abscissa that is off by rounding costs next to nothing; the slope times
+    that rounding is part of the bound.
+
+    Raises:
+        InputError: When the table has fewer than six rows, and ``x`` is none of them.
+    """
+    order = np.argsort(rows)
+    rows, values = rows[order], values[order]
+    blur = tolerance(rows)
+    if len(rows) < 6:
+        return _exact(rows, values, x, blur)
+    quintic, cubic = (make_interp_spline(rows, values, k=k) for k in (5, 3))
+    widths = np.diff(rows)
+    inside = rows[:-1, None] + widths[:, None] * np.arange(1, 8) / 8
+    apart = np.pad(np.abs(quintic(inside) - cubic(inside)).max(axis=1), 1)
+    bound = 4 * np.maximum.reduce([apart[:-2], apart[1:-1], apart[2:]])
+    interval = np.clip(np.searchsorted(rows, x) - 1, 0, len(rows) - 2)
+    off = np.minimum(np.abs(x - rows[interval]), np.abs(x - rows[interval + 1]))
+    slack = bound[interval] * np.minimum(1.0, NEAR * off / widths[interval])
+    slack += np.where(off > 0, blur * np.abs(quintic.derivative()(x)), 0.0)
+    return quintic(x), slack
+
+
+def _exact(rows: np.ndarray, values: np.ndarray, x: np.ndarray, blur: float) -> tuple[np.ndarray, np.ndarray]:
+    """A table that is too short to interpolate, at its own rows."""
+    nearest = np.abs(x[:, None] - rows).argmin(axis=1)
+    if np.any(np.abs(x - rows[nearest]) > blur):
+        listed = ", ".join(f"{row:.12g}" for row in rows)
+        raise InputError(
+            f"a table of {len(rows)} rows is too short to interpolate: give the curve at its own, {listed}"
+        )
+    return values[nearest], np.zeros(len(x))
+
+
+def scale_of(column: np.ndarray, covered: np.ndarray, expected: np.ndarray) -> tuple[np.ndarray, float]:
+    """What the error of each row is divided by, and the least of that.
+
+    The table's own value at the row; where the column passes through zero no less than :data:`FLOOR` times
+    the largest value it has over the range covered, or, where it is zero all over that, in the whole table.
+
+    Args:
+        column: The whole column of the table.
+        covered: Its part over the range that the curve covers.
+        expected: The column at the curve's rows.
+    """
+    size = max(float(np.max(np.abs(part), initial=0.0)) for part in (covered, expected))
+    floor = FLOOR * (size or float(np.max(np.abs(column)))) or 1.0
+    return np.maximum(np.abs(expected), floor), floor
+
+
+def judge_column(
+    table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float, numbers: np.ndarray
+) -> JudgedColumn:
+    """Verdict on a column, with the error and the bound of every row.
+
+    A row counts as judged where its bound is at most twice the accuracy asked, or its error exceeds even a
+    wider bound. The column fails by any judged row; it passes when more than half of its rows, and no fewer
+    than :data:`FEWEST`, are judged. Otherwise it is not judged.
+
+    Args:
+        table: The reference.
+        column: Name of the column.
+        x: The curve's abscissa, within the table's range.
+        values: The curve's column there.
+        asked: Relative accuracy.
+        numbers: Of each row, its number in the curve, from 1.
+    """
+    rows = table.columns[table.abscissa]
+    expected, slack = interpolated(rows, table.columns[column], x)
+    covered = table.columns[column][(rows >= x.min()) & (rows <= x.max())]
+    scale, floor = scale_of(table.columns[column], covered, expected)
+    known = np.hypot(table.uncertainty[column], slack) / scale
+    with np.errstate(over="ignore"):
+        error = np.nan_to_num((values - expected) / scale)
+    bound = asked + 2 * known
+    # A row beyond even the wide bound is wrong whatever the table's coarseness.
+    judged = (bound <= 2 * asked) | (np.abs(error) > bound)
+    count = int(np.sum(judged))
+    if not np.all(np.abs(error[judged]) <= bound[judged]):
+        status = FAILED
+    elif count >= fewest(table) and 2 * count > len(x):
+        status = PASSED
+    else:
+        status = NOT_JUDGED
+    looked_at = judged if count else np.ones(len(x), dtype=bool)
+    worst = int(np.argmax(np.where(looked_at, np.abs(error) / bound, -1.0)))
+    largest = int(np.argmax(np.where(looked_at, np.abs(error), -1.0)))
+
+    def described(i: int) -> dict[str, Any]:
+        return {
+            "error": float(error[i]),
+            "bound": float(bound[i]),
+            "where": f"{table.abscissa} = {x[i]:g}",
+            "row": int(numbers[i]),
+        }
+
+    at = described(worst)
+    verdict = ColumnVerdict(
+        check=f"{table.name}:{column}",
+        kind="curve",
+        passed=status == PASSED,
+        statement=f"{column} over {table.abscissa} against {table.source}",
+        detail=_detail(table, status, len(x), count, asked, floor),
+        error=abs(at["error"]),
+        bound=at["bound"],
+        asked=float(asked),
+        reference_uncertainty=float(known[worst]),
+        where=at["where"],
+        reference=table.name,
+        column=column,
+        status=status,
+        rows=len(x),
+        judged_rows=count,
+        signed_error=at["error"],
+        row=at["row"],
+        largest=described(largest),
+        scale=scale_text(table.abscissa),
+        scale_floor=floor,
+    )
+    return JudgedColumn(verdict, x, expected, error, bound)
+
+
+def fewest(table: Reference) -> int:
+    """Rows that must be judged for a verdict."""
+    return min(FEWEST, len(table))
+
+
+def scale_text(abscissa: str) -> str:
+    """What errors are divided by, in words."""
+    return (
+        f"the table's value at the row, but no less than {FLOOR:g} of its largest over the {abscissa} covered"
+    )
+
+
+def _detail(table: Reference, status: str, rows: int, judged: int, asked: float, floor: float) -> str:
+    text = f"{rows} rows; errors are over {floor:.6g} at least"
+    if judged < rows:
+        text += f"; {rows - judged} lie where the table is too coarse to judge to {asked:g}"
+    if status != NOT_JUDGED:
+        return text
+    if rows < fewest(table):
+        return f"{text}: a verdict needs {fewest(table)} rows"
+    return (
+        f"{text}, and a verdict needs more than half of the rows, {fewest(table)} at least: "
+        f"give the curve at the table's own {table.abscissa}, or claim a lesser accuracy"
+    )
+
+
+def absent(table: Reference, column: str, asked: float, rows: int) -> JudgedColumn:
+    """The verdict on a column that the table has and the curve has not: nothing is known of it."""
+    return JudgedColumn(
+        ColumnVerdict(
+            check=f"{table.name}:{column}",
+            kind="curve",
+            passed=False,
+            statement=f"{column} over {table.abscissa} against {table.source}",
+            detail=f"the curve has no column {column}: give it, or name with --column those to be judged",
+            asked=float(asked),
+            reference=table.name,
+            column=column,
+            rows=rows,
+        )
+    )
+
+
+def met(rows: np.ndarray, x: np.ndarray) -> int:
+    """Rows of a table that a curve does not pass over: it has one between their neighbours.
+
+    Args:
+        rows: The table's abscissa.
+        x: The curve's.
+    """
+    rows, blur = np.sort(rows), tolerance(rows)
+    before = np.r_[rows[0], rows[:-1]] - blur
+    after = np.r_[rows[1:], rows[-1]] + blur
+    x = np.sort(x)
+    return int(np.sum(np.searchsorted(x, before, "left") < np.searchsorted(x, after, "right")))
+
+
+def reached(x: np.ndarray, rows: np.ndarray) -> tuple[float, float]:
+    """Part of the table's range between the first and the last of the curve's rows, up to rounding."""
+    blur = tolerance(rows)
+    ends = []
+    for own, end in ((float(x.min()), float(rows.min())), (float(x.max()), float(rows.max()))):
+        ends.append(end if math.isclose(own, end, rel_tol=0.0, abs_tol=blur) else own)
+    return ends[0], ends[1]
