@@ -101,7 +101,7 @@ CASE = Case(
                 SLIP[beta],
                 At("p", p),
                 "t0",
-                near=t0,
+                searched=(t0,),
                 within=3e-3,
                 source=f"legend of figure {where}",
             )

@@ -10,6 +10,7 @@ from weakforms import (
     Case,
     Claim,
     Curve,
+    CutOff,
     Finding,
     Panel,
     PrintedExact,
@@ -118,10 +119,10 @@ CASE = Case(
             "rho g A^2/(mu H)",
             "0.1160",
             exact=1000 * 9.81 * 0.02**2 / (0.4225e6 * 0.08e-3),
-            evidence="the printed A, H, mu and water give 3.924/33.8 = 0.116095: cut off, not rounded; "
+            evidence="the printed A, H, mu and water give 3.924/33.8 = 0.116095; "
             "all figures are computed with 0.116",
             source="captions of figures 2 and 3",
-            misprint=True,
+            reading=CutOff(),
         ),
     ),
     asked={

@@ -6,7 +6,7 @@ never typed. The printed 0.5568 is cut off: the fifth digit rounds it up to 0.55
 
 import numpy as np
 
-from weakforms import Case, Claim, Finding, Points, Printed, Solutions, wrinkled_tube
+from weakforms import Case, Claim, CutOff, Finding, Points, Printed, Solutions, wrinkled_tube
 
 ROWS = ((0.5, 2, "0.5568"), (1.5, 2, "0.5568"), (0.5, 3, "0.4362"), (1.5, 3, "0.4362"), (0.99, 2, "0.7046"))
 UNIFORM = wrinkled_tube(M=1, delta=2)
@@ -23,7 +23,7 @@ def radius(M: float, delta: float) -> Printed:
         kind="quantity",
         column="Af_critical",
         source="table 2",
-        misprint="cut off after four digits, not rounded" if digits == "0.5568" else "",
+        reading=CutOff() if digits == "0.5568" else None,
     )
 
 

@@ -9,6 +9,7 @@ from weakforms import (
     Case,
     Claim,
     Finding,
+    OnGrid,
     Points,
     Printed,
     Solutions,
@@ -16,8 +17,14 @@ from weakforms import (
     wrinkled_tube_threshold,
 )
 
-GRID = "the text's M lies on a grid of 0.05; the threshold itself is 0.015 nearer to 0 or 2"
-ROWS = ((2, False, "0.75", GRID), (2, True, "1.25", GRID), (3, False, "0.4", ""), (3, True, "1.6", ""))
+STEP = "0.05"
+"""Step of the grid that the text's ratios lie on: where wrinkling begins is less than a step beyond them."""
+ROWS = (
+    (2, False, "0.75", OnGrid(STEP, upwards=False)),
+    (2, True, "1.25", OnGrid(STEP, upwards=True)),
+    (3, False, "0.4", None),
+    (3, True, "1.6", None),
+)
 ON_GRID = wrinkled_tube(M=0.75, delta=2, load="gas", Af=1)
 EMPTY = At("p", 0.0)
 
@@ -47,9 +54,9 @@ CASE = Case(
                 kind="quantity",
                 column="M",
                 source="section on case 2",
-                misprint=reason,
+                reading=reading,
             )
-            for delta, upper, printed, reason in ROWS
+            for delta, upper, printed, reading in ROWS
         ),
         Claim(
             "still_taut",

@@ -80,7 +80,7 @@ def test_every_check_figure_and_status_appears(run, pages, readers):
 def test_the_first_page_says_what_disagrees_and_why(readers):
     text = words(readers["index.html"])
     assert "1 case could not be solved; 4 of 8 checks failed" in text
-    assert "misprint δ 2 is printed as 0.8164 ; computed 0.8164965809" in text
+    assert "misprint proven δ 2 is printed as 0.8164 ; computed 0.8164965809" in text
     assert "the paper The text has three. Shown instead: Two limit points." in text
     assert "not recoverable n , printed as -" in text
     for title in GROUPS["paper2"][:2]:

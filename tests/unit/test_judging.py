@@ -10,7 +10,6 @@ import pytest
 from weakforms import Case, Claim, Constant, Count, Curve, Order, Points, circular, tube
 from weakforms.errors import InputError
 from weakforms.verification import curves, ledger, references  # noqa: F401  (registers its checks)
-from weakforms.verification.case import Printed
 from weakforms.verification.crosscheck.rows import judge_column
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.judge import judge
@@ -100,16 +99,6 @@ def test_a_first_integral_that_varies_fails(spread, uncertainty, passes):
 def test_a_claim_that_does_not_hold_fails(holds):
     (verdict,) = verdicts_of(Claim("c", "it holds", (), lambda _: (holds, "this was found")))
     assert verdict.passed == holds
-
-
-@pytest.mark.parametrize(
-    ("value", "misprint", "passes"),
-    [(2.5, "", True), (2.6, "", False), (2.6, "shown", True), (2.5, "shown", False)],
-)
-def test_a_misprint_that_is_reproduced_fails(value, misprint, passes):
-    check = Printed("p", "2.50", SPEC, "limit_point", "p", "figure 3", misprint=misprint)
-    (verdict,) = verdicts_of(check, points=lambda _: [point(p=value)])
-    assert verdict.passed == passes
 
 
 # -- whole cases -----------------------------------------------------------------------------------

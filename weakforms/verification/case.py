@@ -227,8 +227,39 @@ class Order:
 
 
 @dataclass(frozen=True)
+class CutOff:
+    """How a printed number came about: digits were cut off, not rounded."""
+
+    status = "cut off"
+
+
+@dataclass(frozen=True)
+class OnGrid:
+    """How a printed number came about: a scan was stopped at a value of its grid."""
+
+    step: str
+    """Step of the grid; the printed number is a multiple of it ..."""
+    upwards: bool
+    """... and the number itself lies above the printed one, less than a step away; or below it."""
+    status = "grid of a scan"
+
+
+@dataclass(frozen=True)
+class Misprint:
+    """A printed number that is wrong."""
+
+    correct: str
+    """What should be printed, with all digits: the computed number must round to it."""
+    why: str
+    status = "misprint"
+
+
+Reading = CutOff | OnGrid | Misprint
+
+
+@dataclass(frozen=True)
 class Printed:
-    """A number printed in the paper: reproduced to all its digits, or not."""
+    """A number printed in the paper: reproduced to all its digits, or read in another way that is proven."""
 
     what: str
     printed: str
@@ -237,20 +268,20 @@ class Printed:
     column: str
     source: str
     index: int = 0
-    misprint: str = ""
-    """What is wrong with it, where it is stated not to be reproduced."""
+    reading: Reading | None = None
+    """What it is, where it is stated not to be the number rounded to its digits."""
 
 
 @dataclass(frozen=True)
 class PrintedExact:
-    """A printed number with a closed form: reproduced to all its digits, or a misprint that this shows."""
+    """A printed number with a closed form: reproduced to all its digits, or read in another way."""
 
     what: str
     printed: str
     exact: float
     evidence: str
     source: str
-    misprint: bool = False
+    reading: Reading | None = None
 
 
 @dataclass(frozen=True)
@@ -262,13 +293,13 @@ class PrintedInput:
     of: Spec
     at: At
     column: str
-    near: float
-    """Round value that ``column`` should have there, if the number was read off a computation ..."""
+    searched: tuple[float, ...]
+    """Round values, rising, that ``column`` could have there if the number was read off a computation ..."""
     within: float
-    """... within this relative distance. Beyond it the printed number is not decoded."""
+    """... within this relative distance."""
     source: str
     decoded: bool = True
-    """What is stated: that it is decoded, or that it is not."""
+    """What is stated: that it is decoded, or that it lies between two of the values and is neither."""
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Printed:
     computed: float | None
     uncertainty: float | None
     status: str
-    """reproduced, misprint, or an input of a figure that is decoded or not."""
+    """reproduced, cut off, grid of a scan, misprint, or an input of a figure that is decoded or not."""
     evidence: str = ""
     source: str = ""
     """Where in the paper."""

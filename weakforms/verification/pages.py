@@ -227,7 +227,7 @@ def _spread(verdicts: Iterable[Verdict]) -> dict[str, Any] | None:
 
 
 def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str, Any], Any]]]:
-    """What disagrees with the thesis: numbers shown to be misprints, statements that do not hold as printed.
+    """What disagrees with the thesis: printed numbers that are not reproduced, statements that do not hold.
 
     And what cannot be decided, for lack of data in the thesis.
     """
@@ -235,7 +235,7 @@ def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str
     entries = [(view, entry) for view in views for entry in view["case"].printed]
     claims = [(view, row) for view in views for row in view["rows"]]
     return {
-        "misprints": [pair for pair in entries if pair[1].status == "misprint"],
+        "numbers": [pair for pair in entries if pair[1].status in ("misprint", "cut off", "grid of a scan")],
         "statements": [pair for pair in claims if pair[1]["verdict"].differs and pair[1]["verdict"].passed],
         "lost": [pair for pair in entries if summary.LABELS.get(pair[1].status) == summary.LOST],
     }

@@ -32,6 +32,8 @@ ORDER = {"error": 0, "failed": 1, "passed": 2}
 LOST = "not recoverable"
 LABELS = {
     "misprint": "misprint proven",
+    "grid of a scan": "on a scan's grid",
+    "input, not judged": "not judged",
     "input, decoded": "input recovered",
     "input, not decoded": LOST,
     "input, placed": "state found",
@@ -234,7 +236,15 @@ def duration(seconds: float) -> str:
 
 def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
     """How many printed numbers have which status, the good news first."""
-    known = ("reproduced", "state found", "input recovered", "misprint proven", LOST)
+    known = (
+        "reproduced",
+        "state found",
+        "input recovered",
+        "cut off",
+        "on a scan's grid",
+        "misprint proven",
+        LOST,
+    )
     counts = Counter(LABELS.get(entry.status, entry.status) for case in cases for entry in case.printed)
     names = [*known, *sorted(set(counts) - set(known))]
     return {name: counts[name] for name in names if counts[name]}
