@@ -8,7 +8,7 @@ from weakforms.errors import (
     WeakformsError,
 )
 from weakforms.scaling import dimensional, nondimensional
-from weakforms.verification import continuity
+from weakforms.verification import continuity, decide
 from weakforms.verification.case import (
     Axis,
     Case,
@@ -18,7 +18,6 @@ from weakforms.verification.case import (
     Curve,
     CutOff,
     Dashed,
-    Finding,
     Line,
     Misprint,
     OnGrid,
@@ -34,6 +33,7 @@ from weakforms.verification.case import (
     Surface,
 )
 from weakforms.verification.compare import compare
+from weakforms.verification.decide import Finding
 from weakforms.verification.references import load as reference
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import (
@@ -99,6 +99,7 @@ __all__ = [
     "circular_scheme",
     "compare",
     "continuity",
+    "decide",
     "dimensional",
     "fluid_tube",
     "fluid_tube_coincidence",

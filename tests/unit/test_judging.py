@@ -9,7 +9,7 @@ import pytest
 
 from weakforms import Case, Claim, Constant, Count, Curve, Order, Points, circular, tube
 from weakforms.errors import InputError
-from weakforms.verification import curves, ledger, references  # noqa: F401  (registers its checks)
+from weakforms.verification import curves, decide, ledger, references  # noqa: F401  (registers its checks)
 from weakforms.verification.crosscheck.rows import judge_column
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.judge import judge
@@ -36,9 +36,9 @@ class Solutions:
         """Those given for a spec."""
         return self._points(spec)
 
-    def profile(self, *_):
-        """The one given."""
-        return self._profile
+    def column(self, _spec, _at, name):
+        """That of the profile given."""
+        return decide.Number(self._profile.columns[name], self._profile.uncertainty[name])
 
 
 def verdicts_of(check, paper=2, **known):

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from weakforms.verification.decide import Finding
 from weakforms.verification.solutions import Solutions
 from weakforms.verification.specs import At, Spec
-
-Finding = tuple[bool, str]
-"""Whether a claim holds, and what was found, with numbers."""
 
 
 @dataclass(frozen=True)

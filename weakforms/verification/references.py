@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from weakforms.errors import InputError
+from weakforms.verification.numbers import Number
 
 ROOT = Path(__file__).resolve().parents[2]
 """The folder that holds ``weakforms``, ``cases`` and ``reference_data`` side by side."""
@@ -37,6 +38,10 @@ class Reference:
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values())))
+
+    def number(self, name: str) -> Number:
+        """A column with its uncertainty."""
+        return Number(self.columns[name], self.uncertainty[name])
 
     @property
     def ordinates(self) -> list[str]:

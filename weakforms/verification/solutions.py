@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.results import Branch, Field, Quantity, Result, SpecialPoint, State
+from weakforms.verification.numbers import Number, number, stack
 from weakforms.verification.specs import At, Spec
 
 
@@ -73,6 +74,50 @@ class Solutions:
         """One number of a state, without its uncertainty."""
         return self.quantity(spec, at, name).value
 
+    def number(self, spec: Spec, at: At, name: str) -> Number:
+        """One number of a state, with its uncertainty."""
+        return number(self.quantity(spec, at, name))
+
+    def numbers(self, spec: Spec, ats: Iterable[At], name: str) -> Number:
+        """One number of several states."""
+        return stack(self.number(spec, at, name) for at in ats)
+
+    def whole(self, spec: Spec, name: str) -> Number:
+        """One number of a whole problem, with its uncertainty."""
+        return number(self.result(spec).quantities[name])
+
+    def point(self, spec: Spec, kind: str, name: str, index: int = 0) -> Number:
+        """One number of a special point, with its uncertainty.
+
+        Raises:
+            IndexError: When there are fewer points of the kind.
+        """
+        return of_point(self.points(spec, kind)[index], name)
+
+    def along(self, spec: Spec, name: str, branch: str = "primary") -> Number:
+        """A column of a branch; each entry as uncertain as the worst of the states solved for on that branch.
+
+        The trace is solved on the finest mesh of those that the states' uncertainties come from. Without
+        any state the uncertainty is not a number.
+        """
+        values = self.branch(spec, branch).columns[name]
+        states = [
+            s.quantities[name]
+            for s in self.result(spec).states
+            if s.branch == branch and name in s.quantities
+        ]
+        known = [number(q).uncertainty for q in states]
+        return Number(values, max(known, default=np.nan))
+
+    def samples(self, spec: Spec, at: At, name: str) -> Number:
+        """A profile's column at the points ``at.profile``, with its uncertainty."""
+        return Number(*self.sampled(spec, at, name))
+
+    def column(self, spec: Spec, at: At, name: str) -> Number:
+        """A profile's whole column, with its uncertainty."""
+        field = self.profile(spec, at)
+        return Number(field.columns[name], field.uncertainty[name])
+
     def profile(self, spec: Spec, at: At) -> Field:
         """Profile of a state."""
         state = self.state(spec, at)
@@ -90,6 +135,11 @@ class Solutions:
         abscissa = next(iter(field.columns))  # a field's first column is what it is sampled over
         index = np.searchsorted(field.columns[abscissa], where - 1e-12)
         return field.columns[name][index], field.uncertainty[name]
+
+
+def of_point(point: SpecialPoint, name: str) -> Number:
+    """One number of a special point, with its uncertainty."""
+    return Number(point.values[name], point.uncertainty[name])
 
 
 def _meridian(field: Field, theta: float) -> Field:
