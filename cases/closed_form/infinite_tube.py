@@ -4,7 +4,19 @@ Uniform states have w1 = p lam2^2/2 and w2 = p lam1 lam2. A bulge that spreads a
 them at one pressure and one potential w - p lam1 lam2^2/2: Maxwell's rule of equal areas over the volume.
 """
 
-from weakforms import Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, infinite_tube
+from weakforms import (
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    infinite_tube,
+)
 
 TUBES = {
     "mooney_rivlin": (infinite_tube(model="mooney_rivlin", alpha=0.1), 1),
@@ -17,14 +29,12 @@ COEXISTING = ("ogden", "gent", "arruda_boyce")
 
 def between(solutions: Solutions) -> Finding:
     """The Maxwell pressure against the two limit pressures."""
-    good, rows = True, []
+    found = []
     for model in COEXISTING:
         spec = TUBES[model][0]
-        high, low = (point.values["p"] for point in solutions.points(spec, "limit_point"))
-        p = solutions.result(spec).quantities["p_maxwell"].value
-        good &= low < p < high
-        rows.append(f"{model}: {low:.6f} < {p:.6f} < {high:.6f}")
-    return bool(good), "; ".join(rows)
+        high, low = (solutions.point(spec, "limit_point", "p", index) for index in (0, 1))
+        found.append(decide.less(model, low, solutions.whole(spec, "p_maxwell"), high))
+    return decide.all_of(found)
 
 
 CASE = Case(

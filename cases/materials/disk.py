@@ -13,6 +13,7 @@ from weakforms import (
     Solutions,
     States,
     circular,
+    decide,
 )
 
 MODELS = ("ogden", "gent", "arruda_boyce")
@@ -23,14 +24,15 @@ DEEP = At("p", 2.8)
 
 def contact(solutions: Solutions) -> Finding:
     """Front and contact stress of the pole at p = 2.8."""
-    good, rows = True, []
+    found = []
     for model, spec in CONTACT.items():
-        state = solutions.state(spec, DEEP).quantities
         onset = solutions.points(spec, "contact_onset")
-        front, stress = state["X_contact"], state["sigma_pole"]
-        good &= len(onset) == 1 and 0 < front.value < 1 and front.uncertainty < 1e-6 and stress.value < 0
-        rows.append(f"{model}: first touch at p = {onset[0].values['p']:.6f}, front at X = {front.value:.6f}")
-    return bool(good), "; ".join(rows)
+        found += [
+            decide.same(f"{model}: first contacts", len(onset), 1),
+            decide.between("front", solutions.number(spec, DEEP, "X_contact"), 0, 1),
+            decide.negative("stress at the pole", solutions.number(spec, DEEP, "sigma_pole")),
+        ]
+    return decide.all_of(found)
 
 
 CASE = Case(

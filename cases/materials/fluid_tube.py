@@ -5,7 +5,7 @@ point, bifurcation with one wave and eigenvalues, against the paper's reference 
 their own. Gent's and Arruda and Boyce's rubber bifurcate much later than the neo-Hookean one.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, fluid_tube
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, fluid_tube
 
 ENDS = {"ogden": 0.9, "gent": 0.8, "arruda_boyce": 0.8}
 """Fraction of the highest level at which a branch ends: beyond the first bifurcation."""
@@ -19,41 +19,38 @@ KINDS = {"limit_point": 0, "bifurcation_point": 1}
 
 def zeros(solutions: Solutions) -> Finding:
     """At the limit point the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
-    good, rows = True, []
-    for model, spec in TUBES.items():
-        for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1")):
-            found = solutions.quantity(spec, at, name)
-            good &= abs(found.value) <= 2 * found.uncertainty < 1e-6
-            rows.append(f"{model} {name}: {found.value:.1e} (+- {found.uncertainty:.1e})")
-    return bool(good), "; ".join(rows)
+    return decide.all_of(
+        decide.zero(f"{model} {name}", solutions.number(spec, at, name), 1e-6)
+        for model, spec in TUBES.items()
+        for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1"))
+    )
 
 
 def order(solutions: Solutions) -> Finding:
     """Negative eigenvalues (axisymmetric) before and behind the limit point, by inertia."""
-    good, rows = True, []
+    found = []
     for model, spec in TUBES.items():
-        columns = solutions.branch(spec).columns
-        limit = solutions.points(spec, "limit_point")[0].values["V"]
-        first = solutions.points(spec, "bifurcation_point")[0].values
-        off = abs(columns["V"] - limit) > 1e-6
-        behind = columns["V"] > limit
-        good &= bool((columns["n_negative"][off] == behind[off]).all())
-        good &= first["n"] == 1 and first["V"] > limit
-        rows.append(f"{model}: limit at V = {limit:.3f}, one wave at V = {first['V']:.3f}")
-    return good, "; ".join(rows)
+        counts = solutions.branch(spec).columns["n_negative"]
+        limit = solutions.point(spec, "limit_point", "V")
+        before, behind = decide.sides(solutions.along(spec, "V"), limit)
+        found += [
+            decide.every(f"{model}: none before", counts[before] == 0),
+            decide.every("one behind", counts[behind] == 1),
+            decide.same("waves", solutions.points(spec, "bifurcation_point")[0].values["n"], 1),
+            decide.less("V", limit, solutions.point(spec, "bifurcation_point", "V")),
+        ]
+    return decide.all_of(found)
 
 
 def same_law(solutions: Solutions) -> Finding:
     """The neo-Hookean law written in the invariants, against the paper's own form."""
-    good, rows = True, []
-    for kind in KINDS:
-        ours, theirs = (solutions.points(spec, kind)[0] for spec in (SAME, NEO_HOOKEAN))
-        for name in ("zw", "V"):
-            gap = abs(ours.values[name] - theirs.values[name])
-            bound = 2 * (ours.uncertainty[name] + theirs.uncertainty[name])
-            good &= gap <= bound < 1e-7 * ours.values[name]
-            rows.append(f"{kind} {name} {gap:.0e} (bound {bound:.0e})")
-    return bool(good), "; ".join(rows)
+    return decide.all_of(
+        decide.agree(
+            f"{kind} {name}", *(solutions.point(spec, kind, name) for spec in (SAME, NEO_HOOKEAN)), 1e-7
+        )
+        for kind in KINDS
+        for name in ("zw", "V")
+    )
 
 
 CASE = Case(

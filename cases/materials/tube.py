@@ -3,7 +3,7 @@
 Branch, limit points and stability against the paper's reference codes, which have laws of their own.
 """
 
-from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, tube
+from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, decide, tube
 
 MODELS = ("ogden", "gent", "arruda_boyce")
 TUBES = {m: tube(model=m) for m in MODELS}
@@ -16,34 +16,26 @@ FIRST, LATER = At("u_max", 0.5, profile=()), At("u_max", 2.0, profile=())
 
 def stable_before(solutions: Solutions) -> Finding:
     """Negative eigenvalues before and behind the first limit point."""
-    counts = {
-        m: [int(solutions.value(spec, at, "n_negative")) for at in (FIRST, LATER)]
-        for m, spec in TUBES.items()
-    }
-    return all(c == [0, 1] for c in counts.values()), ", ".join(f"{m}: {c}" for m, c in counts.items())
+    counts = [
+        [int(solutions.value(spec, at, "n_negative")) for at in (FIRST, LATER)] for spec in TUBES.values()
+    ]
+    return decide.same("negative eigenvalues", counts, [[0, 1]] * len(TUBES))
 
 
 def integrals(solutions: Solutions) -> Finding:
     """Axial force and Hamiltonian along the meridian of each law at u_max = 2."""
-    good, rows = True, []
-    for model, spec in FINE.items():
-        field = solutions.profile(spec, LATER)
-        for name in ("F_axial", "H"):
-            values = field.columns[name]
-            spread, bound = float(values.max() - values.min()), 2 * field.uncertainty[name]
-            good &= spread <= bound < 1e-4 * abs(values).max()
-            rows.append(f"{model} {name} {spread:.0e} (bound {bound:.0e} of {abs(values).max():.1f})")
-    return bool(good), "spread: " + ", ".join(rows)
+    return decide.all_of(
+        decide.constant(f"{model} {name}", solutions.column(spec, LATER, name), 1e-4)
+        for model, spec in FINE.items()
+        for name in ("F_axial", "H")
+    )
 
 
 def contact_balance(solutions: Solutions) -> Finding:
     """Frictionless contact leaves the axial force constant, patch or not."""
-    field = solutions.profile(CONTACT, DEEP)
-    values = field.columns["F_axial"]
-    spread, bound = float(values.max() - values.min()), 2 * field.uncertainty["F_axial"]
-    length = solutions.value(CONTACT, DEEP, "contact_length")
-    return bool(spread <= bound < 1e-4 * abs(values).max() and length > 0), (
-        f"contact length {length:.6f}, spread {spread:.1e}, bound {bound:.1e}"
+    return decide.all_of(
+        decide.constant("F_axial", solutions.column(CONTACT, DEEP, "F_axial"), 1e-4),
+        decide.positive("contact length", solutions.number(CONTACT, DEEP, "contact_length")),
     )
 
 

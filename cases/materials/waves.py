@@ -4,7 +4,7 @@ Levels at which they set in and, a taut zone growing from above, vanish again, f
 and Boyce's rubber, against the paper's reference codes, which have laws of their own.
 """
 
-from weakforms import Case, Claim, Finding, Points, Solutions, wrinkled_tube
+from weakforms import Case, Claim, Finding, Points, Solutions, decide, wrinkled_tube
 
 ENDS = {"ogden": 12.0, "gent": 14.0, "arruda_boyce": 14.0}
 """Levels at which branches end, beyond the last change."""
@@ -16,13 +16,13 @@ TUBES = {
 
 def more_waves_earlier(solutions: Solutions) -> Finding:
     """Levels at which 20 and 10 waves set in, and at which 10 and 20 vanish."""
-    good, rows = True, []
+    found = []
     for model, spec in TUBES.items():
-        changes = [p.values for p in solutions.points(spec, "stability_change")]
-        order = [(int(v["n"]), int(v["direction"])) for v in sorted(changes, key=lambda v: v["V"])]
-        good &= order == [(20, 1), (10, 1), (10, -1), (20, -1)]
-        rows.append(f"{model}: " + ", ".join(f"{v['zw']:.4f}" for v in changes))
-    return good, "; ".join(rows)
+        changes = sorted(solutions.points(spec, "stability_change"), key=lambda point: point.values["V"])
+        order = [(int(p.values["n"]), int(p.values["direction"])) for p in changes]
+        found.append(decide.same(model, order, [(20, 1), (10, 1), (10, -1), (20, -1)]))
+        found.append(decide.rises("V", [decide.of_point(p, "V") for p in changes]))
+    return decide.all_of(found)
 
 
 CASE = Case(

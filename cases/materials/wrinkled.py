@@ -12,6 +12,7 @@ from weakforms import (
     Finding,
     Points,
     Solutions,
+    decide,
     wrinkled_tube,
     wrinkled_tube_threshold,
 )
@@ -26,27 +27,24 @@ DEEP = At("p", 0.25, profile=())
 
 def axial(solutions: Solutions) -> Finding:
     """Axial force along the meridian at p = 0.25: taut, wrinkled and taut again."""
-    good, rows = True, []
+    found = []
     for model, spec in INFLATED.items():
-        state, field = solutions.state(spec, DEEP), solutions.profile(spec, DEEP)
-        values, share = field.columns["axial"], state.quantities["wrinkled_fraction"].value
-        spread, bound = float(values.max() - values.min()), 2 * field.uncertainty["axial"]
-        good &= spread <= bound < 1e-6 * abs(values).max() and 0 < share < 1
-        rows.append(f"{model}: spread {spread:.0e} (bound {bound:.0e}), wrinkled {share:.3f}")
-    return bool(good), "; ".join(rows)
+        found.append(decide.constant(f"{model}, axial", solutions.column(spec, DEEP, "axial"), 1e-6))
+        found.append(decide.between("wrinkled", solutions.number(spec, DEEP, "wrinkled_fraction"), 0, 1))
+    return decide.all_of(found)
 
 
 def stable(solutions: Solutions) -> Finding:
     """Negative axisymmetric eigenvalues below the first limit pressure and behind it."""
-    good, rows = True, []
+    found = []
     for model, spec in INFLATED.items():
-        columns = solutions.branch(spec).columns
-        first, second = (p.values["V"] for p in solutions.points(spec, "limit_point"))
-        for inside, count in ((columns["V"] < first - 1e-6, 0), (columns["V"] > first + 1e-6, 1)):
-            before = inside & (columns["V"] < second - 1e-6)
-            good &= bool(before.any() and (columns["n_negative"][before] == count).all())
-        rows.append(f"{model}: limits at V = {first:.3f} and {second:.3f}")
-    return good, "; ".join(rows)
+        counts, volume = solutions.branch(spec).columns["n_negative"], solutions.along(spec, "V")
+        (below, above), (before, _) = (
+            decide.sides(volume, solutions.point(spec, "limit_point", "V", index)) for index in (0, 1)
+        )
+        found.append(decide.every(f"{model}: none below the first limit", counts[below] == 0))
+        found.append(decide.every("one up to the second", counts[above & before] == 1))
+    return decide.all_of(found)
 
 
 CASE = Case(

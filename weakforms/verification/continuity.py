@@ -6,13 +6,22 @@ are compared at the front: the first that does not vanish is the order.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
+
+from weakforms.verification import decide
+from weakforms.verification.decide import Finding, Number, Stated
+from weakforms.verification.solutions import Solutions
+from weakforms.verification.specs import At, Spec
 
 NODES, FIT, HIGHEST = 30, 9, 4
 """Samples a side, degree of the fit, and the derivative from which on nothing is measured."""
 
-VANISHES, JUMPS = 2e-3, 1e-2
-"""Relative jumps below the one are none, above the other are one; in between nothing is measured."""
+VANISHES = Stated(
+    2e-3, "continuous", "what polynomials fitted to samples leave of a derivative that does not jump"
+)
+JUMPS = Stated(1e-2, "jumps", "five times what counts as continuous; in between nothing is decided")
 
 
 def samples(front: float, window: float) -> tuple[float, ...]:
@@ -21,28 +30,47 @@ def samples(front: float, window: float) -> tuple[float, ...]:
     return tuple(sorted([*(front - offsets), *(front + offsets)]))
 
 
-def jumps(offset: np.ndarray, values: np.ndarray, window: float) -> list[float]:
-    """Relative jumps of the derivatives 0 to 3.
+def jumps(offset: np.ndarray, values: Number, window: float) -> Number:
+    """Relative jumps of the derivatives 0 to 3, with what the samples' uncertainty makes of them.
 
     Args:
         offset: Distance of the samples from the front, negative on one side.
         values: The field there.
         window: Length of the windows.
     """
-    sides = [_one_sided(offset, values, side, window) for side in (-1, 1)]
-    return [abs(a - b) / max(p, q) for (a, p), (b, q) in zip(*sides, strict=True)]
+    (before, largest), (after, other) = (_one_sided(offset, values, side, window) for side in (-1, 1))
+    return abs(before - after) / np.maximum(largest, other)
 
 
-def first_jump(found: list[float]) -> tuple[int, bool]:
-    """First derivative that jumps (4 if none does), and whether all before it clearly vanish."""
-    first = next((m for m, jump in enumerate(found) if jump > JUMPS), HIGHEST)
-    return first, all(jump < VANISHES for jump in found[:first])
+def first_jumps(
+    solutions: Solutions, spec: Spec, at: At, front: float, window: float, expected: Mapping[str, int]
+) -> Finding:
+    """Whether the first derivatives that jump at a front are those expected, and all before vanish."""
+    found = []
+    for name, first in expected.items():
+        measured = jumps(np.asarray(at.profile) - front, solutions.samples(spec, at, name), window)
+        if first:
+            found.append(decide.at_most(f"{name}, derivatives below {first}", measured[:first], VANISHES))
+        if first < HIGHEST:
+            found.append(decide.at_least(f"{name}, derivative {first}", measured[first], JUMPS))
+    return decide.all_of(found)
 
 
-def _one_sided(offset: np.ndarray, values: np.ndarray, side: int, window: float) -> list[tuple[float, float]]:
-    """Value at the front and largest magnitude in the window of each derivative."""
+def _one_sided(offset: np.ndarray, values: Number, side: int, window: float) -> tuple[Number, np.ndarray]:
+    """Derivatives at the front with their uncertainty, and their largest magnitudes in the window.
+
+    A derivative of the fit is a sum of the samples with weights, which are the derivatives of the fits to
+    unit samples: with them it passes the samples' uncertainties on.
+    """
     inside = (side * offset > 0) & (side * offset < window)
-    fit = np.polynomial.Chebyshev.fit(offset[inside], values[inside], FIT)
+    x = offset[inside]
     grid = side * np.linspace(0, window / 2, 20)
-    derivatives = [fit, *(fit.deriv(m) for m in range(1, HIGHEST))]
-    return [(float(d(0.0)), float(np.abs(d(grid)).max())) for d in derivatives]
+
+    def derivatives(samples: np.ndarray, where: np.ndarray) -> np.ndarray:
+        fit = np.polynomial.Chebyshev.fit(x, samples, FIT)
+        return np.array([fit.deriv(m)(where) if m else fit(where) for m in range(HIGHEST)])
+
+    weights = np.array([derivatives(unit, np.zeros(1))[:, 0] for unit in np.eye(len(x))]).T
+    spread = np.hypot.reduce(weights * values.uncertainty[inside], axis=1)
+    fitted = derivatives(values.value[inside], np.zeros(1))[:, 0]
+    return Number(fitted, spread), np.abs(derivatives(values.value[inside], grid)).max(axis=1)

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from weakforms.verification.bounds import compare
-from weakforms.verification.numbers import Number, join, number, stack
+from weakforms.verification.numbers import Number, join, number, of_point, stack
 
 __all__ = [
     "Finding",
@@ -33,12 +33,15 @@ __all__ = [
     "falls",
     "join",
     "less",
+    "mean_order",
     "negative",
     "number",
+    "of_point",
     "order",
     "positive",
     "rises",
     "same",
+    "sides",
     "stack",
     "zero",
 ]
@@ -198,27 +201,51 @@ def between(what: str, found: Any, low: Any, high: Any) -> Finding:
     return Finding(holds, f"{what}: {shown} in {ends}")
 
 
+def sides(values: Number, of: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Which entries lie clearly below a number, and which above it; those at it are on neither side."""
+    apart = values - of
+    clear = CLEAR * apart.uncertainty
+    return apart.value < -clear, apart.value > clear
+
+
 def order(
     what: str, cells: Sequence[float], errors: Any, expected: float, slack: float = ORDER_SLACK
 ) -> Finding:
-    """Errors fall with refinement at the expected rate or faster, by the last two meshes.
+    """Errors fall with refinement at the expected rate or faster, by the finest two meshes that show it.
 
-    Every error must be known to a tenth, and the rate to a tenth of the slack: an error that its own
-    uncertainty could explain shows no order.
+    An error that its own uncertainty could explain by more than a tenth shows no rate: finer meshes than the
+    last one above that are left out. Two must remain.
     """
     found = abs(number(errors))
-    if found.value.ndim != 1 or len(found) < 2 or len(cells) != len(found):
+    if found.value.ndim != 1 or len(cells) != found.value.size:
         return Finding(False, f"{what}: {found.value.size} errors on {len(cells)} meshes show no order")
-    resolved = np.all(found.value[-2:] >= CLEAR * found.uncertainty[-2:])
-    logs = found[-2:].log()
-    rate = (logs[0] - logs[1]) / np.log(cells[-1] / cells[-2])
-    good = resolved and rate.value >= expected - slack
+    shown = f"{what}: errors " + ", ".join(f"{e:.1e}" for e in found.value)
+    count = int(np.argmin([*(found.value >= CLEAR * found.uncertainty), False]))
+    if count < 2:
+        return Finding(
+            False, f"{shown}, of which {count} can be told from the uncertainty of what they are against"
+        )
+    logs = found[count - 2 : count].log()
+    rate = float((logs[0] - logs[1]).value / np.log(cells[count - 1] / cells[count - 2]))
+    good = rate >= expected - slack
     return Finding(
-        bool(good),
-        f"{what}: observed {rate.value:.2f} from {cells[-2]:g} to {cells[-1]:g} cells; errors "
-        + ", ".join(f"{e:.1e}" for e in found.value)
-        + ("" if resolved else ", which are not resolved"),
+        good, f"{shown}; observed {rate:.2f} from {cells[count - 2]:g} to {cells[count - 1]:g} cells"
     )
+
+
+def mean_order(what: str, cells: Sequence[float], errors: Any, expected: float) -> Finding:
+    """Errors fall at the expected rate or faster on the mean over all meshes, where they scatter about it.
+
+    Every error must be ten times its uncertainty.
+    """
+    found = abs(number(errors))
+    if found.value.ndim != 1 or len(found) < 3 or len(cells) != len(found):
+        return Finding(False, f"{what}: {found.value.size} errors on {len(cells)} meshes show no mean order")
+    shown = ", ".join(f"{e:.1e}" for e in found.value)
+    if not np.all(found.value >= CLEAR * found.uncertainty):
+        return Finding(False, f"{what}: errors {shown} cannot be told from their uncertainty")
+    rate = -float(np.polyfit(np.log(cells), np.log(found.value), 1)[0])
+    return Finding(rate >= expected - ORDER_SLACK, f"{what}: errors {shown}; mean order {rate:.2f}")
 
 
 def same(what: str, found: Any, expected: Any) -> Finding:

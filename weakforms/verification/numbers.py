@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from weakforms.results import Quantity
+from weakforms.results import Quantity, SpecialPoint
 
 
 @dataclass(frozen=True, eq=False)
 class Number:
     r"""Values with absolute uncertainties of the same shape.
 
-    Arithmetic propagates them to first order as independent, :math:`u^2 = \sum (\partial f/\partial x_i)^2 u_i^2`;
-    plain numbers are exact. Numbers are not compared with ``<`` or ``==``: :mod:`weakforms.decide` does that,
-    with their uncertainties.
+    Arithmetic propagates them to first order as independent,
+    :math:`u^2 = \sum (\partial f/\partial x_i)^2 u_i^2`; plain numbers are exact. They are not compared with
+    ``<`` or ``==``: :mod:`weakforms.verification.decide` does that, with their uncertainties.
     """
 
     value: Any
@@ -106,6 +106,11 @@ def number(of: Any) -> Number:
         rounding = np.finfo(float).eps * abs(of.value)
         return Number(of.value, rounding if of.uncertainty is None else of.uncertainty)
     return Number(of, 0.0)
+
+
+def of_point(point: SpecialPoint, name: str) -> Number:
+    """One number of a special point."""
+    return Number(point.values[name], point.uncertainty[name])
 
 
 def stack(items: Iterable[Any]) -> Number:

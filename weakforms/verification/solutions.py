@@ -8,7 +8,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.results import Branch, Field, Quantity, Result, SpecialPoint, State
-from weakforms.verification.numbers import Number, number, stack
+from weakforms.verification.numbers import Number, number, of_point, stack
 from weakforms.verification.specs import At, Spec
 
 
@@ -95,19 +95,16 @@ class Solutions:
         return of_point(self.points(spec, kind)[index], name)
 
     def along(self, spec: Spec, name: str, branch: str = "primary") -> Number:
-        """A column of a branch; each entry as uncertain as the worst of the states solved for on that branch.
+        """A column of a branch, each entry as uncertain as the worst of what is solved for on that branch.
 
-        The trace is solved on the finest mesh of those that the states' uncertainties come from. Without
-        any state the uncertainty is not a number.
+        The trace is solved on the finest mesh of those that uncertainties of states and special points come
+        from. Without any of them the uncertainty is not a number, and nothing can be decided.
         """
-        values = self.branch(spec, branch).columns[name]
-        states = [
-            s.quantities[name]
-            for s in self.result(spec).states
-            if s.branch == branch and name in s.quantities
-        ]
-        known = [number(q).uncertainty for q in states]
-        return Number(values, max(known, default=np.nan))
+        result = self.result(spec)
+        known = [s.quantities[name] for s in result.states if s.branch == branch and name in s.quantities]
+        points = [p for p in result.special_points if p.branch == branch and name in p.values]
+        spreads = [number(q).uncertainty for q in known] + [of_point(p, name).uncertainty for p in points]
+        return Number(self.branch(spec, branch).columns[name], max(spreads, default=np.nan))
 
     def samples(self, spec: Spec, at: At, name: str) -> Number:
         """A profile's column at the points ``at.profile``, with its uncertainty."""
@@ -135,11 +132,6 @@ class Solutions:
         abscissa = next(iter(field.columns))  # a field's first column is what it is sampled over
         index = np.searchsorted(field.columns[abscissa], where - 1e-12)
         return field.columns[name][index], field.uncertainty[name]
-
-
-def of_point(point: SpecialPoint, name: str) -> Number:
-    """One number of a special point, with its uncertainty."""
-    return Number(point.values[name], point.uncertainty[name])
 
 
 def _meridian(field: Field, theta: float) -> Field:
