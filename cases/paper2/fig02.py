@@ -17,6 +17,7 @@ from weakforms import (
     Points,
     PrintedExact,
     Solutions,
+    decide,
     tube,
 )
 
@@ -29,39 +30,34 @@ PRESSURE, DISPLACEMENT = Axis("p", 0, 3), Axis("u_max", 0, 4)
 
 def softens(solutions: Solutions) -> Finding:
     """u_max rises with delta1 at equal pressure below every limit point, for both materials."""
-    found = []
-    for curves, p in ((NH, 0.5), (NH, 0.8), (MR, 0.5), (MR, 1.0), (MR, 1.5)):
-        found.append([solutions.value(curves[d], At("p", p), "u_max") for d in STRETCHES])
-    return all(a < b < c for a, b, c in found), "; ".join(
-        " < ".join(f"{u:.4f}" for u in row) for row in found
+    return decide.all_of(
+        decide.less(
+            f"u_max at p = {p}", *(solutions.number(curves[d], At("p", p), "u_max") for d in STRETCHES)
+        )
+        for curves, p in ((NH, 0.5), (NH, 0.8), (MR, 0.5), (MR, 1.0), (MR, 1.5))
     )
 
 
 def falling_branch_softens(solutions: Solutions) -> Finding:
     """On the falling neo-Hookean branches u_max at equal pressure rises with delta1."""
-    u = [solutions.value(NH[d], FALLING, "u_max") for d in STRETCHES]
-    return u[0] < u[1] < u[2], "u_max at p = 1.2: " + " < ".join(f"{v:.5f}" for v in u)
+    return decide.less("u_max at p = 1.2", *(solutions.number(NH[d], FALLING, "u_max") for d in STRETCHES))
 
 
 def curves_cross(solutions: Solutions) -> Finding:
     """Mooney-Rivlin: the order of the curves is reversed at large displacement."""
-    u = [solutions.value(MR[d], At("p", 1.9), "u_max") for d in (1.5, 2)]
-    p = [solutions.value(MR[d], At("u_max", 3.0), "p") for d in STRETCHES]
-    detail = f"u_max at p = 1.9: {u[1]:.4f} (2) < {u[0]:.4f} (1.5); p at u_max = 3: " + " < ".join(
-        f"{v:.5f}" for v in p
+    return decide.all_of(
+        decide.less("u_max at p = 1.9", *(solutions.number(MR[d], At("p", 1.9), "u_max") for d in (2, 1.5))),
+        decide.less("p at u_max = 3", *(solutions.number(MR[d], At("u_max", 3.0), "p") for d in STRETCHES)),
     )
-    return u[1] < u[0] and p[0] < p[1] < p[2], detail
 
 
 def first_branch_at_1_9(solutions: Solutions) -> Finding:
     """At p = 1.9 the unstretched tube is before its limit point, that with delta1 = 1.5 far inflated."""
-    low = solutions.value(MR[1], At("p", 1.9), "u_max")
-    high = solutions.value(MR[1.5], At("p", 1.9), "u_max")
-    first, second = solutions.points(MR[1], "limit_point")
-    good = low < first.values["u_max"] and second.values["p"] > 1.9 and high > second.values["u_max"]
-    return (
-        good,
-        f"u_max = {low:.4f} (delta1 = 1), {high:.4f} (1.5); second limit p = {second.values['p']:.5f}",
+    low, high = (solutions.number(MR[d], At("p", 1.9), "u_max") for d in (1, 1.5))
+    first, second = (solutions.point(MR[1], "limit_point", "u_max", index) for index in (0, 1))
+    return decide.all_of(
+        decide.less("u_max of delta1 = 1, limit points of it, and delta1 = 1.5", low, first, second, high),
+        decide.less("p", 1.9, solutions.point(MR[1], "limit_point", "p", 1)),
     )
 
 

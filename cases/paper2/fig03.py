@@ -15,6 +15,7 @@ from weakforms import (
     Points,
     Printed,
     Solutions,
+    decide,
     tube,
     tube_fold,
 )
@@ -22,24 +23,22 @@ from weakforms import (
 STRETCHES = (1, 1.1, 1.15, 1.2)
 TUBES = {d: tube(alpha=0.1, delta1=d) for d in STRETCHES}
 FOLD = tube_fold(alpha=0.1)
+LIMIT_PRESSURES = Axis("p", 1.85, 2.05)
 
 
 def pressures_within_axis(solutions: Solutions) -> Finding:
     """All limit pressures up to the cusp lie within the printed axis."""
-    p = solutions.branch(FOLD).columns["p"]
     inside = solutions.branch(FOLD).columns["delta1"] >= 1
-    low, high = p[inside].min(), p[inside].max()
-    return bool(low > 1.85 and high < 2.05), f"limit pressures in [{low:.5f}, {high:.5f}]"
+    return decide.between(
+        "limit pressures", solutions.along(FOLD, "p")[inside], LIMIT_PRESSURES.low, LIMIT_PRESSURES.high
+    )
 
 
 def folds_fall(solutions: Solutions) -> Finding:
     """Both limit pressures fall with the pre-stretch: p falls to the cusp and rises back after it."""
-    columns = solutions.branch(FOLD).columns
-    (cusp,) = solutions.points(FOLD, "cusp_point")
-    before = columns["p"][columns["u_max"] < cusp.values["u_max"]]
-    after = columns["p"][columns["u_max"] > cusp.values["u_max"]]
-    falls = bool((before[1:] < before[:-1]).all() and (after[1:] > after[:-1]).all())
-    return falls, f"{len(before)} points to the cusp, {len(after)} back"
+    p, u = (solutions.along(FOLD, name) for name in ("p", "u_max"))
+    before, after = decide.sides(u, solutions.point(FOLD, "cusp_point", "u_max"))
+    return decide.all_of(decide.falls("p to the cusp", p[before]), decide.rises("p back", p[after]))
 
 
 CASE = Case(
@@ -59,7 +58,7 @@ CASE = Case(
         Panel(
             "b",
             x=Axis("delta1", 1, 1.2),
-            y=Axis("p", 1.85, 2.05),
+            y=LIMIT_PRESSURES,
             title=r"fold line, $\alpha = 0.1$",
             markers="cusp_point",
             curves=(Curve(FOLD, "limit pressure", reference="fig03b"),),

@@ -6,7 +6,7 @@ The traction is not compared here: at low pressure the spring lets go close to t
 kink limits its bound to more than 1e-3.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 STICK = {s: tube(contact="adhesive", alpha=s[0], delta1=s[1]) for s in SETS}
@@ -14,14 +14,18 @@ PUSHING = {s: STICK[s].at(phase="deflation", spring="unilateral") for s in SETS}
 LEVELS = (1.6, 2.0, 2.5)
 
 
+CLOSELY = decide.Stated(
+    1e-3, "closely match", "no number is printed; a line of figure 6 is several times as wide"
+)
+
+
 def match(solutions: Solutions) -> Finding:
     """u_max of deflation and inflation at the same pressures."""
-    worst = 0.0
+    apart = []
     for s in SETS:
-        for p in LEVELS:
-            up, down = (solutions.value(c[s], At("p", p), "u_max") for c in (STICK, PUSHING))
-            worst = max(worst, abs(down / up - 1))
-    return worst < 1e-3, f"largest relative difference at p = 1.6, 2, 2.5: {worst:.1e}"
+        up, down = (solutions.numbers(c[s], [At("p", p) for p in LEVELS], "u_max") for c in (STICK, PUSHING))
+        apart.append(abs(down / up - 1))
+    return decide.at_most("largest relative difference at p = 1.6, 2, 2.5", decide.join(apart), CLOSELY)
 
 
 CASE = Case(

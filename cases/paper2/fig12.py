@@ -4,40 +4,47 @@
 (towards the mid-plane); the paper plots its magnitude.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 STICK = tube(contact="adhesive", alpha=0.1, delta1=1)
 BONDED = STICK.at(phase="deflation", spring="bilateral")
 UP, DOWN = (1.5, 2, 2.5, 3), (2.5, 2, 1.5, 1, 0)
 
 
+ABOUT = decide.Stated(0.3, "about p = 0.3", "the claim's own place, as far off as it is from p = 0")
+SAME_ORDER = decide.Stated(2.5, "of the same order", "no number is printed; well below a factor of ten")
+
+
 def grows(solutions: Solutions) -> Finding:
     """|f_t| at the front rises with p in inflation."""
-    values = [solutions.value(STICK, At("p", float(p)), "traction_front") for p in UP]
-    return values == sorted(values), ", ".join(f"{v:.4f}" for v in values)
+    return decide.rises("|f_t|", solutions.numbers(STICK, [At("p", float(p)) for p in UP], "traction_front"))
 
 
 def turns_up(solutions: Solutions) -> Finding:
     """|f_t| at the front in deflation: where it is smallest."""
-    columns = solutions.branch(BONDED).columns
-    i = int(columns["traction_front"].argmin())
-    p, values = columns["p"], columns["traction_front"]
-    return 0.1 < p[i] < 0.6 and values[-1] > values[i], (
-        f"from {values[0]:.4f} at p = 3 to {values[i]:.4f} at p = {p[i]:.2f}, then {values[-1]:.4f} at p = 0"
+    p, values = (solutions.along(BONDED, name) for name in ("p", "traction_front"))
+    i = int(values.value.argmin())
+    return decide.all_of(
+        decide.at_most("least at p, off 0.3", abs(p[i] - 0.3), ABOUT),
+        decide.less("|f_t|", values[i], values[-1], values[0]),
     )
 
 
 def same_order(solutions: Solutions) -> Finding:
     """Max |f_t| over max |f_k| at p = 3."""
-    state = At("p", 3.0)
-    ratio = solutions.value(STICK, state, "traction_max") / solutions.value(STICK, state, "spring_max")
-    return 0.4 < ratio < 1.6, f"ratio {ratio:.3f}"
+    traction, spring = (
+        solutions.number(STICK, At("p", 3.0), name) for name in ("traction_max", "spring_max")
+    )
+    return decide.all_of(
+        decide.at_most("f_t over f_k", traction / spring, SAME_ORDER),
+        decide.at_most("f_k over f_t", spring / traction, SAME_ORDER),
+    )
 
 
 def pushes_then_pulls(solutions: Solutions) -> Finding:
     """f_k at the centre in deflation."""
-    centre = {p: solutions.profile(BONDED, At("p", float(p), profile=())).columns["f_k"][0] for p in DOWN}
-    return centre[2.5] < 0 < centre[0], ", ".join(f"p = {p}: {v:.4f}" for p, v in centre.items())
+    first, last = (solutions.column(BONDED, At("p", p, profile=()), "f_k")[0] for p in (2.5, 0.0))
+    return decide.less("f_k at p = 2.5 and 0, on both sides of zero", first, 0, last)
 
 
 CASE = Case(

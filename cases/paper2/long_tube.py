@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, tube
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 LONG = tube(alpha=0.1, delta1=1.5, lf=40, u_end=1)
 TAUT = tube(alpha=0.1, delta1=1.3)
@@ -19,55 +19,73 @@ LENGTHS = {lf: tube(alpha=0.1, delta1=1, lf=lf, u_end=2) for lf in (6, 20, 40)}
 WHOLE_BRANCH = {lf: tube(alpha=0.1, delta1=1, lf=lf) for lf in (10, 20)}
 
 
+NEAR = (4e-3, 2e-3)
+"""Steps of the hoop stretch to both sides of where the pressure is stationary."""
+FOLLOWS = decide.Stated(
+    1e-3, "follows to 1e-3", "the claim's own number; lam1 at mid-plane changes with 1/lf"
+)
+FLAT = decide.Stated(
+    1e-8, "small", "t1 times the curvature of the plateau, which decays like exp(-lf) before bulging"
+)
+CURVED = decide.Stated(1e-5, "small", "the same at u_max = 0.4, where the plateau is shorter")
+
+
+def uniform(l1: decide.Number | float, l2: decide.Number | float) -> decide.Number | float:
+    """Pressure of the uniform tube with the data of the long one, t2/rho with t2 = w_2/lam1."""
+    alpha, delta1 = 0.1, 1.5
+    return 2 * (1 - 1 / (l1**2 * l2**4)) * (1 + alpha * l1**2) / (l1 * delta1**0.5)
+
+
 def closed_form(solutions: Solutions) -> Finding:
     """P = 2 (1 - 1/(delta1^2 lam2^4)) (1 + alpha delta1^2)/delta1^(3/2) against the computed pressure."""
-    alpha, delta1, rows = 0.1, 1.5, []
-    for u in (0.3, 0.4, 0.5):
-        lam2 = (1 + u) / np.sqrt(delta1)
-        exact = 2 * (1 - 1 / (delta1**2 * lam2**4)) * (1 + alpha * delta1**2) / delta1**1.5
-        rows.append(abs(solutions.value(LONG, At("u_max", u), "p") / exact - 1))
-    return max(rows) < 1e-3, "relative difference at u_max = 0.3, 0.4, 0.5: " + ", ".join(
-        f"{r:.1e}" for r in rows
-    )
+    levels = np.array([0.3, 0.4, 0.5])
+    found = solutions.numbers(LONG, [At("u_max", float(u)) for u in levels], "p")
+    exact = uniform(1.5, (1 + levels) / np.sqrt(1.5))
+    return decide.at_most("relative difference", abs(found / exact - 1), FOLLOWS)
 
 
 def middle_equilibrium(solutions: Solutions) -> Finding:
     """With the tube's own lam1 the uniform balance t2 = p rho is left with the curvature term only."""
-    rows = []
-    for at in MIDDLE:
-        columns = solutions.profile(LONG, at).columns
-        p = solutions.value(LONG, at, "p")
-        rows.append(abs(columns["t2"][0] / (p * columns["rho"][0]) - 1))
-    return rows[0] < 1e-8 and rows[1] < 1e-5, "relative defect of t2 = p rho at u_max = 0.05, 0.4: " + (
-        ", ".join(f"{r:.1e}" for r in rows)
-    )
+    found = []
+    for at, limit in zip(MIDDLE, (FLAT, CURVED), strict=True):
+        p, lam1, u = (solutions.number(LONG, at, name) for name in ("p", "lam1_mid", "u_max"))
+        found.append(
+            decide.at_most(
+                f"defect of t2 = p rho, {at}", abs(p / uniform(lam1, (1 + u) / 1.5**0.5) - 1), limit
+            )
+        )
+    return decide.all_of(found)
 
 
 def unloaded(solutions: Solutions) -> Finding:
     """At p = 0 the taut tube is the pre-stretched cylinder, exactly."""
     columns = solutions.profile(TAUT, At("p", 0.0, profile=())).columns
-    error = max(np.abs(columns["rho"] - 1).max(), np.abs(columns["eta"] - columns["Z"]).max())
-    return error < 1e-13, f"largest displacement {error:.1e}"
+    return decide.all_of(
+        decide.exact("rho", columns["rho"], np.ones(len(columns["Z"]))),
+        decide.exact("eta", columns["eta"], columns["Z"]),
+    )
 
 
 def halves_agree(solutions: Solutions) -> Finding:
     """The whole tube, without the symmetry condition, has the same limit points."""
-    half, full = solutions.points(HALF, "limit_point"), solutions.points(FULL, "limit_point")
-    worst, bound = 0.0, 0.0
-    for a, b in zip(half, full, strict=True):
-        worst = max(worst, abs(a.values["p"] - b.values["p"]))
-        bound = max(bound, 2 * np.hypot(a.uncertainty["p"], b.uncertainty["p"]))
-    return bool(half) and worst <= bound, f"{len(full)} limit points, p differs by {worst:.1e} <= {bound:.1e}"
+    counts = [len(solutions.points(spec, "limit_point")) for spec in (HALF, FULL)]
+    return decide.all_of(
+        decide.same("limit points", counts, [2, 2]),
+        *(
+            decide.agree(
+                f"p at limit point {i + 1}",
+                *(solutions.point(s, "limit_point", "p", i) for s in (FULL, HALF)),
+                1e-8,
+            )
+            for i in range(2)
+        ),
+    )
 
 
 def rises(solutions: Solutions) -> Finding:
     """u_max rises all along the branch of longer tubes too."""
-    rows = []
-    for lf, spec in WHOLE_BRANCH.items():
-        steps = np.diff(solutions.branch(spec).columns["u_max"])
-        rows.append((lf, steps.min()))
-    return all(step > 0 for _, step in rows), "smallest step of u_max: " + ", ".join(
-        f"{step:.1e} (lf = {lf})" for lf, step in rows
+    return decide.all_of(
+        decide.rises(f"u_max, lf = {lf}", solutions.along(spec, "u_max")) for lf, spec in WHOLE_BRANCH.items()
     )
 
 
@@ -107,17 +125,20 @@ def localisation_stretch() -> float:
 def localised(solutions: Solutions) -> Finding:
     """The condition is that p is stationary at fixed N; first limit points rise towards its pressure."""
     lam2 = localisation_stretch()
-    critical, level, found = pressure(1.0, lam2), axial_force(1.0, lam2), []
-    for l2 in (lam2 - 1e-3, lam2 + 1e-3):
-        l1 = brentq(lambda x, l2=l2: axial_force(x, l2) - level, 0.9, 1.1, xtol=1e-15)
-        found.append(pressure(l1, l2) - critical)
-    stationary = max(abs(d) for d in found) < 1e-5 and abs(found[1] - found[0]) < 1e-7
-    limits = [solutions.points(spec, "limit_point")[0].values["p"] for spec in LENGTHS.values()]
-    rising = limits[1] < limits[2] < critical
-    return stationary and rising, (
-        f"p = {critical:.6f}; p changes by {found[0]:.1e}, {found[1]:.1e} to either side at fixed N; "
-        "first limit points at lf = "
-        + ", ".join(f"{lf}: {v:.6f}" for lf, v in zip(LENGTHS, limits, strict=True))
+    critical, level, changes = pressure(1.0, lam2), axial_force(1.0, lam2), []
+    for step in NEAR:
+        aside = []
+        for l2 in (lam2 - step, lam2 + step):
+            l1 = brentq(lambda x, l2=l2: axial_force(x, l2) - level, 0.9, 1.1, xtol=1e-15)
+            aside.append(pressure(l1, l2) - critical)
+        changes.append(max(abs(change) for change in aside))
+    limits = [solutions.point(spec, "limit_point", "p") for spec in LENGTHS.values()]
+    return decide.all_of(
+        # Stationary: what is left is of second order in the step aside.
+        decide.order("p at fixed N", [1 / step for step in NEAR], changes, 2),
+        decide.less(
+            "first limit pressures of lf = 20 and 40, and the condition's", limits[1], limits[2], critical
+        ),
     )
 
 
@@ -163,7 +184,7 @@ CASE = Case(
         Claim(
             "u_max_rises",
             "u_max is monotone along the branch for long tubes",
-            tuple((spec, None) for spec in WHOLE_BRANCH.values()),
+            tuple((spec, at) for spec in WHOLE_BRANCH.values() for at in (None, At("u_max", 1.0))),
             rises,
         ),
         Claim(

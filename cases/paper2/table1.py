@@ -39,17 +39,7 @@ def as_measured(kind: int, solutions: Solutions) -> Finding:
     table = reference(2, "table1_continuity")
     rows = table.columns["kind"] == kind
     expected = dict(zip(FIELDS, table.columns["first_jump"][rows].astype(int), strict=True))
-    at, good, found = state(kind), True, []
-    for name in FIELDS:
-        values, _ = solutions.sampled(KINDS[kind][1], at, name)
-        jumps = continuity.jumps(np.asarray(at.profile) - front(kind), values, WINDOW)
-        first, clear = continuity.first_jump(jumps)
-        good &= clear and first == expected[name]
-        found.append(
-            f"{name}: derivative {first} (jump {jumps[first] if first < 4 else 0:.2g}, below "
-            f"{max(jumps[:first], default=0):.0e})"
-        )
-    return good, "; ".join(found)
+    return continuity.first_jumps(solutions, KINDS[kind][1], state(kind), front(kind), WINDOW, expected)
 
 
 STATEMENTS = {
