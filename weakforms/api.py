@@ -106,9 +106,13 @@ def solve_requests(
     numerics: Mapping[str, Any],
     states: Iterable[Any],
     branch_uncertainty: bool = True,
+    drawn: int = 0,
 ) -> Result:
-    """As :func:`solve`, with requests that say for each state which profile points it needs."""
-    return _prepared(problem, parameters, numerics, states, branch_uncertainty)(None)
+    """As :func:`solve`, with requests that say for each state which profile points it needs.
+
+    ``drawn`` states more are solved for at points of each trace drawn at random.
+    """
+    return _prepared(problem, parameters, numerics, states, branch_uncertainty, drawn)(None)
 
 
 def _prepared(
@@ -117,6 +121,7 @@ def _prepared(
     numerics: Mapping[str, Any],
     states: Iterable[Any],
     branch_uncertainty: bool = True,
+    drawn: int = 0,
 ) -> Callable[[Any], Result]:
     registry = require_environment()
     from mpi4py import MPI
@@ -126,7 +131,7 @@ def _prepared(
     chosen = registry.get(problem)
     values = validated(chosen.parameters, dict(parameters), problem)
     meshes = validated(chosen.numerics, dict(numerics), f"{problem} numerics")
-    requests = Requests(tuple(states), branch_uncertainty)
+    requests = Requests(tuple(states), branch_uncertainty, drawn)
     chosen.check(values, requests)
     return lambda progress: chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
 

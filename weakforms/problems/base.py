@@ -55,6 +55,8 @@ class Requests:
     states: tuple[StateRequest, ...] = ()
     branch_uncertainty: bool = True
     """Whether every point of the trace gets an uncertainty (costs a solve a mesh and point)."""
+    drawn: int = 0
+    """Points of each trace, drawn at random, at which states are solved for besides."""
 
 
 Progress = Callable[[str, int, int], None]

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import time
+from dataclasses import asdict
 from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 from mpi4py import MPI
 from pydantic import Field, model_validator
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.base import Numerics, Parameters, Progress, Requests, sample_points, silent
 from weakforms.results import Branch, Failure, Result, SpecialPoint, State
+from weakforms.results.drawing import draw, seed_of
+from weakforms.solvers.branch import DIAGNOSTICS
 from weakforms.solvers.provenance import provenance
 
 
@@ -64,6 +67,9 @@ class PathProblem:
 
     name: ClassVar[str]
     scales: ClassVar[dict[str, str]]
+    columns: ClassVar[tuple[str, ...]]
+    derived: ClassVar[tuple[str, ...]] = ()
+    """Columns that can be read, not prescribed."""
 
     def families(
         self, parameters: Any, numerics: Any, requests: Requests, comm: MPI.Intracomm, progress: Progress
@@ -132,5 +138,33 @@ class PathProblem:
                 result.states.append(family.state(wanted.name, wanted.value, wanted.crossing, points))
             except ConvergenceError as error:
                 result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+        for name, family in families.items():
+            self._solve_drawn(result, name, family, requests.drawn, default_points)
         for family in families.values():
             result.failures.extend(family.failures)
+
+    def _solve_drawn(
+        self, result: Result, name: str, family: Family, count: int, default_points: np.ndarray
+    ) -> None:
+        """Solve for states at points of a trace drawn at random, the first with its profile.
+
+        What was drawn stands in the result's ``numerics``; a point that has no state on all meshes is listed
+        there with the reason, and another one is drawn.
+        """
+        if not count:
+            return
+        seed = seed_of(f"{self.name} {name} {sorted(result.parameters.items())}")
+        barred = (*DIAGNOSTICS, *self.derived)
+        columns = [column for column in self.columns if column not in barred]
+        record = {"seed": seed, "points": [], "left_out": []}
+        for drawn in draw(result.branch(name), columns, seed):
+            if len(record["points"]) == count or len(record["left_out"]) > count:
+                break
+            profile = default_points if not record["points"] else None
+            try:
+                result.states.append(family.state(drawn.column, drawn.value, 1, profile))
+            except (ConvergenceError, InputError) as error:
+                record["left_out"].append({**asdict(drawn), "reason": str(error)})
+            else:
+                record["points"].append(asdict(drawn))
+        result.numerics.setdefault("drawn", {})[name] = record

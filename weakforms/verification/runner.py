@@ -21,6 +21,7 @@ from weakforms.verification import (
     curves,
     ledger,  # noqa: F401  (registers its checks)
     surfaces,
+    traces,
 )
 from weakforms.verification.curves import curve_wants, draw_panel, judge_curve
 from weakforms.verification.discovery import FoundCase
@@ -82,7 +83,10 @@ def check_ids(found: FoundCase) -> list[str]:
     case = found.case
     drawn = [n for p in case.panels for c in p.curves for n in curves.names(found.paper, c, case)]
     stated = [n for check in case.checks for n in names(check, found.paper)]
-    return list(dict.fromkeys([*drawn, *stated]))
+    specs = dict.fromkeys(spec for spec, _ in case_wants(found))
+    columns = [n for spec in specs for n in traces.names(spec)]
+    tables = [n for p in case.panels for c in p.curves for n in traces.names_of_curve(found.paper, c, case)]
+    return list(dict.fromkeys([*drawn, *stated, *columns, *tables]))
 
 
 def _merge(ats: list[At]) -> list[At]:
@@ -107,12 +111,14 @@ def solve_spec(spec: Spec, states: list[At]) -> Result:
     from weakforms.problems.base import StateRequest
 
     requests = [StateRequest(at.name, at.value, at.crossing, at.branch, at.profile) for at in states]
+    judged = traces.is_judged(spec)
     return api.solve_requests(
         spec.problem,
         dict(spec.parameters),
         dict(spec.numerics),
         requests,
-        branch_uncertainty=False,
+        branch_uncertainty=judged,
+        drawn=traces.DRAWN if judged else 0,
     )
 
 
@@ -253,6 +259,8 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
             with _missed(outcome, curves.names(found.paper, curve, found.case), "curve"):
                 verdicts, comparisons[id(curve)] = judge_curve(found.paper, curve, found.case, solutions)
                 _add(outcome, verdicts)
+            with _missed(outcome, traces.names_of_curve(found.paper, curve, found.case), "trace"):
+                _add(outcome, traces.judge_curve(found.paper, curve, found.case, solutions))
         with _missed(outcome, [f"panel {panel.name}"], "curve"):
             outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
     for surface in found.case.surfaces:
@@ -264,6 +272,9 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
             _add(outcome, verdicts)
             outcome.printed.extend(printed)
             outcome.convergence.extend(histories)
+    for spec in plan.by_case[found.id]:
+        with _missed(outcome, traces.names(spec), "trace"):
+            _add(outcome, traces.judge(spec, solutions))
     outcome.status = _status(outcome)
     outcome.seconds = (
         time.perf_counter() - begun + sum(s["provenance"].get("wall_s", 0.0) for s in outcome.solutions)

@@ -1,0 +1,377 @@
+"""Is the trace that a user takes away right: its own points against states, and against their neighbours.
+
+Curves are compared at states solved for at the rows of a table; the points of the trace itself come from the
+continuation. They are held against
+
+- states solved for at some of them, drawn at random (:mod:`weakforms.results.drawing`), in every column, by
+  the rule of all comparisons: |difference| <= 2 sqrt(u_trace^2 + u_state^2), and that bound sharper than
+  :data:`SHARP`;
+- the polynomial through their neighbours, which do not know of them: a point that is off by itself shows;
+- the tables of the case, interpolated, where those are dense enough to tell an error of one percent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from weakforms.results import Branch, Result, State
+from weakforms.results.drawing import DESCRIBE
+from weakforms.verification.bounds import Comparison, compare
+from weakforms.verification.case import Case, Curve
+from weakforms.verification.compare import interpolated
+from weakforms.verification.curves import asked_of, reference_of
+from weakforms.verification.outcome import Verdict
+from weakforms.verification.references import Reference
+from weakforms.verification.solutions import Solutions
+from weakforms.verification.specs import Spec
+
+TRACED = {
+    *("circular", "tube", "tube_fold", "fluid_tube", "wrinkled_tube", "hemisphere", "wrinkled_patch"),
+    *("sphere", "infinite_tube", "homogeneous"),
+}
+"""Problems whose answers are traces with states on demand."""
+
+DRAWN = 2
+"""States solved for at points of each trace."""
+
+SHARP = 1e-3
+"""Bound, relative to the size of the column, that must be sharper: a tenth of an error of one percent."""
+
+ZERO = 10.0
+"""Size taken for a column that is zero all along: its bound is sharper than 1e-2 in its own unit."""
+
+SMALL = 0.02
+"""Smallest size a column is taken to have: what is zero but for its discretisation is no larger."""
+
+ENDS = 2
+"""Intervals at either end of a table in which its interpolation is not relied on."""
+
+LEAST_ROWS = 9
+"""Rows of a table that is interpolated."""
+
+SIDE = 4
+"""Neighbours on either side through which a polynomial goes; the error is that against one fewer a side."""
+
+NOTICED = 8.0
+"""Times that error a point may be off: a jump of one point moves its neighbours' errors by a tenth of it."""
+
+EVEN = 0.05
+"""Smallest step of a column over its largest within a window over which a polynomial is believed."""
+
+KINKS = ("contact_onset", "zone_opening", "zone_closing", "cusp_point")
+"""Special points at which columns are not smooth, nor is a window across one."""
+
+
+def is_judged(spec: Spec) -> bool:
+    """Whether a solution has traces that a user would take: not where meshes are coarse on purpose."""
+    numerics = dict(spec.numerics)
+    study = numerics.get("levels", 3) < 3 or numerics.get("degree", 4) < 4
+    return spec.problem in TRACED and not study
+
+
+def names(spec: Spec) -> list[str]:
+    """What the verdicts on the traces of a solution will be called."""
+    return [f"trace:{spec}", f"smooth:{spec}"] if is_judged(spec) else []
+
+
+def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
+    """Two verdicts on all traces of a solution."""
+    if not is_judged(spec):
+        return []
+    result = solutions.result(spec)
+    found = list(_against_states(result))
+    counts = [_missing(result, branch) for branch in result.branches]
+    states = _worst(
+        f"trace:{spec}",
+        f"points of the trace of {spec}, drawn at random, are the states solved for there, in every column",
+        found,
+        "states solved for",
+    )
+    if missing := [text for text in counts if text]:
+        states.passed, states.detail = False, "; ".join([*missing, states.detail])
+    smooth = _worst(
+        f"smooth:{spec}",
+        f"every point of the trace of {spec} lies on the polynomial through its neighbours",
+        list(_against_neighbours(result)),
+        "the trace without the point",
+    )
+    return [states, smooth]
+
+
+Found = tuple[str, str, Comparison]
+"""Branch and column, where on it, and how it compares there."""
+
+
+def _worst(name: str, statement: str, found: list[Found], reference: str) -> Verdict:
+    """One verdict for many comparisons: all pass, and the numbers are the worst one's."""
+    passed = bool(found) and all(item.passed(SHARP) for *_, item in found)
+
+    def far(item: Comparison) -> float:
+        ratios = [item.error.max() / max(item.bound.max(), np.finfo(float).tiny), item.bound.max() / SHARP]
+        return float("inf") if np.isnan(ratios).any() else max(ratios)
+
+    verdict = Verdict(name, "trace", passed, statement, asked=SHARP, reference=reference)
+    if found:
+        where, detail, worst = max(found, key=lambda item: far(item[2]))
+        verdict.error, verdict.bound = float(worst.error[0]), float(worst.bound[0])
+        verdict.uncertainty = float(worst.uncertainty[0])
+        verdict.reference_uncertainty = worst.reference_uncertainty
+        verdict.where, verdict.detail = f"{where}, {detail}", f"{len(found)} numbers; scale {worst.scale:.6g}"
+    else:
+        verdict.detail = "nothing could be judged"
+    return verdict
+
+
+# -- states --------------------------------------------------------------------------------------------------
+
+
+def drawn_states(result: Result, branch: Branch) -> Iterator[tuple[int, State]]:
+    """Index of each point drawn on a trace, and the state there."""
+    for point in result.numerics.get("drawn", {}).get(branch.name, {}).get("points", []):
+        at = {point["column"]: point["value"]}
+        for state in result.states:
+            if state.branch == branch.name and state.at == at and state.crossing == 1:
+                yield point["index"], state
+                break
+
+
+def _missing(result: Result, branch: Branch) -> str:
+    """What is wrong where a trace has fewer states than were to be drawn; empty where nothing is."""
+    got, wanted = len(list(drawn_states(result, branch))), min(DRAWN, _inner(branch))
+    left_out = result.numerics.get("drawn", {}).get(branch.name, {}).get("left_out", [])
+    reasons = "; ".join(str(item["reason"]) for item in left_out[:2])
+    return "" if got >= wanted else f"{branch.name}: {got} states for {wanted} points drawn ({reasons})"
+
+
+def _inner(branch: Branch) -> int:
+    """Points of a trace that can be drawn: not its ends, and none where nothing changes along it."""
+    spans = [np.ptp(values) for values in _columns(branch).values() if np.isfinite(values).all()]
+    return max(len(branch) - 2, 0) if max(spans, default=0.0) > 0 else 0
+
+
+def _columns(branch: Branch) -> dict[str, np.ndarray]:
+    return {name: np.asarray(v, float) for name, v in branch.columns.items() if name not in DESCRIBE}
+
+
+def _against_states(result: Result) -> Iterator[Found]:
+    for branch in result.branches:
+        columns = _columns(branch)
+        for i, state in drawn_states(result, branch):
+            for name, values in columns.items():
+                found = _at_point(branch, name, values, i, state)
+                if found is not None:
+                    yield f"{name} ({branch.name})", f"point {i}", found
+
+
+def _at_point(branch: Branch, name: str, values: np.ndarray, i: int, state: State) -> Comparison | None:
+    """A column at a point against the state's; ``None`` where neither has a number for it."""
+    quantity = state.quantities.get(name)
+    if quantity is None:
+        # A column without a number there, such as one of an edge of contact before contact. A state that
+        # is not judged for stability has no count.
+        known = np.isfinite(values[i]) and not name.startswith("n_negative")
+        return compare(values[i], np.nan, np.nan, np.nan, 1.0) if known else None
+    spread = branch.uncertainty.get(name)
+    own = 0.0 if quantity.uncertainty is None else float("nan") if spread is None else float(spread[i])
+    other = quantity.uncertainty or 0.0
+    return compare(values[i], own, quantity.value, other, size_of(values, 2 * float(np.hypot(own, other))))
+
+
+def size_of(values: np.ndarray, bound: float) -> float:
+    """Size of a column, or :data:`ZERO` for one that is zero all along, to what its bound tells."""
+    size = float(np.nanmax(np.abs(values), initial=0.0))
+    return max(size, SMALL) if size > 4 * bound else ZERO
+
+
+# -- tables --------------------------------------------------------------------------------------------------
+
+
+def names_of_curve(paper: int | str, curve: Curve, case: Case) -> list[str]:
+    """What the verdict on the trace that a curve is drawn from will be called."""
+    table = None if curve.at is not None or not is_judged(curve.of) else reference_of(paper, curve)
+    return table_names(table, [] if table is None else _judged(table, curve, case))
+
+
+def judge_curve(paper: int | str, curve: Curve, case: Case, solutions: Solutions) -> list[Verdict]:
+    """Verdict on the trace that a curve is drawn from, against the curve's table."""
+    if not names_of_curve(paper, curve, case):
+        return []
+    table = reference_of(paper, curve)
+    names = [table.abscissa, *_judged(table, curve, case)]
+    called = {name: curve.columns.get(name, name) for name in names}
+    return against_table(solutions.branch(curve.of, curve.branch), table, called)
+
+
+def _judged(table: Reference, curve: Curve, case: Case) -> list[str]:
+    return [name for name in table.ordinates if name in asked_of(curve, case)]
+
+
+def table_names(table: Reference | None, columns: Iterable[str]) -> list[str]:
+    """What the verdict on a trace against a table will be called; none where the table is too coarse."""
+    if table is None or not any(len(_dense(table, name)) for name in columns):
+        return []
+    return [f"trace:{table.name}"]
+
+
+def _dense(table: Reference, name: str) -> np.ndarray:
+    """Rows, in rising order of the abscissa, after which the table interpolates a column sharply."""
+    rows, values = np.sort(table.columns[table.abscissa]), table.columns[name]
+    if len(rows) < LEAST_ROWS:
+        return np.array([], int)
+    _, slack = interpolated(table.columns[table.abscissa], values, (rows[:-1] + rows[1:]) / 2)
+    known = 2 * np.hypot(slack, table.uncertainty[name])
+    known[:ENDS] = known[-ENDS:] = np.inf
+    return np.flatnonzero(known <= SHARP / 2 * np.max(np.abs(values)))
+
+
+def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -> list[Verdict]:
+    """Verdict on the points of a trace that lie where a table is dense, up to where the abscissa first turns.
+
+    Args:
+        branch: The trace.
+        table: Over one of its columns.
+        called: The trace's column for each of the table's that are judged, and for its abscissa.
+    """
+    judged = [name for name in table.ordinates if name in called]
+    if not table_names(table, judged):
+        return []
+    rows = np.sort(table.columns[table.abscissa])
+    along = np.asarray(branch.columns[called[table.abscissa]], float)
+    turned = np.flatnonzero(np.diff(along) * (along[1] - along[0]) <= 0)
+    along = along[: turned[0] + 1] if len(turned) else along
+    inside = (along >= rows[0]) & (along < rows[-1])
+    interval = np.where(inside, np.searchsorted(rows, along, "right") - 1, -1)
+    found = []
+    for name in judged:
+        here = np.flatnonzero(np.isin(interval, _dense(table, name)))
+        expected, slack = interpolated(table.columns[table.abscissa], table.columns[name], along[here])
+        values, own = _with_spread(branch, called[name], called[table.abscissa], here)
+        known, size = np.hypot(slack, table.uncertainty[name]), float(np.max(np.abs(table.columns[name])))
+        for i, *numbers in zip(here, values, own, expected, known, strict=True):
+            place = f"{table.abscissa} = {along[i]:.6g}"
+            found.append((f"{name} ({branch.name})", place, compare(*numbers, size or 1.0)))
+    statement = f"points of the trace between the rows of the table, over {table.abscissa}"
+    return [_worst(f"trace:{table.name}", statement, found, table.name)]
+
+
+def _with_spread(branch: Branch, name: str, over: str, here: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A column at some points, and its uncertainty at a fixed value of the column it is looked at over."""
+    y, x = np.asarray(branch.columns[name], float), np.asarray(branch.columns[over], float)
+    none = np.full(len(y), np.nan)
+    slope = np.gradient(y, x, edge_order=1)
+    spread = np.hypot(branch.uncertainty.get(name, none), slope * branch.uncertainty.get(over, none))
+    return y[here], spread[here]
+
+
+# -- neighbours ----------------------------------------------------------------------------------------------
+
+
+def _against_neighbours(result: Result) -> Iterator[Found]:
+    for branch in result.branches:
+        columns = {n: v for n, v in _columns(branch).items() if not n.startswith("n_negative")}
+        whole = {n: v for n, v in _columns(branch).items() if n.startswith("n_negative")}
+        for name, counts in whole.items():
+            off = float(np.max(np.abs(counts - np.round(counts)) + np.maximum(-counts, 0.0), initial=0.0))
+            yield f"{name} ({branch.name})", "a count", compare(off, 0.0, 0.0, 0.0, 1.0)
+        windows = Windows(columns, _kinks(result, branch))
+        for name, values in columns.items():
+            yield from _off_neighbours(branch, name, values, windows)
+
+
+def _off_neighbours(branch: Branch, name: str, values: np.ndarray, windows: Windows) -> Iterator[Found]:
+    error, doubt, gain = windows.errors(name)
+    spread = np.asarray(branch.uncertainty.get(name, np.full(len(values), np.nan)), float)
+    padded = np.pad(np.nan_to_num(doubt), SIDE)
+    near = np.max([padded[k : k + len(doubt)] for k in range(2 * SIDE + 1)], axis=0)
+    bound = NOTICED * near + 2 * spread * gain
+    size = size_of(values, float(np.nanmedian(2 * spread)) if np.isfinite(spread).any() else 0.0)
+    judged = np.flatnonzero(np.isfinite(error) & (bound <= SHARP * size))
+    if len(judged):
+        i = judged[int(np.argmax(error[judged] / np.maximum(bound[judged], np.finfo(float).tiny)))]
+        found = compare(error[i], bound[i] / 2, 0.0, 0.0, size)
+        yield f"{name} ({branch.name})", f"point {i} of {len(judged)} that can be judged", found
+
+
+def _kinks(result: Result, branch: Branch) -> list[int]:
+    """Points of a trace next to special points at which columns are not smooth."""
+    columns, found = _columns(branch), []
+    for point in result.special_points:
+        if point.kind in KINKS and point.branch == branch.name:
+            apart = [
+                np.abs(columns[name] - value) / (np.ptp(columns[name]) or 1.0)
+                for name, value in point.values.items()
+                if name in columns and np.isfinite(columns[name]).all()
+            ]
+            if apart:
+                found.append(int(np.argmin(np.max(apart, axis=0))))
+    return found
+
+
+class Windows:
+    """Polynomials through the neighbours of every point of a trace, over columns that rise or fall there.
+
+    Args:
+        columns: Of the trace.
+        kinks: Points that no window may hold.
+    """
+
+    def __init__(self, columns: dict[str, np.ndarray], kinks: list[int]) -> None:
+        self.columns = columns
+        self.count = len(next(iter(columns.values()), ()))
+        inner = np.arange(SIDE, self.count - SIDE)
+        clear = np.array([all(abs(i - k) > SIDE for k in kinks) for i in inner], dtype=bool)
+        self.inner = inner[clear]
+        self.rows = self.inner[:, None] + np.arange(-SIDE, SIDE + 1)
+        self.evenness = {name: self._evenness(values) for name, values in columns.items()}
+        self._weights: dict[str, tuple[np.ndarray, np.ndarray]] = {}
+
+    def errors(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """How far each point is off, how far two polynomials are apart there, and what they make of noise."""
+        out = np.full((3, self.count), np.nan)
+        if not len(self.inner):
+            return tuple(out)
+        others = [other for other in self.columns if other != name]
+        best = np.argmax([self.evenness[other] for other in others], axis=0) if others else []
+        values = self.columns[name][self.rows]
+        for k, other in enumerate(others):
+            here = np.flatnonzero((best == k) & (self.evenness[other] >= EVEN))
+            if len(here):
+                wide, narrow = (self._through(other)[w][here] for w in (0, 1))
+                first, second = (np.sum(w * values[here], axis=1) for w in (wide, narrow))
+                gain = np.sum(np.abs(wide), axis=1) + 1
+                out[:, self.inner[here]] = np.abs(values[here, SIDE] - first), np.abs(first - second), gain
+        return tuple(out)
+
+    def _evenness(self, values: np.ndarray) -> np.ndarray:
+        steps = np.diff(values[self.rows], axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            small, large = np.abs(steps).min(axis=1), np.abs(steps).max(axis=1)
+            one_way = np.abs(np.sign(steps).sum(axis=1)) == 2 * SIDE
+            return np.where(one_way & np.isfinite(small) & np.isfinite(large), small / large, -1.0)
+
+    def _through(self, name: str) -> tuple[np.ndarray, np.ndarray]:
+        """Weights of the neighbours in the value at the point: with all of them, and one fewer a side."""
+        if name not in self._weights:
+            x = self.columns[name][self.rows]
+            self._weights[name] = _lagrange(x, SIDE), _lagrange(x, SIDE - 1)
+        return self._weights[name]
+
+
+def _lagrange(x: np.ndarray, side: int) -> np.ndarray:
+    """Weights of the neighbours in the polynomial through them at the middle point; zero for that point.
+
+    Args:
+        x: Places, one window a row.
+        side: Neighbours a side that count.
+    """
+    middle = x.shape[1] // 2
+    used = [k for k in range(x.shape[1]) if 0 < abs(k - middle) <= side]
+    weights = np.zeros_like(x)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for k in used:
+            others = [j for j in used if j != k]
+            factors = (x[:, [middle]] - x[:, others]) / (x[:, [k]] - x[:, others])
+            weights[:, k] = np.prod(factors, axis=1)
+    return weights
