@@ -242,23 +242,31 @@ def _with_states(
     A branch traced in long steps would be drawn as a polygon beside its own states.
     """
     branch = solutions.branch(curve.of, curve.branch).columns
-    columns = {name: branch[name] for name in (*names, "n_negative")}
+    columns = {name: np.asarray(branch[name], float) for name in (*names, "n_negative")}
     along = None if table is None else branch.get(table.abscissa)
-    if along is None or not (np.all(np.diff(along) > 0) or np.all(np.diff(along) < 0)):
+    if along is None:
         return columns
-    rows = [_row(curve, table, float(v)) for v in table.columns[table.abscissa]]
-    try:
-        states = [solutions.state(curve.of, at).quantities for at in rows]
-    except ConvergenceError:  # judged, and reported, where the curve is compared
-        return columns
-    if any(name not in state for state in states for name in columns):
-        return columns
-    places = np.concatenate([along, table.columns[table.abscissa]])
-    order = np.argsort(places if along[-1] > along[0] else -places, kind="stable")
-    return {
-        name: np.concatenate([values, [state[name].value for state in states]])[order]
-        for name, values in columns.items()
-    }
+    after, values = [], []
+    for row in table.columns[table.abscissa]:
+        try:
+            state = solutions.state(curve.of, _row(curve, table, float(row))).quantities
+        except ConvergenceError:  # judged, and reported, where the curve is compared
+            continue
+        i = _passed(along, float(row))
+        if i is not None and all(name in state for name in names):
+            at_state = {name: state[name].value if name in state else columns[name][i] for name in columns}
+            after.append((i, (row - along[i]) * np.sign(along[i + 1] - along[i])))
+            values.append(at_state)
+    order = sorted(range(len(after)), key=after.__getitem__)
+    places = [after[k][0] + 1 for k in order]
+    return {name: np.insert(v, places, [values[k][name] for k in order]) for name, v in columns.items()}
+
+
+def _passed(along: np.ndarray, value: float) -> int | None:
+    """The point of a branch after which a column first passes a value; ``None`` where it never does."""
+    distance = np.asarray(along, float) - value
+    hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0) | (distance[:-1] == 0))
+    return int(hits[0]) if len(hits) else None
 
 
 def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:

@@ -20,6 +20,7 @@ from weakforms.terminal import WorkProgress
 from weakforms.verification import (
     curves,
     ledger,  # noqa: F401  (registers its checks)
+    marks,
     surfaces,
     traces,
 )
@@ -86,7 +87,8 @@ def check_ids(found: FoundCase) -> list[str]:
     specs = dict.fromkeys(spec for spec, _ in case_wants(found))
     columns = [n for spec in specs for n in traces.names(spec)]
     tables = [n for p in case.panels for c in p.curves for n in traces.names_of_curve(found.paper, c, case)]
-    return list(dict.fromkeys([*drawn, *stated, *columns, *tables]))
+    pictures = marks.names(found.paper, case)
+    return list(dict.fromkeys([*drawn, *stated, *columns, *tables, *pictures]))
 
 
 def _merge(ats: list[At]) -> list[At]:
@@ -263,6 +265,7 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
                 _add(outcome, traces.judge_curve(found.paper, curve, found.case, solutions))
         with _missed(outcome, [f"panel {panel.name}"], "curve"):
             outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
+            _add(outcome, marks.judge(outcome.panels[-1]))
     for surface in found.case.surfaces:
         with _missed(outcome, [f"surface {surface.name}"], "field"):
             outcome.surfaces.append(surfaces.draw_surface(surface, solutions))
