@@ -187,16 +187,29 @@ class System:
         raise RuntimeError(f"collocation: no convergence for {what}")
 
 
+def tensions(l1: Any, r: Any, law: Any = None) -> tuple[Any, Any]:
+    """s_1, s_2: forces on meridional and circumferential cuts per material length."""
+    if law is not None:
+        return law.slope(l1, r) / 2, law.slope(r, l1) / 2
+    sq, rr = l1 * l1, r * r
+    return l1 - 1 / (sq * l1 * rr), r - 1 / (sq * rr * r)
+
+
+def resultants(l1: Any, r: Any, law: Any = None) -> tuple[Any, Any]:
+    """Principal Cauchy stress resultants T1 = s_1/r, T2 = s_2/l1 (per current length)."""
+    s1, s2 = tensions(l1, r, law)
+    return s1 / r, s2 / l1
+
+
 def base_rates(y: list[Any], zw: Any, front: Any, tube: FluidTube, mesh: Mesh) -> list[Any]:
     """Derivatives of (r, z, l1, psi, v) with respect to s."""
     r, z, l1, psi = y[:4]
     c, s, wet = np.cos(psi), np.sin(psi), mesh.dampness
     sq, rr = l1 * l1, r * r
+    s1, s2 = tensions(l1, r, tube.law)
     if tube.law is None:
-        s1, s2 = l1 - 1 / (sq * l1 * rr), r - 1 / (sq * rr * r)
         stretch = c * (r - 3 / (sq * rr * r)) / (1 + 3 / (sq * sq * rr))
     else:
-        s1, s2 = tube.law.slope(l1, r) / 2, tube.law.slope(r, l1) / 2
         stretch = c * (2 * s2 - tube.law.mixed(l1, r) * l1) / tube.law.curvature(l1, r)
     load = tube.gamma * (zw - z) * wet
     h = mesh.lengths(tube, front)

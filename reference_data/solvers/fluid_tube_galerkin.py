@@ -120,9 +120,7 @@ class Shape:
         el = self.elements
         x = self.x[el.joined]
         now, slope = el.value @ x, el.deriv @ x / self.widths[..., None]
-        nil = np.zeros_like(now[..., 0])
-        a = np.stack([slope[..., 0], nil, slope[..., 1]], axis=-1)
-        return a, np.stack([nil, now[..., 0], nil], axis=-1), now[..., 1]
+        return *tangents(now, slope), now[..., 1]
 
     def evaluate(self, z_material: Array) -> tuple[Array, Array]:
         """(r, z) and their slopes at material coordinates."""
@@ -153,6 +151,12 @@ class Shape:
         fluid = self.tube.gamma * (self.zw - z) * self.wet * weak.flux_of_radius(x, a, b)
         density = weak.energy_density(a, b, self.tube.law) - fluid
         return float(2 * np.pi * np.sum(self.elements.weights * self.widths * density))
+
+
+def tangents(x: Array, slope: Array) -> tuple[Array, Array]:
+    """Tangents x_,Z and x_,Theta (..., 3) at Theta = 0 from (r, z) and its slope."""
+    nil = np.zeros_like(x[..., 0])
+    return np.stack([slope[..., 0], nil, slope[..., 1]], -1), np.stack([nil, x[..., 0], nil], -1)
 
 
 def parts(n: int) -> tuple[Array, Array]:

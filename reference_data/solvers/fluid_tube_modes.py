@@ -15,9 +15,9 @@ from reference_data.solvers import fluid_tube_canonical as can
 from reference_data.solvers import fluid_tube_galerkin as gal
 from reference_data.solvers import fluid_tube_path as path
 from reference_data.solvers.fluid_tube_canonical import Family, Mode
-from reference_data.solvers.fluid_tube_collocation import Array, State
+from reference_data.solvers.fluid_tube_collocation import Array, State, resultants
 from reference_data.solvers.fluid_tube_data import FluidTube
-from reference_data.solvers.fluid_tube_weak import resultants
+from reference_data.solvers.fluid_tube_weak import cut_resultants
 
 FAMILIES: dict[str, Family] = {
     "Lambda_n0": can.AXISYMMETRIC,
@@ -192,8 +192,7 @@ def galerkin_quantities(shape: gal.Shape) -> dict[str, float]:
     """The same columns at a Galerkin state."""
     length = shape.tube.length
     x, slope = shape.evaluate(np.array([0.0, length / 2]))
-    l1 = np.hypot(*slope.T)
-    t_ring, t_mid = (resultants(l1[i], x[i, 0], shape.tube.law) for i in (0, 1))
+    t_ring, t_mid = np.transpose(cut_resultants(*gal.tangents(x, slope), shape.tube.law))
     return {
         "zw": shape.zw,
         "V": shape.volume(),

@@ -12,11 +12,13 @@ _RULE = (
     "largest_difference_of_methods is max |a - b|."
 )
 METHOD = (
-    "Two codes that share no equation: (a) piecewise Chebyshev collocation of the first-order system at "
-    "Gauss points, the free surface an unknown between two regions, the Fourier perturbation as a "
-    "canonical (Hamiltonian) system with the eigenvalue, or at critical points the volume, as an unknown; "
-    "(b) Galerkin's method with fitted spectral elements on the Cartesian weak form F(x; v) = 0, its "
-    "point-wise tangent averaged over Theta, dense symmetric eigenproblem. Two resolutions each. " + _RULE
+    "Two codes that share the definitions of volume and energy (and another law's derivatives, where "
+    "there is one), but no equation of equilibrium, stress or stability: (a) piecewise Chebyshev "
+    "collocation of the first-order system at Gauss points, the free surface an unknown between two "
+    "regions, the Fourier perturbation as a canonical (Hamiltonian) system with the eigenvalue, or at "
+    "critical points the volume, as an unknown; (b) Galerkin's method with fitted spectral elements on "
+    "the Cartesian weak form F(x; v) = 0, its point-wise tangent averaged over Theta, resultants from the"
+    " energy by complex step, dense symmetric eigenproblem. Two resolutions each. " + _RULE
 )
 TOLERANCE = "Newton takes one more step after the first one below 1e-7: rounding only"
 BRANCH_NOTES = (

@@ -98,9 +98,19 @@ def stretches(a: Array, b: Array) -> tuple[Array, Array]:
     return np.sqrt(mean + half), np.sqrt(mean - half)
 
 
-def resultants(lam1: Any, lam2: Any, law: Any = None) -> tuple[Any, Any]:
+def cut_resultants(a: Array, b: Array, law: Any = None) -> tuple[Array, Array]:
+    """T1, T2 across the curves Z = const and Theta = const where a.b = 0, from the energy alone.
+
+    The force on a cut is the energy's derivative by the Cartesian tangent (complex step); it is divided by
+    the current length of the cut.
+    """
+    l1, l2 = np.sqrt(dot(a, a)), np.sqrt(dot(b, b))
+    along = 1j * STEP * a / l1[..., None], 1j * STEP * b / l2[..., None]
+    force = np.imag(energy_density(a + along[0], b, law)), np.imag(energy_density(a, b + along[1], law))
+    return force[0] / STEP / l2, force[1] / STEP / l1
+
+
+def resultants(lam1: Any, lam2: Any) -> tuple[Any, Any]:
     """Principal Cauchy stress resultants T1, T2 (per current length)."""
-    if law is not None:
-        return law.slope(lam1, lam2) / lam2 / 2, law.slope(lam2, lam1) / lam1 / 2
     cube = (lam1 * lam2) ** 3
     return lam1 / lam2 - 1 / cube, lam2 / lam1 - 1 / cube

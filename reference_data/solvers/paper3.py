@@ -13,7 +13,7 @@ from reference_data.solvers import fluid_tube_galerkin as gal
 from reference_data.solvers import fluid_tube_modes as modes
 from reference_data.solvers import fluid_tube_path as path
 from reference_data.solvers import fluid_tube_text as text
-from reference_data.solvers.fluid_tube_collocation import State
+from reference_data.solvers.fluid_tube_collocation import State, resultants
 from reference_data.solvers.fluid_tube_common import (
     along,
     branch_rows,
@@ -27,7 +27,7 @@ from reference_data.solvers.fluid_tube_common import (
     steps,
 )
 from reference_data.solvers.fluid_tube_data import FluidTube
-from reference_data.solvers.fluid_tube_weak import resultants
+from reference_data.solvers.fluid_tube_weak import cut_resultants
 from reference_data.solvers.registry import Builder
 from reference_data.solvers.tables import Array, Table, prescribed
 
@@ -96,7 +96,7 @@ def by_galerkin(shape: gal.Shape, at: Array) -> dict[str, Array]:
     """Profile columns of a Galerkin state."""
     x, slope = shape.evaluate(at)
     lam1 = np.hypot(*slope.T)
-    t1, t2 = resultants(lam1, x[:, 0])
+    t1, t2 = cut_resultants(*gal.tangents(x, slope))
     return {"r": x[:, 0], "z": x[:, 1], "lam1": lam1, "lam2": x[:, 0], "T1": t1, "T2": t2}
 
 

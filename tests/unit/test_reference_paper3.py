@@ -9,7 +9,9 @@ from reference_data.solvers import fluid_tube_galerkin as gal
 from reference_data.solvers import fluid_tube_modes as modes
 from reference_data.solvers import fluid_tube_path as path
 from reference_data.solvers import fluid_tube_weak as weak
+from reference_data.solvers.fluid_tube_collocation import resultants
 from reference_data.solvers.fluid_tube_data import FluidTube
+from reference_data.solvers.material_laws import law
 from reference_data.solvers.tables import DisagreementError
 
 STEP = 1e-30
@@ -67,6 +69,18 @@ def test_second_variation_of_both_methods_is_one_quadratic_form(n):
         c, s = cos @ x, sin @ x
         assert x @ q @ x == pytest.approx(c @ d @ c + s @ d @ s, rel=1e-11)
     assert np.abs(q - q.T).max() < 1e-14
+
+
+@pytest.mark.parametrize("model", [None, "ogden", "gent", "arruda_boyce"])
+def test_resultants_of_the_axisymmetric_methods_share_no_formula_and_agree(model):
+    """Tensions of the first-order system against complex steps of the energy alone."""
+    rng = np.random.default_rng(4)
+    l1, r, psi = 1 + rng.random(9), 1 + rng.random(9), rng.random(9)
+    a = np.stack([l1 * np.cos(psi), 0 * psi, l1 * np.sin(psi)], -1)
+    b = np.stack([0 * r, r, 0 * r], -1)
+    own = law(model) if model else None
+    for one, two in zip(resultants(l1, r, own), weak.cut_resultants(a, b, own), strict=True):
+        assert two == pytest.approx(one, rel=1e-12)
 
 
 def test_sideways_translation_costs_nothing():
