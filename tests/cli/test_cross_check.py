@@ -14,7 +14,7 @@ from weakforms.errors import InputError
 from weakforms.problems import registry
 from weakforms.results import Branch, Result
 from weakforms.results.io import branch_csv
-from weakforms.scaling import SCALINGS
+from weakforms.scaling import KINDS, SCALINGS, Scaling
 from weakforms.verification import references
 from weakforms.verification.compare import compare
 from weakforms.verification.requests import schema
@@ -93,6 +93,38 @@ def test_there_and_back():
     back = nondimensional("tube", dimensional("tube", columns, **CONSTANTS), **CONSTANTS)
     for name, values in columns.items():
         np.testing.assert_allclose(back[name], values, rtol=1e-14)
+
+
+DIMENSIONS = {
+    "number": (0, 0),
+    "length": (0, 1),
+    "curvature": (0, -1),
+    "stress": (1, -2),
+    "pressure": (1, -2),
+    "resultant": (1, -1),
+    "force": (1, 0),
+    "axial": (1, 0),
+    "volume": (0, 3),
+    "energy": (1, 1),
+}
+"""Powers of force and length that a kind of quantity has, whatever it is divided by."""
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_number_does_not_depend_on_the_system_of_units(kind):
+    """Constants in metres and newtons or in inches and pounds: a unit changes by its dimension."""
+    inch, pound = 0.0254, 4.4482216152605
+    force, length = DIMENSIONS[kind]
+    scaling = Scaling("R", "C", "h", {"x": kind}, 2 * np.pi)
+    metric = scaling.unit("x", {"R": 0.02, "C": 2.1e5, "h": 1.5e-4})
+    imperial = scaling.unit("x", {"R": 0.02 / inch, "C": 2.1e5 / (pound / inch**2), "h": 1.5e-4 / inch})
+    assert metric == pytest.approx(imperial * pound**force * inch**length, rel=1e-14)
+    thicker = scaling.unit("x", {"R": 0.02, "C": 2.1e5, "h": 3e-4})
+    along = 0 if kind == "stress" else force
+    assert thicker == pytest.approx(metric * 2**along, rel=1e-14), "a membrane: forces go with its thickness"
+    unturned = Scaling("R", "C", "h", {"x": kind}).unit("x", {"R": 0.02, "C": 2.1e5, "h": 1.5e-4})
+    turns = 2 * np.pi if kind in ("axial", "volume", "energy") else 1.0
+    assert metric == pytest.approx(turns * unturned, rel=1e-14)
 
 
 ENDINGS = {

@@ -28,6 +28,18 @@ def test_terminal_summary(run, width, monkeypatch):
     assert "1 reproduced, 1 misprint proven, 1 not recoverable" in words
 
 
+def test_the_worst_check_and_its_place_where_there_are_any(monkeypatch):
+    """A case may have statements only, and a check no place."""
+    monkeypatch.setenv("NO_COLOR", "1")
+    nowhere = replace(passing_case(), verdicts=[verdict("nowhere", where="")])
+    stated = replace(passing_case(), verdicts=[v for v in passing_case().verdicts if v.bound is None])
+    for case, said in ((passing_case(), "at u_max = 1.25"), (nowhere, "nowhere "), (stated, " – ")):
+        stream = io.StringIO()
+        summary.print_summary(sample(case), Console(file=stream, width=160))
+        assert said in stream.getvalue()
+        assert (" at " in stream.getvalue()) == (case.verdicts[0].where != "")
+
+
 def test_headlines():
     assert summary.headline(sample(passing_case())) == "all 3 checks hold"
     lying = replace(passing_case(), verdicts=[verdict("x", passed=False)])

@@ -237,7 +237,7 @@ class Given:
 def run_with(tmp_path, monkeypatch):
     """Run one fault with given answers, on a tree of one file."""
     monkeypatch.setattr(runner, "tree_digest", lambda: "tree")
-    monkeypatch.setattr(runner, "copy_tree", lambda to, fault=None: to)
+    monkeypatch.setattr(runner, "copy_tree", lambda to, *_: to)
 
     def run(given, reason="", resume=False, expected=(A, B)):
         monkeypatch.setattr(runner, "Children", given)

@@ -2,14 +2,17 @@
 
 from xml.etree import ElementTree
 
+import gmsh
 import meshio
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 import weakforms
 from weakforms.api import prepare
 from weakforms.cli import app
 from weakforms.errors import InputError
+from weakforms.problems.meshes_surface import flat_sheet
 from weakforms.problems.surface_triangles import from_file, hemisphere, tube
 from weakforms.shapes import shape_mesh, write_shape
 from weakforms.terminal import guarded
@@ -243,6 +246,26 @@ def test_the_shape_closes_and_shows_its_mode(solved):
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert len(corners) == 160
     assert (np.sum(normal[:, :2] * corners.mean(axis=1)[:, :2], axis=1) > 0).all()
+
+
+def test_the_width_at_a_node_is_the_mean_of_the_triangles_around(solved):
+    nodes, triangles = (field.columns for field in solved.states[0].fields)
+    corners = np.column_stack([triangles[name] for name in "abc"]).astype(int)
+    width = triangles["lam2"] * np.sqrt(triangles["lam1"])
+    inside = np.flatnonzero((nodes["Theta"] > 1e-6) & (nodes["Theta"] < 6.28))  # once in the table
+    mean = [width[(corners == node).any(axis=1)].mean() for node in inside]
+    assert len(inside) == 9 * 9
+    assert nodes["gw"][inside] == pytest.approx(mean, rel=1e-13)
+    seam = nodes["gw"].reshape(9, 11)
+    assert seam[:, 0].tolist() == seam[:, -1].tolist()
+
+
+def test_making_a_mesh_says_nothing(capfd):
+    """Standard output is for the result's JSON; gmsh writes there unless it is told not to."""
+    assert not gmsh.isInitialized()
+    hemisphere(0.5)
+    flat_sheet(MPI.COMM_SELF, np.linspace(0, 1, 4), 3)
+    assert capfd.readouterr().out == ""
 
 
 def test_shapes_for_other_tools(solved, tmp_path):
