@@ -20,7 +20,7 @@ from weakforms.results import Branch, Result, State
 from weakforms.results.drawing import DESCRIBE
 from weakforms.verification.bounds import Comparison, compare
 from weakforms.verification.case import Case, Curve
-from weakforms.verification.compare import interpolated
+from weakforms.verification.crosscheck.rows import interpolated
 from weakforms.verification.curves import asked_of, reference_of
 from weakforms.verification.outcome import Verdict
 from weakforms.verification.references import Reference
