@@ -1,12 +1,17 @@
 """Cases are found by where they lie and chosen by expressions that are read, never run."""
 
+import shutil
+from pathlib import Path
+
 import pytest
 
+import weakforms
 from weakforms import At, api, tube
 from weakforms.errors import InputError
+from weakforms.solvers import provenance
 from weakforms.verification import discovery
 from weakforms.verification.discovery import Expression, find_cases, get_case, select
-from weakforms.verification.runner import Plan, case_wants, check_ids, solution_key
+from weakforms.verification.runner import SOLVING, Plan, case_wants, check_ids, solution_key, source_digest
 
 FILE = '"""A case."""\nfrom weakforms import Case\nCASE = Case(title="t", source="s", tags=("Slow",))\n'
 
@@ -107,6 +112,43 @@ def test_solution_keys_tell_requests_and_code_apart(monkeypatch):
     assert solution_key(one, [at]) == solution_key(tube(alpha=0.1), [At("p", 1.0)])
     monkeypatch.setattr("weakforms.verification.runner.source_digest", lambda: "other code")
     assert solution_key(one, [at]) not in keys
+
+
+@pytest.mark.parametrize("package", ["dolfinx", "petsc", "slepc", "numpy", "scipy"])
+def test_solution_keys_tell_versions_apart(package, monkeypatch):
+    before = solution_key(tube(), [])
+    found = provenance.versions() | {package: "0"}
+    monkeypatch.setattr(provenance, "versions", lambda: found)
+    assert solution_key(tube(), []) != before
+
+
+def test_solution_keys_tell_apart_all_source_that_numbers_come_from(tmp_path):
+    package = tmp_path / "weakforms"
+    shutil.copytree(Path(weakforms.__file__).parent, package, ignore=shutil.ignore_patterns("__pycache__"))
+
+    def changes(path: Path) -> bool:
+        text = path.read_text()
+        path.write_text(text + "# changed\n")
+        changed = source_digest(package)
+        path.write_text(text)
+        source_digest.cache_clear()
+        return changed != whole
+
+    whole = source_digest()
+    assert source_digest(package) == whole
+    source_digest.cache_clear()
+    parts = [max((p for p in folder.glob("*.py")), default=None) for folder in package.rglob("*/")]
+    parts = [*package.glob("*.py"), *filter(None, parts), *map(package.joinpath, SOLVING)]
+    told = {path.relative_to(package).as_posix(): changes(path) for path in parts}
+    aside = {name for name, tells in told.items() if not tells}
+    assert {name for name in aside if "/" not in name} == {
+        *("cli.py", "terminal.py", "pytest_plugin.py", "__main__.py")
+    }
+    assert {name.split("/")[0] for name in aside if "/" in name} == {"verification", "docs"}
+    assert {name.split("/")[0] for name in told.keys() - aside} > {"forms", "problems", "solvers", "results"}
+    assert told.keys() - aside >= {"api.py", "shapes.py", "scaling.py", *SOLVING}
+    (package / "new.py").write_text("")
+    assert source_digest(package) != whole
 
 
 @pytest.mark.parametrize("found", discovery.find_cases(), ids=lambda c: c.id)

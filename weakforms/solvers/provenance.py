@@ -11,6 +11,8 @@ from typing import Any
 import basix
 import dolfinx
 import ffcx
+import numpy as np
+import scipy
 import ufl
 from mpi4py import MPI
 from petsc4py import PETSc
@@ -27,6 +29,8 @@ def versions() -> dict[str, str]:
         "basix": basix.__version__,
         "petsc": ".".join(map(str, PETSc.Sys.getVersion())),
         "slepc": ".".join(map(str, SLEPc.Sys.getVersion())),
+        "numpy": np.__version__,
+        "scipy": scipy.__version__,
         "python": platform.python_version(),
     }
 

@@ -6,9 +6,6 @@ import os
 import platform
 from pathlib import Path
 
-import numpy as np
-import scipy
-
 
 def environment() -> dict[str, str]:
     """Versions of the stack, revision, machine, cores and memory as readable text."""
@@ -18,8 +15,6 @@ def environment() -> dict[str, str]:
 
     return {
         **versions(),
-        "numpy": np.__version__,
-        "scipy": scipy.__version__,
         "weakforms": revision(),
         "system": _system(),
         "machine": f"{platform.system()} {platform.machine()}",

@@ -128,24 +128,32 @@ def _task(spec: Spec, states: list[At]) -> str:
     return dumps(solve_spec(spec, states).to_json())
 
 
-SOLVING = ("forms", "problems", "solvers", "results")
-"""The folders whose code a solution depends on; judging and drawing it may change."""
+PACKAGE = Path(__file__).resolve().parents[1]
+
+ASIDE = ("verification", "docs", "cli.py", "terminal.py", "pytest_plugin.py", "__main__.py")
+"""The parts of the package that no number comes from: judging, drawing and telling may change ..."""
+
+SOLVING = ("verification/specs.py", "verification/runner.py")
+"""... but for what says which solutions and states are asked for."""
 
 
 @cache
-def source_digest() -> str:
+def source_digest(folder: Path = PACKAGE) -> str:
     """Digest of the source that solves: a stored solution is reused only by the code that made it."""
-    folder = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
-    for path in sorted(path for part in SOLVING for path in (folder / part).rglob("*.py")):
-        digest.update(path.relative_to(folder).as_posix().encode())
-        digest.update(path.read_bytes())
+    for path in sorted(folder.rglob("*.py")):
+        name = path.relative_to(folder).as_posix()
+        if name in SOLVING or name.split("/")[0] not in ASIDE:
+            digest.update(f"{name}\n{path.stat().st_size}\n".encode())
+            digest.update(path.read_bytes())
     return digest.hexdigest()
 
 
 def solution_key(spec: Spec, states: list[At]) -> str:
     """Name under which a solution is stored."""
-    text = json.dumps([str(spec), sorted(map(repr, states)), source_digest()])
+    from weakforms.solvers.provenance import versions
+
+    text = json.dumps([str(spec), sorted(map(repr, states)), source_digest(), versions()])
     return f"{spec.problem}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
 
