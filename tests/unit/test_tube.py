@@ -8,8 +8,9 @@ import pytest
 from mpi4py import MPI
 
 import weakforms.problems.tube as tube_module
-from weakforms import Axis, Case, Curve, Panel, Points, solve, tube
+from weakforms import Axis, Case, Curve, InputError, Panel, Points, solve, tube
 from weakforms.forms import loads, materials
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.tube import TubeMesh, formulation, free_branch
 from weakforms.solvers.system import System
 from weakforms.verification.discovery import FoundCase
@@ -91,6 +92,40 @@ def test_the_whole_tube_meets_a_symmetry_breaking_point_the_half_does_not_see():
     assert [p.kind for p in half.special_points] == ["limit_point"]
     assert whole.branch().columns["n_negative"].max() == 2
     assert half.branch().columns["n_negative"].max() == 1
+
+
+# -- laws that give way, laws that lock, and fold lines that begin elsewhere --------------------------
+
+
+def test_a_law_that_gives_way_has_the_same_limit_points_on_all_meshes():
+    """Varga's energy grows linearly: past u_max = 1.9 the mid-plane's stretch has no bound, on no mesh."""
+    result = solve("tube", model="varga", delta1=1.011, lf=6.72, numerics={"cells": 96})
+    (point,) = result.points("limit_point")
+    assert point.uncertainty["p"] < 1e-9
+    (failure,) = result.failures
+    assert "hardly resists meridional stretch" in failure.reason
+    columns, spread = result.branch().columns, result.branch().uncertainty
+    assert 1.85 < columns["u_max"][-1] < 1.95
+    assert np.all(spread["p"] < 1e-4)
+
+
+def test_a_pre_stretch_beyond_the_largest_of_its_law_is_refused():
+    with pytest.raises(InputError, match=r"delta1 = 4\.28 alone stretches .* lower delta1"):
+        solve("tube", model="gent", jm=8.97, delta1=4.28, lf=16.0, numerics=COARSE)
+
+
+def test_stresses_beyond_the_largest_stretch_are_no_numbers():
+    """They would be finite, of the wrong sign, and Newton's method could converge to them."""
+    gent = Chosen("gent", (("shear", 2.0), ("jm", 8.97)))
+    system = System(formulation(MPI.COMM_SELF, gent, 4.28, 6.0, TubeMesh(8, 2, 0.0)))
+    assert not np.any(np.isfinite(np.delete(system.residual(), system.bc_dofs)))
+
+
+def test_a_law_that_locks_ends_its_branch_with_the_reason():
+    result = solve("tube", model="gent", jm=10.0, delta1=2.0, lf=6.0, u_end=9.0, numerics=COARSE)
+    (failure,) = result.failures
+    assert "all but inextensible" in failure.reason or "up to u_max" in failure.reason
+    assert "lower u_end" in failure.reason
 
 
 # -- seeded faults ---------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
+from weakforms.errors import InputError
 from weakforms.forms.kinematics import Stretches, tube_stretches
 from weakforms.forms.loads import enclosed_volume, gas_potential
 from weakforms.forms.materials import stress_resultants
@@ -26,7 +27,7 @@ from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import graded_interval, tag_points
 from weakforms.solvers.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.constraints import Fold, Held
-from weakforms.solvers.continuation import Continuation, StepControl
+from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.newton import ExtendedNewton
 from weakforms.solvers.system import Formulation, State, System
 
@@ -41,6 +42,13 @@ FIRST_U = 0.02
 
 TAUT = 1.02
 """Pre-stretch from which the branch begins at ``p = 0`` (the layer at the disk is then resolved)."""
+
+STEEPEST = 1 - 1e-6
+"""Share of the pressure in the direction of the branch beyond which the membrane counts as inextensible: a
+law of limited stretch is nearly at its limit, and the branch goes on to any pressure."""
+
+LEAST_RESISTANCE = 0.02
+"""``lam1 w,11 / w,1`` at the mid-plane below which no mesh resolves the meridional stretch there."""
 
 
 @dataclass(frozen=True)
@@ -101,9 +109,23 @@ def formulation(
             "t1_mid": middle(t1),
             "V": enclosed_volume(rho, eta) * dx,
             "Pi": energy,
+            "resistance": middle(resistance(law, stretches)),
         },
+        internal=("resistance",),
         profile=_profile(unknown, stretches, p, d1, law),
     )
+
+
+def resistance(law: Law, stretches: Stretches) -> Expr:
+    r"""``λ₁ w,₁₁ - LEAST_RESISTANCE w,₁``: negative where the law hardly resists more meridional stretch.
+
+    Of free inflation :math:`H = w - \lambda_1 w_{,1}` is constant, and :math:`dH = -\lambda_1 w_{,11}` per
+    stretch: where that is nearly nothing (a law of linear growth, as Varga's), the stretch of the mid-plane
+    grows without bound at a finite displacement, and beyond it there is no solution of finite stretch.
+    """
+    l1 = ufl.variable(stretches.lam1)
+    slope = ufl.diff(law(l1, stretches.lam2), l1)
+    return l1 * ufl.diff(slope, l1) - LEAST_RESISTANCE * slope
 
 
 def _profile(unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr, law: Law) -> dict[str, Expr]:
@@ -156,9 +178,18 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
     """First state of the branch and what holds it: unloaded where the tube is taut, else slightly inflated.
 
     The latter is reached by walking down in the pre-stretch from a taut tube.
+
+    Raises:
+        InputError: For a pre-stretch beyond the largest stretch of the law.
     """
-    state = solver.system.state()
+    system = solver.system
+    state = system.state()
     if delta1 >= TAUT:
+        if not np.isfinite(system.monitor("Pi")):
+            raise InputError(
+                f"delta1 = {delta1:g} alone stretches the membrane beyond what its law allows; lower delta1 "
+                "(delta1_end of tube_fold), or raise the constant that limits stretches (jm, or links)"
+            )
         return state, Held("p", 0.0)
     inflated = Held("u_max", FIRST_U)
     for stretch in np.linspace(WALK_FROM, delta1, 7):
@@ -173,7 +204,34 @@ def free_branch(system: System, delta1: float, u_end: float, step: float) -> Equ
     continuation = Continuation(solver, control=StepControl(first=step / 4, largest=step))
     state, held = first_state(solver, delta1)
     start = continuation.start(state, held, towards={"u_max": 1.0})
-    return EquilibriumBranch(continuation, "p", start, stop=lambda point: point.monitors["u_max"] > u_end)
+
+    def stop(point: CurvePoint) -> bool:
+        return point.monitors["u_max"] > u_end or yields(point) or point.tangent.loads["p"] > STEEPEST
+
+    branch = EquilibriumBranch(continuation, "p", start, stop)
+    last = branch.points[-1]
+    if yields(last):
+        branch.stalled = f"free inflation ends: {yielding(last)}"
+    elif last.monitors["u_max"] < u_end:
+        why = branch.stalled or "there the membrane is all but inextensible"
+        branch.stalled = (
+            f"free inflation was followed up to u_max = {last.monitors['u_max']:.6g}, "
+            f"p = {last.state.loads['p']:.6g}: {why}"
+        )
+    return branch
+
+
+def yields(point: CurvePoint) -> bool:
+    """Whether the law hardly resists the meridional stretch of the mid-plane (:func:`resistance`)."""
+    return point.monitors["resistance"] < 0
+
+
+def yielding(point: CurvePoint) -> str:
+    """What happens there, for people."""
+    return (
+        f"at u_max = {point.monitors['u_max']:.6g} the law hardly resists meridional stretch any more "
+        f"({point.monitors['lam1_mid']:.3g} at the mid-plane), which grows without bound from there on"
+    )
 
 
 def fold_line(branch: EquilibriumBranch, delta1_end: float, step: float) -> FoldLine:

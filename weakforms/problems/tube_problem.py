@@ -185,7 +185,10 @@ def branch_maker(
             full=parameters.extent == "full",
         )
         system = System(formulation(comm, parameters.material, parameters.delta1, parameters.lf, at))
-        return free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
+        branch = free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
+        if branch.stalled is not None:
+            branch.stalled += f" (on {at.cells} cells); lower u_end, or raise cells if a solve failed"
+        return branch
 
     return make
 

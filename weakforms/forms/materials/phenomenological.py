@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from ufl import ln
+from ufl import ln, sqrt
 from ufl.core.expr import Expr
 
 
@@ -110,8 +110,8 @@ def gent(lam1: Expr, lam2: Expr, shear: Expr, jm: Expr) -> Expr:
 
 
 def limited(x: Expr, shear: Expr, jm: Expr) -> Expr:
-    """The same of ``x = I1 - 3``."""
-    return -shear * jm / 2 * ln(1 - x / jm)
+    """The same of ``x = I1 - 3``; stresses beyond ``jm`` are no numbers either, thanks to the square root."""
+    return -shear * jm * ln(sqrt(1 - x / jm))
 
 
 def varga(lam1: Expr, lam2: Expr, shear: Expr) -> Expr:
