@@ -128,6 +128,24 @@ def test_a_law_that_locks_ends_its_branch_with_the_reason():
     assert "lower u_end" in failure.reason
 
 
+def test_a_fold_line_that_does_not_reach_the_unstretched_tube_begins_at_the_other_end():
+    given = {"alpha": 0.1, "lf": 3.4}
+    line = solve("tube_fold", **given, delta1_end=4.9, numerics=COARSE)
+    (cusp,) = line.points("cusp_point")
+    columns = line.branch().columns
+    assert 3.0 < cusp.values["delta1"] < columns["delta1"][0] == pytest.approx(4.9, abs=1e-12)
+    first, second = solve("tube", **given, delta1=4.9, numerics=COARSE).points("limit_point")
+    assert columns["p"][0] == pytest.approx(first.values["p"], abs=1e-9)
+    assert columns["u_max"][0] == pytest.approx(first.values["u_max"], abs=1e-8)
+    assert columns["u_max"][-1] > second.values["u_max"]
+
+
+def test_a_tube_without_limit_points_says_where_they_were_looked_for():
+    searched = r"no limit point of alpha = 0\.8, lf = 6 up to u_max = 2 at any of 17 .* from 1 to .* = 1\.5"
+    with pytest.raises(InputError, match=searched):
+        solve("tube_fold", alpha=0.8, u_end=2.0, delta1_end=1.5, numerics=COARSE)
+
+
 # -- seeded faults ---------------------------------------------------------------------------------
 
 SENTINEL = Case(

@@ -234,18 +234,23 @@ def yielding(point: CurvePoint) -> str:
     )
 
 
-def fold_line(branch: EquilibriumBranch, delta1_end: float, step: float) -> FoldLine:
-    """The first limit point of a branch followed in ``delta1``, until it returns or reaches an end."""
+def fold_line(branch: EquilibriumBranch, ends: tuple[float, float], step: float) -> FoldLine:
+    """The first limit point of a branch followed in ``delta1``, until it returns or reaches an end.
+
+    Args:
+        branch: Free inflation at one of the ends.
+        ends: Pre-stretches between which the line is followed.
+        step: Largest arc-length step.
+    """
     begin = branch.special()[0].state
     middle = branch.points[int(branch.turns()[0])]
     fold = Fold("p", branch.system.mass_times(middle.tangent.u))
     solver = ExtendedNewton(branch.system, ["p", "delta1"])
-    low = begin.loads["delta1"]
+    low, high = ends
+    at = begin.loads["delta1"]
     continuation = Continuation(solver, [fold], StepControl(first=step / 4, largest=step), shift=1e-6)
-    start = continuation.start(begin, Held("delta1", low), towards={"delta1": 1.0})
+    inwards = 1.0 if at < (low + high) / 2 else -1.0
+    start = continuation.start(begin, Held("delta1", at), towards={"delta1": inwards})
     return FoldLine(
-        continuation,
-        "delta1",
-        start,
-        stop=lambda point: not low < point.state.loads["delta1"] < delta1_end,
+        continuation, "delta1", start, stop=lambda point: not low < point.state.loads["delta1"] < high
     )

@@ -9,7 +9,7 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.base import Progress, Requests, check_requests, registry
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, MaterialChoice
 from weakforms.problems.path import Family, MeshNumerics, PathProblem
@@ -76,6 +76,10 @@ DERIVED_COLUMNS = (
 
 CONTACT_COLUMNS = ("Z_front", "contact_length", "lam2_mid", "kappa", *DERIVED_COLUMNS)
 """Columns of constrained inflation only."""
+
+
+SCANNED = 17
+"""Pre-stretches at which a limit point is looked for before a fold line counts as absent."""
 
 
 class TubeNumerics(MeshNumerics):
@@ -232,19 +236,24 @@ class TubeFold(PathProblem):
         comm: MPI.Intracomm,
         progress: Progress,
     ) -> dict[str, Family]:
-        """The first limit point at ``delta1 = 1``, followed on all meshes."""
-        given = parameters.model_dump()
-        tube = TubeParameters(**{n: v for n, v in given.items() if n != "delta1_end"})
-        branch = branch_maker(tube, numerics, comm, progress)
+        """The first limit point at one end of the pre-stretches, followed on all meshes."""
+        given = {n: v for n, v in parameters.model_dump().items() if n != "delta1_end"}
+        ends = 1.0, parameters.delta1_end
+
+        def branch(delta1: float, level: int) -> EquilibriumBranch:
+            tube = TubeParameters(**given, delta1=delta1)
+            return branch_maker(tube, numerics, comm, progress)(level)
+
+        start = _fold_start(parameters, lambda delta1: bool(len(branch(delta1, 0).turns())))
 
         def make(level: int) -> SolutionCurve:
-            equilibria = branch(level)
+            equilibria = branch(start, level)
             if not len(equilibria.turns()):
-                raise InputError(
-                    f"tube_fold: at {_named(parameters.material)}, lf = {parameters.lf:g} the unstretched "
-                    f"tube has no limit point up to u_max = {parameters.u_end:g}: no fold line starts there"
+                raise ConvergenceError(
+                    f"tube_fold: at delta1 = {start:g} a mesh of {numerics.meshes[0]} cells has a limit point, "
+                    f"one of {numerics.meshes[level]} has none: raise cells"
                 )
-            return fold_line(equilibria, parameters.delta1_end, numerics.step)
+            return fold_line(equilibria, ends, numerics.step)
 
         return {
             "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("delta1", "u_max"))
@@ -253,6 +262,30 @@ class TubeFold(PathProblem):
     def points(self, parameters: TubeFoldParameters) -> np.ndarray:
         """61 points from the mid-plane to the disk."""
         return np.linspace(0, parameters.lf / 2, 61)
+
+
+def _fold_start(parameters: TubeFoldParameters, has_limit_point: Callable[[float], bool]) -> float:
+    """Pre-stretch at which a fold line is begun: 1, or else ``delta1_end``.
+
+    Raises:
+        InputError: When no limit point is there; says what was searched.
+    """
+    low, high = 1.0, parameters.delta1_end
+    for delta1 in (low, high):
+        if has_limit_point(delta1):
+            return delta1
+    scanned = np.linspace(low, high, SCANNED)
+    inside = [float(delta1) for delta1 in scanned[1:-1] if has_limit_point(float(delta1))]
+    if inside:
+        raise InputError(
+            f"tube_fold: no limit point at delta1 = 1 or delta1_end = {high:g}, where a fold line is begun; "
+            f"there are some from delta1 = {inside[0]:.4g} to {inside[-1]:.4g}: set delta1_end to one"
+        )
+    raise InputError(
+        f"tube_fold: no limit point of {_named(parameters.material)}, lf = {parameters.lf:g} up to "
+        f"u_max = {parameters.u_end:g} at any of {SCANNED} pre-stretches from 1 to delta1_end = {high:g}: no "
+        f"fold line to follow; change the law or lf, or raise u_end or delta1_end (allowed: up to 10 and 5)"
+    )
 
 
 def _named(chosen: Chosen) -> str:
