@@ -5,7 +5,7 @@ import pytest
 from mpi4py import MPI
 
 import weakforms.problems.tube_contact as contact_module
-from weakforms import InputError, WeakformsError, reference, solve
+from weakforms import ConvergenceError, InputError, WeakformsError, reference, solve
 from weakforms.forms import loads
 from weakforms.problems.tube_contact import ContactData
 from weakforms.problems.tube_contact_runs import ContactRun
@@ -78,6 +78,50 @@ def test_states_before_and_after_contact_are_told_apart():
     columns = result.branch().columns
     assert np.all(np.diff(columns["p"]) > 0)
     assert np.all((columns["contact_length"] > 0) == (columns["Z_front"] > 0))
+
+
+# -- far from the tube, long patches, laws that give way ---------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "changes", [{"delta1": 1.5, "k": 100.0, "s": 1.6}, {"lf": 5.0, "delta1": 1.2, "k": 5.0, "s": 1.8}]
+)
+def test_a_patch_that_is_still_short_at_p_end_has_its_history(changes):
+    """The first edges of the history lie before the first point of the frictionless trace."""
+    run = ContactRun(MPI.COMM_SELF, data(**changes), p_end=3.0, step=0.08, terms=22)
+    (edge,) = {run.frictionless.points[0].state.loads["front"]}
+    before = run._slipped(edge / 2)
+    assert before.state.loads["front"] == pytest.approx(edge / 2, rel=1e-12)
+    assert run.onset.values["p"] < before.values["p"] < run.frictionless.points[0].state.loads["p"]
+    assert run.adhesive.points[-1].state.loads["p"] > 3.0
+    for point in run.adhesive.points[1:]:
+        assert point.monitors["lam1_mid"] == pytest.approx(run.onset.values["lam1_mid"], abs=1e-9)
+        assert point.monitors["line_force"] < 1e-4
+
+
+def test_contact_is_followed_until_the_patch_holds_nearly_all_of_the_tube():
+    given = {"alpha": 0.035, "lf": 1.5, "delta1": 1.5, "s": 1.015, "k": 15.0}
+    end = ContactRun(MPI.COMM_SELF, data(**given), p_end=10.0, step=0.08).frictionless.points[-1]
+    assert end.state.loads["p"] > 10.0
+    assert 0.97 < end.state.loads["front"] / 0.75 < 1.0
+
+
+def test_a_pressure_at_once_after_contact_is_refused_with_the_least_one(run):
+    close = run.onset.values["p"] + 1e-9
+    with pytest.raises(InputError, match=r"p_end = .* too close above first contact at p = 1\.43859"):
+        ContactRun(MPI.COMM_SELF, data(), p_end=close, step=0.08).frictionless  # noqa: B018
+
+
+def test_a_substrate_that_is_never_touched_is_told_with_the_largest_radius_that_is():
+    given = {"model": "varga", "lf": 2.6, "delta1": 1.2, "s": 2.9, "contact": "adhesive", "numerics": MESH}
+    with pytest.raises(ConvergenceError, match=r"s = 2\.9 is not touched.*lower s to less than 2\.5"):
+        solve("tube", **given)
+
+
+def test_a_pressure_that_is_not_reached_is_told():
+    given = {"model": "varga", "lf": 20.0, "delta1": 1.4, "s": 1.4, "k": 8.0, "p_end": 10.0}
+    with pytest.raises(ConvergenceError, match=r"followed up to p = .*, not p_end = 10.*lower p_end"):
+        solve("tube", **given, contact="adhesive", numerics=MESH)
 
 
 # -- seeded faults ---------------------------------------------------------------------------------

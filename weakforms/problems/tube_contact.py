@@ -28,6 +28,7 @@ from weakforms.forms.materials import stress_resultants
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import tag_points
 from weakforms.problems.series import Series
+from weakforms.problems.tube import resistance
 from weakforms.solvers.system import Formulation, System
 
 MIDPLANE, FRONT, DISK = 1, 2, 3
@@ -196,6 +197,7 @@ class ContactModel:
                 "t1_mid": t1 * ends(MIDPLANE),
                 "V": enclosed_volume(rho, axial) * dx,
                 "Pi": energy,
+                "resistance": resistance(law, stretches) * ends(MIDPLANE),
                 "slope_outside": self._one_sided(self._in_patch(0.0, eta_x / jacobian)),
                 "jump": self._one_sided(self._in_patch(force, -force) / rho),
                 "membrane_jump": self._one_sided(self._in_patch(membrane, -membrane) / rho),
@@ -223,6 +225,7 @@ class ContactModel:
                 "f_t_front",
                 "t2_max_negative",
                 "slope_outside",
+                "resistance",
             ),
             locate=self.locate,
             profile={

@@ -10,7 +10,7 @@ from mpi4py import MPI
 from numpy.polynomial import chebyshev
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.tube import FIRST_U, TAUT, first_state
+from weakforms.problems.tube import FIRST_U, TAUT, free_branch, yielding, yields
 from weakforms.problems.tube_contact import FIRST_FRONT, ContactData, ContactModel
 from weakforms.solvers.branch import EquilibriumBranch, FittedBranch, Solved
 from weakforms.solvers.constraints import Held
@@ -24,7 +24,7 @@ SWEEPS = 60
 HISTORY_ACCURACY = 2e-11
 """Largest defect of ``E'(z_f) = eta'(z_f+)`` accepted."""
 
-LAST_FRONT = 0.97
+LAST_FRONT = 0.999
 """Front, as a fraction of the half length, beyond which contact is not followed."""
 
 
@@ -52,12 +52,19 @@ class ContactRun:
 
     @cached_property
     def free(self) -> EquilibriumBranch:
-        """Free inflation up to first touch."""
-        solver = ExtendedNewton(self.slip.system, ["p"])
-        continuation = Continuation(solver, control=self._steps(4))
-        state, held = first_state(solver, self.data.delta1)
-        start = continuation.start(state, held, towards={"u_max": 1.0})
-        branch = EquilibriumBranch(continuation, "p", start, stop=lambda q: q.monitors["u_max"] > self._touch)
+        """Free inflation up to first touch.
+
+        Raises:
+            ConvergenceError: When the branch ends before.
+        """
+        branch = free_branch(self.slip.system, self.data.delta1, self._touch, self.step)
+        last = branch.points[-1]
+        if last.monitors["u_max"] < self._touch:
+            raise ConvergenceError(
+                f"tube: s = {self.data.s:g} is not touched: {branch.stalled}; "
+                f"lower s to less than {1 + last.monitors['u_max']:.6g}"
+            )
+        branch.stalled = None
         branch.end_at("u_max", self._touch)
         return branch
 
@@ -86,17 +93,34 @@ class ContactRun:
 
     def _follow(self, model: ContactModel, state: State, p_end: float) -> FittedBranch:
         solver = ExtendedNewton(model.system, ["p", "front"])
-        continuation = Continuation(solver, [Held("gap", 0.0)], self._steps(16))
+        continuation = Continuation(
+            solver,
+            [Held("gap", 0.0)],
+            self._steps(16),
+            allowed=lambda state: 0 < state.loads["front"] < model.half,
+        )
         front = FIRST_FRONT * model.half
         start = continuation.start(state, Held("front", front), towards={"front": 1.0})
+        least = start.state.loads["p"]
+        if least >= p_end:
+            raise InputError(
+                f"tube: p_end = {p_end:g} is too close above first contact at p = "
+                f"{self.onset.values['p']:.8g}; raise it to more than {least:.8g}"
+            )
         last = LAST_FRONT * model.half
 
         def stop(point: CurvePoint) -> bool:
-            return point.state.loads["p"] > p_end or point.state.loads["front"] > last
+            loads = point.state.loads
+            return loads["p"] > p_end or loads["front"] > last or yields(point)
 
         branch = FittedBranch(continuation, "p", start, stop)
-        if branch.points[-1].state.loads["p"] < p_end and branch.stalled is None:
-            branch.stalled = f"the front reaches {LAST_FRONT:g} of the half length before p = {p_end:g}"
+        end = branch.points[-1]
+        if end.state.loads["p"] < p_end:
+            why = branch.stalled or f"there the patch holds {LAST_FRONT:g} of the tube's length"
+            branch.stalled = (
+                f"contact was followed up to p = {end.state.loads['p']:.6g}, not p_end = {p_end:g}: "
+                f"{yielding(end) if yields(end) else why}"
+            )
         return branch
 
     # -- stick ---------------------------------------------------------------------------------
@@ -113,12 +137,12 @@ class ContactRun:
         Raises:
             ConvergenceError: When the sweeps do not converge.
         """
-        span = self.frictionless.at("p", self.p_end).state.loads["front"]
+        span = self._reached(self.frictionless).state.loads["front"]
         model = ContactModel(self.comm, replace(self.data, terms=self.terms, span=span))
         t = -np.cos(np.pi * np.arange(self.terms) / (self.terms - 1))
         fronts = span * (1 + t[1:]) / 2
         first = self.onset.values["lam1_mid"] / self.data.delta1
-        slipped = [self.frictionless.at("front", z) for z in fronts]
+        slipped = [self._slipped(z) for z in fronts]
         slopes = np.array([first, *(s.values["slope_outside"] for s in slipped)])
         solver = ExtendedNewton(model.system, ["p", "front"])
         states = [stick_guess(model, s) for s in slipped]
@@ -131,6 +155,22 @@ class ContactRun:
             if defect < HISTORY_ACCURACY:
                 return model
         raise ConvergenceError(f"history of the stuck patch: defect {defect:.1e} after {SWEEPS} sweeps")
+
+    def _slipped(self, front: float) -> Solved:
+        """Frictionless contact with the edge of the patch at a place, before the first point traced too."""
+        trace = self.frictionless
+        first = trace.points[0].state
+        return trace.near(first, "front", front) if front < first.loads["front"] else trace.at("front", front)
+
+    def _reached(self, branch: FittedBranch) -> Solved:
+        """The state at ``p_end``.
+
+        Raises:
+            ConvergenceError: When the branch ends before.
+        """
+        if len(branch.crossings("p", self.p_end)):
+            return branch.at("p", self.p_end)
+        raise ConvergenceError(f"tube: {branch.stalled}; lower p_end")
 
     @cached_property
     def adhesive(self) -> FittedBranch:
@@ -147,7 +187,7 @@ class ContactRun:
     @cached_property
     def deflation(self) -> EquilibriumBranch:
         """Deflation to ``p = 0`` with the patch reached at ``p_end``, which does not peel."""
-        state = self.adhesive.at("p", self.p_end).state
+        state = self._reached(self.adhesive).state
         model = self.stick
         if self.data.unilateral:
             history = model.history

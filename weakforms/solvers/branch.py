@@ -114,6 +114,10 @@ class SolutionCurve:
         self._require_within(i, solved, f"state at {name} = {value:g}")
         return solved
 
+    def near(self, guess: State, name: str, value: float) -> Solved:
+        """The state at which a column takes a value, from a state near it, such as an end of the branch."""
+        return self._solve(guess, Held(name, value))
+
     def _fraction(self, i: int, name: str, value: float) -> float:
         """Where between two neighbours a column has a value; a load by its own cubic, next to a turn too."""
         if name in self.loads:
