@@ -21,7 +21,7 @@ from weakforms.solvers.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.constraints import Fold, Held
 from weakforms.solvers.continuation import Continuation, StepControl
 from weakforms.solvers.family import BranchFamily
-from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.newton import STOPPING, ExtendedNewton
 
 THESIS = "Patil (2016), chapter 3"
 
@@ -55,7 +55,7 @@ class ClosedProblem(PathProblem):
             problem=self.name,
             parameters=parameters.model_dump(),
             scales=self.scales,
-            numerics={**numerics.model_dump(), "stopping": "relative Newton step 1e-10, residual below 1e-8"},
+            numerics={**numerics.model_dump(), "stopping": STOPPING},
             provenance={},
         )
 

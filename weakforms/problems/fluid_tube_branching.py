@@ -22,7 +22,7 @@ from weakforms.solvers.branch import EquilibriumBranch, Solved
 from weakforms.solvers.constraints import MonitorPlane, Plane
 from weakforms.solvers.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.linear import BorderedMatrix, Factorization
-from weakforms.solvers.newton import RESIDUAL_LIMIT, Constraint, SolveRecord
+from weakforms.solvers.newton import Constraint, SolveRecord, residual_limit
 from weakforms.solvers.system import State
 
 AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
@@ -149,7 +149,7 @@ class SecondaryBranch(EquilibriumBranch):
         null = bordered.solve(nothing, np.ones(1))[0]
         self.mode = null / np.sqrt(system.dot(null, system.mass_times(null)))
         self._across = system.mass_times(self.mode)
-        if not norms[-1] < RESIDUAL_LIMIT:
+        if not norms[-1] <= residual_limit(system):
             raise ConvergenceError(f"the bifurcation point has a residual of {norms[-1]:.1e}")
         values = self.bifurcation.values | system.monitors()
         self.bifurcation = Solved(values, state, self.bifurcation.kind)

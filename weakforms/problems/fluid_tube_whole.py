@@ -22,7 +22,7 @@ from weakforms.problems.fluid_tube_critical import AxisymmetricState, PrimaryBra
 from weakforms.problems.fluid_tube_surface import SurfaceData, SurfaceModel
 from weakforms.results import Failure, Quantity, Result
 from weakforms.solvers.constraints import Held, Plane
-from weakforms.solvers.newton import ExtendedNewton
+from weakforms.solvers.newton import STOPPING, ExtendedNewton
 from weakforms.solvers.provenance import provenance, quadrature_degree
 from weakforms.solvers.roots import root
 from weakforms.solvers.stability import Stability
@@ -138,7 +138,7 @@ class FluidTubeSurface:
             scales=self.scales,
             numerics={
                 **numerics.model_dump(),
-                "stopping": "relative Newton step 1e-10, residual norm below 1e-8",
+                "stopping": STOPPING,
             },
             provenance={},
         )

@@ -15,6 +15,7 @@ from weakforms.problems.base import Numerics, Parameters, Progress, Requests, sa
 from weakforms.results import Branch, Failure, Result, SpecialPoint, State
 from weakforms.results.drawing import draw, seed_of
 from weakforms.solvers.branch import DIAGNOSTICS
+from weakforms.solvers.newton import STOPPING
 from weakforms.solvers.provenance import provenance
 
 
@@ -105,7 +106,7 @@ class PathProblem:
             numerics={
                 **numerics.model_dump(),
                 "meshes": numerics.meshes,
-                "stopping": "relative Newton step 1e-10, residual norm below 1e-8",
+                "stopping": STOPPING,
             },
             provenance={},
         )

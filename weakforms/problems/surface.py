@@ -29,6 +29,7 @@ from weakforms.problems.surface_parameters import (
 from weakforms.problems.surface_run import Point, SurfaceRun
 from weakforms.problems.surface_symmetry import Meridian
 from weakforms.results import Branch, Failure, Quantity, Result, SpecialPoint, State
+from weakforms.solvers.newton import STOPPING
 from weakforms.solvers.provenance import provenance
 
 SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
@@ -139,7 +140,7 @@ class Surface:
             parameters=full.model_dump(),
             scales=self.scales,
             numerics=numerics.model_dump()
-            | {"stopping": "relative Newton step 1e-11 (symmetric) or 1e-10, residual norm below 1e-8"},
+            | {"stopping": f"symmetric states: relative Newton step 1e-11; all: {STOPPING}"},
             provenance={},
         )
         loads = np.linspace(full.load_start, full.load_end, numerics.scan + 1)

@@ -12,7 +12,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.surface_model import SurfaceModel
 from weakforms.results import SpecialPoint
 from weakforms.solvers.lowest import Lowest
-from weakforms.solvers.newton import RESIDUAL_LIMIT, ExtendedNewton, SolveRecord
+from weakforms.solvers.newton import ExtendedNewton, SolveRecord, residual_limit
 from weakforms.solvers.stability import Mode, Stability
 from weakforms.solvers.system import State
 
@@ -105,7 +105,7 @@ class SurfaceRun:
             state, record = self._newton.solve(symmetric)
         r = self.system.residual()
         residual = float(np.sqrt(self.system.dot(r, r)))
-        if not residual < RESIDUAL_LIMIT:
+        if not residual <= residual_limit(self.system):
             raise ConvergenceError(
                 f"{self.control} = {load:g}: the ring-periodic equilibrium is none of the whole surface, its "
                 f"residual is {residual:.1e}"

@@ -24,7 +24,18 @@ _REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).item
 
 
 RESIDUAL_LIMIT = 1e-8
-"""Residual norm above which no state is accepted, however small the last step (forces are of order one)."""
+"""Residual norm above which no state is accepted where forces are of order one, however small the last step;
+and the most by which a constraint may be missed."""
+
+OF_FORCES = 1e-15, 1e-10
+"""Least and largest value of that limit over the size of the forces (:meth:`System.force_size`): the first is
+some 25 times what round-off leaves, the second what a Newton step at the tolerance amounts to."""
+
+STOPPING = (
+    "relative Newton step 1e-10; residual norm below 1e-8, but not below 1e-15 nor above 1e-10 of the nodal "
+    "forces before they balance, |K| |U|"
+)
+"""What results say of it."""
 
 
 class Constraint(Protocol):
@@ -46,6 +57,13 @@ class SolveRecord:
     factorizations: int
     norms: tuple[float, ...]
     """Residual norm of the whole system at each iteration."""
+
+
+def residual_limit(system: System) -> float:
+    """Residual norm above which the state that a system holds is none; its tangent is of a state close by."""
+    low, high = OF_FORCES
+    size = system.force_size()
+    return min(max(RESIDUAL_LIMIT, low * size), high * size)
 
 
 class ExtendedNewton:
@@ -211,13 +229,19 @@ class ExtendedNewton:
         finally:
             record = solve_record(snes, self.factor.count - before)
             self.left = record.norms[-1] if record.norms else np.inf
-        if snes.getConvergedReason() <= 0 or not self.left < RESIDUAL_LIMIT:
+        if snes.getConvergedReason() <= 0 or not self._is_balanced(snes):
             raise ConvergenceError(
                 f"SNES ended with {record.reason} after {record.iterations} iterations, "
                 f"residual {self.left:.1e}"
             )
-        self._put(self._x)
         return system.state(), record
+
+    def _is_balanced(self, snes: PETSc.SNES) -> bool:
+        """Whether what SNES left of forces and constraints is within limits; the system holds its state."""
+        self._put(self._x)
+        forces, missed = self._split(snes.getFunction()[0])
+        within = self.system.dot(forces, forces) <= residual_limit(self.system) ** 2
+        return within and all(abs(value) < RESIDUAL_LIMIT for value in missed)
 
 
 class _BorderedOperator:
