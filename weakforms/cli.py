@@ -357,6 +357,31 @@ def faults(
 
 
 @app.command()
+def audit(
+    problems: Annotated[
+        list[str] | None,
+        typer.Option("--problem", metavar="NAME", help="Only this problem; may be repeated."),
+    ] = None,
+    sets: Annotated[int, typer.Option(min=1, max=10_000, help="Sets of parameters a problem.")] = 8,
+    seed: Annotated[int | None, typer.Option(min=0, help="Of the draws; default: today's date.")] = None,
+    limit: Annotated[float, typer.Option(min=1, help="Seconds after which a solve is ended.")] = 300.0,
+    out: Out = Path("out"),
+    resume: Resume = False,
+    as_json: Json = False,
+) -> None:
+    """Solve at parameters drawn over all allowed ranges; say which sets are not answered, and why."""
+    from weakforms.verification.audit.verb import audit_verb
+
+    try:
+        status = audit_verb(problems or [], sets, seed, limit, out, resume, as_json, console())
+    except KeyboardInterrupt:
+        complain("interrupted; the same with --resume and the seed goes on from what is known")
+        raise typer.Exit(130) from None
+    if status:
+        raise typer.Exit(status)
+
+
+@app.command()
 def docs(
     jobs: Jobs,
     out: Annotated[Path, typer.Option("--out", help="Folder for the pages.")] = Path("out/docs"),

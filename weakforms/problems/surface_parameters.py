@@ -50,7 +50,9 @@ class SurfaceParameters(MaterialChoice):
     ratio: ClassVar[str] = "c2"
 
     geometry: Annotated[str, AfterValidator(_known)] = Field(
-        "tube", description="tube, hemisphere, or a file with triangles (msh, vtu, stl)"
+        "tube",
+        description="tube, hemisphere, or a file with triangles (msh, vtu, stl)",
+        examples=["tube", "hemisphere"],
     )
     meridional: int = Field(120, ge=2, le=2000, description="tube: quadrilaterals along it")
     circumferential: Annotated[int, AfterValidator(_closes)] = Field(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, Field
 
 MOST_WAVES = 400
 """Largest wave number one may ask for: shorter waves than the default meshes were tried with."""
@@ -26,5 +26,5 @@ def _waves(value: object) -> object:
     return tuple(dict.fromkeys(found))
 
 
-WaveNumbers = Annotated[tuple[int, ...], BeforeValidator(_waves)]
+WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], BeforeValidator(_waves)]
 """Parameter ``n``: numbers of waves around the axis whose stability is judged."""

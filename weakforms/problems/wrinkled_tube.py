@@ -104,6 +104,9 @@ def _radius(value: object) -> object:
     return radius
 
 
+Radius = Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=3)], BeforeValidator(_radius)]
+"""Parameter ``Af``."""
+
 NEAR_FRONTS = (0.02, 0.1, 0.4)
 """Distances from fronts, over Ao, within which cells are smaller where short waves are judged: they decay
 from the front into a taut zone over ``1/n``."""
@@ -126,7 +129,7 @@ class WrinkledParameters(MaterialChoice):
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
-    Af: Annotated[Literal["critical"] | float, BeforeValidator(_radius)] = Field(
+    Af: Radius = Field(
         "critical",
         description="radius of the disks: 'critical' (Case 1), or a number above 0, such as 1 (Case 2)",
     )

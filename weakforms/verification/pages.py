@@ -17,6 +17,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from weakforms.verification import summary
+from weakforms.verification.audit.outcome import STATUSES, Audited
 from weakforms.verification.elsewhere import Elsewhere
 from weakforms.verification.faults.outcome import FaultOutcome, Seeded
 from weakforms.verification.figures import LOOK, TEMPLATES, convergence_figure, panel_figure
@@ -39,6 +40,7 @@ RESERVED = (
     "environment",
     "faults",
     "elsewhere",
+    "audit",
 )
 """Identifiers that the templates use themselves."""
 GROUPS = {
@@ -74,7 +76,11 @@ GROUPS = {
 
 
 def render(
-    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = (), jobs: int = 1
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    jobs: int = 1,
+    audited: Audited | None = None,
 ) -> dict[str, str]:
     """Every page of the report.
 
@@ -83,22 +89,29 @@ def render(
         seeded: What became of seeded faults, where the catalogue was run.
         others: Runs of the same cases on other ranks or releases.
         jobs: Processes that draw, side by side.
+        audited: What became of parameters drawn over all ranges, where an audit was made.
 
     Returns:
         HTML by file name; the first page is ``index.html``. No page loads anything.
     """
-    facts = _facts(run, seeded, others, jobs)
+    facts = _facts(run, seeded, others, jobs, audited)
     pages = {
         group["page"]: template("group.html").render(facts, group=group, here=group["page"])
         for group in facts["groups"]
     }
-    pages["faults.html"] = template("faults.html").render(facts, here="faults.html")
+    for name in ("faults.html", "audit.html"):
+        pages[name] = template(name).render(facts, here=name)
     return pages | {"index.html": template("index.html").render(facts, here="index.html")}
 
 
-def render_whole(run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = ()) -> str:
+def render_whole(
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    audited: Audited | None = None,
+) -> str:
     """All pages as one, for printing: every link stays within it."""
-    return template("whole.html").render(_facts(run, seeded, others), here=None)
+    return template("whole.html").render(_facts(run, seeded, others, audited=audited), here=None)
 
 
 def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
@@ -144,7 +157,11 @@ def _environment() -> Environment:
 
 
 def _facts(
-    run: RunOutcome, seeded: Seeded | None = None, others: tuple[Elsewhere, ...] = (), jobs: int = 1
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    jobs: int = 1,
+    audited: Audited | None = None,
 ) -> dict[str, Any]:
     """Everything a template may name, made from the run and what lies beside it alone."""
     taken = set(RESERVED)
@@ -173,6 +190,8 @@ def _facts(
         "differing": _differing(views),
         "seeded": seeded or Seeded(),
         "others": others,
+        "audited": audited or Audited(),
+        "audit_statuses": STATUSES,
         "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
         "look": LOOK,
     }
@@ -183,7 +202,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     found: dict[str, list[dict[str, Any]]] = {}
     for view in views:
         found.setdefault(view["case"].id.partition(".")[0], []).append(view)
-    taken = {"index", "faults"}
+    taken = {"index", "faults", "audit"}
     out = []
     for key, members in found.items():
         name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))

@@ -9,6 +9,7 @@ import tempfile
 from pathlib import Path
 
 from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.verification.audit.outcome import Audited
 from weakforms.verification.elsewhere import load_elsewhere
 from weakforms.verification.faults.outcome import Seeded
 from weakforms.verification.outcome import RunOutcome
@@ -81,7 +82,7 @@ def write_pdf(run: RunOutcome, path: Path) -> Path:
     with tempfile.TemporaryDirectory(prefix="weakforms-pdf-") as name:
         folder = Path(name)
         page, printed = folder / "report.html", folder / "report.pdf"
-        beside = Seeded.beside(path.parent), load_elsewhere(path.parent)
+        beside = Seeded.beside(path.parent), load_elsewhere(path.parent), Audited.beside(path.parent)
         page.write_text(render_whole(run, *beside), encoding="utf-8")
         command = [program, *QUIET, f"--user-data-dir={folder / 'profile'}", "--no-pdf-header-footer"]
         # A browser's own sandbox does not work for root; the page has no script to guard against.

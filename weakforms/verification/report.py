@@ -18,6 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
+from weakforms.verification.audit.outcome import Audited
 from weakforms.verification.elsewhere import NAME as ELSEWHERE
 from weakforms.verification.elsewhere import Elsewhere, load_elsewhere
 from weakforms.verification.faults.outcome import Seeded
@@ -34,8 +35,8 @@ _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "res
 def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int = 1) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
 
-    A ``faults.json`` in the folder gives the page of seeded faults its table, an ``elsewhere.json`` the first
-    page that of other runs, until the cases are run anew.
+    A ``faults.json`` in the folder gives the page of seeded faults its table, an ``audit.json`` that of the
+    audit, an ``elsewhere.json`` the first page that of other runs, until the cases are run anew.
 
     Args:
         run: What ``verify`` left.
@@ -56,7 +57,7 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
         "junit.xml": junit_xml(run),
     }
     folder = Path(folder)
-    beside = Seeded.beside(folder), load_elsewhere(folder) if stored else ()
+    beside = Seeded.beside(folder), load_elsewhere(folder) if stored else (), Audited.beside(folder)
     drawn = _redrawn(run, *beside, jobs) if stored else {}
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -71,15 +72,20 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
     return folder / "index.html"
 
 
-def _drawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], jobs: int) -> dict[str, str]:
+def _drawn(
+    run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
+) -> dict[str, str]:
     """Shapes and pages by name, ``index.html`` last."""
-    return {name: vtu(surface) for name, surface in shape_files(run)} | render(run, seeded, others, jobs)
+    shapes = {name: vtu(surface) for name, surface in shape_files(run)}
+    return shapes | render(run, seeded, others, jobs, audited)
 
 
-def _redrawn(run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], jobs: int) -> dict[str, str]:
+def _redrawn(
+    run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
+) -> dict[str, str]:
     """The same of a stored run, the numbers of which may be anybody's."""
     try:
-        return _drawn(run, seeded, others, jobs)
+        return _drawn(run, seeded, others, audited, jobs)
     except EnvironmentLackError:
         raise
     except Exception as error:

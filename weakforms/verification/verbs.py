@@ -8,6 +8,7 @@ from pathlib import Path
 import typer
 
 from weakforms.terminal import complain, console, plain, progress_bar, rank
+from weakforms.verification.audit.outcome import NAME as AUDIT
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.elsewhere import elsewhere, write_elsewhere
 from weakforms.verification.faults.outcome import NAME as FAULTS
@@ -47,6 +48,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
             raise typer.Exit(130) from None
         if first:
             keep_beside(out / FAULTS, out / "report")
+            keep_beside(out / AUDIT, out / "report", AUDIT)
             page = write_report(run, out / "report", jobs=jobs)
             print_summary(run, console())
             console().print(f"report: {plain(page)}", soft_wrap=True)
@@ -82,6 +84,8 @@ def report(
         load_faults(seeded)
     known = (seeded, folder / FAULTS, stored / FAULTS)
     keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
+    audits = (folder / AUDIT, stored / AUDIT)
+    keep_beside(next((path for path in audits if path.is_file()), None), out or stored, AUDIT)
     if others:
         write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
     written = [write_report(run, out or stored, stored=True, jobs=jobs)]

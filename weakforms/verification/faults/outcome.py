@@ -204,15 +204,15 @@ class Seeded:
             return cls(None, str(error))
 
 
-def keep_beside(source: Path | None, folder: Path) -> None:
-    """Put a run of the catalogue into a report's folder; nothing happens where there is none.
+def keep_beside(source: Path | None, folder: Path, name: str = NAME) -> None:
+    """Put a run of the catalogue, or what has another name, into a report's folder, where there is one.
 
     Raises:
         InputError: When it cannot be written.
     """
     if source is None or not source.is_file():
         return
-    write_atomically(folder / NAME, source.read_text("utf-8", "replace"))
+    write_atomically(folder / name, source.read_text("utf-8", "replace"))
 
 
 def print_faults(run: FaultsRun, console: Console) -> None:
