@@ -211,8 +211,15 @@ class SolutionCurve:
         return {name: self.continuation.rate(name, point.tangent) for name in names}
 
     def end_at(self, name: str, value: float) -> None:
-        """Replace the last point by the one at which a column has a value, reached just before it."""
-        solved = self.at(name, value, len(self.crossings(name, value)))
+        """Replace the last point by the one at which a column has a value, reached just before it.
+
+        Raises:
+            ConvergenceError: When the trace ended before it.
+        """
+        crossings = len(self.crossings(name, value))
+        if not crossings:
+            raise ConvergenceError(f"{name} = {value:g} is not reached: {self.stalled or 'the branch ends'}")
+        solved = self.at(name, value, crossings)
         before, last = self.points[-2:]
         length = self.continuation.distance(solved.state, before.state)
         self.points[-1] = self.continuation.point(
