@@ -185,15 +185,23 @@ class WrinkledBranch:
         out = [(i, self._limit(i)[0]) for i in self.trace.turns().tolist()]
         out += [(e.after, self._point(self._event_values(e), e.kind, ("state",))) for e in self._events]
         for change in self.changes:
-            same = [
-                self.readings.without_fronts(held) | {"n": float(change.n), "direction": change.direction}
-                for held in change.levels
-            ]
-            out.append((change.after, self._point(same, "stability_change", ("n", "direction"))))
+            out.append((change.after, self._changed(change)))
         return [point for _, point in sorted(out, key=lambda item: item[0])]
 
     def _point(self, same: Sequence[dict[str, float]], kind: str, exact: Sequence[str] = ()) -> SpecialPoint:
         return self.readings.point([Solved(values, None, kind) for values in same], self.name, exact)
+
+    def _changed(self, change: Change) -> SpecialPoint:
+        """A change of stability; where a zone's event stands for it, its distance adds to the bounds."""
+        read = self.readings.without_fronts
+        exact = {"n": float(change.n), "direction": change.direction}
+        point = self._point([read(held) | exact for held in change.levels], "stability_change", tuple(exact))
+        if change.beside is None:
+            return point
+        near, own = read(change.beside), read(change.levels[-1])
+        off = {name: abs(near[name] - own[name]) for name in near}
+        wider = {name: u + off.get(name, 0.0) for name, u in point.uncertainty.items()}
+        return replace(point, uncertainty=wider)
 
     @cached_property
     def changes(self) -> list[Change]:
@@ -202,7 +210,7 @@ class WrinkledBranch:
         points = [(i, prescribed[i][1], prescribed[i][0].values[prescribed[i][1]], h) for i, h in self._fine]
         found = []
         for n in self.readings.waves:
-            located = StabilityChanges(self.membrane, n, self.readings.beta)
+            located = StabilityChanges(self.membrane, n, self.readings.beta, lambda: self._events)
             found += located.between(points)
             self._failures += located.failures
         return found

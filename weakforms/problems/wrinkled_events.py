@@ -18,6 +18,9 @@ from weakforms.solvers import constraints as fixed
 HALVINGS = 24
 """Times an interval of the load is halved until only one zone opens or closes in it."""
 
+LEAP = 0.1
+"""Distance, over the length, that a front moves between neighbours without a look at the states between."""
+
 SLACK = 1e-6
 """Relative distance from its bracket at which an event is accepted: a new zone is seen when it has some
 width."""
@@ -48,8 +51,6 @@ def events(membrane: Membrane, points: Sequence[tuple[int, Held]]) -> tuple[list
     at_ends = points[0][1].sampled(np.array([0.0, membrane.length]))["gw"]
     verge = np.abs(at_ends - 1) < VERGE
     for (i, a), (_, b) in pairwise(points):
-        if _fronts(a) == _fronts(b):
-            continue
         try:
             found.extend(_between(membrane, a, b, i, verge, HALVINGS))
         except ConvergenceError as error:
@@ -67,7 +68,9 @@ def _between(
 ) -> list[Event]:
     """Events between two states, by halving until one zone is all that differs."""
     if _fronts(a) == _fronts(b):
-        return []
+        if not halvings or not _leaps(a, b, membrane.length):
+            return []
+        return _in_halves(membrane, a, b, after, verge, halvings)
     opening = len(b.zones.fronts) > len(a.zones.fronts)
     absent, present = (a, b) if opening else (b, a)
     zone = _extra_zone(absent.zones, present.zones, membrane.length)
@@ -81,6 +84,18 @@ def _between(
                 raise
     if not halvings:
         return _at_both_ends(membrane, absent, present, after, opening)
+    return _in_halves(membrane, a, b, after, verge, halvings)
+
+
+def _leaps(a: Held, b: Held, length: float) -> bool:
+    """Whether a front is so far from where it was that it may be another: one zone opened, and one closed."""
+    return any(abs(x - y) > LEAP * length for x, y in zip(a.zones.fronts, b.zones.fronts, strict=True))
+
+
+def _in_halves(
+    membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
+) -> list[Event]:
+    """Events between two states, in one half of the load between them and then in the other."""
     low, high = (held.state.loads[membrane.control] for held in (a, b))
     middle = membrane.fitted(a, fixed.Held(membrane.control, (low + high) / 2))[-1]
     return [

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.wrinkled_events import SLACK, Event
 from weakforms.problems.wrinkled_fit import Membrane
 from weakforms.problems.wrinkled_modes import waves_at
 from weakforms.problems.wrinkled_state import Held
@@ -17,6 +18,10 @@ TOLERANCE = 1e-11
 
 STEPS, NOISE = 60, 1e-12
 """Steps to a root at most, and an eigenvalue that is zero."""
+
+JUMP = 1e-3
+"""Least eigenvalue on both sides of a change that is a jump, over those at the ends of the interval that is
+searched: the tangent jumps where a zone opens or closes."""
 
 CHORDS = 12
 """Secant steps on a coarser mesh, from the finest one's root."""
@@ -37,7 +42,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Change:
-    """Where the lowest eigenvalue of a wave number is zero."""
+    """Where the lowest eigenvalue of a wave number is zero, or jumps from one sign to the other."""
 
     n: int
     direction: float
@@ -46,6 +51,8 @@ class Change:
     """Point of the branch it comes after."""
     levels: tuple[Held, ...]
     """The state on every mesh, coarse to fine."""
+    beside: Held | None = None
+    """The finest mesh's state of least magnitude, where ``levels`` are those of a zone's event close by."""
 
 
 class StabilityChanges:
@@ -55,10 +62,17 @@ class StabilityChanges:
         membrane: Solves for states.
         n: Wave number.
         beta: Bending stiffness that waves meet besides.
+        events: Gives the zones that open or close along the branch; asked for where an eigenvalue jumps.
     """
 
-    def __init__(self, membrane: Membrane, n: int, beta: float = 0.0) -> None:
-        self.membrane, self.n, self.beta = membrane, n, beta
+    def __init__(
+        self,
+        membrane: Membrane,
+        n: int,
+        beta: float = 0.0,
+        events: Callable[[], Sequence[Event]] = tuple,
+    ) -> None:
+        self.membrane, self.n, self.beta, self._events = membrane, n, beta, events
         self.failures: list[Failure] = []
 
     def lowest(self, held: Held) -> float:
@@ -127,11 +141,46 @@ class StabilityChanges:
 
     def _located(self, a: Sample, b: Sample, name: str, after: int) -> Change:
         tried = self._narrowed(a, b, name)
+        direction, sides = 1.0 if a.lowest > 0 else -1.0, _jump(tried, a, b)
+        try:
+            return Change(self.n, direction, after, self._on_all(tried, name, sides))
+        except ConvergenceError:
+            fine = sides[0] if sides else tried[0]
+            event = self._event_at(fine, name)
+            if event is None:
+                raise
+            return Change(self.n, direction, after, event.levels, fine.held)
+
+    def _on_all(
+        self, tried: Sequence[Sample], name: str, sides: tuple[Sample, Sample] | None
+    ) -> tuple[Held, ...]:
+        """The root on every mesh, from the finest one's."""
+        if sides is not None:
+            before, beyond = sides
+            raise ConvergenceError(
+                f"Lambda for n = {self.n} jumps from {before.lowest:.3g} to {beyond.lowest:.3g} at "
+                f"{name} = {before.value:.9g}, where no zone was found to open or close"
+            )
         fine = tried[0]
         slope = _slope(tried)
         coarser = self.membrane.others(fine.held, fixed.Held(name, fine.value))
         levels = [self._on_mesh(k, held, name, fine.value, slope) for k, held in enumerate(coarser)]
-        return Change(self.n, 1.0 if a.lowest > 0 else -1.0, after, (*levels, fine.held))
+        return (*levels, fine.held)
+
+    def _event_at(self, fine: Sample, name: str) -> Event | None:
+        """The zone that opens or closes where an eigenvalue changes its sign, if one does.
+
+        A zone that opens stiffens the membrane by a finite amount while it is too thin for a coarse mesh, or
+        for any: its width grows like the root of the load.
+        """
+        for event in self._events():
+            held = event.levels[-1]
+            value = self._value(
+                (0, self.membrane.control, held.state.loads[self.membrane.control], held), name
+            )
+            if abs(value - fine.value) <= SLACK * max(1.0, abs(value)):
+                return event
+        return None
 
     def _narrowed(self, a: Sample, b: Sample, name: str) -> list[Sample]:
         """Samples up to the root between two, the nearest to it first.
@@ -181,6 +230,16 @@ class StabilityChanges:
             value += step
             held = self.membrane.fit(level, held, held.zones, (fixed.Held(name, value),), same=True)
         raise ConvergenceError(f"the root of Lambda for n = {self.n} was not found on mesh {level}")
+
+
+def _jump(tried: Sequence[Sample], a: Sample, b: Sample) -> tuple[Sample, Sample] | None:
+    """The samples next to a jump between two; none where the eigenvalue passes through zero."""
+    before, beyond = (
+        min((s for s in tried if s.lowest * near.lowest > 0), key=lambda s: abs(s.value - far.value))
+        for near, far in ((a, b), (b, a))
+    )
+    least = JUMP * (abs(a.lowest) + abs(b.lowest))
+    return (before, beyond) if min(abs(before.lowest), abs(beyond.lowest)) > least else None
 
 
 def _slope(nearest: Sequence[Sample]) -> float:
