@@ -110,9 +110,10 @@ verdicts = weakforms.compare(
     {"t0": heights, "p": pressures},
     name="free_alpha_0.1_beta_2",
     accuracy=1e-6,
+    only=["p"],
 )
 worst = verdicts.verdicts[0]
-print(f"{worst.statement}: error {worst.error:.1e}, bound {worst.bound:.1e} at {worst.where}")
+print(f"{worst.statement}: error {worst.signed_error:+.1e}, bound {worst.bound:.1e} at {worst.where}")
 print(f"judged over t0 in {verdicts.covered} of {verdicts.table}")
-print("within bounds" if verdicts.passed else "OUT OF BOUNDS")
-sys.exit(not verdicts.passed)
+print(verdicts.status)
+sys.exit(verdicts.exit_status)

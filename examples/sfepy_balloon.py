@@ -43,7 +43,7 @@ verdicts = weakforms.compare(
     constants={"r_o": 1.0, "S": 3e5, "h_o": 1e-2},
 )
 worst = verdicts.verdicts[0]
-print(f"{worst.statement}: error {worst.error:.1e}, bound {worst.bound:.1e} at {worst.where}")
+print(f"{worst.statement}: error {worst.signed_error:+.1e}, bound {worst.bound:.1e} at {worst.where}")
 print(f"judged over lam in {verdicts.covered}; {verdicts.ignored_rows} rows beyond the table")
-print("within bounds" if verdicts.passed else "OUT OF BOUNDS")
-sys.exit(not verdicts.passed)
+print(verdicts.status)
+sys.exit(verdicts.exit_status)

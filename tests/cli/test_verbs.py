@@ -222,19 +222,21 @@ def written(tmp_path):
 
 def table_columns(*names: str, part: slice = slice(None), **factors: float) -> dict:
     columns = references.load(2, CURVE).columns
-    return {n: columns[n][part] * factors.get(n, 1.0) for n in names or ("u_max", "p", "V")}
+    return {n: columns[n][part] * factors.get(n, 1.0) for n in names or columns}
 
 
 @pytest.mark.parametrize(
     ("columns", "options", "status", "said"),
     [
         (table_columns(p=1 + 1e-9), (), 0, "all of it is judged"),
-        (table_columns("V", "u_max", "p"), (), 0, "all of it is judged"),
+        (table_columns("V", "lam1_mid", "u_max", "t1_mid", "p"), (), 0, "all of it is judged"),
+        (table_columns("u_max", "p", "V"), (), 5, "NOT JUDGED"),
+        (table_columns("u_max", "p"), ("--column", "p"), 0, "left out: lam1_mid, t1_mid, V"),
         (table_columns(part=slice(None, None, -1)), (), 0, "all of it is judged"),
         (table_columns(part=slice(20, 60)), (), 0, "part of it is judged"),
         (table_columns(p=1 + 3e-7), (), 1, "OUT OF BOUNDS"),
         (table_columns(V=-1), (), 1, "OUT OF BOUNDS"),
-        (table_columns("u_max", "p", p=1 + 3e-7), ("--accuracy", "1e-6"), 0, "within"),
+        (table_columns("u_max", "p", p=1 + 3e-7), ("--accuracy", "1e-6", "--column", "p"), 0, "within"),
         (table_columns("u_max", "p", p=1 + 3e-9), ("--accuracy", "1e-9"), 1, "OUT OF BOUNDS"),
         (table_columns(u_max=1 + 1e-5), (), 1, "OUT OF BOUNDS"),
     ],
@@ -253,7 +255,7 @@ def test_verdicts_as_json(weakforms, written):
     assert (data["case"], data["curve"], data["abscissa"]) == (CASE, CURVE, "u_max")
     assert (data["rows"], data["ignored_rows"], data["partial"]) == (45, 0, True)
     assert data["covered"] == [columns["u_max"][0], columns["u_max"][-1]]
-    wrong, right = data["verdicts"]
+    wrong, *_, right = data["verdicts"]
     assert (wrong["check"], wrong["passed"]) == (f"{CURVE}:p", False)
     assert wrong["error"] == pytest.approx(1e-4, rel=0.1)
     assert wrong["bound"] == pytest.approx(wrong["asked"] + 2 * wrong["reference_uncertainty"])
@@ -274,15 +276,16 @@ def test_a_wide_interpolation_error_does_not_pass_for_agreement(weakforms, writt
     columns = references.load(2, CURVE).columns
     p, slack = interpolated(columns["u_max"], columns["p"], u)
     assert slack.max() > 1e-6  # beyond the 1e-7 asked: nobody could tell these from the right numbers
-    called = weakforms("compare", CASE, written({"u_max": u, "p": p + slack / 4}), "--curve", CURVE)
-    assert called.status == 1
+    words = ("compare", CASE, "--curve", CURVE, "--column", "p")
+    called = weakforms(*words, written({"u_max": u, "p": p + slack / 4}))
+    assert called.status == 5
     assert "NOT JUDGED" in called.out
     assert "give the curve at the table's own u_max" in called.out
     # Halfway between rows of the smooth part it is sharp enough to tell 1e-6.
     x, y = columns["u_max"][60:], columns["p"][60:]
     middle = {"u_max": (x[1:] + x[:-1]) / 2}
     middle["p"] = np.interp(middle["u_max"], x, y) + 1e-5
-    assert weakforms("compare", CASE, written(middle), "--curve", CURVE).status == 1
+    assert weakforms(*words, written(middle)).status == 1
 
 
 # -- the whole program ---------------------------------------------------------------------------

@@ -75,12 +75,13 @@ def test_columns_are_asked_for_by_names_that_the_table_has():
 # -- scale ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("upto", [0.05, 0.15])
 @pytest.mark.parametrize("part", [slice(0, 3), slice(None)])
 @pytest.mark.parametrize("which", [FREE, ("paper1.free", "free_alpha_0_beta_1")])
-def test_the_first_rows_count_as_much_as_the_last(which, part):
+def test_the_first_rows_count_as_much_as_the_last(which, part, upto):
     curve = columns_of(which, part)
     assert verdict_on(which, curve, 1e-2).passed
-    curve["p"] = curve["p"] * np.where(curve["t0"] <= 0.15, 1.5, 1.0)
+    curve["p"] = curve["p"] * np.where(curve["t0"] <= upto, 1.5, 1.0)
     verdicts = verdict_on(which, curve, 1e-2)
     assert verdicts.exit_status == 1
     assert verdicts.verdicts[0].where in ("t0 = 0.05", "t0 = 0.1", "t0 = 0.15")

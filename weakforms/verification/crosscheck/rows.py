@@ -222,7 +222,7 @@ def scale_text(abscissa: str) -> str:
 
 
 def _detail(table: Reference, status: str, rows: int, judged: int, asked: float, floor: float) -> str:
-    text = f"{rows} rows; errors are over {floor:.6g} at least"
+    text = f"{rows} rows; errors are divided by {floor:.6g} at least"
     if judged < rows:
         text += f"; {rows - judged} lie where the table is too coarse to judge to {asked:g}"
     if status != NOT_JUDGED:
@@ -248,6 +248,7 @@ def absent(table: Reference, column: str, asked: float, rows: int) -> JudgedColu
             reference=table.name,
             column=column,
             rows=rows,
+            scale=scale_text(table.abscissa),
         )
     )
 
