@@ -19,6 +19,7 @@ from weakforms.results.io import dumps, require_writable, sole_use
 from weakforms.terminal import WorkProgress
 from weakforms.verification import (
     curves,
+    identities,
     ledger,  # noqa: F401  (registers its checks)
     marks,
     surfaces,
@@ -85,7 +86,7 @@ def check_ids(found: FoundCase) -> list[str]:
     drawn = [n for p in case.panels for c in p.curves for n in curves.names(found.paper, c, case)]
     stated = [n for check in case.checks for n in names(check, found.paper)]
     specs = dict.fromkeys(spec for spec, _ in case_wants(found))
-    columns = [n for spec in specs for n in traces.names(spec)]
+    columns = [n for spec in specs for n in (*traces.names(spec), *identities.names(spec))]
     tables = [n for p in case.panels for c in p.curves for n in traces.names_of_curve(found.paper, c, case)]
     pictures = marks.names(found.paper, case)
     return list(dict.fromkeys([*drawn, *stated, *columns, *tables, *pictures]))
@@ -286,6 +287,8 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
     for spec in plan.by_case[found.id]:
         with _missed(outcome, traces.names(spec), "trace"):
             _add(outcome, traces.judge(spec, solutions))
+        with _missed(outcome, identities.names(spec), "identities"):
+            _add(outcome, identities.judge(spec, solutions))
     outcome.status = _status(outcome)
     outcome.seconds = (
         time.perf_counter() - begun + sum(s["provenance"].get("wall_s", 0.0) for s in outcome.solutions)

@@ -83,7 +83,7 @@ def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
     result = solutions.result(spec)
     found = list(_against_states(result))
     counts = [_missing(result, branch) for branch in result.branches]
-    states = _worst(
+    states = worst(
         f"trace:{spec}",
         f"points of the trace of {spec}, drawn at random, are the states solved for there, in every column",
         found,
@@ -91,7 +91,7 @@ def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
     )
     if missing := [text for text in counts if text]:
         states.passed, states.detail = False, "; ".join([*missing, states.detail])
-    smooth = _worst(
+    smooth = worst(
         f"smooth:{spec}",
         f"every point of the trace of {spec} lies on the polynomial through its neighbours",
         list(_against_neighbours(result)),
@@ -104,21 +104,22 @@ Found = tuple[str, str, Comparison]
 """Branch and column, where on it, and how it compares there."""
 
 
-def _worst(name: str, statement: str, found: list[Found], reference: str) -> Verdict:
+def worst(name: str, statement: str, found: list[Found], reference: str, sharp: float = SHARP) -> Verdict:
     """One verdict for many comparisons: all pass, and the numbers are the worst one's."""
-    passed = bool(found) and all(item.passed(SHARP) for *_, item in found)
+    passed = bool(found) and all(item.passed(sharp) for *_, item in found)
 
     def far(item: Comparison) -> float:
-        ratios = [item.error.max() / max(item.bound.max(), np.finfo(float).tiny), item.bound.max() / SHARP]
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            ratios = [np.float64(item.error.max()) / (item.bound.max() + 1e-300), item.bound.max() / sharp]
         return float("inf") if np.isnan(ratios).any() else max(ratios)
 
-    verdict = Verdict(name, "trace", passed, statement, asked=SHARP, reference=reference)
+    verdict = Verdict(name, "trace", passed, statement, asked=sharp, reference=reference)
     if found:
-        where, detail, worst = max(found, key=lambda item: far(item[2]))
-        verdict.error, verdict.bound = float(worst.error[0]), float(worst.bound[0])
-        verdict.uncertainty = float(worst.uncertainty[0])
-        verdict.reference_uncertainty = worst.reference_uncertainty
-        verdict.where, verdict.detail = f"{where}, {detail}", f"{len(found)} numbers; scale {worst.scale:.6g}"
+        where, place, last = max(found, key=lambda item: far(item[2]))
+        verdict.error, verdict.bound = float(last.error[0]), float(last.bound[0])
+        verdict.uncertainty = float(last.uncertainty[0])
+        verdict.reference_uncertainty = last.reference_uncertainty
+        verdict.where, verdict.detail = f"{where}, {place}", f"{len(found)} numbers; scale {last.scale:.6g}"
     else:
         verdict.detail = "nothing could be judged"
     return verdict
@@ -253,7 +254,7 @@ def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -
             place = f"{table.abscissa} = {along[i]:.6g}"
             found.append((f"{name} ({branch.name})", place, compare(*numbers, size or 1.0)))
     statement = f"points of the trace between the rows of the table, over {table.abscissa}"
-    return [_worst(f"trace:{table.name}", statement, found, table.name)]
+    return [worst(f"trace:{table.name}", statement, found, table.name)]
 
 
 def _with_spread(branch: Branch, name: str, over: str, here: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -275,7 +276,7 @@ def _against_neighbours(result: Result) -> Iterator[Found]:
         for name, counts in whole.items():
             off = float(np.max(np.abs(counts - np.round(counts)) + np.maximum(-counts, 0.0), initial=0.0))
             yield f"{name} ({branch.name})", "a count", compare(off, 0.0, 0.0, 0.0, 1.0)
-        windows = Windows(columns, _kinks(result, branch))
+        windows = Windows(columns, kinks(result, branch))
         for name, values in columns.items():
             yield from _off_neighbours(branch, name, values, windows)
 
@@ -294,7 +295,7 @@ def _off_neighbours(branch: Branch, name: str, values: np.ndarray, windows: Wind
         yield f"{name} ({branch.name})", f"point {i} of {len(judged)} that can be judged", found
 
 
-def _kinks(result: Result, branch: Branch) -> list[int]:
+def kinks(result: Result, branch: Branch) -> list[int]:
     """Points of a trace next to special points at which columns are not smooth."""
     columns, found = _columns(branch), []
     for point in result.special_points:
