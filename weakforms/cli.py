@@ -331,24 +331,47 @@ def bench(
 
 
 @app.command()
-def faults(
+def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
     jobs: Jobs,
     only: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Only this fault; may be repeated.")
     ] = None,
     expression: Annotated[
-        str | None, typer.Option("-k", metavar="EXPR", help="Faults by name, area, subject or file.")
+        str | None,
+        typer.Option(
+            "-k",
+            metavar="EXPR",
+            help="Faults by name, area, subject or file; of --measure, files of tests and cases.",
+        ),
     ] = None,
     listed: Annotated[bool, typer.Option("--list", help="Say what they are, and run nothing.")] = False,
+    random: Annotated[
+        int | None, typer.Option("--random", metavar="N", help="N mutants that nobody chose, instead.")
+    ] = None,
+    seed: Annotated[int, typer.Option(metavar="S", help="What the draw of --random depends on.")] = 1,
+    budget: Annotated[
+        float, typer.Option(metavar="SECONDS", help="Begin no more tests on a mutant of --random after this.")
+    ] = 300.0,
+    measured: Annotated[
+        bool, typer.Option("--measure", help="Note which lines each test and case runs, for --random.")
+    ] = False,
     out: Out = Path("out"),
     resume: Resume = False,
     as_json: Json = False,
 ) -> None:
     """Seed faults in scratch copies of the tree; say which check catches each."""
-    from weakforms.verification.faults.verb import faults_verb
+    from weakforms.verification.faults import verb
 
+    chosen = only or (expression and not measured)
+    if sum((bool(chosen), random is not None, measured)) > 1:
+        raise InputError("faults: --random, --measure and a choice of seeded faults exclude each other")
     try:
-        status = faults_verb(only or [], expression, listed, out, jobs, resume, as_json, console())
+        if measured:
+            status = verb.measure_verb(expression, out, resume, console())
+        elif random is not None:
+            status = verb.random_verb(random, seed, budget, out, jobs, resume, as_json, console(), listed)
+        else:
+            status = verb.faults_verb(only or [], expression, listed, out, jobs, resume, as_json, console())
     except KeyboardInterrupt:
         complain("interrupted; the same with --resume goes on from what is known")
         raise typer.Exit(130) from None

@@ -53,7 +53,9 @@ def test_a_leap_is_located_at_the_zone_that_opens_there(lowest):
     assert root == pytest.approx(5.5, abs=3e-6)
 
 
-@pytest.mark.parametrize(("lowest", "said"), [(leap, "jumps from -0.06 to 0.14 at zw = 5.5"), (steep, "DTOL")])
+@pytest.mark.parametrize(
+    ("lowest", "said"), [(leap, "jumps from -0.06 to 0.14 at zw = 5.5"), (steep, "DTOL")]
+)
 def test_without_such_a_zone_it_is_a_failure(lowest, said):
     canned = Canned(lowest, 5.2, 5.50002)
     assert canned.changes() == []

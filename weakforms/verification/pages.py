@@ -193,6 +193,7 @@ def _facts(
         "audited": audited or Audited(),
         "audit_statuses": STATUSES,
         "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
+        "mutants": _areas(seeded.random.faults if seeded and seeded.random else (), "subject"),
         "look": LOOK,
     }
 
@@ -228,11 +229,11 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     return out
 
 
-def _areas(faults: Iterable[FaultOutcome]) -> dict[str, list[FaultOutcome]]:
-    """Seeded faults by what they are faults of."""
+def _areas(faults: Iterable[FaultOutcome], by: str = "area") -> dict[str, list[FaultOutcome]]:
+    """Faults by what they are faults of."""
     found: dict[str, list[FaultOutcome]] = {}
     for fault in faults:
-        found.setdefault(fault.area, []).append(fault)
+        found.setdefault(getattr(fault, by), []).append(fault)
     return found
 
 

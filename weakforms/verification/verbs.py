@@ -12,7 +12,7 @@ from weakforms.verification.audit.outcome import NAME as AUDIT
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.elsewhere import elsewhere, write_elsewhere
 from weakforms.verification.faults.outcome import NAME as FAULTS
-from weakforms.verification.faults.outcome import keep_beside, load_faults
+from weakforms.verification.faults.outcome import RANDOM, keep_beside, load_faults
 from weakforms.verification.report import load_run, write_report
 from weakforms.verification.summary import print_summary, run_status
 
@@ -47,8 +47,8 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
             complain("interrupted; the same with --resume goes on from what is solved")
             raise typer.Exit(130) from None
         if first:
-            keep_beside(out / FAULTS, out / "report")
-            keep_beside(out / AUDIT, out / "report", AUDIT)
+            for name in (FAULTS, RANDOM, AUDIT):
+                keep_beside(out / name, out / "report", name)
             page = write_report(run, out / "report", jobs=jobs)
             print_summary(run, console())
             console().print(f"report: {plain(page)}", soft_wrap=True)
@@ -84,8 +84,9 @@ def report(
         load_faults(seeded)
     known = (seeded, folder / FAULTS, stored / FAULTS)
     keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
-    audits = (folder / AUDIT, stored / AUDIT)
-    keep_beside(next((path for path in audits if path.is_file()), None), out or stored, AUDIT)
+    for name in (RANDOM, AUDIT):
+        there = (folder / name, stored / name)
+        keep_beside(next((path for path in there if path.is_file()), None), out or stored, name)
     if others:
         write_elsewhere([elsewhere(folder, other) for other in others], out or stored)
     written = [write_report(run, out or stored, stored=True, jobs=jobs)]

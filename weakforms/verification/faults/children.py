@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 from threading import Lock
@@ -27,6 +27,10 @@ class Answer:
     seconds: float
     verdicts: list[dict[str, Any]]
     errors: list[str]
+    times: dict[str, float] = field(default_factory=dict)
+    """Seconds by case or test function, where lines are noted ..."""
+    lines: dict[str, dict[str, list[int]]] = field(default_factory=dict)
+    """... and what each ran."""
 
 
 class Children:
@@ -37,7 +41,12 @@ class Children:
         self._numbers, self._lock, self._ended = count(), Lock(), False
 
     def run(
-        self, root: Path, expectations: list[str], limit: float, go_on: bool = False
+        self,
+        root: Path,
+        expectations: list[str],
+        limit: float,
+        go_on: bool = False,
+        lines: Path | None = None,
     ) -> tuple[list[Answer], str]:
         """Run a probe in a copy of the tree.
 
@@ -46,15 +55,18 @@ class Children:
             expectations: What it runs, up to the first that does not pass.
             limit: Seconds after which it is ended.
             go_on: Run all of them, whatever does not pass.
+            lines: Folder to work in where the lines that are run are noted; by default one beside the copy.
 
         Returns:
             Its answers, and why it broke down before the last (empty if it did not).
         """
-        folder = root.with_name(f"{root.name}-{next(self._numbers)}")
+        beside = lines / "running" if lines else root
+        folder = beside.with_name(f"{beside.name}-{next(self._numbers)}")
+        shutil.rmtree(folder, ignore_errors=True)  # of a run that was killed
         folder.mkdir()
         answers, log = folder / "answers", folder / "log"
         words = [sys.executable, "-m", "weakforms.verification.faults.probe", str(answers)]
-        words += ["--all"] if go_on else []
+        words += ["--lines"] if lines else ["--all"] if go_on else []
         with log.open("wb") as stream:
             child = self._start([*words, *expectations], root, stream)
             failure = self._wait(child, limit)

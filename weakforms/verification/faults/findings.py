@@ -8,13 +8,13 @@ from weakforms.verification.faults.catalogue import Expectation
 from weakforms.verification.faults.children import Answer
 from weakforms.verification.faults.outcome import Baseline, Finding
 
-_RANK = {"comparison": 0, "test": 0, "not judged": 1, "not solved": 2}
+_RANK = {"comparison": 0, "test": 0, "not judged": 1, "not solved": 2, "stopped": 3}
 
 
 def kind_of(verdict: dict[str, Any]) -> str:
     """How a failed verdict notices a fault (see :data:`~weakforms.verification.faults.outcome.KINDS`)."""
     if verdict["kind"] == "test":
-        return "test"
+        return verdict.get("raised") or "test"
     detail = str(verdict["detail"])
     if detail.startswith("not solved:"):
         return "not solved"

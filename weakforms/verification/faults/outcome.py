@@ -27,6 +27,9 @@ SCHEMA = "weakforms.faults/1"
 NAME = "faults.json"
 """File in an output folder that holds a run of the catalogue."""
 
+RANDOM = "mutants.json"
+"""The same for a run of random mutants."""
+
 KINDS = {
     "comparison": "a number or a count outside its bound",
     "test": "a test of the suite",
@@ -36,7 +39,13 @@ KINDS = {
 }
 """How a fault was noticed, the best way first."""
 
-WORDS = {"caught": "caught", "survived": "SURVIVED", "equivalent": "no change", "void": "void"}
+WORDS = {
+    "caught": "caught",
+    "survived": "SURVIVED",
+    "equivalent": "no change",
+    "harmless": "no harm",
+    "void": "void",
+}
 """What the statuses are called on a terminal."""
 
 
@@ -69,13 +78,16 @@ class FaultOutcome:
     find: str
     replace: str
     status: str
-    """``caught``; ``survived``; ``equivalent`` (nothing can notice it, for the reason given); ``void`` (what
-    should notice it does not pass without the fault)."""
+    """``caught``; ``survived``; ``equivalent`` (nothing can notice it, for the reason given); ``harmless``
+    (of a random mutant: no number or statement changes, for the reason given); ``void`` (what should notice
+    it does not pass without the fault)."""
     reason: str = ""
     caught_by: Finding | None = None
     searched: tuple[str, ...] = ()
     """What was run, up to what noticed it."""
     seconds: float = 0.0
+    watching: int = 0
+    """Of a random mutant: how many cases and tests may see its line; fewer are run where time is short."""
 
 
 @dataclass(frozen=True)
@@ -104,11 +116,14 @@ class FaultsRun:
     environment: dict[str, str]
     baseline: list[Baseline] = field(default_factory=list)
     faults: list[FaultOutcome] = field(default_factory=list)
+    random: bool = False
+    """Whether nobody chose them: what fails without a mutant is then not used, and voids nothing."""
 
     @property
     def status(self) -> str:
         """``void`` if anything fails without a fault, ``survived`` if a fault does, else ``caught``."""
-        if not all(found.passed for found in self.baseline) or any(f.status == "void" for f in self.faults):
+        failing = not self.random and not all(found.passed for found in self.baseline)
+        if failing or any(f.status == "void" for f in self.faults):
             return "void"
         return "survived" if any(fault.status == "survived" for fault in self.faults) else "caught"
 
@@ -117,15 +132,31 @@ class FaultsRun:
         return sum(fault.status == status for fault in self.faults)
 
     @property
+    def kinds(self) -> dict[str, int]:
+        """How many were caught by each of :data:`KINDS`."""
+        found = [fault.caught_by.kind for fault in self.faults if fault.caught_by]
+        return {kind: found.count(kind) for kind in KINDS}
+
+    @property
     def headline(self) -> str:
         """One sentence about the whole."""
-        text = f"{self.count('caught')} of {plural(len(self.faults), 'seeded fault')} caught"
+        what = "random mutant" if self.random else "seeded fault"
+        text = f"{self.count('caught')} of {plural(len(self.faults), what)} caught"
+        if self.random:
+            kinds = self.kinds
+            crashed = sum(kinds.values()) - kinds["comparison"] - kinds["test"]
+            text += f" ({kinds['comparison']} by a verdict, {kinds['test']} by a test, {crashed} by a crash, "
+            text += "a hang or a solve that did not converge)"
         if self.count("equivalent"):
             text += f", {self.count('equivalent')} proven to change nothing"
+        if self.count("harmless"):
+            text += f", {self.count('harmless')} shown to do no harm"
         if self.count("survived"):
             text += f", {self.count('survived')} SURVIVED"
         failing = sum(not found.passed for found in self.baseline)
-        if failing:
+        if failing and self.random:
+            text += f"; {plural(failing, 'check')} that fail without a mutant were not used"
+        elif failing:
             text += f"; void: {plural(failing, 'check')} used do not pass without a fault"
         return text + (f" (of {self.catalogue} there are)" if len(self.faults) < self.catalogue else "")
 
@@ -192,16 +223,20 @@ class Seeded:
 
     run: FaultsRun | None = None
     problem: str = ""
+    random: FaultsRun | None = None
+    """A run of random mutants, where there is one."""
 
     @classmethod
     def beside(cls, folder: Path) -> Seeded:
         """From a report's own folder; a file that cannot be read is a problem to be shown, no failure."""
-        if not (folder / NAME).exists():
-            return cls()
-        try:
-            return cls(load_faults(folder / NAME))
-        except InputError as error:
-            return cls(None, str(error))
+        found: dict[str, FaultsRun | None] = {}
+        problems = []
+        for name in (NAME, RANDOM):
+            try:
+                found[name] = load_faults(folder / name) if (folder / name).exists() else None
+            except InputError as error:
+                problems.append(str(error))
+        return cls(found.get(NAME), "; ".join(problems), found.get(RANDOM))
 
 
 def keep_beside(source: Path | None, folder: Path, name: str = NAME) -> None:
@@ -216,13 +251,17 @@ def keep_beside(source: Path | None, folder: Path, name: str = NAME) -> None:
 
 
 def print_faults(run: FaultsRun, console: Console) -> None:
-    """One row a fault: what caught it, and by how much; last the sum."""
+    """One row a fault: what caught it, and by how much; the survivors in full; last the sum."""
     table = Table(box=SIMPLE_HEAD, pad_edge=False, header_style="bold")
     for title in ("Fault", "Area", "Outcome", "Caught by", "Error / bound"):
         table.add_column(title, overflow="fold")
     for fault in run.faults:
         table.add_row(*map(_cell(fault), ("name", "area", "status", "check", "numbers")))
     console.print(table)
+    for fault in run.faults if run.random else ():
+        if fault.status == "survived":
+            met = f"{len(fault.searched)} of {fault.watching} cases and tests that may see it"
+            console.print(Text(clean(f"survived {met}: {fault.file}, {fault.description}"), "bold red"))
     for found in run.baseline:
         if not found.passed:
             console.print(Text(f"fails without a fault: {clean(found.expectation)}: {clean(found.detail)}"))

@@ -1,9 +1,9 @@
 """The process that runs in a scratch copy: cases and tests, up to the first that does not pass.
 
-``python -m weakforms.verification.faults.probe ANSWERS [--all] EXPECTATION...`` in the copy's folder. Cases
-go the way of ``weakforms check``, through :func:`weakforms.verification.runner.verify`. What it found is
-appended to ANSWERS as one JSON line an expectation; only the parent, in which no fault is, reads anything
-into them.
+``python -m weakforms.verification.faults.probe ANSWERS [--all | --lines] EXPECTATION...`` in the copy's
+folder. Cases go the way of ``weakforms check``, through :func:`weakforms.verification.runner.verify`. What it
+found is appended to ANSWERS as one JSON line an expectation; only the parent, in which no fault is, reads
+anything into them.
 """
 
 from __future__ import annotations
@@ -18,10 +18,11 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from weakforms.errors import WeakformsError
+from weakforms.errors import ConvergenceError, WeakformsError
 from weakforms.verification.case import Case, Check, Count
 from weakforms.verification.discovery import FoundCase
 from weakforms.verification.faults.catalogue import Expectation
+from weakforms.verification.faults.lines import Lines, Monitor
 
 
 def narrowed(found: FoundCase, part: str) -> FoundCase:
@@ -67,13 +68,48 @@ def run_case(expectation: Expectation, folder: Path) -> dict[str, Any]:
 
 
 class Recorder:
-    """What became of each test, as pytest reports it."""
+    """What became of each test, as pytest reports it.
 
-    def __init__(self) -> None:
+    Args:
+        monitor: Notes the lines that each test function runs.
+    """
+
+    def __init__(self, monitor: Monitor | None = None) -> None:
         self.verdicts: list[dict[str, Any]] = []
+        self.seconds: dict[str, float] = {}
+        self.lines: dict[str, Lines] = {}
+        self._monitor, self._raised = monitor, ""
+
+    def pytest_runtest_makereport(self, call: Any) -> None:
+        """What a test failed with: an assertion of its own, or a break-down of what it calls."""
+        import pytest
+
+        if call.excinfo is None:
+            return
+        error = call.excinfo.value
+        own = isinstance(error, AssertionError | pytest.fail.Exception)
+        self._raised = "" if own else "not solved" if isinstance(error, ConvergenceError) else "stopped"
+
+    def pytest_runtest_logstart(self) -> None:
+        """What ran before belongs to no test: imports, and fixtures that several share."""
+        self._raised = ""
+        self._note("")
+
+    def pytest_runtest_logfinish(self, nodeid: str) -> None:
+        """What ran since belongs to this test."""
+        self._note(nodeid.partition("[")[0])
+
+    def _note(self, name: str) -> None:
+        if self._monitor is None:
+            return
+        known = self.lines.setdefault(name, {})
+        for file, lines in self._monitor.taken().items():
+            known[file] = sorted({*known.get(file, ()), *lines})
 
     def pytest_runtest_logreport(self, report: Any) -> None:
         """One line a test, and one for a fixture that failed."""
+        name = report.nodeid.partition("[")[0]
+        self.seconds[name] = round(self.seconds.get(name, 0.0) + report.duration, 3)
         if report.when != "call" and report.passed:
             return
         crash = getattr(report.longrepr, "reprcrash", None)
@@ -88,21 +124,34 @@ class Recorder:
                 "asked": None,
                 "detail": message[0][:300] if message else "",
                 "where": "",
+                "raised": "" if report.passed else self._raised,
             }
         )
 
 
-def run_tests(expectation: Expectation) -> dict[str, Any]:
-    """Outcome of the tests of one node id."""
+def run_tests(expectation: Expectation, monitor: Monitor | None = None) -> dict[str, Any]:
+    """Outcome of the tests of one node id; with a monitor all of them but the slow ones, whatever fails."""
     import pytest
 
-    recorder = Recorder()
-    words = ["-q", "-x", "-n", "0", "-p", "no:cacheprovider", "-m", "", expectation.text]
+    recorder = Recorder(monitor)
+    chosen = ["-m", "not slow"] if monitor else ["-x", "-m", ""]
+    words = ["-q", "-n", "0", "-p", "no:cacheprovider", *chosen, expectation.text]
     status = int(pytest.main(words, plugins=[recorder]))
     verdicts = recorder.verdicts
     good = status == 0 and bool(verdicts) and all(verdict["passed"] for verdict in verdicts)
     errors = [] if status in (0, 1) else [f"pytest ended with status {status}"]
-    return {"status": "passed" if good else "failed", "verdicts": verdicts, "errors": errors}
+    found = {"status": "passed" if good else "failed", "verdicts": verdicts, "errors": errors}
+    return found | ({"times": recorder.seconds, "lines": recorder.lines} if monitor else {})
+
+
+def _watched(expectation: Expectation, folder: Path, monitor: Monitor) -> dict[str, Any]:
+    """Outcome of a test file or a case, with the lines it runs."""
+    if expectation.is_test:
+        return run_tests(expectation, monitor)
+    begun = time.perf_counter()
+    found = run_case(expectation, folder)
+    seconds = round(time.perf_counter() - begun, 3)
+    return found | {"times": {expectation.text: seconds}, "lines": {expectation.text: monitor.taken()}}
 
 
 def _end_with_parent() -> None:
@@ -118,14 +167,21 @@ def _end_with_parent() -> None:
 
 
 def main(answers: Path, words: list[str]) -> None:
-    """Run expectations one after the other, up to the first that does not pass; after ``--all``, all."""
+    """Run expectations one after the other, up to the first that does not pass; after ``--all``, all.
+
+    After ``--lines`` all of them too, and the lines that are run are noted.
+    """
     _end_with_parent()
-    go_on = words[0] == "--all"
+    go_on = words[0] in ("--all", "--lines")
+    monitor = Monitor(Path.cwd()) if words[0] == "--lines" else None
     for number, text in enumerate(words[go_on:]):
         wanted, begun = Expectation(text), time.perf_counter()
         out = answers.with_name(f"run-{number}")
         try:
-            found = run_tests(wanted) if wanted.is_test else run_case(wanted, out)
+            if monitor:
+                found = _watched(wanted, out, monitor)
+            else:
+                found = run_tests(wanted) if wanted.is_test else run_case(wanted, out)
         except Exception as error:
             if not isinstance(error, WeakformsError):
                 traceback.print_exc()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import shutil
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import asdict
 from datetime import UTC, datetime
@@ -59,9 +59,9 @@ class Campaign:
     """
 
     def __init__(
-        self, faults: list[Fault], out: Path, scratch: Path, jobs: int, resume: bool, report: Report
+        self, faults: Sequence[Fault], out: Path, scratch: Path, jobs: int, resume: bool, report: Report
     ) -> None:
-        self.faults, self.store, self.scratch = faults, out / "faults", scratch
+        self.faults, self.store, self.scratch = list(faults), out / "faults", scratch
         self.jobs, self.resume, self._report = jobs, resume, report
         self.tree = tree_digest()
         self.children = Children()
@@ -129,7 +129,8 @@ class Campaign:
         if not all(self.passes_without(text) for text in expected):
             return self._ended(fault, "void", None, (), begun)
         try:
-            return self._searched(fault, copy_tree(folder, fault), begun)
+            # Of the copy, not of the tree: somebody may be working on that.
+            return self._searched(fault, copy_tree(folder, fault, self._unchanged), begun)
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
@@ -144,7 +145,7 @@ class Campaign:
             searched += more
         status = "caught" if found else "equivalent" if fault.reason else "survived"
         outcome = self._ended(fault, status, found, tuple(searched), begun)
-        write_atomically(self._file(fault), dumps(_record(self._key(fault), outcome)))
+        write_atomically(self._file(fault), dumps(record(self._key(fault), outcome)))
         return outcome
 
     def _noticed(self, root: Path, texts: list[str], limit: float) -> tuple[Finding | None, list[str]]:
@@ -209,10 +210,12 @@ class Campaign:
             return None
         return outcome_from_json(data["outcome"])
 
-    def _take_baseline(self, wanted: list[str]) -> None:
+    def _take_baseline(self, wanted: list[str] | None) -> None:
         data = _read(self.store / "baseline" / NAME) if self.resume else {}
         if data.get("tree") == self.tree:
-            kept = [Baseline(**item) for item in data["found"] if item["expectation"] in wanted]
+            kept = [
+                Baseline(**item) for item in data["found"] if wanted is None or item["expectation"] in wanted
+            ]
             self.baseline |= {found.expectation: found for found in kept if found.passed}
             self._done += sum(found.seconds for found in self.baseline.values())
 
@@ -229,7 +232,8 @@ def _read(path: Path) -> dict[str, Any]:
         return {}
 
 
-def _record(key: str, outcome: FaultOutcome) -> dict[str, Any]:
+def record(key: str, outcome: FaultOutcome) -> dict[str, Any]:
+    """What is stored of an outcome, so that a later run can take it over."""
     run = FaultsRun("", "", 0.0, "", 0, {}, [], [outcome])
     return {"key": key, "outcome": run.to_json()["faults"][0]}
 
