@@ -20,7 +20,12 @@ from reference_data.solvers.material_laws import CONSTANTS, law
 from reference_data.solvers.registry import Builder
 from reference_data.solvers.tables import Table, prescribed
 
-RANGES = {"ogden": (1.0, 65.0), "gent": (5.0, 330.0), "arruda_boyce": (5.0, 330.0)}
+RANGES = {
+    "ogden": (1.0, 65.0),
+    "gent": (5.0, 330.0),
+    "arruda_boyce": (5.0, 330.0),
+    "mooney_rivlin": (8.0, 560.0),
+}
 """Step and end of the volumes, a little beyond the first bifurcation with one wave."""
 STRIDE = 5
 """How many steps of the branch are one of the eigenvalues' table."""
