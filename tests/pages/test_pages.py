@@ -9,7 +9,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 from canned_run import CaseOutcome, CurveOutcome, Marker, Reader, curve, panel, sample, verdict
+from matplotlib.figure import Figure
 
+from weakforms.verification import figures
 from weakforms.verification.figures import convergence_figure, panel_figure
 from weakforms.verification.junit import junit_xml
 from weakforms.verification.pages import GROUPS, render, render_whole
@@ -143,6 +145,18 @@ def test_figures_are_valid_deterministic_and_themed(run):
     assert "stroke-dasharray" in first
     ET.fromstring(convergence_figure(run.cases[0].convergence, "f2"))
     ET.fromstring(convergence_figure([], "f3"))
+
+
+def test_rows_out_of_bound_are_drawn_filled():
+    one = CurveOutcome("one", "", [1.0, 2.0], [1.0, 2.0])
+    one.residual_x, one.residual = [1.0, 2.0, 3.0, 4.0], [1e-9, 3e-8, 2e-9, 5e-8]
+    one.residual_bound = [1e-8, 1e-8, 1e-8, 1e-8]
+    axes = Figure().subplots()
+    figures._draw_residuals(axes, panel([one]), [])
+    marked = [line for line in axes.lines if line.get_linestyle() == "None"]
+    drawn = {line.get_markerfacecolor() == "none": line.get_xydata().tolist() for line in marked}
+    assert drawn[True] == [[1.0, 1e-9], [3.0, 2e-9]]
+    assert drawn[False] == [[2.0, 3e-8], [4.0, 5e-8]]
 
 
 def test_odd_panels_are_drawn():

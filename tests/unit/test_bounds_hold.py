@@ -4,6 +4,8 @@ The rate claimed is that of :mod:`weakforms.verification.coverage`; the few sets
 the first of the many that are solved with ``-m slow``.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,18 @@ def test_sets_are_the_same_in_every_run():
     tube = named("tube")
     assert tube.sets(4) == tube.sets(8)[:4]
     assert len({tuple(given.values()) for given in tube.sets(8)}) == 8
+
+
+def test_what_is_within_and_how_much_too_wide():
+    """Errors of 1, 1.9, 3 and 2 uncertainties; a column 5 times, another 40 times as wide as its errors."""
+    item = Judged("tube", (), "quantity p", "quantity", "p", 1.0, 1.0, 0.0, 1e-10)
+    found = [replace(item, error=error) for error in (1.0, 1.9, 3.0, 2.0)]
+    assert [one.within for one in found] == [True, False, False, False]
+    assert [one.bounded for one in found] == [True, True, False, True]
+    columns = [replace(item, name="p", uncertainty=5.0), replace(item, name="V", error=0.0, floor=1 / 40)]
+    (row,) = statistics(columns)
+    assert (row.count, row.within, row.bounded) == (2, 1.0, 1.0)
+    assert (row.median, row.largest) == pytest.approx((22.5, 40.0))
 
 
 def test_an_uncertainty_does_not_depend_on_what_else_is_asked():

@@ -3,17 +3,19 @@
 from contextlib import nullcontext
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import fluid_tube_problem, surface, wrinkled_readings
 from weakforms.problems.fluid_tube_problem import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.fluid_tube_secondary import SecondaryFamily
 from weakforms.problems.wrinkled_readings import Readings
-from weakforms.results import Quantity
+from weakforms.results import Branch, Quantity, State
 from weakforms.solvers import family
 from weakforms.solvers.family import BranchFamily
 from weakforms.solvers.modal import ModalFamily
+from weakforms.solvers.pieces import Piece, PiecewiseFamily
 
 ANY = SimpleNamespace(state=SimpleNamespace(u=None, loads=None))
 """A state that only stands for one."""
@@ -119,6 +121,37 @@ def test_pieces_of_the_primary_branch_that_only_some_meshes_have(monkeypatch):
     monkeypatch.setattr(fluid_tube_problem, "FluidPath", lambda *_: SimpleNamespace(pieces=next(pieces)))
     given = FluidTubeParameters(), FluidTubeNumerics(), None, lambda *_: None
     refused("pieces of the primary branch depend on the mesh", fluid_tube_problem.primary_family, *given)
+
+
+def part(name, values, **fixed):
+    """A piece of a branch: where its column takes a value, and what it says of a state there."""
+    columns = {"u": np.array(values)}
+    crossings = lambda _name, x: np.flatnonzero(np.diff(np.sign(columns["u"] - x)))  # noqa: E731
+    family = SimpleNamespace(
+        name="primary",
+        failures=[],
+        branch=lambda _: Branch("primary", "p", {**columns, "front": columns["u"]}, {}),
+        special_points=list,
+        fine=SimpleNamespace(columns=lambda: columns, crossings=crossings),
+        state=lambda wanted, value, crossing, _: State(
+            {wanted: value}, name, {"front": Quantity(9.0), "own": Quantity(crossing)}, (), crossing
+        ),
+    )
+    return Piece(family, fixed)
+
+
+def test_pieces_are_one_branch_and_count_crossings_together():
+    """Up, down and up again past u = 1.5: in the first piece once, in the second twice."""
+    whole = PiecewiseFamily([part("a", [0.0, 1.0, 2.0], front=7.0), part("b", [2.0, 1.0, 2.0])])
+    branch = whole.branch(with_uncertainty=False)
+    assert branch.columns["u"].tolist() == [0.0, 1.0, 2.0, 2.0, 1.0, 2.0]
+    assert branch.columns["front"].tolist() == [7.0, 7.0, 7.0, 2.0, 1.0, 2.0]
+    found = [whole.state("u", 1.5, crossing) for crossing in (1, 2, 3)]
+    assert [(s.branch, s.crossing) for s in found] == [("a", 1), ("b", 2), ("b", 3)]
+    assert [s.quantities["own"].value for s in found] == [1, 1, 2]
+    assert [s.quantities["front"].value for s in found] == [7.0, 9.0, 9.0]
+    with pytest.raises(InputError, match=r"not met 4 times on this branch; u ranges over \[0, 2\]"):
+        whole.state("u", 1.5, 4)
 
 
 # -- walks that stop short -------------------------------------------------------------------------

@@ -224,6 +224,13 @@ def test_curves_are_read(tmp_path, name, content):
     assert {key: values.tolist() for key, values in found.items()} == COLUMNS
 
 
+def test_the_first_branch_of_a_result_is_the_curve(tmp_path):
+    other = {name: [2.0 * value for value in values] for name, values in COLUMNS.items()}
+    branches = [Branch("primary", "p", COLUMNS).to_json(), Branch("secondary", "p", other).to_json()]
+    (tmp_path / "c.json").write_text(json.dumps(full().to_json() | {"branches": branches}))
+    assert {key: values.tolist() for key, values in read_curve(tmp_path / "c.json").items()} == COLUMNS
+
+
 def test_validation_does_not_change_what_it_sees():
     data = full().to_json()
     before = copy.deepcopy(data)

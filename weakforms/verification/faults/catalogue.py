@@ -31,6 +31,11 @@ AREAS = (
     "uncertainty",
     "judging",
     "reference table",
+    "reference solver",
+    "reading and writing",
+    "units",
+    "comparison of runs",
+    "figures",
 )
 """What a fault is a fault of."""
 
