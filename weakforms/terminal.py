@@ -15,7 +15,7 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import Any
 
-import click
+import typer
 from rich.console import Console
 
 from weakforms.errors import InputError, WeakformsError
@@ -25,6 +25,9 @@ _LACKS = (
     *(errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.EAGAIN),
 )
 """What the system refuses for want of something."""
+
+COMPLAINT = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+"""What a wrong use of the command line raises; newer releases of typer bring a click of their own."""
 
 LONGEST_COMPLAINT = 600
 """Characters after which a complaint is cut: a message may quote what it was given."""
@@ -239,9 +242,9 @@ def _verdict_on(error: BaseException) -> tuple[int, str]:
     """Exit status and message an exception ends a command with."""
     if isinstance(error, WeakformsError):
         return error.exit_status, str(error)
-    if isinstance(error, click.ClickException):
+    if isinstance(error, COMPLAINT):
         return 2, error.format_message()
-    if isinstance(error, click.Abort | KeyboardInterrupt):
+    if isinstance(error, typer.Abort | KeyboardInterrupt):
         return 130, "interrupted"
     if isinstance(error, SystemExit):  # what click and rich make of a reader that went away
         return 2, "cannot write to standard output: Broken pipe"

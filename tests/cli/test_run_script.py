@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-TOOLS = """awk bash cat chown chmod cut dirname flock grep id mkdir mktemp printf readlink rm sed
+TOOLS = """awk bash cat chown chmod cp cut dirname flock grep id mkdir mktemp printf readlink rm sed
     sh sha256sum sleep stat tail timeout tr uname"""
 CLI = """
 import os, sys, time

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from weakforms.errors import InputError
 from weakforms.verification.case import Case
-from weakforms.verification.references import ROOT, folder_of
+from weakforms.verification.references import ROOT, folder_of, part
 
 GROUPS = ("materials", "closed_form")
 """Folders of cases, and of reference tables, that belong to no paper."""
@@ -49,12 +49,12 @@ def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
         InputError: When a case file does not define ``CASE``.
     """
     found = []
-    for path in sorted((root / "cases").glob("paper[1-5]/*.py")):
+    for path in sorted(part("cases", root).glob("paper[1-5]/*.py")):
         if not path.stem.startswith("_"):
             found.append(_load(path, int(path.parent.name.removeprefix("paper"))))
     found.sort(key=lambda item: (item.paper, item.id))
     for group in GROUPS:
-        paths = sorted((root / "cases" / group).glob("*.py"))
+        paths = sorted((part("cases", root) / group).glob("*.py"))
         found += [_load(path, group) for path in paths if not path.stem.startswith("_")]
     return tuple(found)
 

@@ -49,6 +49,12 @@ class Reference:
         return [name for name in self.columns if name != self.abscissa]
 
 
+def part(name: str, root: Path = ROOT) -> Path:
+    """A folder of the tree; installed, without a tree, it lies inside the package under a name of its own."""
+    inside = Path(__file__).resolve().parents[1] / f"_{name}"
+    return inside if root == ROOT and inside.is_dir() else root / name
+
+
 def folder_of(paper: int | str) -> str:
     """Folder of a paper's cases and tables; a group that belongs to no paper is its own."""
     return f"paper{paper}" if isinstance(paper, int) else paper
@@ -64,7 +70,7 @@ def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
     whole, separator, degrees = name.partition("@")
     if separator:
         return _meridian(load(paper, whole, root), name, degrees)
-    folder = root / "reference_data" / folder_of(paper)
+    folder = part("reference_data", root) / folder_of(paper)
     facts = _facts(folder / f"{name}.toml")
     path = folder / f"{name}.csv"
     try:

@@ -131,7 +131,16 @@ def _task(spec: Spec, states: list[At]) -> str:
 
 PACKAGE = Path(__file__).resolve().parents[1]
 
-ASIDE = ("verification", "docs", "cli.py", "terminal.py", "pytest_plugin.py", "__main__.py")
+ASIDE = (
+    "_cases",
+    "_reference_data",
+    "verification",
+    "docs",
+    "cli.py",
+    "terminal.py",
+    "pytest_plugin.py",
+    "__main__.py",
+)
 """The parts of the package that no number comes from: judging, drawing and telling may change ..."""
 
 SOLVING = ("verification/specs.py", "verification/runner.py")
