@@ -29,7 +29,7 @@ signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 CASE = re.compile(r"test_cases\.py::\w+\[([^]:]+)")
 RANKS = "tests/mpi"
 """Several ranks each: one of them at a time."""
-LONG: tuple[str, ...] = (RANKS,)
+LONG = (*(f"paper3.{name}" for name in ("secondary", "fig02", "fig03", "fig06", "fig08")), RANKS)
 """What takes minutes begins first, so that no worker is left to be waited for."""
 SILENCE = 60.0
 """Seconds after which a log shows how far the tests are."""

@@ -1,7 +1,6 @@
 """One run of the suite, whose cases are solved and judged by several processes."""
 
 import fcntl
-import os
 from pathlib import Path
 
 import pytest
@@ -26,26 +25,42 @@ class SharedRun:
         self.cases = {found.id: found for found in cases}
         self.plan, self.folder = Plan.of(cases), folder
         self.outcomes: dict[str, CaseOutcome] = {}
-        folder.mkdir(exist_ok=True)
+        (folder / "solutions").mkdir(parents=True, exist_ok=True)
 
     def outcome(self, case: str) -> CaseOutcome:
-        """Verdicts of a case; its solutions that another worker is solving come last."""
+        """Verdicts of a case; while others solve what it needs, this worker solves what is needed later."""
         if case not in self.outcomes:
             solver = Solver(self.folder / "solutions", resume=True)
-            for spec in [s for s in self.plan.by_case[case] if not self.solve(s, solver, wait=False)]:
+            left = self.plan.by_case[case]
+            for later in [None, *self.plan.states]:
+                if later and not (self.path(later).exists() or self.begun(later)):
+                    self.solve(later, solver, wait=False)
+                left = [spec for spec in left if not self.solve(spec, solver, wait=False)]
+                if not left:
+                    break
+            for spec in left:
                 self.solve(spec, solver, wait=True)
             self.outcomes[case] = judge_case(self.cases[case], self.plan, solver)
         return self.outcomes[case]
 
+    def path(self, spec: Spec, ending: str = "json") -> Path:
+        """Where a solution is stored, and beside it who solves it."""
+        return self.folder / "solutions" / f"{solution_key(spec, self.plan.states[spec])}.{ending}"
+
+    def begun(self, spec: Spec) -> bool:
+        """Whether a worker is at it, or died of it."""
+        lock = self.path(spec, "lock")
+        return lock.exists() and lock.stat().st_size > 0
+
     def solve(self, spec: Spec, solver: Solver, wait: bool) -> bool:
         """Solve, or take what is stored; False where another worker is at it."""
         states = self.plan.states[spec]
-        with (self.folder / f"{solution_key(spec, states)}.lock").open("a") as lock:
+        with self.path(spec, "lock").open("a") as lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
             except BlockingIOError:
                 return False
-            if os.fstat(lock.fileno()).st_size:  # or every check of the case would crash a worker
+            if self.begun(spec):  # or every check of the case would crash a worker
                 pytest.fail(f"{spec}: its solve began and never ended; see what failed first", pytrace=False)
             lock.write("begun")
             lock.flush()

@@ -1,5 +1,6 @@
 """Processes that share a run solve everything once."""
 
+import fcntl
 import multiprocessing
 import os
 from pathlib import Path
@@ -55,6 +56,21 @@ def test_what_does_not_converge_is_told_by_every_case_that_needs_it(tmp_path, mo
     for name in ("paper2.one", "paper2.both"):
         assert shared.outcome(name).status == "error"
         assert "stalled at p = 0.1" in shared.outcome(name).errors[0]
+
+
+def test_while_another_process_solves_this_one_solves_what_is_needed_later(tmp_path, monkeypatch):
+    shared, seen, right = SharedRun(CASES, tmp_path / "run"), [], runner.solve_spec
+    other = shared.path(SPECS[0], "lock").open("a")
+    fcntl.flock(other, fcntl.LOCK_EX)
+
+    def solve(spec, at):
+        seen.append(spec)
+        other.close()
+        return right(spec, at)
+
+    monkeypatch.setattr(runner, "solve_spec", solve)
+    assert shared.outcome("paper2.one").status == "passed"
+    assert seen == SPECS[::-1]
 
 
 def end_while_solving(folder: Path) -> None:
