@@ -16,7 +16,7 @@ from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
 from weakforms.solvers.jit_cache import compile_together
-from weakforms.solvers.sampling import FirstLevels, Interpolant
+from weakforms.solvers.sampling import FirstLevels, Interpolant, Peak
 
 SMALL_DISPLACEMENT = 1e-3
 """Displacements below it count as that much in :meth:`System.force_size`: lengths are of order one, strains
@@ -93,7 +93,8 @@ class System:
         self._phi, self._psi = fem.Function(space), fem.Function(space)
         self._rate = fem.Constant(space.mesh, 0.0)
         self._forms: dict[str, fem.Form] = {}
-        self._peaks: Interpolant | None = None
+        self._interpolant: Interpolant | None = None
+        self._peaks: dict[str, Peak] = {}
         self._levels: FirstLevels | None = None
         self._ufl = self._ufl_forms()
         compile_together(self.comm, self._ufl.values())
@@ -265,14 +266,15 @@ class System:
         return values | {name: f(values) for name, f in self.formulation.derived.items()}
 
     def _maxima(self) -> dict[str, float]:
-        """Largest nodal values, cell by cell, of expressions interpolated with two degrees more."""
+        """Largest values of expressions interpolated with two degrees more, between nodes too."""
         if not self.formulation.maxima:
             return {}
-        if self._peaks is None:
-            self._peaks = Interpolant(self.unknown, self.formulation.maxima, raise_degree=2)
-        local = self._peaks.values().max(axis=0, initial=-np.inf)
-        largest = np.max(self.comm.allgather(local), axis=0)
-        return dict(zip(self.formulation.maxima, largest.tolist(), strict=True))
+        if self._interpolant is None:
+            self._interpolant = Interpolant(self.unknown, self.formulation.maxima, raise_degree=2)
+            function = self._interpolant.function
+            self._peaks = {name: Peak(function, i) for i, name in enumerate(self.formulation.maxima)}
+        self._interpolant.update()
+        return {name: peak() for name, peak in self._peaks.items()}
 
     def _first_levels(self) -> dict[str, float]:
         """Where expressions first reach their levels, by their polynomials on each cell."""
