@@ -250,8 +250,8 @@ class TubeFold(PathProblem):
             equilibria = branch(start, level)
             if not len(equilibria.turns()):
                 raise ConvergenceError(
-                    f"tube_fold: at delta1 = {start:g} a mesh of {numerics.meshes[0]} cells has a limit point, "
-                    f"one of {numerics.meshes[level]} has none: raise cells"
+                    f"tube_fold: delta1 = {start:g}: a limit point on {numerics.meshes[0]} cells, but "
+                    f"none on {numerics.meshes[level]}: raise cells"
                 )
             return fold_line(equilibria, ends, numerics.step)
 
