@@ -80,7 +80,8 @@ class ContactRun:
         solved = Solved(values, last.state, "contact_onset")
         if solved.values["p"] >= self.p_end:
             raise InputError(
-                f"tube: p_end = {self.p_end:g} is below first contact at p = {solved.values['p']:.6g}"
+                f"tube: p_end = {self.p_end:g} is below first contact at p = {solved.values['p']:.6g}; "
+                "raise p_end (allowed: up to 20) or lower s"
             )
         return solved
 
