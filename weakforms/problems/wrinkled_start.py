@@ -93,8 +93,36 @@ class PlainMembrane:
         that Newton's method finds nothing, or an equilibrium turned inside out.
 
         Raises:
-            ConvergenceError: When a step does not converge.
+            ConvergenceError: When a step does not converge, nor any from disks that are less wide.
         """
+        try:
+            return self._by_homotopy(load)
+        except ConvergenceError:
+            if not self.values.get("Af", 0.0) > self._easy_radius or load:
+                raise
+        return self._widened()
+
+    @property
+    def _easy_radius(self) -> float:
+        """Of disks between which a cylinder in uniaxial tension is an equilibrium, or nearly."""
+        return self.values.get("delta", 1.0) ** -0.5
+
+    def _widened(self) -> tuple[State, SolveRecord]:
+        """The unloaded state of wide disks, from disks that leave the membrane its natural width."""
+        goal, low = self.values["Af"], self._easy_radius
+        steps = int(np.ceil((goal - low) / WALK))
+        try:
+            self.values["Af"] = low
+            state, record = self._by_homotopy(0.0)
+        finally:
+            self.values["Af"] = goal
+        solver = solver_of(self.plain_model, ())
+        for radius in np.linspace(low, goal, steps + 1)[1:]:
+            state.loads["Af"] = float(radius)
+            state, record = solver.solve(state)
+        return state, record
+
+    def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
         undisplaced = self.prepare()
         state = self._moved(folded, self.plain_model, self.plain_model.breaks_of(undisplaced.loads))
