@@ -28,7 +28,7 @@ class Canned(StabilityChanges):
     def _at(self, name, value, start):
         return Sample(value, held(value), self.function(value))
 
-    def changes(self):
+    def changes(self):  # noqa: D102
         points = [(i, "zw", z, self._at("zw", z, None).held) for i, z in enumerate((5.0, 6.0))]
         self.lowest = lambda state: self.function(state.state.loads["zw"])
         return self.between(points)
@@ -65,7 +65,7 @@ def test_without_such_a_zone_it_is_a_failure(lowest, said):
 
 @pytest.mark.slow
 def test_waves_that_vanish_where_a_taut_zone_opens():
-    """Between two points of the trace a taut zone opens and a wrinkled one closes; as many fronts as before."""
+    """Between two points of the trace one zone opens and another closes: as many fronts as before."""
     given = {"M": 1.36, "delta": 2.796, "c2": 0.028, "n": 5, "load_end": 6.5}
     result = solve("wrinkled_tube", **given, numerics={"cells": 8, "degree": 4, "levels": 2})
     assert result.failures == []

@@ -28,9 +28,8 @@ TAUT = 1.02
 FREE_FRONT = 0.5
 """Where the free membrane's mesh is divided, as a fraction of its radius: anywhere will do."""
 
-PULL = 4.0
-"""Pressure over pole height of a flat taut disk up to which its branch has the usual step; with more, which
-makes the branch mostly pressure, the step is longer in proportion."""
+USUAL = 10.0
+"""Pressure up to which the branch has its usual step; at large pre-stretch it is mostly pressure."""
 
 FIRST_FRONT = 0.02
 """Front at which contact begins to be followed, as a fraction of the radius."""
@@ -71,14 +70,9 @@ class DiskRun:
         held = Held("p", 0.0)
         if self.data.beta < TAUT:
             state, held = self._first_guess(state), Held("t0", FIRST_T0)
-        continuation = Continuation(solver, control=self.steps(8, max(1.0, self._pull() / PULL)))
+        continuation = Continuation(solver, control=self.steps(8))
         start = continuation.start(state, held, towards={"t0": 1.0})
         return EquilibriumBranch(continuation, "p", start, stop=lambda q: q.monitors["t0"] > t_end)
-
-    def _pull(self) -> float:
-        """Pressure over pole height of the disk while it is all but flat: that of a drum's tension."""
-        beta = self.data.beta
-        return 4 * evaluated(self.data.chosen, beta, beta)["W1"] / beta
 
     def _first_guess(self, state: State) -> State:
         u, p = parabola(self._radii(state), self.data.chosen, self.data.beta)
@@ -212,9 +206,9 @@ class DiskRun:
         start = continuation.start(self.end_of_inflation, held, towards={"p": -1.0})
         return EquilibriumBranch(continuation, "p", start, lambda point: point.state.loads["p"] < p)
 
-    def steps(self, fraction: int, longer: float = 1.0) -> StepControl:
-        """Steps that begin with a fraction of the largest, which may be longer than usual."""
-        return StepControl(first=self.step / fraction, largest=longer * self.step)
+    def steps(self, fraction: int) -> StepControl:
+        """Steps that begin with a fraction of the largest."""
+        return StepControl(first=self.step / fraction, largest=self.step, usual_load=USUAL)
 
 
 def parabola(x: np.ndarray, law: Chosen, beta: float) -> tuple[np.ndarray, float]:

@@ -32,6 +32,7 @@ class Body:
         potential: ``(law, unknowns, load) -> Pi`` per reference volume over the law's stress.
         stretches: ``unknowns -> (lam1, lam2)``.
         extra: Further columns, ``(law, unknowns, load) -> {name: expression}``.
+        force: A dead force on the first unknown, held while the load changes; a load ``force`` of its own.
     """
 
     unknowns: tuple[str, ...]
@@ -39,6 +40,7 @@ class Body:
     potential: Callable[[Law, tuple[Expr, ...], Expr], Expr]
     stretches: Callable[[tuple[Expr, ...]], tuple[Expr, Expr]]
     extra: Callable[[Law, tuple[Expr, ...], Expr], Mapping[str, Expr]] = lambda _w, _u, _p: {}
+    force: float = 0.0
 
 
 def system_of(body: Body, chosen: Chosen, vary: str = "", copies: int = 1) -> System:
@@ -57,15 +59,15 @@ def system_of(body: Body, chosen: Chosen, vary: str = "", copies: int = 1) -> Sy
     unknown = fem.Function(space, name="stretches")
     unknown.x.array[:] = 1.0
     constants: dict[str, Expr] = dict(chosen.on(mesh))
-    load = fem.Constant(mesh, 0.0)
-    loads = {body.load: (load, ufl.variable(load))}
+    given = {body.load: fem.Constant(mesh, 0.0), "force": fem.Constant(mesh, float(body.force))}
+    loads = {name: (constant, ufl.variable(constant)) for name, constant in given.items()}
     if vary:
         constant = constants[vary]
         loads[vary] = (constant, ufl.variable(constant))
         constants[vary] = loads[vary][1]
-    law, p = chosen.material.energy(constants), loads[body.load][1]
+    law, p, force = chosen.material.energy(constants), loads[body.load][1], loads["force"][1]
     states = [tuple(unknown[k * count + i] for i in range(count)) for k in range(copies)]
-    potentials = [body.potential(law, u, p) for u in states]
+    potentials = [body.potential(law, u, p) - force * u[0] for u in states]
     monitors: dict[str, Expr] = {}
     for k, u in enumerate(states):
         lam1, lam2 = body.stretches(u)
@@ -120,9 +122,10 @@ def infinite_tube(force: float) -> Body:
     return Body(
         unknowns=("lam1", "lam2"),
         load="p",
-        potential=lambda w, u, p: w(*u) - p * u[0] * u[1] ** 2 / 2 - force * u[0],
+        potential=lambda w, u, p: w(*u) - p * u[0] * u[1] ** 2 / 2,
         stretches=lambda u: (u[0], u[1]),
         extra=lambda _w, u, _p: {"V": u[0] * u[1] ** 2},
+        force=force,
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import closed_body
 from weakforms.problems.base import Numerics, Progress, Requests, check_requests, registry, silent
 from weakforms.problems.closed_body import Body, system_of
@@ -22,10 +22,14 @@ from weakforms.solvers.constraints import Fold, Held
 from weakforms.solvers.continuation import Continuation, StepControl
 from weakforms.solvers.family import BranchFamily
 from weakforms.solvers.newton import STOPPING, ExtendedNewton
+from weakforms.solvers.system import State, System
 
 THESIS = "Patil (2016), chapter 3"
 
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
+
+USUAL = 10.0
+"""Load up to which a branch has its usual step."""
 
 ORDER = 2.0
 """Order of convergence reckoned with: none is at work, solutions on all levels are the same."""
@@ -62,15 +66,32 @@ class ClosedProblem(PathProblem):
 
 def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -> EquilibriumBranch:
     """Equilibria from rest on, by arc-length, until a column is past its end."""
-    continuation = Continuation(
-        ExtendedNewton(system_of(body, chosen), [body.load]),
-        control=StepControl(first=step / 4, largest=step),
-    )
+    system = system_of(body, chosen)
+    control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
+    begin = _pulled(system, body, control) if body.force else system.state()
+    continuation = Continuation(ExtendedNewton(system, [body.load]), control=control)
     rising = 1.0 if end > 1 else -1.0
-    start = continuation.start(continuation.system.state(), Held(body.load, 0.0), towards={along: rising})
+    start = continuation.start(begin, Held(body.load, 0.0), towards={along: rising})
     return EquilibriumBranch(
         continuation, body.load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0
     )
+
+
+def _pulled(system: System, body: Body, control: StepControl) -> State:
+    """The state under the body's force alone, followed from rest: one step may turn it inside out.
+
+    Raises:
+        ConvergenceError: When the force is not reached.
+    """
+    continuation = Continuation(ExtendedNewton(system, ["force"]), control=control)
+    sign = 1.0 if body.force > 0 else -1.0
+    start = continuation.start(system.state(), Held("force", 0.0), towards={body.unknowns[0]: sign})
+    pulled = EquilibriumBranch(
+        continuation, "force", start, lambda point: sign * (point.state.loads["force"] - body.force) > 0
+    )
+    if pulled.stalled:
+        raise ConvergenceError(f"force = {body.force:g} is not reached from rest: {pulled.stalled}")
+    return pulled.at("force", body.force).state
 
 
 def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float) -> FoldLine:

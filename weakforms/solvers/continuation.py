@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 
@@ -55,6 +55,12 @@ class StepControl:
     branch beside it, however parallel, makes it as large as the jump over the step.
     """
     max_points: int = 3000
+    usual_load: float = inf
+    """Load above which the largest step is longer in proportion: a stiff law's branch is mostly load."""
+
+    def most(self, state: State, loads: Sequence[str]) -> float:
+        """The largest step from a state."""
+        return self.largest * max(1.0, *(abs(state.loads[name]) / self.usual_load for name in loads))
 
 
 class Continuation:
@@ -243,7 +249,7 @@ class Continuation:
             order = 2 if before is None else 4
             grow = (control.predictor_error / max(self._error, 1e-16)) ** (1 / order)
             before, at = at, new
-            step = min(step * min(max(grow, 0.4), 1.8), control.largest)
+            step = min(step * min(max(grow, 0.4), 1.8), control.most(at.state, self.solver.scalars))
         raise ConvergenceError(f"continuation did not end within {control.max_points} points")
 
 
