@@ -67,6 +67,13 @@ def test_membranes_on_wide_disks_are_widened_to_them(given):
     assert membrane.plain(state).zones.first == TAUT, "at the wide end"
 
 
+def test_a_membrane_with_nothing_to_perturb_is_refused_in_terms_of_its_parameters():
+    """A state there is, found by way of narrower disks: taut at the lower end."""
+    given = {"M": 1.764, "delta": 2.778, "c2": 0.7244, "L": 2.985, "Af": 2.238, "gamma": 7.142}
+    with pytest.raises(InputError, match="a smaller Af or a larger M or delta wrinkles it"):
+        solve("wrinkled_linear", **given, zw=0.05942, numerics={"cells": 8, "degree": 4, "levels": 2})
+
+
 def test_a_disk_of_large_pre_stretch_reaches_its_substrate():
     given = {"alpha": 0.8089, "beta": 9.496, "k": 88.36, "l": 1.084, "contact": "frictionless"}
     meshes = {"cells": 16, "degree": 3, "levels": 2}

@@ -98,22 +98,22 @@ class PlainMembrane:
         try:
             return self._by_homotopy(load)
         except ConvergenceError:
-            if not self.values.get("Af", 0.0) > self._easy_radius or load:
+            if not self.values.get("Af", 0.0) > self._easy_radius:
                 raise
-        return self._widened()
+        return self._widened(load)
 
     @property
     def _easy_radius(self) -> float:
         """Of disks between which a cylinder in uniaxial tension is an equilibrium, or nearly."""
         return self.values.get("delta", 1.0) ** -0.5
 
-    def _widened(self) -> tuple[State, SolveRecord]:
-        """The unloaded state of wide disks, from disks that leave the membrane its natural width."""
+    def _widened(self, load: float) -> tuple[State, SolveRecord]:
+        """The state of wide disks, from disks that leave the unloaded membrane its natural width."""
         goal, low = self.values["Af"], self._easy_radius
         steps = int(np.ceil((goal - low) / WALK))
         try:
             self.values["Af"] = low
-            state, record = self._by_homotopy(0.0)
+            state, record = self._by_homotopy(load)
         finally:
             self.values["Af"] = goal
         solver = solver_of(self.plain_model, ())

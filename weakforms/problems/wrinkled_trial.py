@@ -16,7 +16,7 @@ from dolfinx import fem
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import InputError
 from weakforms.forms.revolution import second_order
 from weakforms.problems.wrinkled_model import TAUT, WrinkledModel
 from weakforms.problems.wrinkled_modes import waves_at, waves_of
@@ -83,11 +83,14 @@ def trial_form(held: Held, power: int) -> dict[str, float]:
         power: Of the sine.
 
     Raises:
-        ConvergenceError: When there is no part for it.
+        InputError: When there is no part for it.
     """
     waves_at(held)
     if held.zones.first == TAUT or (held.zones.surface is None and not held.zones.wet):
-        raise ConvergenceError("the lower end is dry or taut: there is no wrinkled wet part to be perturbed")
+        raise InputError(
+            "wrinkled_linear: the lower end is dry or taut, there is no wrinkled wet part to be perturbed; a "
+            "smaller Af or a larger M or delta wrinkles it, a higher zw wets it"
+        )
     trial = _trial_of(held.model, power)
     ends = [float(held.model.breaks[-1]), *held.zones.fronts[:1]]
     if held.zones.surface is not None:
