@@ -9,6 +9,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.scaling import SCALINGS
 from weakforms.verification import gallery, references
 from weakforms.verification.compare import Verdicts, tables_of
 from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, scale_text
@@ -88,6 +89,7 @@ def _problem_facts(problem: Any) -> dict[str, Any]:
         "special_points": list(problem.special_points),
         "branches": list(problem.branches),
         "scales": problem.scales,
+        "constants": list(SCALINGS[problem.name].constants) if problem.name in SCALINGS else [],
         **_law_facts(getattr(problem, "materials", {})),
     }
 
@@ -193,6 +195,8 @@ def print_description(facts: dict[str, Any], console: Console) -> None:
     for name, text in facts["scales"].items():
         scales.add_row(name, text)
     console.print(scales)
+    if facts["constants"]:
+        console.print(f"constants of a curve with units (--constant): {', '.join(facts['constants'])}")
 
 
 def _print_laws(laws: list[dict[str, Any]], console: Console) -> None:

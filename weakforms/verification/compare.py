@@ -157,9 +157,12 @@ def compare(
     first = drawn[0][1]
     given = _read(curve, branch, first)
     require_same_parameters(given, table, first)
-    own = our_columns(given.columns, list(table.columns), columns, constants, first.of.problem)
-    asked = _accuracies(found, table, first, accuracy)
-    wanted = _wanted(table, own, asked_of(first, found.case), asked, only)
+    curves = [curve for _, curve in drawn]
+    names = _names(given.columns, curves, columns)
+    own = our_columns(given.columns, list(table.columns), names, constants, first.of.problem)
+    by_case = _asked_by(found, curves)
+    asked = by_case if accuracy is None else dict.fromkeys(table.ordinates, accuracy)
+    wanted = _wanted(table, own, by_case, asked, only)
     hint = abscissa_hint(first.of.problem, table.abscissa, constants or {})
     x, keep = _aligned(table, own, hint)
     judged = []
@@ -209,13 +212,22 @@ def _drawn(found: FoundCase, reference: str) -> list[tuple[Panel, Curve]]:
     return [(panel, curve) for panel in panels for curve in panel.curves if curve.reference == reference]
 
 
-def _accuracies(
-    found: FoundCase, table: Reference, curve: Curve, accuracy: float | None
-) -> Mapping[str, float]:
-    """Accuracy wanted of each column: what was claimed, or what the case asks of its own curve."""
-    if accuracy is not None:
-        return dict.fromkeys(table.ordinates, accuracy)
-    return asked_of(curve, found.case)
+def _asked_by(found: FoundCase, curves: Sequence[Curve]) -> dict[str, float]:
+    """Accuracy that a case asks of the columns of a table, wherever it draws it; the sharpest."""
+    asked: dict[str, float] = {}
+    for curve in curves:
+        for name, value in asked_of(curve, found.case).items():
+            asked[name] = min(value, asked.get(name, value))
+    return asked
+
+
+def _names(
+    columns: Mapping[str, np.ndarray], curves: Sequence[Curve], names: Mapping[str, str] | None
+) -> dict[str, str]:
+    """The curve's names by ours: those stated, and those that our own solutions have."""
+    known = {ours: theirs for curve in curves for ours, theirs in curve.columns.items()}
+    own = {ours: theirs for ours, theirs in known.items() if ours not in columns and theirs in columns}
+    return own | dict(names or {})
 
 
 def tables_of(found: FoundCase) -> list[str]:

@@ -183,8 +183,8 @@ def _kept(path: Path, target: Path) -> Answer | None:
     except (OSError, InputError):
         return None
     if data.get("schema") == "weakforms.verdicts/1":
-        status = data.get("status", PASSED if data["passed"] else FAILED)
-        return Answer(path.stem, EXIT_STATUS[status], "kept")
+        status = data.get("status") or (PASSED if data["passed"] else FAILED)
+        return Answer(path.stem, EXIT_STATUS[str(status)], "kept") if str(status) in EXIT_STATUS else None
     if data.get("schema") == "weakforms.result/1" and not data["failures"]:
         return Answer(path.stem, 0, "kept")
     return None

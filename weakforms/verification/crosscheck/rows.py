@@ -96,7 +96,7 @@ def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[n
     order = np.argsort(rows)
     rows, values = rows[order], values[order]
     blur = tolerance(rows)
-    if len(rows) < 6:
+    if len(rows) < 6 or np.isin(x, rows).all():
         return _exact(rows, values, x, blur)
     quintic, cubic = (make_interp_spline(rows, values, k=k) for k in (5, 3))
     widths = np.diff(rows)
@@ -111,8 +111,9 @@ def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[n
 
 
 def _exact(rows: np.ndarray, values: np.ndarray, x: np.ndarray, blur: float) -> tuple[np.ndarray, np.ndarray]:
-    """A table that is too short to interpolate, at its own rows."""
-    nearest = np.abs(x[:, None] - rows).argmin(axis=1)
+    """A table at its own rows, without interpolation; for a short one there is nothing else."""
+    after = np.clip(np.searchsorted(rows, x), 1, len(rows) - 1)
+    nearest = np.where(x - rows[after - 1] < rows[after] - x, after - 1, after)
     if np.any(np.abs(x - rows[nearest]) > blur):
         listed = ", ".join(f"{row:.12g}" for row in rows)
         raise InputError(
@@ -172,7 +173,8 @@ def judge_column(
     else:
         status = NOT_JUDGED
     looked_at = judged if count else np.ones(len(x), dtype=bool)
-    worst = int(np.argmax(np.where(looked_at, np.abs(error) / bound, -1.0)))
+    with np.errstate(over="ignore"):
+        worst = int(np.argmax(np.where(looked_at, np.abs(error) / bound, -1.0)))
     largest = int(np.argmax(np.where(looked_at, np.abs(error), -1.0)))
 
     def described(i: int) -> dict[str, Any]:
