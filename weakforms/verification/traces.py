@@ -48,6 +48,9 @@ SMALL = 0.02
 ENDS = 2
 """Intervals at either end of a table in which its interpolation is not relied on."""
 
+SAFETY = 3.0
+"""Factor of what interpolating a table may add: that is told for smooth columns, and these have kinks."""
+
 LEAST_ROWS = 9
 """Rows of a table that is interpolated."""
 
@@ -222,7 +225,7 @@ def _dense(table: Reference, name: str) -> np.ndarray:
     if len(rows) < LEAST_ROWS:
         return np.array([], int)
     _, slack = interpolated(table.columns[table.abscissa], values, (rows[:-1] + rows[1:]) / 2)
-    known = 2 * np.hypot(slack, table.uncertainty[name])
+    known = 2 * np.hypot(SAFETY * slack, table.uncertainty[name])
     known[:ENDS] = known[-ENDS:] = np.inf
     return np.flatnonzero(known <= SHARP / 2 * np.max(np.abs(values)))
 
@@ -249,7 +252,8 @@ def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -
         here = np.flatnonzero(np.isin(interval, _dense(table, name)))
         expected, slack = interpolated(table.columns[table.abscissa], table.columns[name], along[here])
         values, own = _with_spread(branch, called[name], called[table.abscissa], here)
-        known, size = np.hypot(slack, table.uncertainty[name]), float(np.max(np.abs(table.columns[name])))
+        known = np.hypot(SAFETY * slack, table.uncertainty[name])
+        size = float(np.max(np.abs(table.columns[name])))
         for i, *numbers in zip(here, values, own, expected, known, strict=True):
             place = f"{table.abscissa} = {along[i]:.6g}"
             found.append((f"{name} ({branch.name})", place, compare(*numbers, size or 1.0)))
