@@ -1,7 +1,7 @@
-"""Which columns of stored solutions no check would miss: each is falsified in turn, and the cases judge again.
+"""Which columns of stored solutions no check would miss: each is falsified in turn, and cases judge again.
 
-A column is multiplied by 1.01 and by -1 wherever a solution has it: along its branches, at its special points,
-in its states. Nothing is solved. What then still passes is judged by nothing.
+A column is multiplied by 1.01 and by -1 wherever a solution has it: branches, special points, states.
+Nothing is solved. What then still passes is judged by nothing.
 """
 
 from __future__ import annotations
@@ -33,6 +33,21 @@ EXEMPT_SIZE: dict[str, str] = {
     "n_negative": "a count: one percent more of it is no whole number, and none is none",
 }
 """Columns of which only the sign is judged where no table has them, and why."""
+
+KNOWN: dict[str, str] = {
+    "wrinkled_tube: Pi": "in traces of few steps the work is not known to one percent (gas, near its end)",
+    "wrinkled_tube: state": "a label of what opens or closes, not a number",
+    "wrinkled_tube: load": "of an event: the control's own value, under the name that both controls share",
+    "wrinkled_tube: Z": "of an event: where on the meridian; compared in the cases of zones only",
+    "wrinkled_tube: Z_front_1": "tables have fronts at the states of the figures only",
+    "wrinkled_tube: Z_front_2": "tables have fronts at the states of the figures only",
+    "wrinkled_tube: Z_front_3": "tables have fronts at the states of the figures only",
+    "hemisphere: state": "a label of what opens or closes, not a number",
+    "hemisphere: load": "of an event: the control's own value, under the name that both controls share",
+    "circular: X_iso": "where two stretches part by 1e-4: compared in the cases that show it",
+    "fluid_tube: profile:H": "a first integral: its constancy is judged where a case shows it, not its size",
+}
+"""Columns that the audit is known to miss in some solution, and why: a debt, not an exemption."""
 
 Judging = Callable[[Solutions], Iterable[Verdict]]
 
@@ -135,7 +150,10 @@ def audit(
                 if name in EXEMPT or (factor > 0 and name in EXEMPT_SIZE):
                     continue
                 wrong = falsified(result, name, factor)
-                if wrong is not None and all(_passes(one, Solutions({**results, spec: wrong})) for one in sound):
+                if wrong is None:
+                    continue
+                solutions = Solutions({**results, spec: wrong})
+                if all(_passes(one, solutions) for one in sound):
                     missed.append(Missed(str(spec), name, factor))
     return missed
 

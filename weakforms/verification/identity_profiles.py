@@ -64,6 +64,17 @@ def extreme(pick: Callable[[np.ndarray], int], *fields: str, factor: float = 1.0
     return reading
 
 
+def middle(field: str) -> Reading:
+    """A column in the middle of the body."""
+
+    def reading(_: Result, __: State, profile: Field) -> quadrature.Estimated:
+        x = next(iter(profile.columns.values()))
+        value, doubt = quadrature.value_at(x, profile.columns[field], float(x[0] + x[-1]) / 2)
+        return value, doubt + profile.uncertainty[field]
+
+    return reading
+
+
 def at_front(front: str, field: str, kink: bool = True) -> Reading:
     """A column of the profile at a material point that is a column of the state."""
 

@@ -16,6 +16,7 @@ from weakforms.verification.identity_profiles import (
     end,
     extreme,
     field,
+    middle,
     rate,
     read,
     wetted,
@@ -76,6 +77,20 @@ def _cauchy(which: int) -> Any:
     return by
 
 
+def _hamiltonian(result: Result, _: State, c: Columns) -> np.ndarray:
+    """First integral of the free tube."""
+    energy, first, _second = _mooney_rivlin(c["lam1"], c["lam2"], result.parameters["alpha"])
+    return energy - c["lam1"] * first
+
+
+def _force(result: Result, state: State, c: Columns) -> np.ndarray:
+    """Its other first integral in the middle, where the meridian runs along the axis."""
+    _, first, _second = _mooney_rivlin(c["lam1"], c["lam2"], result.parameters["alpha"])
+    at = np.where(np.arange(len(first)) == 0, 1.0, np.nan)
+    p = state.quantities["p"].value
+    return at * (np.sqrt(result.parameters["delta1"]) * first - p * c["rho"] ** 2 / 2)
+
+
 def _tube_potential(result: Result, state: State, profile: Field) -> quadrature.Estimated:
     """Elastic energy of the half tube's profile less pressure times volume."""
     x, c = profile.columns["Z"], profile.columns
@@ -133,6 +148,14 @@ def _gamma(result: Result) -> float:
     return PAPER_GAMMA if given is None else given
 
 
+def _axial(result: Result, state: State, c: Columns) -> np.ndarray:
+    """Axial force a reference angle: the tension's part along the axis less the pressure's on the section."""
+    q = state.quantities
+    pressure = q["p"].value if "p" in q else _gamma(result) * np.maximum(q["zw"].value - c["z"], 0.0)
+    upwards = np.sign(np.gradient(c["z"]))  # a membrane that sags hangs down below its ring
+    return upwards * c["tension"] / np.hypot(1, c["slope"]) - pressure * c["r"] ** 2 / 2
+
+
 def _sphere_tension(result: Result, _: State, c: Columns) -> np.ndarray:
     """Meridional tension a reference angle: the law at the stretches, or uniaxial where it is wrinkled."""
     lam2 = np.maximum(c["lam2"], c["lam1"] ** -0.5)
@@ -160,6 +183,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     "tube": (
         work("p", lambda _, c: -c["V"]),
         stable(),
+        read("u_max", "displacement of the middle", _displacement, _half),
         read("lam1_mid", "meridional stretch of the middle", end("lam1", 0), _half),
         read("lam2_mid", "hoop stretch of the middle", end("lam2", 0)),
         field("lam2", "lam2 = rho/sqrt(delta1)", _hoop),
@@ -171,6 +195,8 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         read("Pi", "potential of the profile", _tube_potential, lambda g: _half(g) and _of_paper(g)),
         _over(field("t1", "t1 is that of the law at the stretches", _cauchy(1)), _of_paper),
         _over(field("t2", "t2 is that of the law at the stretches", _cauchy(2)), _of_paper),
+        _over(field("H", "H = w - lam1 w_1", _hamiltonian), lambda g: _of_paper(g) and _free(g)),
+        _over(field("F_axial", "axial force at the middle", _force), lambda g: _of_paper(g) and _half(g)),
     ),
     "tube_fold": (
         read("u_max", "displacement of the middle", _displacement),
@@ -210,12 +236,18 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         read("wrinkled_fraction", "zones between the fronts where gw < 1", zone("Z_front")),
         field("gw", "gw = lam2 sqrt(lam1)", lambda _, __, c: c["lam2"] * np.sqrt(c["lam1"])),
         field("lam2", "lam2 = r over the undeformed radius", lambda _, __, c: c["r"]),
+        field("axial", "axial = N cos(phi) - P r^2/2", _axial),
+        derived("slope", "slope = dr/dz of the profile", np.divide, "r", "z"),
         derived("lam1", "lam1 is the slope of the profile", np.hypot, "r", "z"),
     ),
     "fluid_tube": (
         work("zw", lambda result, c: -result.parameters["gamma"] * c["V"]),
         read("T1_ring", "tension at the ring", end("T1", 0)),
         read("T2_ring", "hoop tension at the ring", end("T2", 0)),
+        read("r_mid", "radius of the middle", middle("r")),
+        read("T1_mid", "tension of the middle", middle("T1")),
+        read("T2_mid", "hoop tension of the middle", middle("T2")),
+        derived("lam1", "lam1 is the slope of the profile", np.hypot, "r", "z"),
         read("r_max", "largest radius of the profile", extreme(LARGEST, "r")),
         read("r_front", "radius of the profile at the free surface", at_front("Z_front", "r", kink=False)),
         read("zw", "height of the profile at the free surface", at_front("Z_front", "z", kink=False)),
@@ -226,17 +258,23 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         _over(work("P", lambda _, c: -(c["lam"] ** 3) / 3), lambda given: not given.get("vary")),
         equal("lam1", "both stretches are one", lambda c: c["lam"]),
         equal("lam2", "both stretches are one", lambda c: c["lam"]),
+        read("lam1", "the profile's stretch", end("lam1", 0)),
+        read("lam2", "the profile's stretch", end("lam2", 0)),
         stable(),
     ),
     "infinite_tube": (
         work("p", lambda _, c: -c["V"] / 2),
         positive("lam1", "lam2"),
+        read("lam1", "the profile's stretch", end("lam1", 0)),
+        read("lam2", "the profile's stretch", end("lam2", 0)),
         equal("V", "volume of the cylinder", lambda c: c["lam1"] * c["lam2"] ** 2),
         stable(),
     ),
     "homogeneous": (
         work("T", lambda _, c: -c["lam"]),
         equal("lam1", "the stretch along the piece", lambda c: c["lam"]),
+        read("lam1", "the profile's stretch", end("lam1", 0)),
+        read("lam2", "the profile's stretch", end("lam2", 0)),
         positive("lam1", "lam2", "lam_across"),
         stable(),
     ),
