@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from weakforms import infinite_tube, tube
-from weakforms.verification.column_audit import EXEMPT, EXEMPT_SIZE, KNOWN, audit, columns_of, falsified
+from weakforms.verification.column_audit import audit, columns_of, falsified
 from weakforms.verification.discovery import find_cases
+from weakforms.verification.exempt import EXEMPT, EXEMPT_SIZE, KNOWN
 from weakforms.verification.runner import Plan, Solver, solution_key, solve_spec
 
 SPECS = [tube(alpha=0.1, delta1=1.1, u_end=1.0), infinite_tube(model="mooney_rivlin")]

@@ -16,7 +16,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from weakforms.verification import summary
+from weakforms.verification import exempt, summary
 from weakforms.verification.audit.outcome import STATUSES, Audited
 from weakforms.verification.elsewhere import Elsewhere
 from weakforms.verification.faults.outcome import FaultOutcome, Seeded
@@ -41,6 +41,7 @@ RESERVED = (
     "faults",
     "elsewhere",
     "audit",
+    "exempt",
 )
 """Identifiers that the templates use themselves."""
 GROUPS = {
@@ -195,6 +196,12 @@ def _facts(
         "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
         "mutants": _areas(seeded.random.faults if seeded and seeded.random else (), "subject"),
         "look": LOOK,
+        "exempt": {
+            "not judged": exempt.EXEMPT,
+            "judged by sign": exempt.EXEMPT_SIZE,
+            "not judged in every solution": exempt.KNOWN,
+            "a problem without identities": exempt.UNSTATED,
+        },
     }
 
 
