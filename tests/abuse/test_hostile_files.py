@@ -70,8 +70,7 @@ def test_huge_files(tmp_path):
     commands += [["shape", tmp_path / name, tmp_path / "s.vtu"] for name in ("result.json", "states.json")]
     commands += [["report", tmp_path / "run"]]
     for words, called in zip(commands, limited(commands, MEMORY), strict=True):
-        assert called.status in ((2, 0) if "shape" in words else (2,)), (words, called)
-        orderly(called)
+        orderly(called, *((0, 2) if "shape" in words else (2,)))
         assert called.seconds < 60, (words, called.seconds)
     (batch,) = limited([["batch", requests]], MEMORY)
     assert batch.status == 2
@@ -147,7 +146,7 @@ def test_encodings(tmp_path, encoding, door):
         "result": ("shape", file, tmp_path / "s.stl"),
         "report": ("report", tmp_path),
     }.get(door, (*COMPARE, file))
-    called = orderly(call(*words))
+    called = orderly(call(*words), 0, 1, 2)
     if encoding not in ("utf-8-sig", "utf-7"):
         assert called.status == 2
     if encoding == "utf-8-sig" and door in ("csv", "json", "result"):
@@ -175,10 +174,10 @@ def test_cut_and_spliced(tmp_path, place, splice):
         for damaged in (raw[:at] + splice, raw[:at] + splice + raw[at:]):
             path.write_bytes(damaged)
             called = call(*words)
-            assert called.status in (0, 1, 2, 3, 5)
+            assert called.status in (0, 1, 2, 5), "what is no request is refused, what is one is solved"
             assert "internal error" not in called.err + called.out
             if words[0] != "batch":
-                orderly(called)
+                orderly(called, 0, 1, 2, 5)
 
 
 # -- shapes --------------------------------------------------------------------------------------

@@ -177,8 +177,10 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
     near = SimpleNamespace(watching=lambda *_: iter(["tests/c.py::guessed"]))
     monkeypatch.setattr(lines, "Imports", lambda _: near)
     watchers = Watchers(tmp_path)
-    order = ["tests/a.py::slow", "tests/a.py::other", "tests/a.py::quick", "tests/c.py::guessed"]
-    assert [text for text, _ in watchers.of("weakforms/x.py", 3)] == order
+    here.seconds["tests/a.py::elsewhere"] = 0.1  # the fastest, and it runs nothing of the file
+    order = ["slow", "other", "quick", "elsewhere"]
+    found = [text for text, _ in watchers.of("weakforms/x.py", 3)]
+    assert found == [*(f"tests/a.py::{name}" for name in order), "tests/c.py::guessed"]
     changed = replace(here, digests={"weakforms/x.py": "another"})
     assert changed.sees("tests/a.py::quick", "weakforms/x.py", 3, ROOT), "any line of a file that changed"
 
@@ -187,6 +189,8 @@ def test_without_a_measurement_imports_say_who_may_see_it(tmp_path):
     found = [text for text, _ in Watchers(tmp_path).of("weakforms/solvers/refinement.py", 1)]
     assert found[0].startswith("tests/unit/test_refinement.py::")
     assert any(text.startswith("paper") for text in found)
+    tables = [text for text, _ in Watchers(tmp_path).of("reference_data/solvers/paper5_hemisphere.py", 1)]
+    assert "tests/unit/test_reference_solvers.py::test_regenerated_table_equals_the_committed_one" in tables
     assert not any("test_faults" in text for text in found)
 
 

@@ -9,7 +9,7 @@ from mpi4py import MPI
 from scipy.linalg import eigh
 
 import weakforms.problems.fluid_tube as fluid_module
-from weakforms import InputError, WeakformsError, reference, solve
+from weakforms import InputError, reference, solve
 from weakforms.problems.base import Requests, StateRequest, registry
 from weakforms.problems.fluid_tube import TubeData
 from weakforms.problems.fluid_tube_critical import PrimaryBranch
@@ -351,21 +351,21 @@ def test_without_a_fault_both_tables_are_met():
     assert judged() == (True, True)
 
 
-@pytest.mark.parametrize("fault", [pressure_reversed, hydrostatic_halved, volume_change_forgotten])
+@pytest.mark.parametrize("fault", [hydrostatic_halved, volume_change_forgotten])
 def test_a_fault_in_the_weak_form_is_noticed(fault, monkeypatch):
     fault(monkeypatch)
-    try:
-        assert judged() == (False, False)
-    except WeakformsError as error:
-        assert "onverge" in str(error) or "not met" in str(error) or "SNES" in str(error)  # noqa: PT017
+    assert judged() == (False, False)
+
+
+def test_with_the_pressure_reversed_the_tube_does_not_fill(monkeypatch):
+    pressure_reversed(monkeypatch)
+    with pytest.raises(InputError, match=r"V = 20 is not met .* ranges over \[-"):
+        judged()
 
 
 def test_a_dropped_load_stiffness_is_noticed_by_the_eigenvalues(monkeypatch):
     load_stiffness_dropped(monkeypatch)
-    try:
-        assert judged() == (True, False)
-    except WeakformsError as error:
-        assert "SLEPc" in str(error) or "stability" in str(error)  # noqa: PT017  (no longer symmetric)
+    assert judged() == (True, False)
 
 
 # -- bad input -------------------------------------------------------------------------------------

@@ -52,7 +52,7 @@ def test_tables_are_sharper_than_the_accuracy_asked(name):
         assert facts.get("uncertainty_shooting", 0.0) <= 1e-4 * size, column
 
 
-@pytest.mark.parametrize("name", ["gw_fluid_zw_6.6", "gw_gas_p_0.2"])
+@pytest.mark.parametrize("name", ["gw_fluid_zw_6.6", "gw_gas_p_0.2", "gw_hemisphere_zw_-0.7"])
 def test_regenerated_table_equals_the_committed_one(name, tmp_path):
     assert main([name, "--out", str(tmp_path)]) == 0
     about, columns = read(name)
