@@ -329,3 +329,14 @@ def test_every_law_says_where_it_is_from():
             assert constant.contains(constant.default)
             assert constant.meaning
         assert not material.refusal({n: c.default for n, c in material.constants.items()})
+
+
+@pytest.mark.parametrize("term", [1, 2, 3])
+def test_exponents_of_ogden_have_another_range_than_moduli(term):
+    """An exponent of -1000 leaves no number to compute with; a modulus of -1000 is one of another rubber."""
+    constants = MATERIALS["ogden"].constants
+    modulus, exponent = constants[f"mu{term}"], constants[f"alpha{term}"]
+    assert (exponent.low, exponent.high) == (-100.0, 100.0)
+    assert modulus.low < -1000 < 1000 < modulus.high
+    with pytest.raises(InputError, match=f"alpha{term}"):
+        solve("material", model="ogden", l1=1.1, l2=1.0, **{f"alpha{term}": -1000.0})
