@@ -75,13 +75,20 @@ COLUMNS: dict[str, tuple[str, str]] = {
 }
 
 SECONDARY_METHOD = (
-    "Galerkin's method on the Cartesian weak form F(x; v) = 0: trigonometric polynomials in Theta times "
-    "spectral elements in Z, fitted to the free surface Z = Zf(Theta), an unknown cosine polynomial. "
-    "Two resolutions; the values are the finer one's, the uncertainty of a column is the largest difference "
-    "plus what Newton's last step leaves. About an axisymmetric state the code returns the eigenvalues of "
-    "the collocation code (a test)."
+    "Two codes: (a) Galerkin's method on the Cartesian weak form F(x; v) = 0: trigonometric polynomials "
+    "in Theta times spectral elements in Z, integrals by quadrature, elements fitted to the free surface "
+    "Z = Zf(Theta), an unknown cosine polynomial; symmetric eigenproblem; (b) pseudo-spectral collocation"
+    " of the balance of forces, point by point: Chebyshev nodes in Z times equidistant angles, forces on "
+    "cuts as derivatives of the energy by Cartesian components, continuous across the free surface, which"
+    " is an edge of elements too; volume and the liquid's energy as fluxes of vertical fields, resultants"
+    " as forces on principal cuts; eigenvalues of the linearised balance, which is not symmetric. They "
+    "share the elimination of unknowns inside elements and, for slopes and turn, the polynomials through "
+    "states. Two resolutions each. The values are (a); a table is written only if |a - b| <= hypot(u_a, "
+    "u_b) in every row. u_a and u_b are 3 times the largest difference of resolutions, plus what Newton's"
+    " last step leaves. The uncertainty of a column is u_a + max |a - b| + half a unit of the last digit;"
+    " largest_difference_of_methods is max |a - b|."
 )
-SECONDARY_TOLERANCE = "last step of Newton's iteration below 2e-10"
+SECONDARY_TOLERANCE = "last step of either Newton iteration below 2e-10"
 SECONDARY_NOTES = (
     "The C1v branch that starts at the first n = 1 zero, mirror plane Theta = 0, pi, bulge at Theta = 0. "
     "Along it z_w and V fall: in this table the branch starts below the last row and runs upwards. "
@@ -123,10 +130,15 @@ COLUMNS |= {
 }
 
 
-def secondary_grid(grids: tuple[tuple[int, int, int, int], ...]) -> str:
-    """Grids of the two-dimensional code."""
-    each = (f"{w} + {d} of degree {p}, wave numbers to {m}" for w, d, p, m in grids)
-    return f"wet + dry elements: {'; '.join(each)} (over-filled: wet only)"
+def secondary_grid(
+    grids: tuple[tuple[int, int, int, int], ...], nets: tuple[tuple[int, int, int, int], ...]
+) -> str:
+    """Grids of both two-dimensional codes."""
+    one, two = (
+        "; ".join(f"{w} + {d} of degree {p}, wave numbers to {m}" for w, d, p, m in each)
+        for each in (grids, nets)
+    )
+    return f"wet + dry elements, (a) {one}; (b) {two} (over-filled: wet only)"
 
 
 def grid() -> str:

@@ -9,6 +9,8 @@ from functools import cache, partial
 
 import numpy as np
 
+from reference_data.solvers import fluid_tube_bent as bent
+from reference_data.solvers import fluid_tube_strong_states as balance
 from reference_data.solvers import fluid_tube_surface_branch as branch
 from reference_data.solvers import fluid_tube_surface_states as states
 from reference_data.solvers import fluid_tube_text as text
@@ -24,7 +26,7 @@ from reference_data.solvers.fluid_tube_surface import Array, Grid, Surface
 from reference_data.solvers.fluid_tube_surface_solve import newton, raised
 from reference_data.solvers.paper3 import PAPER
 from reference_data.solvers.registry import Builder
-from reference_data.solvers.tables import Column, Table, last_digit, prescribed, round_up
+from reference_data.solvers.tables import Column, Table, prescribed, round_up
 
 # Levels of the tables; the branch starts just above the last one.
 LEVELS: dict[FluidTube, tuple[float, ...]] = {
@@ -36,19 +38,8 @@ LEVELS: dict[FluidTube, tuple[float, ...]] = {
     FluidTube(24, 3): (7.6, 7.65, 7.7, 7.75, 7.8, 7.85, 7.9, 7.95),
 }
 COMPRESSED = (FluidTube(24, 1.5),)  # T2 < 0 in the dry part: see COMPRESSED_NOTES
-STEEP = (FluidTube(8, 2), FluidTube(8, 3))  # eigenvalues from the two finest grids, elsewhere from the others
 OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch is left
 STEP = 0.08
-LEFT = 1e-9  # relative; what Newton's last step leaves in a column
-
-
-def refined(name: str, coarse: Array, fine: Array) -> Column:
-    """Column of the finer values with the difference of the two resolutions."""
-    coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
-    gap = float(np.abs(fine - coarse).max())
-    rest = LEFT * max(1.0, float(np.abs(fine).max()))
-    facts = {"largest_difference_of_resolutions": round_up(gap)}
-    return Column(name, fine, round_up(gap + rest + last_digit(fine)), *text.COLUMNS[name], facts)
 
 
 def documented(
@@ -58,11 +49,16 @@ def documented(
     parameters: dict[str, object],
     columns: list[Column],
     grids: tuple[tuple[int, int, int, int], ...],
+    nets: tuple[tuple[int, int, int, int], ...] = bent.NETS,
     **more: object,
 ) -> Table:
-    """A table of the two-dimensional code."""
-    own = {"method": text.SECONDARY_METHOD, "tolerance": text.SECONDARY_TOLERANCE}
-    return make(name, title, source, parameters, columns, grid=text.secondary_grid(grids), **(own | more))
+    """A table of the two-dimensional codes."""
+    own = {
+        "method": text.SECONDARY_METHOD,
+        "tolerance": text.SECONDARY_TOLERANCE,
+        "grid": text.secondary_grid(grids, nets),
+    }
+    return make(name, title, source, parameters, columns, **(own | more))
 
 
 @cache
@@ -94,28 +90,40 @@ def on_levels(tube: FluidTube, zw: float) -> tuple[Surface, Surface, Surface]:
 def curve(name: str, tube: FluidTube) -> Table:
     """Secondary branch over the level."""
     levels = LEVELS[tube]
-    rows: tuple[Rows, Rows] = ([], [])
-    eigen: tuple[Rows, Rows] = ([], [])
+    rows: tuple[Rows, ...] = ([], [], [], [])  # Galerkin's method coarse and fine, collocation likewise
+    eigen: tuple[Rows, ...] = ([], [], [], [])
     spin = 0.0
     for zw in levels:
         found = on_levels(tube, zw)
-        for i in (0, 1):
-            rows[i].append(states.quantities(found[i + 1]))
-        pair = found[1:] if tube in STEEP else found[:2]
+        pair = found[1:] if tube in bent.STEEP else found[:2]  # for the eigenvalues
         first = states.stability(pair[0])
         second = states.stability(pair[1], first)
         spin = max(spin, abs(second.rotation))
-        for i, s in enumerate((first, second)):
-            eigen[i].append(s.columns())
+        others = bent.balanced(found[0])
+        one = [states.quantities(s) for s in found[1:]] + [balance.quantities(s) for s in others]
+        two = [first.columns(), second.columns(), *(balance.stability(s) for s in others)]
+        for i in range(4):
+            rows[i].append(one[i])
+            eigen[i].append(two[i])
     kept = ("Lambda_1", "LambdaV_1") if tube in COMPRESSED else tuple(eigen[0][0])
     columns = [prescribed("zw", np.array(levels), text.COLUMNS["zw"])]
     for found, names in ((rows, [k for k in rows[0][0] if k != "zw"]), (eigen, kept)):
-        columns += [refined(k, *([row[k] for row in part] for part in found)) for k in names]
+        for k in names:
+            values = [np.array([row[k] for row in part]) for part in found]
+            columns.append(bent.paired(name, k, tuple(values[:2]), tuple(values[2:])))
     notes = text.SECONDARY_NOTES + (text.COMPRESSED_NOTES if tube in COMPRESSED else "")
     title = f"Secondary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
     extra = {"rotation_eigenvalue": round_up(spin)}
     return documented(
-        name, title, "figures 2 and 3", given(tube), columns, branch.GRIDS[:3], notes=notes, extra=extra
+        name,
+        title,
+        "figures 2 and 3",
+        given(tube),
+        columns,
+        branch.GRIDS[:3],
+        bent.chosen(tube),
+        notes=notes,
+        extra=extra,
     )
 
 
@@ -125,23 +133,35 @@ def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, s
     found = middle, raised(middle, branch.grid(middle.partial, 3))
     at = np.round(across * tube.length, 12)
     fields = []
-    for surface in found:
+    for surface in (*found, *bent.balanced(on_levels(tube, zw)[0])):
         x, a, b = surface.evaluate(at, around)
-        lam = weak.stretches(a, b)
-        t = weak.resultants(*lam)
-        fields.append([x[..., 0], x[..., 1], x[..., 2], *lam, *t])
+        if isinstance(surface, Surface):
+            lam = weak.stretches(a, b)
+            principal = *lam, *weak.resultants(*lam)
+        else:
+            principal = balance.principal(a, b)
+        fields.append([v.ravel() for v in (x[..., 0], x[..., 1], x[..., 2], *principal)])
     columns = [
         prescribed("Z", np.repeat(at, len(around)), text.COLUMNS["Z"]),
         prescribed("Theta", np.tile(np.round(around, 12), len(at)), text.COLUMNS["Theta"]),
     ]
     for i, c in enumerate(("x", "y", "z", "lam1", "lam2", "T1", "T2")):
-        columns.append(refined(c, *(f[i].ravel() for f in fields)))
+        values = [f[i] for f in fields]
+        columns.append(bent.paired(name, c, tuple(values[:2]), tuple(values[2:])))
     fine = states.quantities(found[-1])
     facts = given(tube) | {"zw": zw} | {k: fine[k] for k in ("V", "r_mid", "z_min", "T_min")}
     title = f"Secondary branch at z_w = {zw:g}, L = {tube.L:g}, delta = {tube.delta:g}"
     extra = {"keys": ["Z", "Theta"]}
     return documented(
-        name, title, source, facts, columns, branch.GRIDS[2:], notes=text.PRESSURE_NOTES, extra=extra
+        name,
+        title,
+        source,
+        facts,
+        columns,
+        branch.GRIDS[2:],
+        bent.chosen(tube),
+        notes=text.PRESSURE_NOTES,
+        extra=extra,
     )
 
 
@@ -165,14 +185,24 @@ def _limit(values: Array, count: int) -> float:
     )
 
 
-def _slopes(tube: FluidTube, which: int) -> list[dict[str, float]]:
-    """Initial slopes with all offsets, and with all but the largest."""
+def _slopes(tube: FluidTube) -> list[tuple[dict[str, float], dict[str, float]]]:
+    """Initial slopes with all offsets and with all but the largest.
+
+    By Galerkin's method on both grids, then by collocation on both nets.
+    """
     critical, shape = start(tube)
-    base = axisymmetric(critical)
-    rows = []
+    found: tuple[Rows, ...] = ([], [], [], [])
     for offset in SLOPE_OFFSETS:
-        guess = branch.injected(shape, float(offset), _special(critical.partial, which))
-        rows.append(states.quantities(newton(guess, float(offset))))
+        guesses = [branch.injected(shape, float(offset), _special(critical.partial, i)) for i in (0, 1)]
+        rows = [states.quantities(newton(guess, float(offset))) for guess in guesses]
+        rows += [balance.quantities(s) for s in bent.balanced(guesses[0], float(offset))]
+        for part, row in zip(found, rows, strict=True):
+            part.append(row)
+    return [_initial(rows, axisymmetric(critical)) for rows in found]
+
+
+def _initial(rows: Rows, base: dict[str, float]) -> tuple[dict[str, float], dict[str, float]]:
+    """Slopes at the bifurcation from states at all offsets, and at all but the largest."""
     a = SLOPE_OFFSETS
     zw, volume, near, far = (np.array([r[k] for r in rows]) for k in ("zw", "V", "r_mid", "r_mid_pi"))
     series = {
@@ -193,22 +223,36 @@ def _slopes(tube: FluidTube, which: int) -> list[dict[str, float]]:
                 "dV_dA2": at["V"],
             }
         )
-    return out
+    return out[0], out[1]
+
+
+def _extrapolated(
+    table: str,
+    name: str,
+    found: list[list[tuple[dict[str, float], dict[str, float]]]],
+    left: float = 0.0,
+) -> Column:
+    """Column of values that hang on a grid and on a number of states; [tube][method and grid][states]."""
+    pairs = []
+    for i in (0, 2):
+        coarse, fine, fewer = (
+            np.array([row[k][j][name] for row in found]) for k, j in ((i, 0), (i + 1, 0), (i + 1, 1))
+        )
+        own = bent.refined(coarse, fine, left)
+        own.uncertainty = own.uncertainty + bent.TWO_GRIDS * np.abs(fine - fewer).max()
+        pairs.append((own, (coarse, fine)))
+    return bent.joined(table, name, pairs[0][0], pairs[1][0], pairs[0][1])
 
 
 def slopes(name: str) -> Table:
     """How the secondary branch leaves the bifurcation."""
     tubes = list(LEVELS)
-    found = [[_slopes(tube, which) for tube in tubes] for which in (0, 1)]
+    found = [_slopes(tube) for tube in tubes]
     columns = [
         prescribed(k, np.array([float(getattr(t, k)) for t in tubes]), text.COLUMNS[k])
         for k in ("L", "delta")
     ]
-    for k in found[0][0][0]:
-        fine = np.array([row[0][k] for row in found[1]])
-        other = [np.array([row[0][k] for row in found[0]]), np.array([row[1][k] for row in found[1]])]
-        gap = float(sum(np.abs(fine - o).max() for o in other))
-        columns.append(Column(k, fine, round_up(gap + last_digit(fine)), *text.COLUMNS[k]))
+    columns += [_extrapolated(name, k, found) for k in found[0][0][0]]
     extra = {"keys": ["L", "delta"]}
     title, source = "Initial slopes of the secondary branch", "figures 2 and 3"
     return documented(
@@ -218,6 +262,7 @@ def slopes(name: str) -> Table:
         {"gamma": tubes[0].gamma},
         columns,
         SLOPE_GRIDS,
+        (*bent.NETS, *bent.STEEP_NETS),
         notes=text.SLOPE_NOTES,
         extra=extra,
     )
@@ -227,25 +272,21 @@ def turn(name: str) -> Table:
     """Largest r_mid on the secondary branch of L = 8, delta = 2."""
     tube = FluidTube(8, 2)
     line = followed(tube)
+    offsets = np.linspace(0.215, 0.257, 7)
+    near = [min(line.states, key=lambda s, o=o: abs(branch.offset_of(s) - o)) for o in offsets]
     found = []
     for level in (1, 2):
-        offsets, rows, last = np.linspace(0.215, 0.257, 7), [], None
-        for offset in offsets:
-            near = last or min(line.states, key=lambda s, o=offset: abs(branch.offset_of(s) - o))
-            last = newton(near.moved_to(branch.grid(True, level)) if last is None else last, float(offset))
-            rows.append(states.quantities(last))
-        found.append([_top(offsets[s], rows[s]) for s in (slice(None), slice(1, None))])
+        grid = branch.grid(True, level)
+        moved = [newton(s.moved_to(grid), float(o)) for s, o in zip(near, offsets, strict=True)]
+        found.append([states.quantities(s) for s in moved])
+    balanced = [bent.balanced(s, float(o)) for s, o in zip(near, offsets, strict=True)]
+    found += [[balance.quantities(pair[i]) for pair in balanced] for i in (0, 1)]
+    tops = [tuple(_top(offsets[s], rows[s]) for s in (slice(None), slice(1, None))) for rows in found]
     columns = [
         prescribed("L", np.array([tube.L]), text.COLUMNS["L"]),
         prescribed("delta", np.array([tube.delta]), text.COLUMNS["delta"]),
     ]
-    for k in ("zw", "V", "r_mid"):
-        fine = found[1][0][k]
-        gap = abs(fine - found[0][0][k]) + abs(fine - found[1][1][k])
-        value = np.array([fine])
-        columns.append(
-            Column(k, value, round_up(gap + LEFT * max(1.0, fine) + last_digit(value)), *text.COLUMNS[k])
-        )
+    columns += [_extrapolated(name, k, [tops], bent.LEFT) for k in ("zw", "V", "r_mid")]
     notes = "Stationary point of the polynomial in the centroid's offset through seven states around it."
     return documented(
         name,
@@ -254,6 +295,7 @@ def turn(name: str) -> Table:
         {"gamma": tube.gamma},
         columns,
         branch.GRIDS[1:],
+        bent.chosen(tube),
         notes=notes,
         extra={"keys": ["L", "delta"]},
     )

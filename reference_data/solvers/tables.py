@@ -20,6 +20,8 @@ import numpy as np
 
 Array = np.ndarray
 DIGITS = 12
+TWO_GRIDS = 3.0
+"""Safety factor on the difference of two grids where no third one shows the order (Roache 1994)."""
 
 
 class Estimate(Protocol):
@@ -94,8 +96,9 @@ def agreed(
     collocation: Estimate,
     about: tuple[str, str],
     other: str = "finite differences",
+    written: str = "collocation",
 ) -> Column:
-    """Column of collocation values, once the other method is found to agree.
+    """Column of the values of the written method, once the other method is found to agree.
 
     Raises:
         DisagreementError: Naming table, column and worst row.
@@ -106,14 +109,14 @@ def agreed(
         row = int(np.nanargmax(np.where(np.isfinite(gap), gap / room, np.inf)))
         raise DisagreementError(
             f"table {table}, column {name}, row {row}: {other} "
-            f"{differences.value[row]:.14g}, collocation {collocation.value[row]:.14g}, "
+            f"{differences.value[row]:.14g}, {written} {collocation.value[row]:.14g}, "
             f"difference {gap[row]:.2e}, combined uncertainty {room[row]:.2e}"
         )
     own = float(np.max(collocation.uncertainty))
     total = own + float(gap.max()) + last_digit(collocation.value)
     extra = {
         "largest_difference_of_methods": round_up(float(gap.max())),
-        "uncertainty_collocation": round_up(own),
+        f"uncertainty_{written.replace(' ', '_')}": round_up(own),
         f"uncertainty_{other.replace(' ', '_')}": round_up(float(np.max(differences.uncertainty))),
     }
     order = getattr(differences, "order", None)
