@@ -8,7 +8,8 @@ from reference_data.solvers import fluid_tube_strong as strong
 from reference_data.solvers import fluid_tube_text as text
 from reference_data.solvers.fluid_tube_common import Resolved
 from reference_data.solvers.fluid_tube_data import FluidTube
-from reference_data.solvers.fluid_tube_strong import Array, Bent, Net
+from reference_data.solvers.fluid_tube_net import Array, Net
+from reference_data.solvers.fluid_tube_strong import Bent
 from reference_data.solvers.fluid_tube_surface import Surface
 from reference_data.solvers.tables import TWO_GRIDS, Column, agreed, round_up
 

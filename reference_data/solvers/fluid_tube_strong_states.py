@@ -10,11 +10,10 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse.linalg as sla
 
+from reference_data.solvers.fluid_tube_net import EVEN, Array
 from reference_data.solvers.fluid_tube_strong import (
     BREAKING,
-    EVEN,
     SYMMETRIC,
-    Array,
     Balance,
     Bent,
     forces,

@@ -18,6 +18,7 @@ from reference_data.solvers import fluid_tube_weak as weak
 from reference_data.solvers import paper3_secondary as secondary
 from reference_data.solvers.fluid_tube_data import FluidTube
 from reference_data.solvers.fluid_tube_galerkin import Elements
+from reference_data.solvers.fluid_tube_net import Net
 from reference_data.solvers.fluid_tube_surface import Grid
 from reference_data.solvers.tables import DisagreementError
 
@@ -25,7 +26,7 @@ DATA = Path(__file__).resolve().parents[2] / "reference_data" / "paper3"
 TUBE = FluidTube(8, 2)
 HOW = path.RESOLUTIONS[0]
 GRID = Grid(Elements(7, 3, 6, 1.0), 10, 32)
-NET = strong.Net(4, 2, 11, 11)
+NET = Net(4, 2, 11, 11)
 OFFSET = 0.1
 RNG = np.random.default_rng(4)
 
