@@ -122,6 +122,11 @@ def localisation_stretch() -> float:
     return brentq(determinant, grid[first], grid[first + 1], xtol=1e-12)
 
 
+def stretch_at(force: float, l2: float) -> float:
+    """Meridional stretch of the uniform tube at an axial force and a hoop stretch."""
+    return brentq(lambda l1: axial_force(l1, l2) - force, 0.9, 1.1, xtol=1e-15)
+
+
 def localised(solutions: Solutions) -> Finding:
     """The condition is that p is stationary at fixed N; first limit points rise towards its pressure."""
     lam2 = localisation_stretch()
@@ -129,8 +134,7 @@ def localised(solutions: Solutions) -> Finding:
     for step in NEAR:
         aside = []
         for l2 in (lam2 - step, lam2 + step):
-            l1 = brentq(lambda x, l2=l2: axial_force(x, l2) - level, 0.9, 1.1, xtol=1e-15)
-            aside.append(pressure(l1, l2) - critical)
+            aside.append(pressure(stretch_at(level, l2), l2) - critical)
         changes.append(max(abs(change) for change in aside))
     limits = [solutions.point(spec, "limit_point", "p") for spec in LENGTHS.values()]
     return decide.all_of(
