@@ -40,6 +40,22 @@ def test_the_worst_check_and_its_place_where_there_are_any(monkeypatch):
         assert (" at " in stream.getvalue()) == (case.verdicts[0].where != "")
 
 
+def test_accuracies_asked_far_beyond_what_is_delivered_are_named():
+    case = replace(
+        passing_case(),
+        verdicts=[
+            verdict("a:p", bound=1e-10),
+            verdict("b:p", bound=1e-9),  # the widest of a column counts
+            verdict("a:u", bound=1e-13, widest=1e-12),
+            verdict("b:V", bound=1e-12, passed=False),
+            verdict("c:V", bound=0.0),
+        ],
+    )
+    found = summary.accuracies(sample(case))
+    assert [(a.column, round(a.ratio)) for a in found] == [("u", 100000), ("p", 100)]
+    assert [a.column for a in found if a.ratio > summary.LOOSE] == ["u"]
+
+
 def test_headlines():
     assert summary.headline(sample(passing_case())) == "all 3 checks hold"
     lying = replace(passing_case(), verdicts=[verdict("x", passed=False)])

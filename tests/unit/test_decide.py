@@ -205,5 +205,5 @@ def test_numbers_are_not_compared_without_their_uncertainty():
 def test_numbers_are_stacked_and_joined():
     assert stack([number(1), Number(2.0, 0.1)]).uncertainty.tolist() == [0, 0.1]
     assert join([Number([1, 2], 0.2), 3.0]).value.tolist() == [1, 2, 3]
-    assert Number([1.0, 3.0], [0.1, 0.2]).at_most().uncertainty == 0.2
-    assert Number([1.0, 3.0], [0.1, 0.2]).at_least().value == 1.0
+    assert Number([1.0, 3.0], [0.1, 0.2]).largest().uncertainty == 0.2
+    assert Number([1.0, 3.0], [0.1, 0.2]).smallest().value == 1.0

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+FACTOR = 2.0
+"""How many combined uncertainties two numbers that agree may differ by."""
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -54,7 +57,7 @@ def compare(
     size = float(scale if scale is not None else np.max(np.abs(reference)))
     size = size or 1.0
     own = np.broadcast_to(np.asarray(uncertainty, dtype=float), values.shape)
-    bound = 2.0 * np.hypot(own, reference_uncertainty)
+    bound = FACTOR * np.hypot(own, reference_uncertainty)
     return Comparison(
         error=np.abs(values - reference) / size,
         bound=bound / size,

@@ -38,7 +38,7 @@ def jumps(offset: np.ndarray, values: Number, window: float) -> Number:
         values: The field there.
         window: Length of the windows.
     """
-    (before, largest), (after, other) = (_one_sided(offset, values, side, window) for side in (-1, 1))
+    (before, largest), (after, other) = (one_sided(offset, values, side, window) for side in (-1, 1))
     return abs(before - after) / np.maximum(largest, other)
 
 
@@ -56,21 +56,24 @@ def first_jumps(
     return decide.all_of(found)
 
 
-def _one_sided(offset: np.ndarray, values: Number, side: int, window: float) -> tuple[Number, np.ndarray]:
-    """Derivatives at the front with their uncertainty, and their largest magnitudes in the window.
+def one_sided(offset: np.ndarray, values: Number, side: int, window: float) -> tuple[Number, np.ndarray]:
+    """Derivatives 0 to 3 at a front from one side, and their largest magnitudes in half the window.
 
     A derivative of the fit is a sum of the samples with weights, which are the derivatives of the fits to
-    unit samples: with them it passes the samples' uncertainties on.
+    unit samples: with them it passes the samples' uncertainties on. Added is what a fit of one degree less is
+    off by, the uncertainty of the fit itself.
     """
     inside = (side * offset > 0) & (side * offset < window)
-    x = offset[inside]
+    x, samples = offset[inside], values.value[inside]
     grid = side * np.linspace(0, window / 2, 20)
 
-    def derivatives(samples: np.ndarray, where: np.ndarray) -> np.ndarray:
-        fit = np.polynomial.Chebyshev.fit(x, samples, FIT)
+    def derivatives(samples: np.ndarray, where: np.ndarray, degree: int = FIT) -> np.ndarray:
+        fit = np.polynomial.Chebyshev.fit(x, samples, degree)
         return np.array([fit.deriv(m)(where) if m else fit(where) for m in range(HIGHEST)])
 
-    weights = np.array([derivatives(unit, np.zeros(1))[:, 0] for unit in np.eye(len(x))]).T
-    spread = np.hypot.reduce(weights * values.uncertainty[inside], axis=1)
-    fitted = derivatives(values.value[inside], np.zeros(1))[:, 0]
-    return Number(fitted, spread), np.abs(derivatives(values.value[inside], grid)).max(axis=1)
+    front = np.zeros(1)
+    weights = np.array([derivatives(unit, front)[:, 0] for unit in np.eye(len(x))]).T
+    passed_on = Number(np.zeros(HIGHEST), np.hypot.reduce(weights * values.uncertainty[inside], axis=1))
+    fitted, coarser = derivatives(samples, front)[:, 0], derivatives(samples, front, FIT - 1)[:, 0]
+    largest = np.abs(derivatives(samples, grid)).max(axis=1)
+    return Number(fitted, np.abs(fitted - coarser)) + passed_on, largest

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from weakforms.verification.bounds import compare
+from weakforms.verification.bounds import FACTOR, compare
 from weakforms.verification.numbers import Number, join, number, of_point, stack
 
 __all__ = [
@@ -35,6 +35,7 @@ __all__ = [
     "less",
     "mean_order",
     "negative",
+    "not_negative",
     "number",
     "of_point",
     "order",
@@ -49,6 +50,9 @@ __all__ = [
 CLEAR = 10
 """By how many combined uncertainties the two sides of an inequality must be apart. Twice is what agreement
 allows; five times more is left, so that no number can agree with the other side and be clear of it."""
+
+LEAST_CLEAR = FACTOR
+"""The same for what is all but zero, and whose sign a finer mesh would only repeat: as for agreement."""
 
 ROUNDING = 400 * np.finfo(float).eps
 """What rounding leaves of an identity (9e-14 relative): a few hundred operations, each of half a unit."""
@@ -128,21 +132,34 @@ def exact(what: str, found: Any, expected: Any, scale: float = 1.0) -> Finding:
     )
 
 
-def positive(what: str, found: Any) -> Finding:
-    """A number, or every entry, is above zero."""
+def positive(what: str, found: Any, clear: float = CLEAR) -> Finding:
+    """A number, or every entry, is above zero, by ``clear`` times its uncertainty."""
     x = number(found)
     if not _some(x):
         return Finding(False, f"{what}: there are no numbers")
-    i = np.argmin(np.where(np.isnan(x.uncertainty), -np.inf, x.value - CLEAR * x.uncertainty))
+    i = np.argmin(np.where(np.isnan(x.uncertainty), -np.inf, x.value - clear * x.uncertainty))
     worst = Number(x.value.flat[i], x.uncertainty.flat[i])
     detail = f"{what}: {_shown(worst)}" + (f", the least of {x.value.size}" if x.value.size > 1 else "")
-    return Finding(bool(np.all(x.value > CLEAR * x.uncertainty)), detail)
+    return Finding(bool(np.all(x.value > clear * x.uncertainty)), detail)
 
 
 def negative(what: str, found: Any) -> Finding:
     """A number, or every entry, is below zero."""
     holds, detail = positive(what, -number(found))
     return Finding(holds, f"minus {detail}")
+
+
+def not_negative(what: str, found: Any, asked: float, scale: float) -> Finding:
+    """No entry is below zero by more than twice its uncertainty, and that is small beside ``scale``.
+
+    For what may touch zero, where a sign cannot be clear.
+    """
+    x = number(found)
+    if not _some(x):
+        return Finding(False, f"{what}: there are no numbers")
+    wide = float(np.max(FACTOR * x.uncertainty)) / scale
+    good = np.all(x.value >= -FACTOR * x.uncertainty) and wide <= asked
+    return Finding(bool(good), f"{what}: at least {np.min(x.value):.3g}, bound {wide:.1e} of {scale:.3g}")
 
 
 def rises(what: str, found: Number | Sequence[Any]) -> Finding:

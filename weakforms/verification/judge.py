@@ -313,4 +313,4 @@ def _error(
         value = solutions.points(spec, check.kind)[check.row].values[check.column]
         return abs(value - exact[check.row]) * (1 / abs(exact.value[check.row]))
     values, _ = solutions.sampled(spec, at, check.column)
-    return abs(values - exact).at_most() * (1 / np.max(np.abs(exact.value)))
+    return abs(values - exact).largest() * (1 / np.max(np.abs(exact.value)))

@@ -63,7 +63,7 @@ def shows(reading: Reading, value: float, uncertainty: float, printed: str) -> b
     half = float(Decimal(1).scaleb(unit.as_tuple().exponent)) / 2
     if not (math.isfinite(value) and 0 <= uncertainty <= half / PROVEN):
         return False
-    ends = [Decimal(end) for end in (value - uncertainty, value + uncertainty)]
+    ends = _ends(value, uncertainty)
     if isinstance(reading, CutOff):
         return all(end.quantize(unit, rounding=ROUND_DOWN) == unit for end in ends)
     if isinstance(reading, OnGrid):
@@ -78,10 +78,12 @@ def rounds_to(value: float, uncertainty: float, printed: str) -> bool:
     unit = Decimal(printed)
     if not (abs(value) + uncertainty < 1e9 and uncertainty >= 0):  # nor does anything that is not a number
         return False
-    return all(
-        Decimal(end).quantize(unit, rounding=ROUND_HALF_EVEN) == unit
-        for end in (value - uncertainty, value + uncertainty)
-    )
+    return all(end.quantize(unit, rounding=ROUND_HALF_EVEN) == unit for end in _ends(value, uncertainty))
+
+
+def _ends(value: float, uncertainty: float) -> list[Decimal]:
+    """Both ends of where a number may lie."""
+    return [Decimal(end) for end in (value - uncertainty, value + uncertainty)]
 
 
 @wants.register

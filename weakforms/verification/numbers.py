@@ -86,11 +86,11 @@ class Number:
         """Steps from entry to entry."""
         return self[1:] - self[:-1]
 
-    def at_most(self) -> Number:
+    def largest(self) -> Number:
         """The largest entry, as uncertain as the most uncertain one."""
         return Number(np.max(self.value), np.max(self.uncertainty))
 
-    def at_least(self) -> Number:
+    def smallest(self) -> Number:
         """The smallest entry, as uncertain as the most uncertain one."""
         return Number(np.min(self.value), np.max(self.uncertainty))
 

@@ -40,6 +40,8 @@ class Verdict:
     """The abscissa of the worst point, such as ``u_max = 1.25``."""
     reference: str = ""
     """Name of the reference table, or of the exact statement."""
+    widest: float | None = None
+    """The largest bound over all rows, where there are several: it is what must be below ``asked``."""
     differs: str = ""
     """Where the paper says otherwise: what it says, and why that does not hold."""
 

@@ -186,6 +186,7 @@ def _facts(
         "broken": [view for view in views if view["failing"] or view["case"].errors],
         "marks": {name: places[id(top)] for name, top in tops.items() if top is not None},
         "spread": _spread(verdicts),
+        "loose": [a for a in summary.accuracies(run) if a.ratio > summary.LOOSE],
         "groups": groups,
         "ledger": summary.ledger_counts(run.cases),
         "differing": _differing(views),

@@ -7,6 +7,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
@@ -41,6 +42,21 @@ LABELS = {
     LOST: LOST,
 }
 """What people read of the status of a printed number; any other is its own label."""
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """The accuracy that a case asks of a column, and the one that it delivers."""
+
+    case: str
+    column: str
+    asked: float
+    delivered: float
+
+    @property
+    def ratio(self) -> float:
+        """Asked over delivered."""
+        return self.asked / self.delivered
 
 
 def case_status(case: CaseOutcome) -> str:
@@ -111,6 +127,22 @@ def bluntest(verdicts: Iterable[Verdict]) -> Verdict | None:
     """The numerical check whose bound comes closest to the asked accuracy, or exceeds it most."""
     judged = [verdict for verdict in verdicts if verdict.bound is not None and verdict.asked]
     return max(judged, key=lambda verdict: _rank(verdict.bound / verdict.asked), default=None)
+
+
+LOOSE = 100
+"""An accuracy asked of more than this many times the bound delivered says little of what is known."""
+
+
+def accuracies(run: RunOutcome) -> list[Accuracy]:
+    """What every case asks of a column, beside the widest bound that it delivers of it; the loosest first."""
+    widest: dict[tuple[str, str, float], float] = {}
+    for case, verdict in verdicts_of(run):
+        bound = verdict.bound if verdict.widest is None else verdict.widest
+        if verdict.passed and verdict.asked and bound:
+            key = (case.id, verdict.check.rpartition(":")[2], verdict.asked)
+            widest[key] = max(widest.get(key, 0.0), bound)
+    found = [Accuracy(*key, bound) for key, bound in widest.items()]
+    return sorted(found, key=lambda accuracy: -accuracy.ratio)
 
 
 def of_curve(curve: CurveOutcome, verdicts: Iterable[Verdict]) -> list[Verdict]:
