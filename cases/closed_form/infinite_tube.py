@@ -68,7 +68,7 @@ CASE = Case(
                 base=TUBES[m][0],
                 parameters=(),
                 asked=dict.fromkeys(
-                    ("p_maxwell", "lam1_thin", "lam2_thin", "lam1_thick", "lam2_thick"), 1e-8
+                    ("p_maxwell", "lam1_thin", "lam2_thin", "lam1_thick", "lam2_thick"), 1e-9
                 ),
             )
             for m in COEXISTING

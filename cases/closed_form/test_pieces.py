@@ -41,5 +41,5 @@ CASE = Case(
         )
         for loading in LOADINGS
     ),
-    asked={"T": 1e-8},
+    asked={"T": 5e-10},
 )

@@ -58,7 +58,7 @@ CASE = Case(
                 reference=f"disk_limits_{m}",
                 base=spec,
                 parameters=(),
-                asked={"p": 1e-7, "t0": 1e-6, "lam_pole": 1e-6},
+                asked={"p": 5e-10, "t0": 5e-10, "lam_pole": 5e-10},
             )
             for m, spec in DISKS.items()
         ),
@@ -69,8 +69,12 @@ CASE = Case(
                 parameters=(),
                 at=DEEP,
                 asked={
-                    **dict.fromkeys(("t0", "lam_pole", "X_contact", "rho_contact", "V"), 1e-6),
-                    **dict.fromkeys(("lam1_rim", "lam1_contact", "sigma_pole"), 1e-5),
+                    **dict.fromkeys(("t0", "lam_pole", "rho_contact"), 5e-10),
+                    "X_contact": 1e-9,
+                    "V": 2e-9,
+                    "lam1_rim": 1e-6,
+                    "lam1_contact": 5e-8,
+                    "sigma_pole": 5e-10,
                 },
             )
             for m, spec in CONTACT.items()
@@ -82,5 +86,5 @@ CASE = Case(
             contact,
         ),
     ),
-    asked={"p": 1e-7, "lam_pole": 1e-7, "V": 1e-7, "lam1_rim": 1e-6},
+    asked={"p": 5e-10, "lam_pole": 5e-10, "V": 5e-10, "lam1_rim": 1e-6},
 )

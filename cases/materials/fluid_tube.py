@@ -93,7 +93,7 @@ CASE = Case(
                 base=spec,
                 parameters=(),
                 where={"n": float(n)},
-                asked={"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7},
+                asked={"zw": 5e-10, "V": 5e-10, "r_mid": 2e-9, "r_max": 1e-8, "Pi": 5e-10},
             )
             for m, spec in TUBES.items()
             for kind, n in KINDS.items()
@@ -120,8 +120,13 @@ CASE = Case(
         ),
     ),
     asked={
-        **dict.fromkeys(("zw", "r_mid", "r_max", "Pi"), 1e-6),
-        **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 1e-5),
-        **dict.fromkeys(EIGENVALUES, 1e-6),
+        **dict.fromkeys(("zw", "Pi"), 5e-10),
+        "r_mid": 5e-9,
+        "r_max": 5e-8,
+        "T1_ring": 2e-7,
+        "T2_ring": 5e-8,
+        "T1_mid": 1e-05,
+        "T2_mid": 1e-6,
+        **dict.fromkeys(EIGENVALUES, 5e-8),
     },
 )

@@ -62,7 +62,7 @@ CASE = Case(
                 reference=f"tube_limits_{m}",
                 base=spec,
                 parameters=(),
-                asked={"p": 1e-7, "u_max": 1e-5},
+                asked={"p": 5e-10, "u_max": 5e-7},
             )
             for m, spec in TUBES.items()
         ),
@@ -85,6 +85,6 @@ CASE = Case(
             contact_balance,
         ),
     ),
-    asked={"p": 1e-6, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+    asked={"p": 1e-9, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 5e-10},
     quick=True,
 )

@@ -36,7 +36,7 @@ CASE = Case(
                 base=spec,
                 parameters=(),
                 where={"n": float(n), "direction": direction},
-                asked={"zw": 1e-6},
+                asked={"zw": 5e-8},
             )
             for m, spec in TUBES.items()
             for n in WAVES

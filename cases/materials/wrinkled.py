@@ -58,7 +58,7 @@ CASE = Case(
                 base=EMPTY[m],
                 parameters=("M", "delta"),
                 where={"M": 0.5},
-                asked={"Af_critical": 1e-8},
+                asked={"Af_critical": 5e-10},
             )
             for m in MODELS
         ),
@@ -68,7 +68,7 @@ CASE = Case(
                 reference=f"wrinkled_threshold_{m}",
                 base=THRESHOLDS[m],
                 parameters=("delta",),
-                asked={"M": 1e-7, "Z": 1e-5},
+                asked={"M": 1e-7, "Z": 1e-6},
             )
             for m in MODELS
         ),
@@ -79,7 +79,7 @@ CASE = Case(
                 base=FILLED[m],
                 parameters=(),
                 where={"state": state},
-                asked={"zw": 1e-7, "Z": 1e-5},
+                asked={"zw": 5e-9, "Z": 1e-6},
             )
             for m in MODELS
             for kind, state in (("zone_opening", 1.0), ("zone_closing", -1.0))
@@ -90,7 +90,7 @@ CASE = Case(
                 reference=f"wrinkled_limits_{m}",
                 base=INFLATED[m],
                 parameters=(),
-                asked={"p": 1e-7, "V": 1e-5, "r_max": 1e-5},
+                asked={"p": 1e-8, "V": 5e-9, "r_max": 5e-9},
             )
             for m in MODELS
         ),

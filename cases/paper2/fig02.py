@@ -95,7 +95,7 @@ CASE = Case(
             reference="limit_points_alpha_0",
             base=tube(alpha=0),
             parameters=("delta1",),
-            asked={"p": 1e-8, "u_max": 1e-6},
+            asked={"p": 5e-10, "u_max": 5e-10},
         ),
         PrintedExact(
             "delta2 for delta1 = 1.5",
@@ -144,5 +144,5 @@ CASE = Case(
             first_branch_at_1_9,
         ),
     ),
-    asked={"p": 1e-7, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+    asked={"p": 1e-9, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 5e-10},
 )

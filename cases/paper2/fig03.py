@@ -76,14 +76,14 @@ CASE = Case(
             reference="limit_points_alpha_0.1",
             base=tube(alpha=0.1),
             parameters=("delta1",),
-            asked={"p": 1e-8, "u_max": 1e-6},
+            asked={"p": 5e-10, "u_max": 5e-10},
         ),
         Points(
             "cusp_point",
             reference="cusp",
             base=tube_fold(),
             parameters=("alpha", "lf"),
-            asked={"delta1": 1e-7, "p": 1e-7, "u_max": 1e-3},
+            asked={"delta1": 5e-10, "p": 1e-9, "u_max": 1e-9},
         ),
         Claim(
             "axis",
@@ -106,6 +106,6 @@ CASE = Case(
             source="figure 3(b)",
         ),
     ),
-    asked={"p": 1e-7, "u_max": 1e-7, "delta1": 1e-7, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+    asked={"p": 1e-9, "u_max": 1e-7, "delta1": 5e-10, "lam1_mid": 5e-8, "t1_mid": 5e-8, "V": 5e-10},
     quick=True,
 )

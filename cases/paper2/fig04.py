@@ -87,5 +87,5 @@ CASE = Case(
             )
         ),
     ),
-    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "t1": 1e-6, "t2": 1e-6},
+    asked={"rho": 1e-9, "eta": 1e-9, "lam1": 1e-6, "lam2": 1e-9, "t1": 1e-6, "t2": 1e-6},
 )

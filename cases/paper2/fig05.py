@@ -45,6 +45,6 @@ CASE = Case(
             grows,
         ),
     ),
-    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "t1": 1e-6, "t2": 1e-6},
+    asked={"rho": 5e-10, "eta": 5e-10, "lam1": 1e-6, "lam2": 5e-10, "t1": 1e-6, "t2": 1e-6},
     quick=True,
 )

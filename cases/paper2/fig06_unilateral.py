@@ -57,10 +57,10 @@ CASE = Case(
     ),
     asked={
         "u_max": 1e-6,
-        "lam1_mid": 1e-6,
+        "lam1_mid": 5e-9,
         "t1_mid": 1e-6,
         "line_force": 1e-3,
         "line_force_membrane": 1e-3,
-        "spring_max": 1e-3,
+        "spring_max": 1e-4,
     },
 )

@@ -60,5 +60,5 @@ CASE = Case(
             never_compressed,
         ),
     ),
-    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4},
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-5, "t2": 2e-6},
 )

@@ -62,5 +62,5 @@ CASE = Case(
             curls_inward,
         ),
     ),
-    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4},
+    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 5e-6, "t2": 2e-6},
 )

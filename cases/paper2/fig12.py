@@ -90,5 +90,5 @@ CASE = Case(
             pushes_then_pulls,
         ),
     ),
-    asked={"f_t": 1e-3, "f_k": 1e-3},
+    asked={"f_t": 1e-3, "f_k": 5e-6},
 )

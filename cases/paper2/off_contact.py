@@ -31,16 +31,16 @@ CASE = Case(
         for kind, how in KINDS.items()
     ),
     asked={
-        "u_max": 1e-6,
+        "u_max": 2e-8,
         "contact_length": 1e-6,
         "Z_front": 1e-6,
-        "lam1_mid": 1e-6,
-        "t1_mid": 1e-6,
+        "lam1_mid": 2e-9,
+        "t1_mid": 5e-9,
         "V": 1e-6,
-        "line_force": 1e-3,
+        "line_force": 5e-6,
         "traction_front": 1e-3,
         "traction_max": 1e-3,
-        "spring_max": 1e-3,
+        "spring_max": 5e-7,
     },
     quick=True,
 )

@@ -36,8 +36,8 @@ CASE = Case(
             reference="limit_points_off",
             base=tube(),
             parameters=("alpha", "delta1", "lf"),
-            asked={"p": 1e-8, "u_max": 1e-6},
+            asked={"p": 5e-10, "u_max": 5e-10},
         ),
     ),
-    asked={"p": 1e-7, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-6},
+    asked={"p": 1e-9, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-9},
 )
