@@ -3,7 +3,7 @@
 First contact, frictionless and adhesive inflation, deflation; G = 0 all along adhesive inflation.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular
+from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular, decide
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 SLIP = {
@@ -23,25 +23,25 @@ def label(s: tuple[float, float]) -> str:
 
 
 def no_release(solutions: Solutions) -> Finding:
-    """G along adhesive inflation."""
-    worst = max(float(abs(solutions.branch(spec).columns["G"]).max()) for spec in STICK.values())
-    return worst < 1e-8, f"largest |G| {worst:.1e}"
+    """G along adhesive inflation, beside the 1 that peeling reaches."""
+    return decide.all_of(decide.zero("G", solutions.along(spec, "G"), 1e-8) for spec in STICK.values())
 
 
 def contact_later(solutions: Solutions) -> Finding:
     """Pressure of first contact."""
-    p = {s: solutions.points(SLIP[s], "contact_onset")[0].values["p"] for s in SETS}
-    good = all(p[a, 2] > p[a, 1] for a in (0, 0.1)) and all(p[0.1, b] > p[0, b] for b in (1, 2))
-    return good, ", ".join(f"alpha = {a}, beta = {b}: {v:.6f}" for (a, b), v in p.items())
+    p = {s: solutions.point(SLIP[s], "contact_onset", "p") for s in SETS}
+    return decide.all_of(
+        *(decide.less(f"alpha = {a}", p[a, 1], p[a, 2]) for a in (0, 0.1)),
+        *(decide.less(f"beta = {b}", p[0, b], p[0.1, b]) for b in (1, 2)),
+    )
 
 
 def taut(solutions: Solutions) -> Finding:
-    """Smallest principal resultant anywhere along the branches."""
-    least = min(
-        float(solutions.branch(spec).columns["t_min"][1:].min())
+    """Smallest principal resultant anywhere along the branches, but for the unstressed beginning."""
+    return decide.all_of(
+        decide.positive("smallest resultant", solutions.along(spec, "t_min")[1:])
         for spec in (*SLIP.values(), *STICK.values(), *DOWN.values())
     )
-    return least > 0, f"smallest resultant {least:.4f}"
 
 
 CASE = Case(

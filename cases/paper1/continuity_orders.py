@@ -5,11 +5,10 @@ only, and its rate, like the pressure, is continuous). In adhesive inflation lam
 adhesive deflation lam1 jumps and lam2 is C0.
 """
 
-import numpy as np
-
 from weakforms import At, Case, Claim, Finding, Solutions, circular, continuity, reference
 
-WINDOW = 0.06
+WINDOW = 0.12
+"""Wide enough for third derivatives: they pass on what samples are off by over the cube of it."""
 STICK = circular(alpha=0.1, beta=1, contact="adhesive").on(degree=6)
 SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=5.0).on(degree=6)
 DOWN = STICK.at(phase="deflation")
@@ -31,14 +30,7 @@ def state(kind: str) -> At:
 def as_stated(kind: str, solutions: Solutions) -> Finding:
     """First derivatives that jump."""
     spec, _, edge, expected = KINDS[kind]
-    at, good, found = state(kind), True, []
-    for name, order in expected.items():
-        values, _ = solutions.sampled(spec, at, name)
-        jumps = continuity.jumps(np.asarray(at.profile) - edge, values, WINDOW)
-        first, clear = continuity.first_jump(jumps)
-        good &= clear and first == order
-        found.append(f"{name}: derivative {first}, relative jumps " + ", ".join(f"{j:.0e}" for j in jumps))
-    return good, "; ".join(found)
+    return continuity.first_jumps(solutions, spec, state(kind), edge, WINDOW, expected)
 
 
 STATEMENTS = {

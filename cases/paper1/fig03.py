@@ -4,8 +4,6 @@ Mooney-Rivlin, alpha = 0.1, k = 50, l = 0.5; (a) beta = 1, (b) beta = 2. The pre
 legends. Points in contact move outwards as the pressure grows; their paths diverge and have no inflexion.
 """
 
-import numpy as np
-
 from weakforms import (
     At,
     Axis,
@@ -19,6 +17,7 @@ from weakforms import (
     Solutions,
     Spec,
     circular,
+    decide,
 )
 
 SLIP = {beta: circular(alpha=0.1, beta=beta, contact="frictionless", p_end=9.0) for beta in (1, 2)}
@@ -40,34 +39,28 @@ def of(beta: int, p: float) -> Spec:
 
 def outwards(solutions: Solutions) -> Finding:
     """Radii of material points on the patch, over the pressures in contact."""
-    worst, points = np.inf, 0
+    found = []
     for beta, pressures in IN_CONTACT.items():
         for x in (0.1, 0.2, 0.3):
-            rho = []
-            for p in pressures:
-                at = At("p", p, profile=PATHS)
-                inside = solutions.value(SLIP[beta], at, "X_contact") > x
-                if inside:
-                    rho.append(float(solutions.sampled(SLIP[beta], at, "rho")[0][PATHS.index(x)]))
-            worst, points = min(worst, float(np.diff(rho).min())), points + len(rho)
-    return worst > 0, f"smallest step of rho over {points} states of points in contact: {worst:.2e}"
+            ats = [At("p", p, profile=PATHS) for p in pressures]
+            inside = [at for at in ats if solutions.value(SLIP[beta], at, "X_contact") > x]
+            rho = decide.stack(solutions.samples(SLIP[beta], at, "rho")[PATHS.index(x)] for at in inside)
+            found.append(decide.rises(f"rho of X = {x}", rho))
+    return decide.all_of(found)
 
 
 def no_inflexion(solutions: Solutions) -> Finding:
-    """Sign of the turning of the paths in the (rho, eta) plane, for points that touch late or never."""
-    signs = set()
+    """Turning of the paths in the (rho, eta) plane, for points that touch late or never: to the right."""
+    found = []
     for beta, over in OVER.items():
         for x in (0.3, 0.5, 0.7):
-            xy = []
-            for at in over:
-                where = At(at.name, at.value, profile=PATHS)
-                xy.append(
-                    [solutions.sampled(SLIP[beta], where, n)[0][PATHS.index(x)] for n in ("rho", "eta")]
-                )
-            step = np.diff(np.array(xy), axis=0)
-            turn = step[:-1, 0] * step[1:, 1] - step[:-1, 1] * step[1:, 0]
-            signs.add(tuple(np.unique(np.sign(turn))))
-    return signs == {(-1.0,)}, f"signs of the turning along the paths of X = 0.3, 0.5, 0.7: {sorted(signs)}"
+            ats = [At(at.name, at.value, profile=PATHS) for at in over]
+            rho, eta = (
+                decide.stack(solutions.samples(SLIP[beta], at, n)[PATHS.index(x)] for at in ats).diff()
+                for n in ("rho", "eta")
+            )
+            found.append(decide.negative(f"turning of X = {x}", rho[:-1] * eta[1:] - eta[:-1] * rho[1:]))
+    return decide.all_of(found)
 
 
 STATES = tuple((SLIP[b], At("p", p, profile=PATHS)) for b, ps in IN_CONTACT.items() for p in ps)

@@ -20,6 +20,7 @@ from weakforms import (
     Solutions,
     Spec,
     circular,
+    decide,
 )
 
 STICK = {
@@ -30,6 +31,8 @@ FREE = {beta: circular(alpha=0.1, beta=beta) for beta in (1, 2)}
 SAME_STATE = {(2, 2.66): "fig03b_p_2.66", (2, 4.49): "fig03b_p_4.49"}
 FIRST_TOUCH = {1: 2.03, 2: 4.89}
 PRINTED = {1: (0.408, 2.094, 2.833, 3.477), 2: (2.66, 4.49, 6.16, 8.49)}
+CLEAR_OF_EDGE = 0.01
+"""How far inside the patch a point is that is looked at."""
 HUNDREDTHS = tuple(k / 100 for k in range(45, 66))
 """Pole heights in contact, around the substrate at l = 0.5, that would count as round."""
 PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
@@ -50,59 +53,61 @@ def of(beta: int, p: float) -> Spec:
     return STICK[beta].on(cells=144) if p < 1.05 * FIRST_TOUCH[beta] else STICK[beta]
 
 
-def samples(solutions: Solutions, beta: int, pressures: tuple[float, ...], name: str) -> np.ndarray:
+def samples(solutions: Solutions, beta: int, pressures: tuple[float, ...], name: str) -> decide.Number:
     """A column at the material points of the paths, one row a pressure."""
     at = [At("p", p, profile=PATHS) for p in pressures]
-    return np.array([solutions.sampled(STICK[beta], a, name)[0] for a in at])
+    return decide.stack(solutions.samples(STICK[beta], a, name) for a in at)
 
 
 def vertical(solutions: Solutions) -> Finding:
-    """Radius and stretches of points in contact while the pressure grows."""
-    spread, steps = 0.0, 0
+    """Radius and stretches of points in contact while the pressure grows: frozen, not solved for."""
+    found = []
     for beta, pressures in LATE.items():
         front = np.array([solutions.value(STICK[beta], At("p", p), "X_contact") for p in pressures])
         for name in ("rho", "lam1", "lam2"):
             values = samples(solutions, beta, pressures, name)
             for i, x in enumerate(PATHS):
-                stuck = values[front > x + 0.01, i]
+                stuck = values[front > x + CLEAR_OF_EDGE, i]
                 if len(stuck) > 1:
-                    spread, steps = max(spread, float(np.ptp(stuck))), steps + len(stuck) - 1
-    return spread < 1e-9, f"largest change of rho, lam1 or lam2 over {steps} steps: {spread:.1e}"
+                    found.append(decide.constant(f"{name} of X = {x}", stuck, 1e-6))
+    return decide.all_of(found)
 
 
 def pole_frozen(solutions: Solutions) -> Finding:
     """The stretch at the pole against its value at first contact."""
-    off = []
-    for beta, pressures in LATE.items():
-        (onset,) = solutions.points(STICK[beta], "contact_onset")
-        values = [solutions.quantity(STICK[beta], At("p", p), "lam_pole") for p in pressures]
-        bound = 2 * max(v.uncertainty for v in values) + 2 * onset.uncertainty["lam_pole"]
-        off.append((max(abs(v.value - onset.values["lam_pole"]) for v in values), bound))
-    return all(d <= b < 1e-6 for d, b in off), "; ".join(f"{d:.1e} within {b:.1e}" for d, b in off)
+    return decide.all_of(
+        decide.agree(
+            f"lam_pole, beta = {beta}",
+            solutions.numbers(STICK[beta], [At("p", p) for p in pressures], "lam_pole"),
+            solutions.point(STICK[beta], "contact_onset", "lam_pole"),
+            1e-6,
+        )
+        for beta, pressures in LATE.items()
+    )
 
 
 def rise_to_the_edge(solutions: Solutions) -> Finding:
     """Both stretches along the patch at the last pressure, between points 0.1 apart."""
-    least = np.inf
+    found = []
     for beta, pressures in LATE.items():
         edge = solutions.value(STICK[beta], At("p", pressures[-1], profile=PATHS), "X_contact")
         inside = [i for i, x in enumerate(PATHS) if x < edge]
-        for name in ("lam1", "lam2"):
-            values = samples(solutions, beta, pressures[-1:], name)[0, inside]
-            least = min(least, float(np.diff(values).min()))
-    return least > 0, f"smallest increment: {least:.1e}"
+        found += [
+            decide.rises(f"{name}, beta = {beta}", samples(solutions, beta, pressures[-1:], name)[0, inside])
+            for name in ("lam1", "lam2")
+        ]
+    return decide.all_of(found)
 
 
 def inflexion(solutions: Solutions) -> Finding:
     """Slope of the path of X = 0.6, which does not touch: it falls, then rises."""
-    rows, good = [], True
+    found = []
     for beta, pressures in OVER.items():
         rho, eta = (samples(solutions, beta, pressures, name)[:, PATHS.index(0.6)] for name in ("rho", "eta"))
-        slope = np.diff(eta) / np.diff(rho)
-        change = np.sign(np.diff(slope))
-        good &= change[0] == -1 and change[-1] == 1
-        rows.append(f"beta = {beta}: {slope[0]:.2f}, least {slope.min():.2f}, last {slope[-1]:.2f}")
-    return bool(good), "deta/drho of X = 0.6: " + "; ".join(rows)
+        slope = eta.diff() / rho.diff()
+        found.append(decide.falls(f"deta/drho at first, beta = {beta}", slope[:2]))
+        found.append(decide.rises("at last", slope[-2:]))
+    return decide.all_of(found)
 
 
 ALONG = tuple((STICK[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)

@@ -6,13 +6,15 @@ The end of inflation is not printed; the last profile of figure 4 is taken: p = 
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, circular
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, circular, decide
 
 DOWN = {
     1: circular(alpha=0.1, beta=1, contact="adhesive", phase="deflation"),
     2: circular(alpha=0.1, beta=2, contact="adhesive", phase="deflation", p_end=8.49),
 }
 PRINTED = {1: (0.6, 1.4, 2.4, 3.2), 2: (0.2, 2.2, 4.2, 6.43)}
+CLEAR_OF_EDGE = 0.01
+"""How far inside the patch a point is that is looked at."""
 PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 OVER = {
     1: (3.4, 3.2, 2.8, 2.4, 2.0, 1.7, 1.4, 1.0, 0.6),
@@ -22,41 +24,57 @@ OVER = {
 
 def bulges(solutions: Solutions) -> Finding:
     """Meridional curvature of the free part at the edge: positive at p = 2.4, negative at 1.4."""
-    high, low = (solutions.quantity(DOWN[1], At("p", p), "kappa") for p in (2.4, 1.4))
-    good = high.value > 2 * high.uncertainty and low.value < -2 * low.uncertainty
-    return good, f"kappa = {high.value:.4f} at p = 2.4, {low.value:.4f} at p = 1.4"
+    high, low = (solutions.number(DOWN[1], At("p", p), "kappa") for p in (2.4, 1.4))
+    return decide.less("kappa at p = 1.4 and 2.4, on both sides of zero", low, 0, high)
 
 
 def rigid(solutions: Solutions) -> Finding:
     """sigma(X) - sigma(edge) at the same points of the patch, over the pressures."""
-    worst = 0.0
+    found = []
     for beta, pressures in OVER.items():
         front = solutions.value(DOWN[beta], At("p", pressures[0]), "X_contact")
-        inside = [i for i, x in enumerate(PATHS) if x < front - 0.01]
-        rows = []
-        for p in pressures:
-            at = At("p", p, profile=PATHS)
-            edge = solutions.value(DOWN[beta], at, "sigma_contact")
-            rows.append(solutions.sampled(DOWN[beta], at, "sigma")[0][inside] - edge)
-        worst = max(worst, float(np.ptp(np.array(rows), axis=0).max()))
-    return worst < 1e-8, f"largest change over the pressures: {worst:.1e}"
+        inside = [i for i, x in enumerate(PATHS) if x < front - CLEAR_OF_EDGE]
+        ats = [At("p", p, profile=PATHS) for p in pressures]
+        rows = [
+            solutions.samples(DOWN[beta], at, "sigma")[inside]
+            - solutions.number(DOWN[beta], at, "sigma_contact")
+            for at in ats
+        ]
+        found += [
+            decide.agree(f"p = {p}", row, rows[0], 1e-4)
+            for p, row in zip(pressures[1:], rows[1:], strict=True)
+        ]
+    return decide.all_of(found)
 
 
 def tensile_from_the_edge(solutions: Solutions) -> Finding:
-    """Share of the patch under tension as the pressure falls, and where it lies."""
-    shares, good = {}, True
+    """Which points of the patch are under tension as the pressure falls: the outer ones, and ever more."""
+    found, shares = [], {}
     for beta, pressures in OVER.items():
         shares[beta] = []
         for p in pressures:
             at = At("p", p, profile=PATHS)
-            columns = solutions.profile(DOWN[beta], at).columns
-            sigma = columns["sigma"][columns["X"] < solutions.value(DOWN[beta], at, "X_contact")]
-            tensile = sigma > 0
-            good &= bool(np.all(np.diff(tensile.astype(int)) >= 0))  # the tensile points are the outer ones
-            shares[beta].append(float(tensile.mean()))
-        good &= bool(np.all(np.diff(shares[beta]) >= 0))
-    good &= shares[1][-1] == 1.0 and shares[1][0] < 1
-    return good, "; ".join(f"beta = {b}: " + ", ".join(f"{s:.2f}" for s in v) for b, v in shares.items())
+            where = solutions.profile(DOWN[beta], at).columns["X"]
+            sigma = solutions.column(DOWN[beta], at, "sigma")[
+                where < solutions.value(DOWN[beta], at, "X_contact")
+            ]
+            compressed, tensile = decide.sides(sigma, 0)
+            found.append(decide.every("signs that are known", compressed | tensile))
+            found.append(decide.every("tensile ones outside", np.diff(tensile.astype(int)) >= 0))
+            shares[beta].append(int(tensile.sum()))
+        found.append(
+            decide.every(f"beta = {beta}: tensile points do not become fewer", np.diff(shares[beta]) >= 0)
+        )
+    found.append(decide.same("beta = 1, tensile points at last", shares[1][-1], len(sigma_points(solutions))))
+    found.append(decide.less("and at first", shares[1][0], shares[1][-1]))
+    return decide.all_of(found)
+
+
+def sigma_points(solutions: Solutions) -> np.ndarray:
+    """Sampled points of the patch, beta = 1, at the last pressure."""
+    at = At("p", OVER[1][-1], profile=PATHS)
+    where = solutions.profile(DOWN[1], at).columns["X"]
+    return where[where < solutions.value(DOWN[1], at, "X_contact")]
 
 
 ALONG = tuple((DOWN[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)

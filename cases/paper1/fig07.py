@@ -6,7 +6,7 @@ hence X_iso with p^(-1/3); it falls in free inflation and rises again once conta
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=7.2)
 FREE = circular(alpha=0.1, beta=1)
@@ -14,41 +14,49 @@ STATES = ((FREE, 1.64), (SLIP, 4.82), (SLIP, 5.95))
 """The paper's first curve, p = 0, is lam1 = lam2 = 1."""
 
 
+LIKE = decide.Stated(0.02, "like p^(-1/3)", "the next term, of relative order p^(2/3), at p up to 0.2")
+GROWS = decide.Stated(
+    2, "grows after it", "no number is printed; figure 7b has it at about twice its least value at the end"
+)
+NEARLY_EQUAL = decide.Stated(
+    0.05, "nearly equal", "no number is printed; a fifteenth of the height of figure 7a"
+)
+
+
 def power(solutions: Solutions) -> Finding:
-    """Exponent of X_iso(p) as p falls."""
+    """Exponent of X_iso(p) as p falls: nearer to -1/3 the lower p."""
     values = {
-        p: solutions.value(circular(alpha=0.1, beta=1, l=1), At("p", p), "X_iso") for p in (0.05, 0.1, 0.2)
+        p: solutions.number(circular(alpha=0.1, beta=1, l=1), At("p", p), "X_iso") for p in (0.05, 0.1, 0.2)
     }
-    found = [np.log(values[b] / values[a]) / np.log(b / a) for a, b in ((0.05, 0.1), (0.1, 0.2))]
-    return abs(found[0] + 1 / 3) < abs(found[1] + 1 / 3) < 0.02, "observed " + ", ".join(
-        f"{e:.4f}" for e in found
+    low, high = (
+        abs((values[b].log() - values[a].log()) / np.log(b / a) + 1 / 3) for a, b in ((0.05, 0.1), (0.1, 0.2))
+    )
+    return decide.all_of(
+        decide.less("exponent off -1/3", low, high), decide.at_most("the larger", high, LIKE)
     )
 
 
 def least_at_contact(solutions: Solutions) -> Finding:
-    """Where X_iso(p) is least, along the branch."""
-    columns = solutions.branch(SLIP).columns
-    (onset,) = solutions.points(SLIP, "contact_onset")
-    i = int(np.argmin(columns["X_iso"]))
-    p = columns["p"]
-    good = (
-        p[max(i - 1, 0)] <= onset.values["p"] <= p[min(i + 2, len(p) - 1)]
-        and columns["X_iso"][-1] > 2 * columns["X_iso"][i]
+    """X_iso along the branch: falling before first contact, rising after it."""
+    p, radius = (solutions.along(SLIP, name) for name in ("p", "X_iso"))
+    before, after = decide.sides(p, solutions.point(SLIP, "contact_onset", "p"))
+    known = before & (p.value > 0)
+    return decide.all_of(
+        decide.falls("X_iso before first contact", radius[known][1:]),
+        decide.rises("X_iso after it", radius[after]),
+        decide.at_least("growth", radius[-1] / radius.smallest(), GROWS),
     )
-    return bool(
-        good
-    ), f"least X_iso = {columns['X_iso'][i]:.4f} at p = {p[i]:.3f}; first contact at {onset.values['p']:.3f}"
 
 
 def nearly_equal(solutions: Solutions) -> Finding:
-    """Largest |lam1 - lam2| on the patch up to p = 7."""
-    worst = 0.0
+    """|lam1 - lam2| on the patch up to p = 7."""
+    found = []
     for p in (4.82, 5.95, 7.0):
         at = At("p", p, profile=())
-        columns = solutions.profile(SLIP, at).columns
-        inside = columns["X"] < solutions.value(SLIP, at, "X_contact")
-        worst = max(worst, float(np.abs(columns["lam1"] - columns["lam2"])[inside].max()))
-    return worst < 0.05, f"largest difference on the patch, p = 4.82, 5.95 and 7: {worst:.3f}"
+        inside = solutions.profile(SLIP, at).columns["X"] < solutions.value(SLIP, at, "X_contact")
+        lam1, lam2 = (solutions.column(SLIP, at, name)[inside] for name in ("lam1", "lam2"))
+        found.append(decide.at_most(f"|lam1 - lam2| at p = {p}", abs(lam1 - lam2), NEARLY_EQUAL))
+    return decide.all_of(found)
 
 
 CASE = Case(

@@ -4,7 +4,7 @@ At the edge of a growing patch lam1 has a kink and lam2 a jump of its second der
 jumps and lam2 has a kink. The tables leave out points close to the edge.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 STICK = circular(alpha=0.1, beta=1, contact="adhesive")
 DOWN = STICK.at(phase="deflation")
@@ -16,34 +16,33 @@ FREE = circular(alpha=0.1, beta=1)
 SAME_STATE = {0.6: "fig05a_p_0.6", 1.4: "fig05a_p_1.4", 2.4: "fig05a_p_2.4", 3.2: "fig05a_p_3.2"}
 
 
+SIDES = ("lam1_contact", "lam1_contact_outer")
+
+
 def no_jump(solutions: Solutions) -> Finding:
     """lam1 on both sides of the edge of a growing patch."""
-    worst, good = 0.0, True
-    for p in (2.83, 3.26, 3.47):
-        inside, outside = (
-            solutions.quantity(STICK, At("p", p), n) for n in ("lam1_contact", "lam1_contact_outer")
-        )
-        gap, bound = abs(inside.value - outside.value), 2 * (inside.uncertainty + outside.uncertainty)
-        good &= gap <= bound < 1e-5
-        worst = max(worst, gap)
-    return good, f"largest difference {worst:.1e}"
+    return decide.all_of(
+        decide.agree(f"lam1 at p = {p}", *(solutions.number(STICK, At("p", p), n) for n in SIDES), 1e-5)
+        for p in (2.83, 3.26, 3.47)
+    )
 
 
 def jump(solutions: Solutions) -> Finding:
     """lam1 on both sides of the edge in deflation."""
-    rows = []
-    for p in (0.6, 1.4, 2.4, 3.2):
-        inside, outside = (
-            solutions.value(DOWN, At("p", p), n) for n in ("lam1_contact", "lam1_contact_outer")
+    return decide.all_of(
+        decide.less(
+            f"lam1 outside and inside, p = {p}", *(solutions.number(DOWN, At("p", p), n) for n in SIDES[::-1])
         )
-        rows.append(outside - inside)
-    return max(rows) < 0, "lam1 outside less inside: " + ", ".join(f"{r:.4f}" for r in rows)
+        for p in (0.6, 1.4, 2.4, 3.2)
+    )
 
 
 def taut(solutions: Solutions) -> Finding:
     """Smallest principal resultant anywhere in the printed states."""
-    least = min(solutions.value(of, At("p", p), "t_min") for _, _, of, ps, _, _ in PANELS for p in ps)
-    return least > 0, f"smallest resultant {least:.4f}"
+    least = decide.stack(
+        solutions.number(of, At("p", p), "t_min") for _, _, of, ps, _, _ in PANELS for p in ps
+    )
+    return decide.positive("smallest resultant", least)
 
 
 CASE = Case(

@@ -7,7 +7,21 @@ with zero slope, at the radius that adhesive inflation reaches at that pressure.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, Spec, circular
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    Spec,
+    circular,
+    decide,
+)
 
 BASE = circular(contact="adhesive", phase="peeling")
 SETS = {
@@ -29,73 +43,87 @@ def adhesive(spec: Spec) -> Spec:
     return circular(**kept)
 
 
+ZERO_SLOPE = decide.Stated(
+    0.2, "with zero slope", "over the first step; a parabola's is a twentieth to a fifth of its mean one"
+)
+
+
 def pull_off_moves(solutions: Solutions) -> Finding:
-    """Radius and G of the pull-off points as the pressure falls."""
-    good, rows = True, []
+    """Radius and G of the pull-off points as the pressure rises."""
+    found = []
     for name, (_, pressures, _) in SETS.items():
-        points = [solutions.points(CURVES[name, p], "pull_off") for p in pressures if p not in HIGH[name]]
-        rho, g = np.array([[q[0].values["rho_contact"], q[0].values["G"]] for q in points]).T
-        good &= bool(np.all(np.diff(rho) < 0) and np.all(np.diff(g) < 0))
-        rows.append(f"{name}: rho {rho[0]:.4f} to {rho[-1]:.4f}, G {g[0]:.4f} to {g[-1]:.4f}")
-    return good, "; ".join(rows)
+        low = [CURVES[name, p] for p in pressures if p not in HIGH[name]]
+        for column in ("rho_contact", "G"):
+            found.append(
+                decide.falls(f"{name}, {column}", [solutions.point(s, "pull_off", column) for s in low])
+            )
+    return decide.all_of(found)
 
 
 def both_ways(solutions: Solutions) -> Finding:
     """G in closed form against differences of potentials, along every curve."""
-    worst = 0.0
-    for spec in CURVES.values():
-        columns = solutions.branch(spec).columns
-        scale = np.abs(columns["G"]).max()
-        worst = max(worst, float(np.abs(columns["G"] - columns["G_difference"]).max() / scale))
-    return worst < 1e-5, f"largest difference over the largest G of the curve: {worst:.1e}"
+    return decide.all_of(
+        decide.agree("G", solutions.along(spec, "G_difference"), solutions.along(spec, "G"), 1e-5)
+        for spec in CURVES.values()
+    )
 
 
 def from_zero(solutions: Solutions) -> Finding:
-    """Above first contact: G and its slope where the curve begins, and that it rises."""
-    good, rows = True, []
+    """Above first contact: G where the curve begins, that it rises, and its slope beside the mean one."""
+    found = []
     for name, pressures in HIGH.items():
         for p in pressures:
-            columns = solutions.branch(CURVES[name, p]).columns
-            g, rho = columns["G"][::-1], columns["rho_contact"][::-1]
-            reached = solutions.value(adhesive(SETS[name][0]), At("p", p), "rho_contact")
-            slope = (g[1] - g[0]) / (rho[1] - rho[0]) / (g[-1] / (rho[-1] - rho[0]))
-            good &= abs(g[0]) < 1e-9 and bool(np.all(np.diff(g) > 0)) and abs(rho[0] - reached) < 1e-8
-            good &= slope < 0.2
-            rows.append(f"{name}, p = {p:g}: G = {g[0]:.1e} at rho* = {rho[0]:.5f}")
-    return bool(good), "; ".join(rows)
+            g, rho = (solutions.along(CURVES[name, p], column)[::-1] for column in ("G", "rho_contact"))
+            reached = solutions.number(adhesive(SETS[name][0]), At("p", p), "rho_contact")
+            slope = (g[1] - g[0]) / (rho[1] - rho[0]) / ((g[-1] - g[0]) / (rho[-1] - rho[0]))
+            found += [
+                decide.zero(f"{name}, p = {p:g}: G", g[0], 1e-5, g.largest()),
+                decide.agree("rho* where it begins", rho[0], reached, 1e-6),
+                decide.rises("G", g),
+                decide.at_most("slope over the mean one", slope, ZERO_SLOPE),
+            ]
+    return decide.all_of(found)
 
 
-def _above(solutions: Solutions, more: str, less: str, p: float) -> tuple[bool, float]:
-    """Whether one curve lies above another at equal pressure, over their common radii from q outwards."""
-    a, b = (solutions.branch(CURVES[name, p]).columns for name in (more, less))
-    radii = [c["rho_contact"] for c in (a, b)]
-    low, high = max(r.min() for r in radii), min(r.max() for r in radii)
-    rho = np.linspace(low, high, 40)
-    ga, gb = (np.interp(rho, c["rho_contact"][::-1], c["G"][::-1]) for c in (a, b))
-    return bool(np.all(ga > gb)), float((ga / gb).min())
+def _ratio(solutions: Solutions, more: str, less: str, p: float) -> decide.Number:
+    """One curve over another at equal pressure, over their common radii from q outwards."""
+    curves = [CURVES[name, p] for name in (more, less)]
+    radii = [solutions.branch(spec).columns["rho_contact"] for spec in curves]
+    rho = np.linspace(max(r.min() for r in radii), min(r.max() for r in radii), 40)
+    g = [solutions.along(spec, "G") for spec in curves]
+    # Between points of a trace a parabola through three bounds what a line is off.
+    found = [
+        decide.Number(
+            np.interp(rho, r[::-1], c.value[::-1]),
+            np.max(c.uncertainty) + np.abs(np.diff(c.value, 2)).max() / 8,
+        )
+        for r, c in zip(radii, g, strict=True)
+    ]
+    return found[0] / found[1]
 
 
 def grows(solutions: Solutions) -> Finding:
     """G of Mooney-Rivlin over neo-Hookean and of k = 100 over k = 50, at equal p and rho*."""
     pairs = [(MR, NH, p) for p in (1.2, 1.4, 1.6)] + [(STIFF, MR, p) for p in (1.4, 1.6)]
-    found = [_above(solutions, *pair) for pair in pairs]
-    return all(ok for ok, _ in found), "smallest ratio: " + ", ".join(
-        f"{a}/{b} at {p:g}: {r:.3f}" for (a, b, p), (_, r) in zip(pairs, found, strict=True)
+    return decide.all_of(
+        decide.positive(f"{a} over {b} at {p:g}, less 1", _ratio(solutions, a, b, p) - 1) for a, b, p in pairs
     )
 
 
 def stable_side(solutions: Solutions) -> Finding:
     """Negative eigenvalues, the front among the freedoms, to both sides of q."""
-    good = True
+    found = []
     for (name, p), spec in CURVES.items():
-        columns = solutions.branch(spec).columns
-        counts, rho = columns["n_negative"], columns["rho_contact"]
+        counts = solutions.branch(spec).columns["n_negative"]
         if p in HIGH[name]:
-            good &= bool(np.all(counts[:-1] == 0))
+            found.append(decide.every(f"{name}, p = {p:g}: none", counts[:-1] == 0))
             continue
-        (q,) = solutions.points(spec, "pull_off")
-        good &= bool(np.all(counts == (rho < q.values["rho_contact"])))
-    return good, f"{len(CURVES)} curves: none to the right of q, one to its left"
+        left, right = decide.sides(
+            solutions.along(spec, "rho_contact"), solutions.point(spec, "pull_off", "rho_contact")
+        )
+        found.append(decide.every(f"{name}, p = {p:g}: one left of q", counts[left] == 1))
+        found.append(decide.every("none right of it", counts[right] == 0))
+    return decide.all_of(found)
 
 
 ALL = tuple((spec, None) for spec in CURVES.values())
