@@ -3,9 +3,7 @@
 Level control unless it says volume; n waves around the circumference, n = 0 axisymmetric without torsion.
 """
 
-import numpy as np
-
-from weakforms import At, Case, Claim, Finding, Points, Solutions, States, fluid_tube
+from weakforms import At, Case, Claim, Finding, Points, Solutions, States, decide, fluid_tube
 
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
@@ -19,47 +17,51 @@ ASKED = {"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
 
 def signs(solutions: Solutions) -> Finding:
     """Eigenvalue columns to both sides of the critical points."""
-    good, least = True, []
+    found = []
     for tube in EVERY:
-        columns = solutions.branch(tube).columns
-        limit = solutions.points(tube, "limit_point")[0].values["V"]
+        volume = solutions.along(tube, "V")
         first = next(p for p in solutions.points(tube, "bifurcation_point") if p.values["n"] == 1)
-        volume, end = columns["V"], first.values["V"]
-        off = abs(volume - limit) > 1e-6  # the limit point itself is on the trace
-        good &= bool(np.all((columns["Lambda_n0"] < 0)[off] == (volume > limit)[off]))
-        good &= bool(np.all((columns["Lambda_n1"] < 0) == (volume > end)))
-        before = volume < end
-        rest = np.array([columns[n][before] for n in ("Lambda_n2", "Lambda_n3", "Lambda_torsion")])
-        least.append(rest.min())
-    detail = f"lowest of n = 2, 3 and torsion up to the first bifurcation: {min(least):.3g}"
-    return good and min(least) > 0, detail
+        ends = {
+            "Lambda_n0": solutions.point(tube, "limit_point", "V"),
+            "Lambda_n1": decide.of_point(first, "V"),
+        }
+        for name, at in ends.items():
+            before, behind = decide.sides(volume, at)
+            values = solutions.along(tube, name)
+            found += [
+                decide.positive(f"{name} before", values[before]),
+                decide.negative("behind", values[behind]),
+            ]
+        found += [
+            decide.positive(name, solutions.along(tube, name)[before])
+            for name in ("Lambda_n2", "Lambda_n3", "Lambda_torsion")
+        ]
+    return decide.all_of(found)
 
 
 def limit_is_a_zero(solutions: Solutions) -> Finding:
     """At the maximum of zw the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
-    rows = []
-    for tube in EVERY:
-        for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1")):
-            found = solutions.quantity(tube, at, name)
-            rows.append((abs(found.value), found.uncertainty))
-    worst = max(rows, key=lambda row: row[0] / row[1])
-    return all(v <= 2 * u for v, u in rows), f"largest: {worst[0]:.1e}, its uncertainty {worst[1]:.1e}"
+    return decide.all_of(
+        decide.zero(name, solutions.number(tube, at, name), 1e-6)
+        for tube in EVERY
+        for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1"))
+    )
 
 
 def one_negative(solutions: Solutions) -> Finding:
     """Negative eigenvalues at the limit point and at the bifurcation, besides those points' own zeros."""
     counts = [[int(solutions.value(tube, at, "n_negative")) for at in (LIMIT, FIRST)] for tube in EVERY]
-    return all(c == [0, 1] for c in counts), f"at limit point and bifurcation: {counts}"
+    return decide.same("at limit point and bifurcation", counts, [[0, 1]] * len(EVERY))
 
 
 def falls_with_stretch(solutions: Solutions) -> Finding:
     """Limit levels over the pre-stretch."""
-    good, rows = True, []
-    for length in LENGTHS:
-        levels = [solutions.points(TUBES[length, d], "limit_point")[0].values["zw"] for d in STRETCHES]
-        good &= levels[0] > levels[1] > levels[2]
-        rows.append(f"L = {length}: " + " > ".join(f"{zw:.5f}" for zw in levels))
-    return good, "; ".join(rows)
+    return decide.all_of(
+        decide.falls(
+            f"L = {length}", [solutions.point(TUBES[length, d], "limit_point", "zw") for d in STRETCHES]
+        )
+        for length in LENGTHS
+    )
 
 
 CASE = Case(

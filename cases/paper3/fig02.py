@@ -15,6 +15,8 @@ from weakforms import (
     Panel,
     PrintedExact,
     Solutions,
+    Spec,
+    decide,
     fluid_tube,
 )
 
@@ -35,36 +37,44 @@ BENT_ASKED = {
 """Accuracy asked of the secondary branch, on the whole surface; its eigenvalues: case ``secondary``."""
 
 
-def first(solutions: Solutions, tube, kind: str, name: str) -> float:  # noqa: ANN001
+def first(solutions: Solutions, tube: Spec, kind: str, name: str) -> decide.Number:
     """A column at the first special point of a kind (of one wave, for bifurcations)."""
     points = [p for p in solutions.points(tube, kind) if p.values.get("n", 1) == 1]
-    return points[0].values[name]
+    return decide.of_point(points[0], name)
 
 
 def limit_first(solutions: Solutions) -> Finding:
     """Volumes at the limit point and at the first bifurcation."""
-    volumes = {key: tuple(first(solutions, tube, kind, "V") for kind in BOTH) for key, tube in TUBES.items()}
-    return all(a < b for a, b in volumes.values()), "V at limit and bifurcation: " + "; ".join(
-        f"L = {key[0]}, delta = {key[1]}: {a:.3f} < {b:.3f}" for key, (a, b) in volumes.items()
+    return decide.all_of(
+        decide.less(
+            f"V, L = {key[0]}, delta = {key[1]}", *(first(solutions, tube, kind, "V") for kind in BOTH)
+        )
+        for key, tube in TUBES.items()
     )
 
 
 def filled_or_not(solutions: Solutions) -> Finding:
     """Limit levels against the length."""
-    levels = {key: first(solutions, tube, "limit_point", "zw") for key, tube in TUBES.items()}
-    good = all((zw > key[0]) == (key[0] == 8) for key, zw in levels.items())
-    return good, "; ".join(f"L = {k[0]}, delta = {k[1]}: {zw:.6f}" for k, zw in levels.items())
+    found = []
+    for (length, d), tube in TUBES.items():
+        level = first(solutions, tube, "limit_point", "zw")
+        sides = (length, level) if length == LENGTHS[0] else (level, length)
+        found.append(decide.less(f"L = {length}, delta = {d}: length and level", *sides))
+    return decide.all_of(found)
 
 
 def one_maximum(solutions: Solutions) -> Finding:
     """The level rises, then falls; the volume rises all along."""
-    turns, rising = [], True
+    found = []
     for tube in TUBES.values():
-        columns = solutions.branch(tube).columns
-        steps = columns["zw"][1:] - columns["zw"][:-1]
-        turns.append(int(((steps[1:] > 0) != (steps[:-1] > 0)).sum()))
-        rising &= bool((columns["V"][1:] > columns["V"][:-1]).all())
-    return rising and turns == [1] * len(turns), f"turns of zw: {turns}; V strictly increasing: {rising}"
+        level, volume = (solutions.along(tube, name) for name in ("zw", "V"))
+        before, behind = decide.sides(volume, first(solutions, tube, "limit_point", "V"))
+        found += [
+            decide.rises("zw before the limit point", level[before]),
+            decide.falls("zw behind it", level[behind]),
+            decide.rises("V", volume),
+        ]
+    return decide.all_of(found)
 
 
 CASE = Case(

@@ -4,7 +4,22 @@ No limit point with the volume as control: it rises all along the primary branch
 control up to the bifurcation.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, Spec, fluid_tube, reference
+import numpy as np
+
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Solutions,
+    Spec,
+    decide,
+    fluid_tube,
+    reference,
+)
 
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
@@ -18,21 +33,23 @@ STEP = 1e-3
 AROUND = tuple(At("zw", 6.0 + s * STEP) for s in (-1, 0, 1))
 
 
-def volumes(solutions: Solutions, length: int, at: At) -> list[float]:
+OF_SECOND_ORDER = decide.Stated(
+    STEP**2, "dPi/dzw = -gamma V", "the square of the step; its factor is below one"
+)
+
+
+def volumes(solutions: Solutions, length: int, at: At) -> list[decide.Number]:
     """Volume at a level for the three pre-stretches."""
-    return [solutions.value(TUBES[length, d], at, "V") for d in STRETCHES]
+    return [solutions.number(TUBES[length, d], at, "V") for d in STRETCHES]
 
 
 def stiffens_then_softens(solutions: Solutions) -> Finding:
     """V falls with delta at zw = 4, the order is reversed at 7.5, and past the limit V rises with delta."""
-    good, rows = True, []
-    for length in LENGTHS:
-        low, high, past = (volumes(solutions, length, at) for at in (STIFF, CROSSED, SOFT))
-        good &= low[0] > low[1] > low[2] and high[0] < high[1] < high[2] and past[0] < past[1] < past[2]
-        rows.append(
-            f"L = {length}: " + "; ".join(", ".join(f"{v:.4f}" for v in r) for r in (low, high, past))
-        )
-    return good, "V at zw = 4, 7.5 and 8.1 past the limit, for delta = 1.5, 2, 3: " + " | ".join(rows)
+    return decide.all_of(
+        way(f"V, L = {length}, {at}", volumes(solutions, length, at))
+        for length in LENGTHS
+        for at, way in ((STIFF, decide.falls), (CROSSED, decide.rises), (SOFT, decide.rises))
+    )
 
 
 def either_side(row: int) -> list[tuple[Spec, At]]:
@@ -49,39 +66,39 @@ def either_side(row: int) -> list[tuple[Spec, At]]:
 
 def crossings(solutions: Solutions) -> Finding:
     """Whether the order of the volumes changes within the accuracy around each level of the table."""
-    good, rows = True, []
+    found = []
     for row in range(len(CROSSINGS)):
-        low_a, low_b, high_a, high_b = (solutions.quantity(of, at, "V") for of, at in either_side(row))
-        below, above = low_a.value - low_b.value, high_a.value - high_b.value
-        spread = max(q.uncertainty for q in (low_a, low_b, high_a, high_b))
-        good &= below * above < 0 and min(abs(below), abs(above)) > 2 * spread
-        table = CROSSINGS.columns
-        rows.append(
-            f"L = {table['L'][row]:g}, delta = {table['delta_a'][row]:g} and {table['delta_b'][row]:g}: "
-            f"zw = {table['zw'][row]:.6f}"
+        low_a, low_b, high_a, high_b = (solutions.number(of, at, "V") for of, at in either_side(row))
+        below, above = low_a - low_b, high_a - high_b
+        way = np.sign(above.value)
+        found.append(
+            decide.less(
+                f"zw = {CROSSINGS.columns['zw'][row]:.6f}: gap, zero, gap", way * below, 0, way * above
+            )
         )
-    return good, "; ".join(rows)
+    return decide.all_of(found)
 
 
 def work_conjugate(solutions: Solutions) -> Finding:
-    """Central difference of the potential over the level against the volume."""
-    errors = []
+    """Central difference of the potential over the level against the volume: off by the squared step."""
+    found = []
     for tube in TUBES.values():
-        before, here, after = (solutions.state(tube, at).quantities for at in AROUND)
-        slope = (after["Pi"].value - before["Pi"].value) / (2 * STEP)
-        errors.append(abs(slope / (-0.116 * here["V"].value) - 1))
-    return max(errors) < STEP**2, f"largest relative difference {max(errors):.1e}, of order step^2"
+        before, after = (solutions.number(tube, at, "Pi") for at in (AROUND[0], AROUND[2]))
+        off = (after - before) / (2 * STEP) / (-0.116 * solutions.number(tube, AROUND[1], "V")) - 1
+        found.append(decide.at_most("relative difference", abs(off), OF_SECOND_ORDER))
+    return decide.all_of(found)
 
 
 def stable_in_volume(solutions: Solutions) -> Finding:
     """Lowest axisymmetric eigenvalue at fixed volume, and that of one wave, up to the bifurcation."""
-    rows = []
+    found = []
     for tube in TUBES.values():
-        columns = solutions.branch(tube).columns
         end = next(p for p in solutions.points(tube, "bifurcation_point") if p.values["n"] == 1)
-        before = columns["V"] < end.values["V"]
-        rows.append(min(columns[name][before].min() for name in ("LambdaV_n0", "Lambda_n1")))
-    return min(rows) > 0, "lowest eigenvalues: " + ", ".join(f"{value:.2e}" for value in rows)
+        before, _ = decide.sides(solutions.along(tube, "V"), decide.of_point(end, "V"))
+        found += [
+            decide.positive(name, solutions.along(tube, name)[before]) for name in ("LambdaV_n0", "Lambda_n1")
+        ]
+    return decide.all_of(found)
 
 
 EVERY = tuple(TUBES.values())

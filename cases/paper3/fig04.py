@@ -3,36 +3,36 @@
 The aspect ratio is not printed; both of figure 2 are shown.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, fluid_tube
+from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
 
 LENGTHS, GAMMAS = (8, 24), (0.058, 0.116, 0.232)
 TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGTHS for g in GAMMAS}
 
 
-def critical(solutions: Solutions, length: int, kind: str) -> list[float]:
+def critical(solutions: Solutions, length: int, kind: str) -> list[decide.Number]:
     """Levels at the first critical points of a kind, by density."""
     found = []
     for gamma in GAMMAS:
         points = solutions.points(TUBES[length, gamma], kind)
-        found.append(next(p.values["zw"] for p in points if p.values.get("n", 1) == 1))
+        found.append(next(decide.of_point(p, "zw") for p in points if p.values.get("n", 1) == 1))
     return found
 
 
 def lighter_is_higher(solutions: Solutions) -> Finding:
     """Both critical levels fall with the density."""
-    good, rows = True, []
-    for length in LENGTHS:
-        for kind in ("limit_point", "bifurcation_point"):
-            levels = critical(solutions, length, kind)
-            good &= levels[0] > levels[1] > levels[2]
-            rows.append(f"L = {length}, {kind}: " + " > ".join(f"{zw:.5f}" for zw in levels))
-    return good, "; ".join(rows)
+    return decide.all_of(
+        decide.falls(f"L = {length}, {kind}", critical(solutions, length, kind))
+        for length in LENGTHS
+        for kind in ("limit_point", "bifurcation_point")
+    )
 
 
 def density_fills(solutions: Solutions) -> Finding:
     """Whether the limit point of the short tube is over-filled, by density."""
     levels = critical(solutions, 8, "limit_point")
-    return levels[1] > 8 > levels[2], "limit levels of L = 8: " + ", ".join(f"{zw:.5f}" for zw in levels)
+    return decide.less(
+        "limit levels of twice and once water's density, and the length", levels[2], 8, levels[1]
+    )
 
 
 EVERY = tuple((tube, None) for tube in TUBES.values())

@@ -4,7 +4,7 @@ The pre-stretch is not printed. It is taken as delta = 2: zw = 8.356 lies just b
 and the tube with delta = 3 never reaches it.
 """
 
-from itertools import pairwise
+import numpy as np
 
 from weakforms import (
     At,
@@ -17,6 +17,7 @@ from weakforms import (
     PrintedState,
     Solutions,
     Surface,
+    decide,
     fluid_tube,
 )
 
@@ -29,22 +30,26 @@ AXES = (Axis("x", -3, 3), Axis("y", -3, 3), Axis("z", 0, 24))
 
 def delta_2_is_meant(solutions: Solutions) -> Finding:
     """8.356 against the limit levels of two pre-stretches."""
-    two, three = (solutions.points(tube, "limit_point")[0].values["zw"] for tube in (TUBE, OTHER))
-    return three < 8.356 < two, f"limit levels: {two:.6f} (delta = 2), {three:.6f} (delta = 3)"
+    two, three = (solutions.point(tube, "limit_point", "zw") for tube in (TUBE, OTHER))
+    return decide.less("limit levels of delta = 3 and 2, around the printed level", three, AFTER.value, two)
 
 
 def goes_down(solutions: Solutions) -> Finding:
-    """Past the limit point: level, largest radius, the height at which it lies, the radius at the surface."""
-    rows = []
-    for at in LATER:
-        state = solutions.state(TUBE, at)
-        columns = state.fields[0].columns
-        widest = columns["z"][columns["r"].argmax()]
-        rows.append([*(state.quantities[n].value for n in ("zw", "r_max", "r_front")), widest])
-    good = all(b[0] < a[0] and b[1] > a[1] for a, b in pairwise(rows)) and rows[-1][3] < rows[0][3]
-    return good, "zw, r_max, r at the free surface, height of r_max: " + "; ".join(
-        ", ".join(f"{v:.4f}" for v in row) for row in rows
-    )
+    """Past the limit point: level, largest radius, the height at which it lies."""
+    found = [
+        decide.falls("zw", solutions.numbers(TUBE, LATER, "zw")),
+        decide.rises("r_max", solutions.numbers(TUBE, LATER, "r_max")),
+    ]
+    heights = []
+    for at in (LATER[0], LATER[-1]):
+        z, widest = solutions.column(TUBE, at, "z"), int(solutions.column(TUBE, at, "r").value.argmax())
+        # The widest row: the crest itself lies between its neighbours.
+        heights.append(
+            decide.Number(
+                z.value[widest], np.abs(np.diff(z.value[widest - 1 : widest + 2])).max() / decide.CLEAR
+            )
+        )
+    return decide.all_of(*found, decide.falls("height of r_max", heights))
 
 
 CASE = Case(

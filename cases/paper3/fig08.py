@@ -15,6 +15,7 @@ from weakforms import (
     PrintedState,
     Solutions,
     Surface,
+    decide,
     fluid_tube,
 )
 
@@ -27,25 +28,29 @@ MERIDIANS = (0, 30, 60, 90, 120, 150, 180)
 BOTH = tuple((of, at) for of, at, _, _ in SHOWN.values())
 
 
-def values(solutions: Solutions, name: str) -> list[float]:
+def values(solutions: Solutions, name: str) -> list[decide.Number]:
     """A quantity of both states."""
-    return [solutions.value(of, at, name) for of, at in BOTH]
+    return [solutions.number(of, at, name) for of, at in BOTH]
 
 
 def bulges_and_hangs(solutions: Solutions) -> Finding:
     """Radii at mid-length on both sides, and the lowest point."""
     front, back, low = (values(solutions, name) for name in ("r_mid", "r_mid_pi", "z_min"))
-    good = all(a > b and z < 0 for a, b, z in zip(front, back, low, strict=True))
-    return good, "; ".join(
-        f"r(0) = {a:.4f}, r(pi) = {b:.4f}, z_min = {z:.4f}" for a, b, z in zip(front, back, low, strict=True)
+    return decide.all_of(
+        *(decide.less("r(pi) and r(0)", b, a) for a, b in zip(front, back, strict=True)),
+        *(decide.negative("z_min", z) for z in low),
     )
 
 
 def unstable(solutions: Solutions) -> Finding:
     """Negative eigenvalues at fixed level."""
-    counts = [values(solutions, name) for name in ("n_negative", "n_negative_breaking")]
-    lowest = values(solutions, "Lambda_1")
-    return counts == [[1, 1], [0, 0]], f"counts {counts}, Lambda_1 = " + ", ".join(f"{v:.4f}" for v in lowest)
+    counts = [
+        [int(n.value) for n in values(solutions, name)] for name in ("n_negative", "n_negative_breaking")
+    ]
+    return decide.all_of(
+        decide.same("negative, and those that break the symmetry", counts, [[1, 1], [0, 0]]),
+        *(decide.negative("Lambda_1", lowest) for lowest in values(solutions, "Lambda_1")),
+    )
 
 
 CASE = Case(

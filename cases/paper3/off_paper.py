@@ -3,7 +3,7 @@
 The paper remarks that for larger and for very small pre-stretch the bifurcation comes before the limit point.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, fluid_tube
+from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, Spec, decide, fluid_tube
 
 SETS = ((8, 5, 0.116), (8, 7, 0.116), (24, 1.1, 0.116), (16, 2.5, 0.05), (12, 1.3, 0.25), (24, 7, 0.25))
 TUBES = {s: fluid_tube(L=s[0], delta=s[1], gamma=s[2]) for s in SETS}
@@ -11,36 +11,32 @@ HIGH, LOW, HIGHEST = TUBES[8, 5, 0.116], TUBES[24, 1.1, 0.116], TUBES[8, 7, 0.11
 USUAL = fluid_tube(L=8, delta=3, gamma=0.116)
 
 
-def volumes(solutions: Solutions, tube) -> dict[str, float]:  # noqa: ANN001
+def volumes(solutions: Solutions, tube: Spec) -> dict[str, decide.Number]:
     """Volumes at the limit point and at the first bifurcation of each wave number."""
-    found = {"limit": solutions.points(tube, "limit_point")[0].values["V"]}
+    found = {"limit": solutions.point(tube, "limit_point", "V")}
     for point in solutions.points(tube, "bifurcation_point"):
-        found.setdefault(f"n = {point.values['n']:g}", point.values["V"])
+        found.setdefault(f"n = {point.values['n']:g}", decide.of_point(point, "V"))
     return found
 
 
 def bifurcation_first(solutions: Solutions) -> Finding:
     """Order of the critical points."""
-    high, low = (volumes(solutions, tube) for tube in (HIGH, LOW))
-    good = high["n = 1"] < high["limit"] and low["n = 1"] < low["limit"]
-    return good, "; ".join(
-        f"L = {length}, delta = {d}: " + ", ".join(f"{k} at V = {v:.3f}" for k, v in found.items())
-        for length, d, found in ((8, 5, high), (24, 1.1, low))
-    )
+    found = [volumes(solutions, tube) for tube in (HIGH, LOW)]
+    return decide.all_of(decide.less("V at bifurcation and limit", v["n = 1"], v["limit"]) for v in found)
 
 
 def two_waves_first(solutions: Solutions) -> Finding:
     """At delta = 7 the bifurcation with two waves comes before that with one."""
     found = volumes(solutions, HIGHEST)
-    return found["n = 2"] < found["n = 1"] < found["limit"], ", ".join(
-        f"{k} at V = {v:.3f}" for k, v in found.items()
-    )
+    return decide.less("V at n = 2, n = 1 and limit", found["n = 2"], found["n = 1"], found["limit"])
 
 
 def rises_again(solutions: Solutions) -> Finding:
     """The limit level is not monotone in the pre-stretch."""
-    levels = [solutions.points(tube, "limit_point")[0].values["zw"] for tube in (USUAL, HIGH)]
-    return levels[1] > levels[0], f"limit level {levels[0]:.5f} at delta = 3, {levels[1]:.5f} at delta = 5"
+    return decide.less(
+        "limit level at delta = 3 and 5",
+        *(solutions.point(tube, "limit_point", "zw") for tube in (USUAL, HIGH)),
+    )
 
 
 CASE = Case(

@@ -3,7 +3,7 @@
 The same as in ``critical`` for every tube; small enough for the quick profile.
 """
 
-from weakforms import Case, Claim, Finding, Points, Solutions, fluid_tube
+from weakforms import Case, Claim, Finding, Points, Solutions, decide, fluid_tube
 
 TUBE = fluid_tube(L=8, delta=2, gamma=0.116)
 ASKED = {"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
@@ -12,12 +12,18 @@ HERE = {"L": 8.0, "delta": 2.0, "gamma": 0.116}
 
 def in_order(solutions: Solutions) -> Finding:
     """The highest level comes first along the branch, the bifurcation with one wave at more volume."""
-    limit, first = (solutions.points(TUBE, kind)[0].values for kind in ("limit_point", "bifurcation_point"))
-    columns = solutions.branch(TUBE).columns
-    unstable = columns["Lambda_n0"] < 0
-    good = limit["V"] < first["V"] and limit["zw"] > first["zw"]
-    good &= bool((columns["V"][unstable] > limit["V"] - 1e-6).all()) and bool(unstable.any())
-    return good, f"limit point at V = {limit['V']:.6g}, bifurcation at V = {first['V']:.6g}"
+    volumes, levels = (
+        [solutions.point(TUBE, kind, name) for kind in ("limit_point", "bifurcation_point")]
+        for name in ("V", "zw")
+    )
+    before, behind = decide.sides(solutions.along(TUBE, "V"), volumes[0])
+    axisymmetric = solutions.along(TUBE, "Lambda_n0")
+    return decide.all_of(
+        decide.rises("V at limit point and bifurcation", volumes),
+        decide.falls("zw", levels),
+        decide.positive("Lambda(n = 0) before the limit point", axisymmetric[before]),
+        decide.negative("behind it", axisymmetric[behind]),
+    )
 
 
 CASE = Case(

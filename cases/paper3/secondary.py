@@ -13,6 +13,7 @@ from weakforms import (
     Finding,
     Points,
     Solutions,
+    decide,
     fluid_tube,
     fluid_tube_surface,
     reference,
@@ -43,57 +44,79 @@ STEP = 1e-3
 AROUND = tuple(At("zw", 7.6 + s * STEP, branch="secondary") for s in (-1, 0, 1))
 
 
+VERTEX = decide.Stated(
+    WIDE**2, "where the reference has it", "the square of the distance of the states: what a parabola misses"
+)
+OF_SECOND_ORDER = decide.Stated(
+    10 * STEP**2, "dPi/dzw = -gamma V", "of the square of the step, ten times: V bends more here"
+)
+SAME_ZERO = decide.Stated(
+    1e-9, "the same", "the same elements on half and full circumference; SLEPc stops at 1e-10"
+)
+BROKEN = decide.Stated(
+    1e-4, "splits the pair", "ten thousand times what the even mesh leaves of an exact pair"
+)
+
+
 def falls(solutions: Solutions) -> Finding:
-    """Level and volume along the branch, and the negative eigenvalues."""
-    rows, good = [], True
-    for key, tube in TUBES.items():
-        columns = solutions.branch(tube, "secondary").columns
-        good &= bool(np.all(np.diff(columns["zw"]) < 0) and np.all(np.diff(columns["V"]) < 0))
-        good &= bool(np.all(columns["n_negative"] == 1))
-        good &= bool(np.all(columns["r_mid"][1:] > columns["r_mid_pi"][1:]))
-        rows.append(f"L = {key[0]}, delta = {key[1]}: zw {columns['zw'][0]:.4f} to {columns['zw'][-1]:.4f}")
-    return good, "; ".join(rows)
+    """Level and volume along the branch, the negative eigenvalues, and the side of the bulge."""
+    found = []
+    for tube in TUBES.values():
+        zw, volume, front, back = (
+            solutions.along(tube, n, "secondary") for n in ("zw", "V", "r_mid", "r_mid_pi")
+        )
+        found += [
+            decide.falls("zw", zw),
+            decide.falls("V", volume),
+            decide.every("one negative", solutions.branch(tube, "secondary").columns["n_negative"] == 1),
+            decide.positive("r_mid at Theta = 0 less that at pi", (front - back)[1:]),
+        ]
+    return decide.all_of(found)
 
 
 def turns_down(solutions: Solutions) -> Finding:
     """Radius at mid-length on the bulge's side, delta = 2."""
-    short, long = (solutions.branch(TUBES[length, 2], "secondary").columns for length in LENGTHS)
-    k = int(short["r_mid"].argmax())
-    published = long["zw"] > 7.779
-    good = 0 < k < len(short["zw"]) - 1 and short["zw"][k] > 7.336
-    good &= bool(np.all(np.diff(long["r_mid"][published]) > 0))
-    return (
-        good,
-        f"L = 8: largest {short['r_mid'][k]:.4f} near zw = {short['zw'][k]:.2f}; L = 24: rises past 7.779",
+    (short, radius), (long, other) = (
+        [solutions.along(TUBES[length, 2], name, "secondary") for name in ("zw", "r_mid")]
+        for length in LENGTHS
+    )
+    k = int(radius.value.argmax())
+    _, published = decide.sides(long, PUBLISHED[24].value)
+    return decide.all_of(
+        decide.less("L = 8: largest r_mid, beside both ends", radius[0], radius[k]),
+        decide.less("and the last", radius[-1], radius[k]),
+        decide.less("it is largest above the printed level", PUBLISHED[8].value, short[k]),
+        decide.rises("L = 24: r_mid down to 7.779", other[published]),
     )
 
 
 def where_it_turns(solutions: Solutions) -> Finding:
     """r_mid and V at the reference's turning point, and the vertex of a parabola through states around it."""
-    before, here, after = (solutions.state(TUBES[8, 2], at).quantities for at in TOP)
-    good, rows = True, []
-    for name in ("V", "r_mid"):
-        known, size = float(TURN.columns[name][0]), abs(float(TURN.columns[name][0]))
-        bound = 2 * np.hypot(here[name].uncertainty, TURN.uncertainty[name])
-        error = abs(here[name].value - known)
-        good &= bool(error <= bound <= 1e-5 * size)
-        rows.append(f"{name} off by {error / size:.1e} (bound {bound / size:.1e})")
-    r = [q["r_mid"].value for q in (before, here, after)]
+    found = [
+        decide.agree(name, solutions.number(TUBES[8, 2], TOP[1], name), TURN.number(name)[0], 1e-5)
+        for name in ("V", "r_mid")
+    ]
+    r = solutions.numbers(TUBES[8, 2], TOP, "r_mid")
     off = WIDE * (r[2] - r[0]) / (2 * (r[0] - 2 * r[1] + r[2]))
-    good &= r[1] > max(r[0], r[2]) and abs(off) < WIDE**2
-    return bool(good), f"{'; '.join(rows)}; vertex {abs(off):.1e} away"
+    return decide.all_of(
+        *found,
+        decide.less("r_mid beside", r[0], r[1]),
+        decide.less("r_mid beside", r[2], r[1]),
+        decide.at_most("vertex off by", abs(off), VERTEX),
+    )
 
 
 def stability(solutions: Solutions) -> Finding:
     """Negative eigenvalues of the published states: by level, by volume, breaking the symmetry."""
     names = ("n_negative", "n_negative_V", "n_negative_breaking")
     counts = [[int(solutions.value(tube, at, name)) for name in names] for tube, at in STATES]
-    lowest = [solutions.value(tube, at, "LambdaV_1") for tube, at in STATES]
-    detail = "; ".join(
-        f"L = {length}: {c}, lowest at fixed volume {v:.5f}"
-        for length, c, v in zip(PUBLISHED, counts, lowest, strict=True)
+    return decide.all_of(
+        decide.same("level, volume, breaking", counts, [[1, 1, 0]] * len(STATES)),
+        *(
+            decide.negative("lowest at fixed volume", solutions.number(tube, at, "LambdaV_1"))
+            for tube, at in STATES
+        ),
     )
-    return all(c == [1, 1, 0] for c in counts), f"level, volume, breaking: {detail}"
 
 
 EIGENVALUES = dict.fromkeys(("Lambda_1", "LambdaV_1", "Lambda_2", "Lambda_3", "Lambda_breaking"), 1e-6)
@@ -112,76 +135,64 @@ def judged(key: tuple[int, float]) -> At:
 
 def eigenvalues(solutions: Solutions) -> Finding:
     """Eigenvalues against the tables, by the rule of all comparisons."""
-    worst, rows, good = 0.0, [], True
+    found = []
     for key in JUDGED:
         table = reference(3, f"secondary_L_{key[0]}_delta_{key[1]}")
         row = int(np.flatnonzero(table.columns["zw"] == JUDGED[key])[0])
-        found = solutions.state(TUBES[key], judged(key)).quantities
         for name, asked in (EIGENVALUES if key[0] == 8 else LONG).items():
-            known, size = table.columns[name][row], np.abs(table.columns[name]).max()
-            bound = 2 * np.hypot(found[name].uncertainty, table.uncertainty[name])
-            error = abs(found[name].value - known)
-            good &= bool(error <= bound <= asked * size)
-            worst = max(worst, error / bound)
-            if bound > asked * size or error > bound:
-                rows.append(f"{key} {name}: {error:.1e}, bound {bound:.1e} of {size:.2g}")
-    return (
-        good,
-        f"largest error over its bound {worst:.2f}{'; out of bounds: ' if rows else ''}{'; '.join(rows)}",
-    )
+            here, known = solutions.number(TUBES[key], judged(key), name), table.number(name)
+            found.append(decide.agree(f"{key} {name}", here, known[row], asked, np.abs(known.value).max()))
+    return decide.all_of(found)
 
 
 def tense(solutions: Solutions) -> Finding:
     """Smallest principal resultants of the states judged."""
-    rows = {key: solutions.quantity(TUBES[key], judged(key), "T_min") for key in JUDGED}
-    good = all(q.value > q.uncertainty for q in rows.values())
-    return good, "; ".join(
-        f"L = {k[0]}, delta = {k[1]}: {q.value:.3g} +- {q.uncertainty:.1g}" for k, q in rows.items()
+    return decide.all_of(
+        decide.positive(
+            f"L = {k[0]}, delta = {k[1]}", solutions.number(TUBES[k], judged(k), "T_min"), decide.LEAST_CLEAR
+        )
+        for k in JUDGED
     )
 
 
 def turn_is_a_zero(solutions: Solutions) -> Finding:
-    """Eigenvalue of the turn of the pattern, against its uncertainty and the next one."""
-    rows, good = [], True
+    """Eigenvalue of the turn of the pattern, beside the next one."""
+    found = []
     for tube, at in STATES:
-        turn, other = (solutions.quantity(tube, at, f"Lambda_{n}") for n in ("rotation", "breaking"))
-        good &= abs(turn.value) <= 2 * turn.uncertainty and turn.uncertainty < 1e-4 * other.value
-        rows.append(f"{turn.value:.1e} (next {other.value:.6f})")
-    return good, "; ".join(rows)
+        turn, other = (solutions.number(tube, at, f"Lambda_{n}") for n in ("rotation", "breaking"))
+        found.append(decide.zero("turn", turn, 2e-4, abs(other)))
+    return decide.all_of(found)
 
 
 def starts_at_the_bifurcation(solutions: Solutions) -> Finding:
     """Zero of the surface's mirror-symmetric tangent against the zero of the n = 1 eigenvalue."""
-    worst, good = 0.0, True
+    found = []
     for tube in TUBES.values():
         points = solutions.points(tube, "bifurcation_point")
         one = next(p for p in points if p.branch == "primary" and p.values["n"] == 1)
         two = next(p for p in points if p.branch == "secondary")
-        for name in ("zw", "V", "r_mid"):
-            off = abs(one.values[name] - two.values[name])
-            good &= off <= 2 * np.hypot(one.uncertainty[name], two.uncertainty[name])
-            worst = max(worst, off / abs(one.values[name]))
-    return bool(good), f"largest relative difference {worst:.1e}"
+        found += [
+            decide.agree(n, decide.of_point(one, n), decide.of_point(two, n), 1e-5)
+            for n in ("zw", "V", "r_mid")
+        ]
+    return decide.all_of(found)
 
 
 def sub_critical(solutions: Solutions) -> Finding:
     """Initial slopes of the secondary branches."""
-    rows = {}
-    for key, tube in TUBES.items():
+    found = []
+    for tube in TUBES.values():
         point = next(p for p in solutions.points(tube, "bifurcation_point") if p.branch == "secondary")
-        rows[key] = point.values["dzw_dV"], point.values["dzw_dr2"]
-    good = all(slope > 0 and curvature < 0 for slope, curvature in rows.values())
-    return good, "dzw/dV: " + "; ".join(
-        f"L = {k[0]}, delta = {k[1]}: {slope:.6f}" for k, (slope, _) in rows.items()
-    )
+        found.append(decide.positive("dzw/dV", decide.of_point(point, "dzw_dV")))
+        found.append(decide.negative("dzw/dr2", decide.of_point(point, "dzw_dr2")))
+    return decide.all_of(found)
 
 
 def work_conjugate(solutions: Solutions) -> Finding:
     """Central difference of the potential over the level against the volume, on the secondary branch."""
-    before, here, after = (solutions.state(TUBES[8, 2], at).quantities for at in AROUND)
-    slope = (after["Pi"].value - before["Pi"].value) / (2 * STEP)
-    error = abs(slope / (-0.116 * here["V"].value) - 1)
-    return error < 10 * STEP**2, f"relative difference {error:.1e}, of order step^2"
+    before, after = (solutions.number(TUBES[8, 2], at, "Pi") for at in (AROUND[0], AROUND[2]))
+    off = (after - before) / (2 * STEP) / (-0.116 * solutions.number(TUBES[8, 2], AROUND[1], "V")) - 1
+    return decide.at_most("relative difference", abs(off), OF_SECOND_ORDER)
 
 
 def quantities(solutions: Solutions, spec) -> dict[str, float]:  # noqa: ANN001
@@ -190,24 +201,26 @@ def quantities(solutions: Solutions, spec) -> dict[str, float]:  # noqa: ANN001
 
 
 def double_zero(solutions: Solutions) -> Finding:
-    """Critical eigenvalues and the bent state on half and full circumference."""
+    """Critical eigenvalues and the bent state on half and full circumference, by the same elements."""
     half, full = (quantities(solutions, spec) for spec in (HALF, FULL))
-    worst = max(abs(full[name] / half[name] - 1) for name in SAME)
-    good = half["multiplicity"] == 1 and full["multiplicity"] == 2 and worst < 1e-9
-    return good, (
-        f"multiplicity {half['multiplicity']:g} and {full['multiplicity']:g}, pair apart by "
-        f"{full['Lambda_split']:.1e}; level, volume and potential of both states differ by {worst:.1e}"
+    return decide.all_of(
+        decide.same("multiplicities", [half["multiplicity"], full["multiplicity"]], [1, 2]),
+        *(decide.at_most(f"{name} apart", abs(full[name] / half[name] - 1), SAME_ZERO) for name in SAME),
     )
 
 
 def mesh_breaks_it(solutions: Solutions) -> Finding:
     """The pair on a mesh that is not uniform around."""
     even, uneven = (quantities(solutions, spec) for spec in (FULL, UNEVEN))
-    good = uneven["Lambda_split"] > 1e4 * abs(even["Lambda_split"])
-    good &= abs(uneven["phase"]) > 1e4 * abs(even["phase"])
-    return good, (
-        f"pair apart by {uneven['Lambda_split']:.1e} (even: {even['Lambda_split']:.1e}), force that holds "
-        f"the pattern {uneven['phase']:.1e} (even: {even['phase']:.1e})"
+    return decide.all_of(
+        decide.at_most(
+            "split even over uneven", abs(even["Lambda_split"]) / abs(uneven["Lambda_split"]), BROKEN
+        ),
+        decide.at_most(
+            "force that holds the pattern, even over uneven",
+            abs(even["phase"]) / abs(uneven["phase"]),
+            BROKEN,
+        ),
     )
 
 
