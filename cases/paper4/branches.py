@@ -3,9 +3,19 @@
 No limit load is met up to p = 0.55 or zw = 16; for M = 0.5, delta = 3 one lies just above p = 0.55.
 """
 
-import numpy as np
-
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, reference, wrinkled_tube
+from weakforms import (
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    reference,
+    wrinkled_tube,
+)
 
 BRANCHES = {
     "gas_M_0.5_delta_2": wrinkled_tube(M=0.5, delta=2, load="gas"),
@@ -46,26 +56,23 @@ def members(load: str) -> list:
 
 def no_limit_in_range(solutions: Solutions) -> Finding:
     """Lowest limit loads of the paper's sets."""
-    good, rows = True, []
+    found = []
     for load, (control, end) in PAPER.items():
-        found = [solutions.points(spec, "limit_point")[0].values[control] for spec in members(load)]
-        good &= min(found) > end
-        rows.append(f"{control}: {min(found):.6f} > {end:g} ({len(found)} sets)")
-    return good, "; ".join(rows)
+        loads = decide.stack(solutions.point(spec, "limit_point", control) for spec in members(load))
+        found.append(decide.positive(f"{control} at limit points less {end:g}", loads - end))
+    return decide.all_of(found)
 
 
 def stable_below(solutions: Solutions) -> Finding:
     """Negative eigenvalues of the second variation at fixed load, in the axisymmetric space."""
-    good, total = True, 0
+    found = []
     for load in PAPER:
         for spec in members(load):
-            (limit,) = solutions.points(spec, "limit_point")[:1]
-            columns = solutions.branch(spec).columns
-            below = columns["V"] < limit.values["V"]
-            counts = columns["n_negative"]
-            good &= bool(np.all(counts[below] == 0) and np.all(counts[~below] >= 1))
-            total += len(counts)
-    return good, f"none below the limit load, one or more above, on {total} points"
+            counts = solutions.branch(spec).columns["n_negative"]
+            below, above = decide.sides(solutions.along(spec, "V"), solutions.point(spec, "limit_point", "V"))
+            found.append(decide.every("none below the limit load", counts[below] == 0))
+            found.append(decide.every("one or more above it", counts[above] >= 1))
+    return decide.all_of(found)
 
 
 CASE = Case(

@@ -7,78 +7,82 @@ above 0, thinner than 1e-3 at low ones.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_tube
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 LEVELS = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
 TUBES = {M: wrinkled_tube(M=M, delta=2) for M in (0.5, 1.5)}
 EMPTY, PRINTED = At("zw", 0.0, profile=()), At("zw", 7.44, profile=())
-VERGE = 1e-9
-"""Deviation of gw from 1 within which no state is asserted."""
+CLOSE = 1e-4
+"""Distance of samples from a front and from each other, at a kink."""
 
 
-def fronts(solutions: Solutions, M: float, level: float) -> list[float]:
+def fronts(solutions: Solutions, M: float, level: float) -> list[decide.Number]:
     """Fronts from the lower end."""
     quantities = solutions.state(TUBES[M], At("zw", float(level))).quantities
-    return [q.value for name, q in quantities.items() if name.startswith("Z_front")]
+    return [decide.number(q) for name, q in quantities.items() if name.startswith("Z_front")]
 
 
 def unloaded(solutions: Solutions) -> Finding:
     """Zero load: gw <= 1, equal to 1 at the thin end only; radius constant, ends not pulled sideways."""
-    good, rows = True, []
+    found = []
     for M, thin in ((0.5, 0), (1.5, -1)):
-        columns = solutions.profile(TUBES[M], EMPTY).columns
-        gw, others = columns["gw"], np.delete(columns["gw"], thin)
-        off = np.ptp(columns["r"]) + np.abs(columns["slope"][[0, -1]]).max()
-        good &= bool(abs(gw[thin] - 1) < VERGE and others.max() < 1 - VERGE and off < 1e-10)
-        rows.append(f"M = {M}: gw = 1 {gw[thin] - 1:+.0e} at the thin end, {others.max():.6f} next to it")
-    return good, "; ".join(rows)
+        gw, r, slope = (solutions.column(TUBES[M], EMPTY, name) for name in ("gw", "r", "slope"))
+        others = np.delete(np.arange(len(gw)), thin)
+        found += [
+            decide.agree(f"M = {M}: gw at the thin end", gw[thin], 1.0, 1e-8),
+            decide.negative("gw - 1 elsewhere", gw[others] - 1),
+            decide.constant("r", r, 1e-8),
+            decide.zero("slope at the ends", slope[[0, -1]], 1e-8),
+        ]
+    return decide.all_of(found)
 
 
 def pattern(solutions: Solutions) -> Finding:
     """M = 1.5, zw = 7.44: wrinkled, taut, wrinkled, taut from the bottom."""
-    found = fronts(solutions, 1.5, 7.44)
-    gw = solutions.profile(TUBES[1.5], PRINTED).columns["gw"]
-    return len(found) == 3 and gw[0] < 1 < gw[-1], f"fronts at Z = {', '.join(f'{z:.6f}' for z in found)}"
+    gw = solutions.column(TUBES[1.5], PRINTED, "gw")
+    return decide.all_of(
+        decide.same("fronts", len(fronts(solutions, 1.5, 7.44)), 3),
+        decide.less("gw at both ends", gw[0], 1, gw[-1]),
+    )
 
 
 def thin_end_taut(solutions: Solutions) -> Finding:
     """At the thin end gw is above 1, at the thick end below 1, at every level from 3 on."""
-    ends = []
-    for M in TUBES:
+    found = []
+    for M, tube in TUBES.items():
         for level in LEVELS[1:]:
-            gw = solutions.profile(TUBES[M], At("zw", float(level), profile=())).columns["gw"]
-            ends.append((gw[0], gw[-1]) if M < 1 else (gw[-1], gw[0]))
-    thin, thick = np.array(ends).T
-    return bool(thin.min() > 1 and thick.max() < 1), (
-        f"least gw at the thin end 1 + {thin.min() - 1:.1e}, largest at the thick end {thick.max():.4f}"
-    )
+            gw = solutions.column(tube, At("zw", float(level), profile=()), "gw")
+            thin, thick = (gw[0], gw[-1]) if M < 1 else (gw[-1], gw[0])
+            found.append(decide.less(f"M = {M}, zw = {level}: gw", thick, 1, thin))
+    return decide.all_of(found)
 
 
 def front_rises(solutions: Solutions) -> Finding:
     """M = 0.5: one front, which moves up with the level."""
     found = [fronts(solutions, 0.5, level) for level in LEVELS[1:]]
-    places = [row[0] for row in found]
-    return all(len(row) == 1 for row in found) and places == sorted(places), ", ".join(
-        f"{z:.4f}" for z in places
+    return decide.all_of(
+        decide.same("fronts", [len(row) for row in found], [1] * len(found)),
+        decide.rises("Z", [row[0] for row in found]),
     )
 
 
 def kink(solutions: Solutions) -> Finding:
-    """At each front gw is continuous and its slope is not (samples at 1e-4 and 2e-4 to each side)."""
-    good, rows = True, []
+    """At each front gw is continuous and its slope is not (two samples to each side)."""
+    found = []
     for z in PLACES:
-        at = At("zw", 7.44, profile=around(z))
-        gw, u = solutions.sampled(TUBES[1.5], at, "gw")
-        below, above = (gw[1] - gw[0]) / 1e-4, (gw[3] - gw[2]) / 1e-4
-        gap = abs((2 * gw[1] - gw[0]) - (2 * gw[2] - gw[3]))
-        good &= bool(gap < 1e-7 and abs(above - below) > 10 * u / 1e-4)
-        rows.append(f"Z = {z:.4f}: slopes {below:.5f}, {above:.5f}, gap {gap:.0e}")
-    return good, "; ".join(rows)
+        gw = solutions.samples(TUBES[1.5], At("zw", 7.44, profile=around(z)), "gw")
+        below, above = (gw[1] - gw[0]) / CLOSE, (gw[3] - gw[2]) / CLOSE
+        # A line through two samples reaches the front but for the bend of gw, of second order.
+        gap = (2 * gw[1] - gw[0]) - (2 * gw[2] - gw[3])
+        bent = decide.Number(0.0, CLOSE**2)
+        found.append(decide.zero(f"Z = {z:.4f}: gap", gap + bent, 1e-6))
+        found.append(decide.positive("change of slope", abs(above - below)))
+    return decide.all_of(found)
 
 
 def around(z: float) -> tuple[float, ...]:
     """Two points to each side of a front."""
-    return tuple(z + d * 1e-4 for d in (-2, -1, 1, 2))
+    return tuple(z + d * CLOSE for d in (-2, -1, 1, 2))
 
 
 PLACES = (1.511572660117, 5.069224906584, 7.595374980714)

@@ -3,30 +3,33 @@
 As figure 2 with more pre-stretch. At zw = 7.44 there are two zones only: the text's four belong to delta = 2.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_tube
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 LEVELS = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
 TUBES = {M: wrinkled_tube(M=M, delta=3) for M in (0.5, 1.5)}
 
 
-def fronts(solutions: Solutions, M: float, level: float) -> list[float]:
+def fronts(solutions: Solutions, M: float, level: float) -> list[decide.Number]:
     """Fronts from the lower end."""
     quantities = solutions.state(TUBES[M], At("zw", float(level))).quantities
-    return [q.value for name, q in quantities.items() if name.startswith("Z_front")]
+    return [decide.number(q) for name, q in quantities.items() if name.startswith("Z_front")]
 
 
 def two_zones(solutions: Solutions) -> Finding:
     """M = 1.5, delta = 3, zw = 7.44: wrinkled below, taut above."""
-    found = fronts(solutions, 1.5, 7.44)
-    return len(found) == 1, f"fronts at Z = {', '.join(f'{z:.6f}' for z in found)}"
+    gw = solutions.column(TUBES[1.5], At("zw", 7.44, profile=()), "gw")
+    return decide.all_of(
+        decide.same("fronts", len(fronts(solutions, 1.5, 7.44)), 1),
+        decide.less("gw at both ends", gw[0], 1, gw[-1]),
+    )
 
 
 def front_rises(solutions: Solutions) -> Finding:
     """M = 0.5: one front, which moves up with the level."""
     found = [fronts(solutions, 0.5, level) for level in LEVELS[1:]]
-    places = [row[0] for row in found]
-    return all(len(row) == 1 for row in found) and places == sorted(places), ", ".join(
-        f"{z:.6g}" for z in places
+    return decide.all_of(
+        decide.same("fronts", [len(row) for row in found], [1] * len(found)),
+        decide.rises("Z", [row[0] for row in found]),
     )
 
 

@@ -17,6 +17,7 @@ from weakforms import (
     Finding,
     Panel,
     Solutions,
+    decide,
     reference,
     wrinkled_tube,
 )
@@ -28,15 +29,21 @@ CRESTS, WINDOW, CROSSING = (reference(4, name) for name in ("crests", "crest_win
 GRID = tuple(np.linspace(0.0, 8.0, 321))
 CLEAR = 5e-3
 """Distance in pressure from the ends of a window at which crests are counted."""
-QUARTER = 0.1
-"""How near the quarter heights the text's "near" is taken to be."""
+ASIDE = 1e-3
+"""Distance of samples to both sides of an extreme."""
+NEAR = decide.Stated(
+    0.1, "near the quarter heights", "no number is printed; less than half way to the next quarter"
+)
 
 
 def crests(solutions: Solutions, d: int, p: float) -> list[tuple[float, bool]]:
     """Relative heights of the extremes of the radius, and whether each is a crest."""
-    slope, z = (solutions.sampled(TUBES[d], sampled(p), name)[0] for name in ("slope", "z"))
-    turns = np.flatnonzero(slope[:-1] * slope[1:] < 0)
-    return [(float(z[i] / (8 * d)), bool(slope[i] > 0)) for i in turns]
+    slope, z = (solutions.samples(TUBES[d], sampled(p), name) for name in ("slope", "z"))
+    falling, rising = decide.sides(slope, 0)
+    known = np.flatnonzero(falling | rising)
+    signs = rising[known]
+    turns = np.flatnonzero(signs[1:] != signs[:-1])
+    return [(float(z.value[known[i]] / (8 * d)), bool(signs[i])) for i in turns]
 
 
 def sampled(p: float) -> At:
@@ -46,69 +53,75 @@ def sampled(p: float) -> At:
 
 def two_crests(solutions: Solutions) -> Finding:
     """At p = 0.45 (delta = 2) and 0.35 (3): crests near the quarter heights, a trough near the middle."""
-    good, rows = True, []
+    found = []
     for d, p in ((2, 0.45), (3, 0.35)):
-        found = crests(solutions, d, p)
-        near = [abs(h - wanted) <= QUARTER for (h, _), wanted in zip(found, (0.25, 0.5, 0.75), strict=False)]
-        good &= len(found) == 3 and all(near) and [c for _, c in found] == [True, False, True]
-        rows.append(f"delta = {d}, p = {p}: heights " + ", ".join(f"{h:.3f}" for h, _ in found))
-    return good, "; ".join(rows)
+        extremes = crests(solutions, d, p)
+        found.append(
+            decide.same(f"delta = {d}: crests", [crest for _, crest in extremes], [True, False, True])
+        )
+        off = [abs(h - wanted) for (h, _), wanted in zip(extremes, (0.25, 0.5, 0.75), strict=True)]
+        found.append(decide.at_most("heights off the quarters", off, NEAR))
+    return decide.all_of(found)
 
 
 def one_crest(solutions: Solutions) -> Finding:
     """One crest in the thick half at p = 0.3, in the thin half at 0.55; M = 1: at mid-height."""
     low, high = crests(solutions, 2, 0.3), crests(solutions, 2, 0.55)
-    slope, u = solutions.sampled(UNIFORM, At("p", 0.3, profile=(4.0,)), "slope")
-    good = len(low) == len(high) == 1 and low[0][0] > 0.5 > high[0][0] and abs(slope[0]) <= 2 * u
-    return bool(
-        good
-    ), f"heights {low[0][0]:.3f} and {high[0][0]:.3f}; M = 1: slope {slope[0]:.0e} at mid-height"
+    return decide.all_of(
+        decide.same("crests", [[crest for _, crest in found] for found in (low, high)], [[True], [True]]),
+        decide.less("heights at p = 0.55 and 0.3, and the middle", high[0][0], 0.5, low[0][0]),
+        decide.zero(
+            "M = 1: slope at mid-height",
+            solutions.samples(UNIFORM, At("p", 0.3, profile=(4.0,)), "slope"),
+            1e-6,
+        ),
+    )
 
 
 def window(solutions: Solutions) -> Finding:
     """One crest outside and two inside the reference's window, CLEAR of its ends."""
-    good, rows = True, []
+    found = []
     for d, event, p in zip(*(WINDOW.columns[n] for n in ("delta", "event", "p")), strict=True):
-        opens = event == 1
         counts = [len(crests(solutions, int(d), float(p + shift))) for shift in (-CLEAR, CLEAR)]
-        good &= counts == ([1, 3] if opens else [3, 1])
-        rows.append(f"delta = {d:g}, p = {p:.6f}: {counts[0]} -> {counts[1]} extremes")
-    return good, "; ".join(rows)
+        found.append(
+            decide.same(f"delta = {d:g}, p = {p:.6f}: extremes", counts, [1, 3] if event == 1 else [3, 1])
+        )
+    return decide.all_of(found)
 
 
-def crest_states() -> list[tuple[float, float, At]]:
-    """Row by row of the table: pre-stretch, position, and the state sampled there and to each side."""
+def crest_states() -> list[tuple[float, int, At]]:
+    """Row by row of the table: pre-stretch, row, and the state sampled there and to each side."""
     columns = (CRESTS.columns[n] for n in ("M", "delta", "p", "Z"))
     return [
-        (d, z, At("p", float(p), profile=(z - 1e-3, float(z), z + 1e-3)))
-        for M, d, p, z in zip(*columns, strict=True)
+        (d, row, At("p", float(p), profile=(z - ASIDE, float(z), z + ASIDE)))
+        for row, (M, d, p, z) in enumerate(zip(*columns, strict=True))
         if M == 0.5
     ]
 
 
 def at_crests(solutions: Solutions) -> Finding:
     """The meridian is upright where the reference has its crests and troughs."""
-    worst, least = 0.0, np.inf
-    for d, _, at in crest_states():
-        slope, u = solutions.sampled(TUBES[int(d)], at, "slope")
-        bend = abs(slope[2] - slope[0]) / 2e-3
-        bound = 2 * np.hypot(u, bend * CRESTS.uncertainty["Z"])
-        worst, least = max(worst, abs(slope[1]) / bound), min(least, bend)
-    return bool(worst <= 1), f"largest slope over its bound {worst:.2g}; least bend {least:.1e}"
+    found = []
+    for d, row, at in crest_states():
+        slope = solutions.samples(TUBES[int(d)], at, "slope")
+        bend = (slope[2] - slope[0]) / (2 * ASIDE)
+        off = slope[1] / bend + CRESTS.number("Z")[row] - float(CRESTS.columns["Z"][row])
+        found.append(decide.zero(f"distance of the extreme, {at}", off, 1e-4))
+    return decide.all_of(found)
 
 
 def grows_with_stretch(solutions: Solutions) -> Finding:
     """r_max/Af at every pressure; r_max itself falls with delta below the crossing and grows above."""
-    good = True
-    p0 = float(CROSSING.columns["p"][0])
+    found, crossing = [], CROSSING.number("p")[0]
+    p0 = float(crossing.value)
+    disks = [solutions.whole(TUBES[d], "Af_critical") for d in (2, 3)]
     for p in PRESSURES[1:]:
-        radii = [solutions.value(TUBES[d], At("p", p), "r_max") for d in (2, 3)]
-        disks = [solutions.result(TUBES[d]).quantities["Af_critical"].value for d in (2, 3)]
-        good &= radii[1] / disks[1] > radii[0] / disks[0] and (radii[1] > radii[0]) == (p > p0)
-    two, three = (solutions.quantity(TUBES[d], At("p", p0), "r_max") for d in (2, 3))
-    bound = 2 * np.hypot(two.uncertainty, three.uncertainty) + 2 * CROSSING.uncertainty["p"]
-    gap = abs(two.value - three.value)
-    return bool(good and gap <= bound), f"equal radii at p = {p0:.9f}: {two.value:.9f}, gap {gap:.0e}"
+        radii = [solutions.number(TUBES[d], At("p", p), "r_max") for d in (2, 3)]
+        found.append(decide.less(f"p = {p}: r_max/Af", radii[0] / disks[0], radii[1] / disks[1]))
+        found.append(decide.less("r_max", *(radii if p > p0 else radii[::-1])))
+    two, three = (solutions.number(TUBES[d], At("p", p0), "r_max") for d in (2, 3))
+    found.append(decide.agree(f"radii at p = {p0:.9f}", two, three + (crossing - p0), 1e-6))
+    return decide.all_of(found)
 
 
 COUNTED = tuple(

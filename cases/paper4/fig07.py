@@ -5,11 +5,27 @@ part gw - 1 decays to 1e-9 and below, so gw > 1 - 1e-7 is what is tested. Under 
 both disks, shortly before the limit pressure.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, wrinkled_tube
+from weakforms import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Dashed,
+    Finding,
+    Panel,
+    Solutions,
+    Spec,
+    decide,
+    wrinkled_tube,
+)
 
 TUBES = {M: wrinkled_tube(M=M, delta=2) for M in (0.99, 1)}
 LEVEL = At("zw", 4.5, profile=())
 LOADED = tuple(At("zw", v, profile=()) for v in (1.0, 4.5, 12.0))
+VERGE = decide.Stated(
+    1 - 1e-7, "does not wrinkle", "in the dry part gw tends to 1 from above, to less than its uncertainty"
+)
 OTHERS = (0.1, 0.7, 0.9, 1.1, 1.9)
 UNEVEN = {M: wrinkled_tube(M=M, delta=2) for M in OTHERS}
 SMALL_DISKS = wrinkled_tube(M=1, delta=2, load="gas", Af=0.6)
@@ -19,48 +35,57 @@ FAR_INFLATED = tuple(At("p", v, profile=()) for v in (0.9, 1.02))
 
 
 def uniform_is_taut(solutions: Solutions) -> Finding:
-    """M = 1: least gw at some levels."""
-    lowest = min(solutions.profile(TUBES[1], at).columns["gw"].min() for at in LOADED)
-    return lowest > 1 - 1e-7, f"least gw = 1 {lowest - 1:+.1e}"
+    """M = 1: least gw at some levels, where gw - 1 decays to 1e-9 and below in the dry part."""
+    return decide.all_of(
+        decide.at_least(f"gw at {at}", solutions.column(TUBES[1], at, "gw"), VERGE) for at in LOADED
+    )
 
 
 def uniform_wrinkles_at_last(solutions: Solutions) -> Finding:
     """M = 1 under gas: taut at p = 0.9; wrinkled zones open at both ends before the limit point."""
-    gw = [solutions.profile(UNIFORM_GAS, at).columns["gw"] for at in FAR_INFLATED]
+    before, after = (solutions.column(UNIFORM_GAS, at, "gw") for at in FAR_INFLATED)
     opened = solutions.points(UNIFORM_GAS, "zone_opening")
-    limit = solutions.points(UNIFORM_GAS, "limit_point")[0].values["p"]
-    p = [point.values["p"] for point in opened]
-    wrinkled = all(point.values["state"] == -1 for point in opened)
-    good = wrinkled and len(p) == 2 and abs(p[0] - p[1]) <= 2 * opened[0].uncertainty["p"] + 1e-12
-    good &= 0.9 < p[0] < 1.02 < limit and gw[0].min() > 1 and gw[1][0] < 1 and gw[1][-1] < 1
-    return bool(good), f"zones open at p = {p[0]:.8f}; limit point at p = {limit:.8f}"
+    first, second = (decide.of_point(point, "p") for point in opened)
+    return decide.all_of(
+        decide.same(
+            "zones that open, and their states", [point.values["state"] for point in opened], [-1, -1]
+        ),
+        decide.agree("p at both disks", first, second, 1e-6),
+        decide.less("p", 0.9, first, 1.02, solutions.point(UNIFORM_GAS, "limit_point", "p")),
+        decide.positive("gw - 1 at p = 0.9", before - 1),
+        decide.negative("gw - 1 at the disks, p = 1.02", after[[0, -1]] - 1),
+    )
 
 
 def almost_uniform_wrinkles(solutions: Solutions) -> Finding:
     """M = 0.99: taut below a front, wrinkled above; the taut part grows with the level."""
-    places, good = [], True
+    found = []
     for at in LOADED:
-        state = solutions.state(TUBES[0.99], at)
-        gw = state.fields[0].columns["gw"]
-        good &= gw[0] > 1 > gw[-1] and "Z_front_2" not in state.quantities
-        places.append(state.quantities["Z_front_1"].value)
-    return bool(good and places == sorted(places)), "fronts at zw = 1, 4.5, 12: " + ", ".join(
-        f"{z:.5f}" for z in places
-    )
+        gw = solutions.column(TUBES[0.99], at, "gw")
+        found.append(decide.less(f"gw at both ends, {at}", gw[-1], 1, gw[0]))
+        found.append(decide.same("fronts", count_fronts(solutions, TUBES[0.99], at), 1))
+    found.append(decide.rises("front", solutions.numbers(TUBES[0.99], LOADED, "Z_front_1")))
+    return decide.all_of(found)
+
+
+def count_fronts(solutions: Solutions, spec: Spec, at: At) -> int:
+    """Number of fronts of a state."""
+    return sum(name.startswith("Z_front") for name in solutions.state(spec, at).quantities)
 
 
 def any_variation_wrinkles(solutions: Solutions) -> Finding:
     """Wrinkled share at zw = 4.5 for M from 0.1 to 1.9."""
-    shares = {M: solutions.value(UNEVEN[M], At("zw", 4.5), "wrinkled_fraction") for M in OTHERS}
-    return min(shares.values()) > 0, ", ".join(f"{M}: {s:.3f}" for M, s in shares.items())
+    shares = decide.stack(solutions.number(UNEVEN[M], At("zw", 4.5), "wrinkled_fraction") for M in OTHERS)
+    return decide.positive("wrinkled share", shares)
 
 
 def small_disks(solutions: Solutions) -> Finding:
     """M = 1 with Af = 0.6: wrinkled, taut, wrinkled at p = 0.2."""
-    state = solutions.state(SMALL_DISKS, INFLATED)
-    fronts = [q.value for name, q in state.quantities.items() if name.startswith("Z_front")]
-    gw = state.fields[0].columns["gw"]
-    return len(fronts) == 2 and gw[0] < 1 and gw[-1] < 1, "fronts " + ", ".join(f"{z:.6f}" for z in fronts)
+    gw = solutions.column(SMALL_DISKS, INFLATED, "gw")
+    return decide.all_of(
+        decide.same("fronts", count_fronts(solutions, SMALL_DISKS, INFLATED), 2),
+        decide.negative("gw - 1 at the disks", gw[[0, -1]] - 1),
+    )
 
 
 CASE = Case(
@@ -72,7 +97,7 @@ CASE = Case(
             x=Axis("r", 0, 1),
             y=Axis("z", 0, 16),
             title=r"$\delta = 2$, $z_w = 4.5$",
-            dashed=Dashed("gw", 1 - 1e-7, "taut", "wrinkled"),
+            dashed=Dashed("gw", VERGE.value, "taut", "wrinkled"),
             curves=tuple(
                 Curve(TUBES[M], rf"$M = {M}$", reference=f"fig07_M_{M}_zw_4.5", at=LEVEL) for M in TUBES
             ),

@@ -4,7 +4,7 @@ Af = 0.4 and 0.5 beside the critical radius (printed as 0.5568). At zw = 4.5 the
 disks are wrinkled all over; at higher levels they are taut in the middle and wrinkled at both ends.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, wrinkled_tube
+from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, decide, wrinkled_tube
 
 RADII = (0.4, 0.5, "critical")
 TUBES = {Af: wrinkled_tube(M=0.5, delta=2, Af=Af) for Af in RADII[:2]}
@@ -16,22 +16,22 @@ INFLATED = At("p", 0.2, profile=())
 
 def all_wrinkled(solutions: Solutions) -> Finding:
     """Wrinkled share at zw = 4.5."""
-    shares = {Af: solutions.value(TUBES[Af], LOW, "wrinkled_fraction") for Af in RADII}
-    gw = solutions.profile(TUBES["critical"], LOW).columns["gw"]
-    good = shares[0.4] == shares[0.5] == 1 and shares["critical"] < 1 and gw[0] > 1
-    return bool(good), ", ".join(f"Af = {Af}: {share:.6f}" for Af, share in shares.items())
+    shares = {Af: solutions.number(TUBES[Af], LOW, "wrinkled_fraction") for Af in RADII}
+    return decide.all_of(
+        *(decide.exact(f"share for Af = {Af}", shares[Af].value, 1.0) for Af in RADII[:2]),
+        decide.less("critical disks: share", shares["critical"], 1),
+        decide.positive("gw - 1 at their lower end", solutions.column(TUBES["critical"], LOW, "gw")[0] - 1),
+    )
 
 
 def taut_middle(solutions: Solutions) -> Finding:
     """Af = 0.4 and 0.5 at zw = 12, and Af = 0.4 at p = 0.2: two fronts, both ends wrinkled."""
-    good, rows = True, []
+    found = []
     for spec, at in ((TUBES[0.4], HIGH), (TUBES[0.5], HIGH), (GAS, INFLATED)):
-        state = solutions.state(spec, at)
-        fronts = [q.value for name, q in state.quantities.items() if name.startswith("Z_front")]
-        gw = state.fields[0].columns["gw"]
-        good &= len(fronts) == 2 and gw[0] < 1 and gw[-1] < 1
-        rows.append(f"{spec} at {at}: " + ", ".join(f"{z:.5f}" for z in fronts))
-    return bool(good), "; ".join(rows)
+        count = sum(name.startswith("Z_front") for name in solutions.state(spec, at).quantities)
+        found.append(decide.same(f"fronts, {at}", count, 2))
+        found.append(decide.negative("gw - 1 at the ends", solutions.column(spec, at, "gw")[[0, -1]] - 1))
+    return decide.all_of(found)
 
 
 def panel(name: str, at: At, radii: tuple, note: str = "") -> Panel:

@@ -7,7 +7,7 @@ with this paper and reports that their wrinkled regions agree. Its numbers could
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, wrinkled_tube
+from weakforms import At, Case, Claim, Finding, Solutions, decide, wrinkled_tube
 
 GRID = tuple(np.linspace(0.0, 8.0, 81))
 STATES = {
@@ -19,24 +19,24 @@ ENERGIES = ({}, {"energy": "modified_gradient"})
 
 
 def same_fields(solutions: Solutions) -> Finding:
-    """Largest differences of profiles and fronts, against twice the combined uncertainty."""
-    good, rows = True, []
+    """Profiles and fronts of both treatments."""
+    found = []
     for name, (given, at) in STATES.items():
-        a, b = (solutions.state(wrinkled_tube(**given, **e), at) for e in ENERGIES)
-        errors, fronts = [], 0
+        specs = [wrinkled_tube(**given, **e) for e in ENERGIES]
         for column in ("r", "z", "lam1", "gw", "tension"):
-            (x, u), (y, v) = (solutions.sampled(wrinkled_tube(**given, **e), at, column) for e in ENERGIES)
-            error = np.abs(x - y).max()
-            good &= bool(error <= 2 * np.hypot(u, v))
-            errors.append(error)
-        good &= set(a.quantities) == set(b.quantities)
-        for column in a.quantities:
-            if column.startswith("Z_front"):
-                p, q = a.quantities[column], b.quantities[column]
-                good &= abs(p.value - q.value) <= 2 * np.hypot(p.uncertainty, q.uncertainty)
-                fronts += 1
-        rows.append(f"{name}: {max(errors):.0e}, {fronts} fronts")
-    return bool(good), "; ".join(rows)
+            found.append(
+                decide.agree(f"{name}: {column}", *(solutions.samples(s, at, column) for s in specs), 1e-6)
+            )
+        fronts = [
+            [column for column in solutions.state(s, at).quantities if column.startswith("Z_front")]
+            for s in specs
+        ]
+        found.append(decide.same("fronts", *fronts))
+        found += [
+            decide.agree(column, *(solutions.number(s, at, column) for s in specs), 1e-6)
+            for column in fronts[0]
+        ]
+    return decide.all_of(found)
 
 
 CASE = Case(

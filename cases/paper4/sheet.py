@@ -4,9 +4,7 @@ Elements of degree 4, a few around; along, the mesh ends at the fronts of the ax
 elements around the state would be unstable to waves (Paper 5).
 """
 
-import numpy as np
-
-from weakforms import At, Case, Claim, Finding, Solutions, wrinkled_sheet, wrinkled_tube
+from weakforms import At, Case, Claim, Finding, Solutions, decide, wrinkled_sheet, wrinkled_tube
 
 STATES = (
     ({"M": 0.5}, At("zw", 4.5)),
@@ -16,17 +14,17 @@ STATES = (
 
 
 def agrees(solutions: Solutions) -> Finding:
-    """Volume and potential of sheet and surface of revolution within twice the combined uncertainty."""
-    good, rows = True, []
-    for given, at in STATES:
-        sheet = solutions.result(wrinkled_sheet(**given, at_load=at.value)).quantities
-        for name in ("V", "Pi"):
-            one = solutions.quantity(wrinkled_tube(**given, delta=2), at, name)
-            error = abs(sheet[name].value - one.value) / one.value
-            bound = 2 * np.hypot(sheet[name].uncertainty, one.uncertainty) / one.value
-            good &= error <= bound <= 1e-5
-            rows.append(f"{name} at {at}: {error:.0e} <= {bound:.0e}")
-    return bool(good), "; ".join(rows)
+    """Volume and potential of sheet and surface of revolution."""
+    return decide.all_of(
+        decide.agree(
+            f"{name} at {at}",
+            solutions.whole(wrinkled_sheet(**given, at_load=at.value), name),
+            solutions.number(wrinkled_tube(**given, delta=2), at, name),
+            1e-5,
+        )
+        for given, at in STATES
+        for name in ("V", "Pi")
+    )
 
 
 CASE = Case(

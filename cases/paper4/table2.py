@@ -4,9 +4,7 @@ The largest radius at which the unloaded membrane has gw <= 1 everywhere, comput
 never typed. The printed 0.5568 is cut off: the fifth digit rounds it up to 0.5569.
 """
 
-import numpy as np
-
-from weakforms import Case, Claim, CutOff, Finding, Points, Printed, Solutions, wrinkled_tube
+from weakforms import Case, Claim, CutOff, Finding, Points, Printed, Solutions, decide, wrinkled_tube
 
 ROWS = ((0.5, 2, "0.5568"), (1.5, 2, "0.5568"), (0.5, 3, "0.4362"), (1.5, 3, "0.4362"), (0.99, 2, "0.7046"))
 UNIFORM = wrinkled_tube(M=1, delta=2)
@@ -29,16 +27,14 @@ def radius(M: float, delta: float) -> Printed:
 
 def uniform(solutions: Solutions) -> Finding:
     """M = 1: delta^(-1/2)."""
-    q = solutions.result(UNIFORM).quantities["Af_critical"]
-    error, bound = abs(q.value - 2**-0.5), 2 * q.uncertainty
-    return error <= bound <= 1e-10, f"error {error:.0e} <= {bound:.0e}"
+    return decide.agree("(Af)_c", solutions.whole(UNIFORM, "Af_critical"), 2**-0.5, 1e-10)
 
 
 def any_length(solutions: Solutions) -> Finding:
     """M = 0.5, delta = 2: L = 5, 8, 12."""
-    found = [solutions.result(spec).quantities["Af_critical"] for spec in LENGTHS.values()]
-    spread, bound = np.ptp([q.value for q in found]), 2 * max(q.uncertainty for q in found)
-    return bool(spread <= bound), f"spread {spread:.0e} <= {bound:.0e}"
+    return decide.constant(
+        "(Af)_c", decide.stack(solutions.whole(s, "Af_critical") for s in LENGTHS.values()), 1e-10
+    )
 
 
 CASE = Case(

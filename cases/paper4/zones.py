@@ -16,6 +16,7 @@ from weakforms import (
     Points,
     Solutions,
     Spec,
+    decide,
     reference,
     wrinkled_tube,
 )
@@ -58,14 +59,18 @@ def spec_of(row: int) -> Spec:
     return wrinkled_tube(**given | ({} if (M, delta, c2, length) in CRITICAL else {"Af": radius}))
 
 
+NEAR = decide.Stated(0.05, "near one third", "no number is printed; half way to a fourth is nearly as far")
+
+
 def order(solutions: Solutions) -> Finding:
     """M = 1.5, delta = 2: the second taut zone appears near a third of the length, the gap closes later."""
     (opens,), (closes,) = (solutions.points(FLUID, kind) for kind in ("zone_opening", "zone_closing"))
-    share = opens.values["Z"] / 8
-    good = abs(share - 1 / 3) < 0.05 and opens.values["state"] == 1 and closes.values["state"] == -1
-    good &= opens.values["zw"] < 7.44 < closes.values["zw"]
-    return bool(good), (
-        f"opens at zw = {opens.values['zw']:.6f}, Z/L = {share:.4f}; merges at zw = {closes.values['zw']:.6f}"
+    return decide.all_of(
+        decide.same("states", [opens.values["state"], closes.values["state"]], [1, -1]),
+        decide.at_most("Z/L off a third", abs(decide.of_point(opens, "Z") / 8 - 1 / 3), NEAR),
+        decide.less(
+            "zw, around the printed 7.44", decide.of_point(opens, "zw"), 7.44, decide.of_point(closes, "zw")
+        ),
     )
 
 
