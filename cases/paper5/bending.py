@@ -5,14 +5,13 @@ leaves the equilibrium alone; with a stiffness beta H^3 the unstable wave number
 above a critical beta. B1 counts the circumferential curvature only, B2 the whole of a thin shell's.
 """
 
-import math
-
 from weakforms import (
     Case,
     Claim,
     Finding,
     Points,
     Solutions,
+    decide,
     hemisphere,
     reference,
     wrinkled_bending,
@@ -44,93 +43,102 @@ MODELS = tuple(
 )
 
 
-def window(solutions: Solutions, spec: object, n: int) -> tuple[float, float] | None:
+MOST = 400
+"""Wave number up to which bands are looked for."""
+NEXT = decide.Stated(0.01, "next to", "no number is printed; a three hundredth of the window's width")
+NEARLY_ALL = decide.Stated(0.2, "nearly all", "no number is printed; four fifths and more")
+
+
+def window(solutions: Solutions, spec: object, n: int) -> list[decide.Number]:
     """Levels between which n waves are unstable, if there are any."""
     found = {
-        p.values["direction"]: p.values["zw"]
+        p.values["direction"]: decide.of_point(p, "zw")
         for p in solutions.points(spec, "stability_change")
         if p.values["n"] == n
     }
-    return (found[1.0], found[-1.0]) if len(found) == 2 else None
+    return [found[1.0], found[-1.0]] if len(found) == 2 else []
 
 
 def inside(solutions: Solutions) -> Finding:
     """Windows with and without bending stiffness: the first inside the second, or empty."""
-    good, rows = True, []
+    found = []
     for n in WAVES:
         plain, stiff = (window(solutions, spec, n) for spec in (PLAIN, STIFF))
-        if stiff is None:
-            good &= bool(solutions.branch(STIFF).columns[f"Lambda_n{n}_1"].min() > 0)
-            rows.append(f"n = {n}: none")
+        if stiff:
+            found.append(decide.less(f"n = {n}", plain[0], *stiff, plain[1]))
         else:
-            good &= plain is not None and plain[0] < stiff[0] < stiff[1] < plain[1]
-            rows.append(f"n = {n}: {stiff[0]:.4f} to {stiff[1]:.4f} within {plain[0]:.4f} to {plain[1]:.4f}")
-    return good, "; ".join(rows)
+            found.append(decide.positive(f"n = {n}: eigenvalue", solutions.along(STIFF, f"Lambda_n{n}_1")))
+    return decide.all_of(found)
 
 
 def within_real(solutions: Solutions) -> Finding:
     """Levels of the first and last change over the whole n tried, and those over all real n."""
-    table = reference(5, "bending_window").columns
-    low, high = (float(table["zw"][table["direction"] == d][0]) for d in (1, -1))
-    found = [window(solutions, STIFF, n) for n in WAVES]
-    first, last = min(w[0] for w in found if w), max(w[1] for w in found if w)
-    good = low <= first < low + 0.01 and high - 0.01 < last <= high
-    return good, f"{first:.6f} to {last:.6f} within {low:.6f} to {high:.6f}"
+    table, found = reference(5, "bending_window"), []
+    windows = [found for n in WAVES if (found := window(solutions, STIFF, n))]
+    for end, direction in ((0, 1), (1, -1)):
+        (row,) = (table.columns["direction"] == direction).nonzero()[0]
+        levels = decide.stack(w[end] for w in windows)
+        nearest = levels.smallest() if direction == 1 else levels.largest()
+        gap = direction * (nearest - table.number("zw")[row])
+        found += [decide.positive("inside by", gap), decide.at_most("distance of the ends", gap, NEXT)]
+    return decide.all_of(found)
 
 
 def stiffens(solutions: Solutions) -> Finding:
-    """Least rise of the lowest eigenvalue by the stiffness, over levels and n."""
-    plain, stiff = (solutions.branch(spec).columns for spec in (PLAIN, STIFF))
-    common = [i for i, zw in enumerate(stiff["zw"]) if zw in set(plain["zw"])]
-    where = [list(plain["zw"]).index(stiff["zw"][i]) for i in common]
-    rises = {
-        n: float((stiff[f"Lambda_n{n}_1"][common] - plain[f"Lambda_n{n}_1"][where]).min()) for n in WAVES
-    }
-    good = len(common) > 10 and min(rises.values()) > 0
-    return good, f"{len(common)} levels; " + ", ".join(f"n = {n}: {v:.1e}" for n, v in rises.items())
+    """Rise of the lowest eigenvalue by the stiffness, over the levels that both branches have."""
+    plain, stiff = (list(solutions.branch(spec).columns["zw"]) for spec in (PLAIN, STIFF))
+    common = [i for i, zw in enumerate(stiff) if zw in set(plain)]
+    where = [plain.index(stiff[i]) for i in common]
+    return decide.all_of(
+        decide.every("more than ten levels", [len(common) > 10]),
+        *(
+            decide.positive(
+                f"rise for n = {n}",
+                solutions.along(STIFF, f"Lambda_n{n}_1")[common]
+                - solutions.along(PLAIN, f"Lambda_n{n}_1")[where],
+            )
+            for n in WAVES
+        ),
+    )
 
 
 def finite(solutions: Solutions) -> Finding:
     """Unstable band of real n with the paper's thickness at each level, and where none is left."""
-    good, rows = True, []
+    found = []
     for spec in BANDS:
-        found = solutions.result(spec).quantities
-        low, high, last = (found[name].value for name in ("n_minus", "n_plus", "n_c"))
-        good &= low < last < high < 400 and found["beta_c"].value > PAPER
-        rows.append(f"{low:.3f} to {high:.3f}")
-    return good, "; ".join(rows)
+        low, last, high, beta = (
+            solutions.whole(spec, name) for name in ("n_minus", "n_c", "n_plus", "beta_c")
+        )
+        found += [decide.less("band", low, last, high, MOST), decide.less("stiffness", PAPER, beta)]
+    return decide.all_of(found)
 
 
 def wavelength(solutions: Solutions) -> Finding:
-    """Critical stiffness, last unstable n and its wavelength over Ao at each level."""
-    good, rows = True, []
+    """Critical stiffness and last unstable n at each level."""
+    found = []
     for spec, zw in zip(SPECS, LEVELS, strict=True):
-        found = solutions.result(spec).quantities
-        n, beta = found["n_c"].value, found["beta_c"].value
-        good &= 0 < beta < 1 and 2 < n < 400
-        length = 2 * math.pi * DATA["Af"] / n
-        rows.append(f"zw = {zw:g}: beta_c = {beta:.4e}, n_c = {n:.3f}, 2 pi Af/n_c = {length:.3f}")
-    return good, "; ".join(rows)
+        found.append(decide.between(f"zw = {zw:g}: beta_c", solutions.whole(spec, "beta_c"), 0, 1))
+        found.append(decide.between("n_c", solutions.whole(spec, "n_c"), 2, MOST))
+    return decide.all_of(found)
 
 
 def models_agree(solutions: Solutions) -> Finding:
     """Rise of the lowest eigenvalue by B1 over that by B2."""
     shares = []
     for spec in MODELS:
-        found = {name: q.value for name, q in solutions.result(spec).quantities.items()}
-        base = found["Lambda_membrane"]
-        shares.append((found["Lambda_B1"] - base) / (found["Lambda_B2"] - base))
-    return all(0.8 < share <= 1.0 for share in shares), ", ".join(f"{share:.4f}" for share in shares)
+        base, one, two = (solutions.whole(spec, f"Lambda_{name}") for name in ("membrane", "B1", "B2"))
+        shares.append((one - base) / (two - base))
+    missing = 1 - decide.stack(shares)
+    return decide.all_of(decide.positive("missing", missing), decide.at_most("missing", missing, NEARLY_ALL))
 
 
 def hemisphere_is_stable(solutions: Solutions) -> Finding:
     """Least of the lowest eigenvalues for the n tried, up to the highest level."""
-    columns = solutions.branch(BOWL).columns
-    stable = columns["n_negative"] == 0
-    least = {n: float(columns[f"Lambda_n{n}_1"][stable].min()) for n in TRIED}
-    worst = min(least, key=least.get)
-    none = not solutions.points(BOWL, "stability_change")
-    return none and least[worst] > 0, f"least {least[worst]:.4g}, at n = {worst}"
+    stable = solutions.branch(BOWL).columns["n_negative"] == 0
+    return decide.all_of(
+        decide.same("changes of stability", len(solutions.points(BOWL, "stability_change")), 0),
+        *(decide.positive(f"n = {n}", solutions.along(BOWL, f"Lambda_n{n}_1")[stable]) for n in TRIED),
+    )
 
 
 CASE = Case(

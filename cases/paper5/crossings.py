@@ -17,6 +17,7 @@ from weakforms import (
     Points,
     Solutions,
     Spec,
+    decide,
     reference,
     wrinkled_linear,
     wrinkled_tube,
@@ -37,74 +38,80 @@ FULLY = 4.9
 """Level below which all of the membrane is wrinkled."""
 
 
-def changes(solutions: Solutions, spec: Spec, direction: float) -> dict[int, float]:
+ONE = decide.Stated(0.05, "one n", "no number is printed; n is known by two levels of three digits")
+SOMEWHAT = decide.Stated(
+    0.25, "somewhat below", "no number is printed; more than half of N/(2 pi), and by far"
+)
+
+
+def changes(solutions: Solutions, spec: Spec, direction: float) -> dict[int, decide.Number]:
     """First change of a direction by wave number."""
-    control = LOADS[spec]
-    found: dict[int, float] = {}
+    found: dict[int, decide.Number] = {}
     for point in solutions.points(spec, "stability_change"):
         if point.values["direction"] == direction and point.values["n"] > 0:
-            found.setdefault(int(point.values["n"]), point.values[control])
+            found.setdefault(int(point.values["n"]), decide.of_point(point, LOADS[spec]))
     return dict(sorted(found.items()))
 
 
 def monotonic(solutions: Solutions) -> Finding:
     """Loads at which waves set in, falling with n, and vanish, rising with n."""
-    good, rows = True, []
+    found = []
     for spec in LOADS:
-        for direction, sign in ((1.0, -1), (-1.0, 1)):
-            found = list(changes(solutions, spec, direction).values())
-            good &= all(sign * (b - a) > 0 for a, b in pairwise(found))
-            rows.append(", ".join(f"{v:.5f}" for v in found))
-    return good, "; ".join(rows)
+        found.append(decide.falls("set in", list(changes(solutions, spec, 1.0).values())))
+        found.append(decide.rises("vanish", list(changes(solutions, spec, -1.0).values())))
+    return decide.all_of(found)
 
 
 def few_waves(solutions: Solutions) -> Finding:
-    """Least eigenvalues for n = 0 and 1 on the branches, as far as the loads rise."""
-    found = {}
-    for spec in LOADS:
-        columns = solutions.branch(spec).columns
-        before = columns["n_negative"] == 0
-        for n in (0, 1):
-            found[spec.problem, n, spec is GAS] = float(columns[f"Lambda_n{n}_1"][before].min())
-    return min(found.values()) > 0, ", ".join(f"{v:.6f}" for v in found.values())
+    """Eigenvalues for n = 0 and 1 on the branches, as far as the loads rise."""
+    found = []
+    for spec, control in LOADS.items():
+        before = solutions.branch(spec).columns["n_negative"] == 0
+        found += [
+            decide.positive(f"over {control}, n = {n}", solutions.along(spec, f"Lambda_n{n}_1")[before])
+            for n in (0, 1)
+        ]
+    return decide.all_of(found)
 
 
 def falls_with_n(solutions: Solutions) -> Finding:
-    """Largest rise of the lowest eigenvalue from one n to the next, at levels with no taut zone."""
-    columns = solutions.branch(LIQUID).columns
-    rows = columns["zw"] <= FULLY
-    lowest = [columns[f"Lambda_n{n}_1"][rows] for n in WAVES["zw"][1:]]
-    rise = max(float((b - a).max()) for a, b in pairwise(lowest))
-    return rise < 1e-8, f"{rise:.1e} on {int(rows.sum())} states"
+    """Steps of the lowest eigenvalue from one n to the next, at levels above none with no taut zone."""
+    levels = solutions.branch(LIQUID).columns["zw"]
+    rows = (levels > 0) & (levels <= FULLY)
+    lowest = {n: solutions.along(LIQUID, f"Lambda_n{n}_1")[rows] for n in WAVES["zw"][1:]}
+    return decide.all_of(
+        decide.negative(f"from n = {a} to {b}", lowest[b] - lowest[a]) for a, b in pairwise(WAVES["zw"][1:])
+    )
 
 
 def same_at_no_load(solutions: Solutions) -> Finding:
-    """Spread of the lowest eigenvalues over n without load, and the eigenvalue."""
-    columns = solutions.branch(LIQUID).columns
-    values = [float(columns[f"Lambda_n{n}_1"][0]) for n in WAVES["zw"]]
-    spread = max(values) - min(values)
-    return spread < 1e-8 and columns["zw"][0] == 0.0 and values[
-        0
-    ] > 0, f"{values[0]:.9f}, spread {spread:.0e}"
+    """The lowest eigenvalue without load, n by n."""
+    values = decide.stack(solutions.along(LIQUID, f"Lambda_n{n}_1")[0] for n in WAVES["zw"])
+    return decide.all_of(
+        decide.same("level", solutions.branch(LIQUID).columns["zw"][0], 0.0),
+        decide.constant("lowest eigenvalue", values, 1e-6),
+        decide.positive("lowest eigenvalue", values),
+    )
 
 
 def no_waves_is_the_limit(solutions: Solutions) -> Finding:
     """Pressure at which n = 0 turns unstable and the limit pressure."""
-    (limit,) = solutions.points(GAS, "limit_point")
     change = next(p for p in solutions.points(GAS, "stability_change") if p.values["n"] == 0)
-    found, bound = change.values["p"], 2 * limit.uncertainty["p"]
-    return abs(found - limit.values["p"]) <= bound, f"{found:.10f}, {limit.values['p']:.10f}"
+    return decide.agree("p", decide.of_point(change, "p"), solutions.point(GAS, "limit_point", "p"), 1e-7)
 
 
 def resolved_waves(solutions: Solutions) -> Finding:
     """Real n that is just unstable at the ends of the printed ranges, over N/(2 pi) of the hoop mesh N."""
-    good, rows = True, []
+    found = []
     for mesh, levels in RANGES.items():
-        found = [solutions.result(wrinkled_linear(zw=zw)).quantities["n_critical"].value for zw in levels]
-        share = [n * 2 * math.pi / mesh for n in found]
-        good &= abs(found[0] - found[1]) < 0.05 * found[0] and all(0.75 < v < 1 for v in share)
-        rows.append(f"N = {mesh}: n = {found[0]:.3f} and {found[1]:.3f}, {share[0]:.3f} and {share[1]:.3f}")
-    return good, "; ".join(rows)
+        n = decide.stack(solutions.whole(wrinkled_linear(zw=zw), "n_critical") for zw in levels)
+        missing = 1 - n * (2 * math.pi / mesh)
+        found += [
+            decide.at_most(f"N = {mesh}: n apart", abs(n[0] / n[1] - 1), ONE),
+            decide.positive("missing from N/(2 pi)", missing),
+            decide.at_most("missing", missing, SOMEWHAT),
+        ]
+    return decide.all_of(found)
 
 
 def held_against(base: Spec, control: str) -> tuple[Points, ...]:

@@ -7,12 +7,16 @@ gives the same energy.
 
 import numpy as np
 
-from weakforms import Axis, Case, Claim, Finding, Line, Panel, Solutions, Spec, wrinkled_material
+from weakforms import Axis, Case, Claim, Finding, Line, Panel, Solutions, Spec, decide, wrinkled_material
 
 LAWS = (0.01, 0.0)
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
 NEAR = 1e-7
 """Relative distance from a boundary at which both sides are looked at."""
+CONTINUOUS = decide.Stated(
+    50 * NEAR, "continuous", "a slope of 25 times the distance of the two sides; the tangent is below that"
+)
+JUMPS = decide.Stated(0.1, "the tangent is not", "a million times that; the tangent's own size is about 2")
 ALONG = (1.2, 2.0, 3.5, 5.0)
 """Larger stretch of the points looked at ..."""
 ACROSS = (0.2, 0.5, 0.9)
@@ -55,20 +59,18 @@ def pairs(solutions: Solutions, points: list) -> list[np.ndarray]:
 
 
 def continuous(solutions: Solutions) -> Finding:
-    """Largest jump of energy and stresses over each boundary, least one of the tangent."""
-    good, rows = True, []
+    """Jumps of energy and stresses over each boundary, and of the tangent."""
+    rows = []
     for name, points in BOUNDARIES.items():
         jumps = pairs(solutions, points)
-        smooth = max(j[:3].max() for j in jumps)
-        rough = min(j[3:].max() for j in jumps)
-        good &= bool(smooth < 50 * NEAR and rough > 0.1)
-        rows.append(f"{name}: {smooth:.0e}, {rough:.2f}")
-    return good, "; ".join(rows)
+        rows.append(decide.at_most(f"{name}: energy and stresses", [j[:3].max() for j in jumps], CONTINUOUS))
+        rows.append(decide.at_least("tangent", [j[3:].max() for j in jumps], JUMPS))
+    return decide.all_of(rows)
 
 
 def stresses(solutions: Solutions) -> Finding:
     """Stresses on both sides: both above 0 in A, one of them 0 in B and C, both 0 in D."""
-    wrong = []
+    rows = []
     expected = {
         "A/B": ((1, 0), (1, 1)),
         "A/C": ((0, 1), (1, 1)),
@@ -79,23 +81,19 @@ def stresses(solutions: Solutions) -> Finding:
         for point in points:
             for side, signs in zip((-1, 1), expected[name], strict=True):
                 values = found(solutions, sheet(point(side * NEAR), LAWS[0]))[1:3]
-                if [int(v > 0) for v in values] != list(signs):
-                    wrong.append(f"{name} {point(side * NEAR)}: {values}")
-    return not wrong, "; ".join(wrong) or f"{2 * sum(map(len, BOUNDARIES.values()))} points"
+                rows.append(decide.same(f"{name} {side:+d}", [int(v > 0) for v in values], list(signs)))
+    return decide.all_of(rows)
 
 
 def same_by_modified_gradient(solutions: Solutions) -> Finding:
-    """Largest difference of the two forms on both sides of every boundary."""
-    worst = 0.0
-    for points in BOUNDARIES.values():
-        for point in points:
-            for side in (-1, 1):
-                one, two = (
-                    found(solutions, sheet(point(side * NEAR), LAWS[0], energy))
-                    for energy in ("relaxed", "modified_gradient")
-                )
-                worst = max(worst, float(np.abs(one - two).max() / max(1.0, np.abs(one).max())))
-    return worst < 1e-12, f"{worst:.0e}"
+    """The two forms on both sides of every boundary, relative to the largest number of each."""
+    rows = []
+    for point in POINTS:
+        one, two = (
+            found(solutions, sheet(point, LAWS[0], energy)) for energy in ("relaxed", "modified_gradient")
+        )
+        rows.append(decide.exact("relaxed and modified", one, two, max(1.0, np.abs(one).max())))
+    return decide.all_of(rows)
 
 
 POINTS = [point(side * NEAR) for points in BOUNDARIES.values() for point in points for side in (-1, 1)]

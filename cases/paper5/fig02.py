@@ -7,7 +7,7 @@ n = 10: a curve with steep flanks.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_patch
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_patch
 
 DRAWN = wrinkled_patch(a=1.0, c=0.1, n=10.0, e_end=0.08)
 FLAT, BENT = At("e", 0.0, profile=()), At("e", 0.08, profile=())
@@ -27,7 +27,7 @@ def bracket(n: float, length: float) -> tuple[float, float]:
 
 def printed(solutions: Solutions) -> Finding:
     """Potential and its two derivatives against equation 33."""
-    worst, bound = 0.0, 0.0
+    found = []
     for (n, length), spec in PATCHES.items():
         linear, square = bracket(n, length)
         for at, e in ((At("e", 0.0), 0.0), (SMALL, SMALL.value)):
@@ -36,39 +36,51 @@ def printed(solutions: Solutions) -> Finding:
                 "W_e": -B * (linear + 2 * e * square),
                 "W_ee": -2 * B * square,
             }
-            for name, value in exact.items():
-                found = solutions.quantity(spec, at, name)
-                worst = max(worst, abs(found.value - value) / max(1.0, abs(value)))
-                bound = max(bound, 2 * found.uncertainty / max(1.0, abs(value)))
-    return worst <= bound <= 1e-8, f"largest difference {worst:.0e} <= {bound:.0e}"
+            found += [
+                decide.agree(name, solutions.number(spec, at, name), value, 1e-8, max(1.0, abs(value)))
+                for name, value in exact.items()
+            ]
+    return decide.all_of(found)
 
 
 def strain_unchanged(solutions: Solutions) -> Finding:
     """Strain energy at e = 0.03 and at 0, its derivatives, the shear of the metric."""
-    worst = 0.0
+    found = []
     for spec in PATCHES.values():
         flat, bent = (solutions.state(spec, at).quantities for at in (At("e", 0.0), SMALL))
-        worst = max(worst, abs(bent["U"].value / flat["U"].value - 1), bent["shear"].value)
-        worst = max(worst, *(abs(q[k].value) for q in (flat, bent) for k in ("U_e", "U_ee")))
-    return worst < 1e-12, f"{worst:.0e}"
+        found.append(decide.exact("U", bent["U"].value / flat["U"].value, 1.0))
+        found.append(decide.exact("shear", bent["shear"].value, 0.0))
+        found += [decide.exact(k, q[k].value, 0.0) for q in (flat, bent) for k in ("U_e", "U_ee")]
+    return decide.all_of(found)
 
 
 def grows_with_n(solutions: Solutions) -> Finding:
     """Second derivative of the whole potential in e, over the length."""
-    found = {key: solutions.value(spec, At("e", 0.0), "W_ee") / key[1] for key, spec in PATCHES.items()}
-    return bool(all(v < 0 for v in found.values()) and found[10.0, 1.0] < found[5.0, 1.0]), ", ".join(
-        f"n = {n:g}, Lx = {length:g}: {v:.4f}" for (n, length), v in found.items()
+    found = {key: solutions.number(spec, At("e", 0.0), "W_ee") / key[1] for key, spec in PATCHES.items()}
+    return decide.all_of(
+        decide.negative("second variation over the length", decide.stack(found.values())),
+        decide.less("n = 10 and n = 5", found[10.0, 1.0], found[5.0, 1.0]),
     )
+
+
+STEEP = decide.Stated(0.25, "steep flanks", "no number is printed; less than a fourth of the flat line's")
 
 
 def overhangs(solutions: Solutions) -> Finding:
     """Where x falls along the drawn curve; height of the flat line."""
-    columns = solutions.profile(DRAWN, BENT).columns
-    flat = solutions.profile(DRAWN, FLAT).columns
-    slope = 1 + BENT.value * 10 * np.cos(10 * columns["X"])
-    swing = np.ptp(columns["z"])
-    return bool(abs(swing - 0.16) < 2e-3 and np.ptp(flat["z"]) == 0 and slope.min() < 0.25), (
-        f"x' between {slope.min():.2f} and {slope.max():.2f}: steep flanks; swing {swing:.4f}"
+    x = solutions.profile(DRAWN, BENT).columns["X"]
+    z, flat = (solutions.profile(DRAWN, at).columns["z"] for at in (BENT, FLAT))
+    slope = 1 + BENT.value * 10 * np.cos(10 * x)
+    return decide.all_of(
+        # Between the points sampled a sine's crest is missed by the square of their distance.
+        decide.agree(
+            "swing",
+            decide.Number(np.ptp(z), 2 * BENT.value * (10 * np.diff(x).max()) ** 2 / 8),
+            2 * BENT.value,
+            0.1,
+        ),
+        decide.exact("flat line", flat, np.full(len(flat), flat[0])),
+        decide.at_most("least x'", slope.min(), STEEP),
     )
 
 

@@ -4,18 +4,22 @@ For n = 1 and 5 none is negative. For n = 15 and 20 the first one is negative ov
 small pressure; it becomes positive again inside the printed range for n = 15, and just outside it for n = 20.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, wrinkled_tube
+from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 WAVES = (1, 5, 15, 20)
 TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, load="gas", n=WAVES)
 LAST = 0.38
 
 
-def changes(solutions: Solutions, n: int) -> list[tuple[float, float]]:
+SMALL = decide.Stated(0.02, "a small pressure", "no number is printed; a twentieth of the axis of figure 7")
+JUST_OUTSIDE = decide.Stated(1.15, "just outside", "no number is printed; a seventh of the printed range")
+
+
+def changes(solutions: Solutions, n: int) -> list[tuple[decide.Number, float]]:
     """Pressures and directions of the changes before the pressure turns."""
     turn = solutions.points(TUBE, "limit_point")[0].values["V"]
     return [
-        (p.values["p"], p.values["direction"])
+        (decide.of_point(p, "p"), p.values["direction"])
         for p in solutions.points(TUBE, "stability_change")
         if p.values["n"] == n and p.values["V"] < turn
     ]
@@ -23,25 +27,32 @@ def changes(solutions: Solutions, n: int) -> list[tuple[float, float]]:
 
 def never(solutions: Solutions) -> Finding:
     """Least eigenvalue on the branch for n = 1 and 5, past its limit load too."""
-    least = {n: float(solutions.branch(TUBE).columns[f"Lambda_n{n}_1"].min()) for n in WAVES[:2]}
-    none = not any(changes(solutions, n) for n in least)
-    return none and min(least.values()) > 0, ", ".join(f"n = {n}: {v:.6f}" for n, v in least.items())
+    return decide.all_of(
+        decide.all_of(
+            decide.positive(f"n = {n}", solutions.along(TUBE, f"Lambda_n{n}_1")),
+            decide.same("changes", len(changes(solutions, n)), 0),
+        )
+        for n in WAVES[:2]
+    )
 
 
 def over_a_range(solutions: Solutions) -> Finding:
     """Pressures at which the first eigenvalue of n = 15 and 20 turns negative and positive."""
-    good, rows = True, []
+    found = []
     for n in WAVES[2:]:
-        found = changes(solutions, n)
-        good &= [d for _, d in found] == [1.0, -1.0] and found[0][0] < 0.02
-        rows.append(f"n = {n}: {', '.join(f'{p:.8f}' for p, _ in found)}")
-    return good, "; ".join(rows)
+        here = changes(solutions, n)
+        found.append(decide.same(f"n = {n}: directions", [d for _, d in here], [1.0, -1.0]))
+        found.append(decide.at_most("begins at p", here[0][0], SMALL))
+    return decide.all_of(found)
 
 
 def positive_again(solutions: Solutions) -> Finding:
     """Up to p = 0.38 for n = 15, just beyond for n = 20."""
     ends = {n: changes(solutions, n)[-1][0] for n in WAVES[2:]}
-    return ends[15] < LAST < ends[20] < 1.15 * LAST, ", ".join(f"n = {n}: {p:.6f}" for n, p in ends.items())
+    return decide.all_of(
+        decide.less("ends of n = 15 and 20, around the printed 0.38", ends[15], LAST, ends[20]),
+        decide.at_most("end of n = 20 over it", ends[20] / LAST, JUST_OUTSIDE),
+    )
 
 
 CASE = Case(

@@ -7,10 +7,12 @@ about -0.55 and up: the branch has its highest level at -0.478.
 
 import math
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, hemisphere
+from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, hemisphere
 
 BOWL = hemisphere(low_end=-1.16, past=0.2)
 LEVELS = (-1.1, -0.9, -0.7, -0.6, -0.52)
+LOW = LEVELS[:4]
+DIGITS = decide.Stated(5e-4, "-0.478", "half a unit of the last digit of the docstring's level")
 HIGH = At("zw", -0.5, profile=())
 
 
@@ -19,47 +21,54 @@ def at(level: float) -> At:
     return At("zw", float(level), profile=())
 
 
-def fronts(solutions: Solutions, state: At) -> list[float]:
+def fronts(solutions: Solutions, state: At) -> list[decide.Number]:
     """Fronts from the pole."""
     found = solutions.state(BOWL, state).quantities
-    return [q.value for name, q in found.items() if name.startswith("t_front")]
+    return [decide.number(q) for name, q in found.items() if name.startswith("t_front")]
 
 
 def around_the_level(solutions: Solutions) -> Finding:
     """Fronts and level at each level: one wrinkled zone around it."""
-    good, rows = True, []
-    for level in (v for v in LEVELS if v < -0.56):
-        found, place = fronts(solutions, at(level)), solutions.value(BOWL, at(level), "t_level")
-        good &= len(found) == 2 and found[0] < place < found[-1]
-        rows.append(f"zw = {level}: {', '.join(f'{t:.4f}' for t in found)}, level at {place:.4f}")
-    return good, "; ".join(rows)
+    found = []
+    for level in LOW:
+        places = fronts(solutions, at(level))
+        found.append(decide.same(f"zw = {level}: fronts", len(places), 2))
+        found.append(
+            decide.less("level between", places[0], solutions.number(BOWL, at(level), "t_level"), places[-1])
+        )
+    return decide.all_of(found)
 
 
 def taut_at_high_levels(solutions: Solutions) -> Finding:
-    """Least gw at zw = -0.5, and the level at which the wrinkled zone closes."""
-    least = solutions.value(BOWL, HIGH, "gw_min")
+    """Least gw at zw = -0.5, and that the wrinkled zone closes."""
     (closing,) = solutions.points(BOWL, "zone_closing")
-    good = least > 1 and closing.values["state"] == -1
-    return good, f"{least:.6f}; closes at zw = {closing.values['zw']:.8f}"
+    return decide.all_of(
+        decide.positive("gw_min - 1", solutions.number(BOWL, HIGH, "gw_min") - 1),
+        decide.same("state", closing.values["state"], -1),
+        decide.less("closes at zw", decide.of_point(closing, "zw"), HIGH.value),
+    )
 
 
 def taut_ends(solutions: Solutions) -> Finding:
-    """Least gw at the pole and at the equator."""
-    ends = [solutions.profile(BOWL, at(v)).columns["gw"][[0, -1]] for v in LEVELS]
-    least = [float(min(e[k] for e in ends)) for k in (0, 1)]
-    return min(least) > 1, f"{least[0]:.6f}, {least[1]:.6f}"
+    """Gw at the pole and at the equator."""
+    ends = decide.join(solutions.column(BOWL, at(v), "gw")[[0, -1]] for v in LEVELS)
+    return decide.positive("gw - 1 at pole and equator", ends - 1)
 
 
 def limit(solutions: Solutions) -> Finding:
     """Highest level, and the depth of an empty sheet that hangs as a cone, below all levels."""
-    (point,) = solutions.points(BOWL, "limit_point")
-    cone = -math.sqrt(math.pi**2 / 4 - 1)
-    zw = point.values["zw"]
-    columns = solutions.branch(BOWL).columns
-    past = columns["n_negative"][columns["V"] > point.values["V"]]
-    before = columns["n_negative"][columns["V"] < point.values["V"]]
-    good = cone < columns["z_pole"][0] and abs(zw + 0.478) < 5e-4 and set(before) == {0} and set(past) == {1}
-    return bool(good), f"zw = {zw:.9f}; cone {cone:.4f}, empty sheet's pole near {columns['z_pole'][0]:.4f}"
+    counts = solutions.branch(BOWL).columns["n_negative"]
+    before, past = decide.sides(solutions.along(BOWL, "V"), solutions.point(BOWL, "limit_point", "V"))
+    return decide.all_of(
+        decide.less(
+            "cone and first pole", -math.sqrt(math.pi**2 / 4 - 1), solutions.along(BOWL, "z_pole")[0]
+        ),
+        decide.at_most(
+            "highest level off -0.478", abs(solutions.point(BOWL, "limit_point", "zw") + 0.478), DIGITS
+        ),
+        decide.every("none negative before", counts[before] == 0),
+        decide.every("one past it", counts[past] == 1),
+    )
 
 
 CASE = Case(

@@ -4,7 +4,19 @@ For n = 10 none is negative. For n = 50 the first is negative at low levels and 
 eigenvalue is not monotonic in n: parts of the hemisphere are taut.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, hemisphere, reference
+from weakforms import (
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    hemisphere,
+    reference,
+)
 
 WAVES = (10, 50)
 BOWL = hemisphere(n=WAVES, low_end=-1.14)
@@ -12,44 +24,46 @@ TABLE = reference(5, "stability_changes_hemisphere").columns
 MANY = hemisphere(n=(0, 1, *sorted({int(n) for n in TABLE["n"]})), low_end=-1.18).on(step=0.15)
 
 
-def stable(solutions: Solutions, name: str) -> tuple[list[float], list[float]]:
-    """Levels and a column up to the highest level."""
-    columns = solutions.branch(BOWL).columns
-    rows = columns["n_negative"] == 0
-    return columns["zw"][rows].tolist(), columns[name][rows].tolist()
+def stable(solutions: Solutions, name: str) -> decide.Number:
+    """A column up to the highest level."""
+    return solutions.along(BOWL, name)[solutions.branch(BOWL).columns["n_negative"] == 0]
 
 
 def none_negative(solutions: Solutions) -> Finding:
     """Least eigenvalue for n = 10 on the branch."""
-    least = min(stable(solutions, "Lambda_n10_1")[1])
     found = [p for p in solutions.points(BOWL, "stability_change") if p.values["n"] == WAVES[0]]
-    return least > 0 and not found, f"{least:.6f}"
+    return decide.all_of(
+        decide.positive("eigenvalue", stable(solutions, "Lambda_n10_1")),
+        decide.same("changes", len(found), 0),
+    )
 
 
 def negative_when_low(solutions: Solutions) -> Finding:
     """The one change for n = 50: from negative to positive as the level rises."""
     found = [p for p in solutions.points(BOWL, "stability_change") if p.values["n"] == WAVES[1]]
-    levels, values = stable(solutions, "Lambda_n50_1")
-    good = len(found) == 1 and found[0].values["direction"] == -1
-    signs = [(v < 0) == (zw < found[0].values["zw"]) for zw, v in zip(levels, values, strict=True)]
-    return good and all(signs), f"zw = {found[0].values['zw']:.9f}"
+    values = stable(solutions, "Lambda_n50_1")
+    below, above = decide.sides(stable(solutions, "zw"), decide.of_point(found[0], "zw"))
+    return decide.all_of(
+        decide.same("directions of changes", [p.values["direction"] for p in found], [-1.0]),
+        decide.negative("below", values[below]),
+        decide.positive("above", values[above]),
+    )
 
 
 def not_monotonic(solutions: Solutions) -> Finding:
-    """States at which the lowest eigenvalue rises from n = 10 to n = 50."""
-    ten, fifty = (stable(solutions, f"Lambda_n{n}_1")[1] for n in WAVES)
-    rises = [b > a for a, b in zip(ten, fifty, strict=True)]
-    return any(rises) and not all(rises), f"{sum(rises)} of {len(rises)}"
+    """States at which the lowest eigenvalue rises from n = 10 to n = 50, and at which it falls."""
+    ten, fifty = (stable(solutions, f"Lambda_n{n}_1") for n in WAVES)
+    rises, falls = decide.sides(ten - fifty, 0)
+    return decide.less("states at which it does neither, and those of each", 0, min(rises.sum(), falls.sum()))
 
 
 def limit_is_without_waves(solutions: Solutions) -> Finding:
     """Level at which n = 0 turns unstable and the highest level; n = 1 stays stable up to it."""
-    (limit,) = solutions.points(MANY, "limit_point")
     change = next(p for p in solutions.points(MANY, "stability_change") if p.values["n"] == 0)
-    one = solutions.branch(MANY).columns["Lambda_n1_1"].min()
-    found, bound = change.values["zw"], 2 * limit.uncertainty["zw"]
-    good = abs(found - limit.values["zw"]) <= bound and one > 0
-    return bool(good), f"{found:.10f}, {limit.values['zw']:.10f}; least eigenvalue for n = 1: {one:.6f}"
+    return decide.all_of(
+        decide.agree("zw", decide.of_point(change, "zw"), solutions.point(MANY, "limit_point", "zw"), 1e-7),
+        decide.positive("eigenvalue for n = 1", solutions.along(MANY, "Lambda_n1_1")),
+    )
 
 
 CASE = Case(

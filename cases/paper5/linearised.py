@@ -5,6 +5,8 @@ n > n* = A/(-B), whatever the pressure. The true n from which waves set in is sm
 tried.
 """
 
+import numpy as np
+
 from weakforms import (
     At,
     Case,
@@ -12,7 +14,7 @@ from weakforms import (
     Finding,
     Points,
     Solutions,
-    Spec,
+    decide,
     reference,
     wrinkled_linear,
     wrinkled_tube,
@@ -28,44 +30,55 @@ STATE = At("zw", 3.0, profile=())
 GAMMA = 1000 * 9.81 * 0.01**2 / (0.2111e6 * 0.1e-3)
 
 
-def number(solutions: Solutions, spec: Spec, name: str) -> float:
-    """A quantity."""
-    return solutions.result(spec).quantities[name].value
+AFFINE = decide.Stated(
+    1e-11, "affine", "what differences of numbers of size one leave of rounding: no mesh is involved"
+)
+CORRECTION = decide.Stated(
+    2, "a correction in n^(-1/2)", "over a factor 8 of n any other power of n differs by more"
+)
+
+
+def column(solutions: Solutions, name: str) -> decide.Number:
+    """A quantity of all rows."""
+    return decide.stack(solutions.whole(spec, name) for spec in ROWS)
 
 
 def affine(solutions: Solutions) -> Finding:
-    """Largest second difference in n, and of B from its closed form."""
-    curved = max(abs(number(solutions, spec, "curved")) for spec in ROWS)
-    off = max(abs(number(solutions, s, "B") / number(solutions, s, "B_exact") - 1) for s in ROWS)
-    return curved < 1e-11 and off < 1e-9, f"{curved:.0e}, {off:.0e}"
+    """Second difference in n, and B from its closed form."""
+    B, exact = (column(solutions, name) for name in ("B", "B_exact"))
+    curved = column(solutions, "curved").value  # an identity on every mesh
+    return decide.all_of(
+        decide.at_most("second difference", np.abs(curved), AFFINE),
+        decide.agree("B in closed form", B / exact, np.ones(len(ROWS)), 1e-7),
+    )
 
 
 def overestimates(solutions: Solutions) -> Finding:
     """The estimate n* and the real n at which the lowest eigenvalue is zero, at each level."""
-    good, rows = True, []
-    for spec in ROWS:
-        star, true = (number(solutions, spec, name) for name in ("n_star", "n_critical"))
-        good &= star >= true and number(solutions, spec, "B") < 0
-        rows.append(f"{star:.2f} >= {true:.2f}")
-    return good, "; ".join(rows)
+    star, true = (column(solutions, name) for name in ("n_star", "n_critical"))
+    return decide.all_of(
+        decide.positive("n* less the true n", star - true), decide.negative("B", column(solutions, "B"))
+    )
 
 
 def true_numbers(solutions: Solutions) -> Finding:
     """The lowest whole number of waves that is unstable, against the table's, at each of its levels."""
-    found = [round(number(solutions, spec, "n_true")) for spec in ROWS]
-    known = TABLE.columns["n_true"].astype(int).tolist()
-    return found == known, ", ".join(map(str, found))
+    found = [round(n) for n in column(solutions, "n_true").value]
+    return decide.same("n", found, TABLE.columns["n_true"].astype(int).tolist())
 
 
 def short_waves(solutions: Solutions) -> Finding:
     """Distance of Lambda_1/n from -max p lam1/(H R) at zw = 3, times n^(1/2)."""
-    state = solutions.state(SHORT, STATE)
-    columns = state.fields[0].columns
-    pressure = GAMMA * (STATE.value - columns["z"]).clip(min=0)
-    mu = float((pressure * columns["lam1"] / (1.5 - columns["Z"] / 8)).max())
-    gaps = [(state.quantities[f"Lambda_n{n}_1"].value / n + mu) * n**0.5 for n in (50, 100, 200, 400)]
-    good = all(g > 0 for g in gaps) and max(gaps) < 2 * min(gaps)
-    return good, f"mu = {mu:.6f}; " + ", ".join(f"{g:.4f}" for g in gaps)
+    z, lam1 = (solutions.column(SHORT, STATE, name) for name in ("z", "lam1"))
+    where = solutions.profile(SHORT, STATE).columns["Z"]
+    mu = (GAMMA * (STATE.value - z) * lam1 / (1.5 - where / 8)).largest()
+    gaps = decide.stack(
+        (solutions.number(SHORT, STATE, f"Lambda_n{n}_1") / n + mu) * n**0.5 for n in (50, 100, 200, 400)
+    )
+    return decide.all_of(
+        decide.positive("gaps", gaps),
+        decide.at_most("largest over least", gaps.largest() / gaps.smallest(), CORRECTION),
+    )
 
 
 CASE = Case(

@@ -19,6 +19,7 @@ from weakforms import (
     Printed,
     Solutions,
     Surface,
+    decide,
     reference,
     surface,
 )
@@ -44,124 +45,148 @@ OTHERS = {
 PICTURE = surface(meridional=60, circumferential=35, load_start=5.5, load_end=6.5).on(scan=2, shown=1)
 """A mesh coarse enough for every line of it to be drawn."""
 
+SOLVED = 1e-6
+"""Absolute accuracy of eigenvalues of the whole surface by SLEPc."""
+IN_BALANCE = decide.Stated(
+    1e-9, "of the whole", "below it the whole tangent's Newton step changes no digit shown"
+)
+HARDLY = decide.Stated(0.01, "hardly", "the claim on the upper end's own number; a tenth of the walk's step")
+DEPENDS = decide.Stated(1.0, "depends", "no number is printed; ten steps of the walk")
+JUMP = decide.Stated(1e3 * SOLVED, "jumps", "a thousand times the accuracy of eigenvalues")
+ZERO = decide.Stated(
+    1e-4, "zeros of an eigenvalue", "a hundred times the accuracy of eigenvalues: the bracket's ends"
+)
+ABOUT = decide.Stated(0.85, "four columns a wave", "no number is printed; less than five columns a wave")
+A_LITTLE = decide.Stated(0.2, "a little below", "no number is printed; four fifths and more")
+NEARLY = decide.Stated(0.1, "nearly the same", "no number is printed; half of what is missing, and less")
 SHOWN = At("zw", 6.5)
 AXES = (Axis("x", -0.9, 0.9), Axis("y", -0.9, 0.9), Axis("z", 0, 8))
 
 
-def changes(solutions: Solutions, spec: object) -> np.ndarray:
-    """Levels at which stability changes, with the eigenvalues on both sides."""
-    points = solutions.points(spec, "stability_change")
-    return np.array([[p.values[k] for k in ("zw", "Lambda_1", "Lambda_1_stable")] for p in points])
+def changes(solutions: Solutions, spec: object, place: int, name: str = "zw") -> decide.Number:
+    """Level at which stability changes, or the eigenvalue on a side of it."""
+    point = solutions.points(spec, "stability_change")[place]
+    return decide.of_point(point, name) if name == "zw" else decide.Number(point.values[name], SOLVED)
 
 
 def whole(solutions: Solutions) -> Finding:
-    """Residual of the whole surface at ring-periodic equilibria, and how many levels were solved."""
+    """Residual of the whole surface at ring-periodic equilibria, and that every level was solved."""
     residual = np.concatenate([solutions.branch(s).columns["residual"] for s in MESHES.values()])
-    good = bool(np.max(residual) < 1e-9 and not any(solutions.result(s).failures for s in MESHES.values()))
-    return good, f"{len(residual)} levels shown, largest residual of the whole surface {residual.max():.1e}"
+    return decide.all_of(
+        decide.at_most("residual of the whole surface", residual, IN_BALANCE),
+        decide.every("walks without a failure", [not solutions.result(s).failures for s in MESHES.values()]),
+    )
 
 
 def signs(solutions: Solutions) -> Finding:
     """The lowest eigenvalue by SLEPc is negative where the inertia counts negative ones, and only there."""
-    good, unstable, total = True, 0, 0
-    for spec in MESHES.values():
-        columns = solutions.branch(spec).columns
-        first, third = columns["Lambda_1"], columns["Lambda_3"]
-        good &= bool(np.all((first < 0) == (columns["n_negative"] > 0)))
-        good &= bool(np.all((third < 0) == (columns["n_negative"] > 2)) and np.all(first <= third))
-        unstable, total = unstable + int(np.sum(first < 0)), total + len(first)
-    return good and 0 < unstable < total, f"{unstable} of {total} states are unstable by both"
+    found = []
+    for name, spec in MESHES.items():
+        counts = solutions.branch(spec).columns["n_negative"]
+        first, third = (decide.Number(solutions.branch(spec).columns[f"Lambda_{k}"], SOLVED) for k in (1, 3))
+        for eigenvalue, least in ((first, 0), (third, 2)):
+            below, above = decide.sides(eigenvalue, 0)
+            found.append(
+                decide.same(
+                    f"{name}: negative by both", (counts > least)[below].tolist(), [True] * int(below.sum())
+                )
+            )
+            found.append(decide.every("positive by both", (counts <= least)[above]))
+        found.append(decide.every("in order", first.value <= third.value))
+    return decide.all_of(found)
 
 
 def hoop(solutions: Solutions) -> Finding:
     """Half the cells along moves the lower ends little; twice as many around moves them by more than 1."""
-    lower = {name: changes(solutions, spec)[0, 0] for name, spec in MESHES.items()}
-    upper = {name: changes(solutions, spec)[-1, 0] for name, spec in MESHES.items()}
-    along = [abs(lower[a] - lower[b]) for a, b in (("120 x 48", "60 x 48"), ("80 x 96", "40 x 96"))]
-    around = lower["120 x 48"] - lower["80 x 96"]
-    good = max(along) < 0.01 and around > 1 and abs(upper["120 x 48"] - upper["60 x 48"]) < 0.01
-    good &= upper["80 x 96"] - upper["120 x 48"] > 2
-    rows = "; ".join(f"{name}: {lower[name]:.5f} to {upper[name]:.5f}" for name in MESHES)
-    return bool(good), rows
+    lower, upper = (
+        {name: changes(solutions, spec, place) for name, spec in MESHES.items()} for place in (0, -1)
+    )
+    along = [
+        lower["120 x 48"] - lower["60 x 48"],
+        lower["80 x 96"] - lower["40 x 96"],
+        upper["120 x 48"] - upper["60 x 48"],
+    ]
+    return decide.all_of(
+        decide.at_most("moved by the mesh along", abs(decide.stack(along)), HARDLY),
+        decide.at_least("lower end moved by that around", lower["120 x 48"] - lower["80 x 96"], DEPENDS),
+        decide.at_least("upper end", upper["80 x 96"] - upper["120 x 48"], DEPENDS),
+    )
 
 
 def rings_switch(solutions: Solutions) -> Finding:
     """The upper end of 96 columns is where rings of triangles become taut: eigenvalues jump there."""
-    rows, good = [], True
+    sides = ("Lambda_1_stable", "Lambda_1")
+    found = []
     for name, spec in (("80 x 96", M96), ("40 x 96", H96)):
-        zw, unstable, stable = changes(solutions, spec)[-1]
-        good &= stable - unstable > 1e3 * 1e-6
-        rows.append(f"{name}: at {zw:.5f} from {unstable:.3g} to {stable:.3g}")
-    gaps = solutions.result(H96).quantities["gaps"].value
+        stable, unstable = (changes(solutions, spec, -1, side) for side in sides)
+        found.append(decide.at_least(f"{name}, upper end: jump", stable - unstable, JUMP))
     for name, spec in MESHES.items():
-        zw, unstable, stable = changes(solutions, spec)[0]
-        good &= abs(stable - unstable) < 1e-4
-        rows.append(f"{name}, lower end {zw:.5f}: from {stable:.1g} to {unstable:.1g}")
-    return bool(good and gaps == 1), f"{'; '.join(rows)}; stable gaps on 40 x 96: {gaps:.0f}"
+        stable, unstable = (changes(solutions, spec, 0, side) for side in sides)
+        found.append(decide.at_most(f"{name}, lower end: jump", abs(stable - unstable), ZERO))
+    found.append(decide.same("stable gaps on 40 x 96", solutions.result(H96).quantities["gaps"].value, 1))
+    return decide.all_of(found)
 
 
 def waves(solutions: Solutions) -> Finding:
     """Waves of the critical mode on each mesh, against a quarter of its columns."""
-    good, rows = True, []
-    for name, spec in MESHES.items():
-        columns = dict(spec.parameters)["circumferential"]
-        n = solutions.points(spec, "stability_change")[0].values["n"]
-        good &= 0.85 <= n / (columns / 4) <= 1.0
-        rows.append(
-            f"{name}: n = {n:.0f}, seen as {columns / (2 * np.pi) * np.sin(2 * np.pi * n / columns):.2f}"
-        )
-    return bool(good), "; ".join(rows)
+    counts = [solutions.points(spec, "stability_change")[0].values["n"] for spec in MESHES.values()]
+    quarters = [dict(spec.parameters)["circumferential"] / 4 for spec in MESHES.values()]
+    share = np.array(counts) / np.array(quarters)
+    return decide.all_of(
+        decide.at_least("waves over a quarter of the columns", share, ABOUT),
+        decide.every("not more", share <= 1),
+    )
 
 
 def effective(solutions: Solutions) -> Finding:
     """Wave numbers at which the axisymmetric theory's waves have the mesh's ends of the unstable range."""
-    table = reference(5, "stability_changes_fluid").columns
-    good, rows = True, []
+    table, found = reference(5, "stability_changes_fluid").columns, []
     for spec in (M48, M96):
         columns = dict(spec.parameters)["circumferential"]
-        found = []
+        seen = []
         for direction, place in ((1, 0), (-1, -1)):
             here = table["direction"] == direction
             zw, n = table["zw"][here], table["n"][here]
             order = np.argsort(zw)
-            found.append(float(np.interp(changes(solutions, spec)[place, 0], zw[order], n[order])))
-        most = columns / (2 * np.pi)
-        good &= all(0.8 * most < n < most for n in found) and abs(found[1] / found[0] - 1) < 0.1
-        rows.append(f"{columns} columns: {found[0]:.2f} and {found[1]:.2f}, N_C/(2 pi) = {most:.2f}")
-    return bool(good), "; ".join(rows)
+            seen.append(float(np.interp(changes(solutions, spec, place).value, zw[order], n[order])))
+        missing = 1 - np.array(seen) / (columns / (2 * np.pi))
+        found += [
+            decide.positive(f"{columns} columns: missing from N_C/(2 pi)", missing),
+            decide.at_most("missing", missing, A_LITTLE),
+            decide.at_most("apart", abs(seen[1] / seen[0] - 1), NEARLY),
+        ]
+    return decide.all_of(found)
 
 
 def sensitive(solutions: Solutions) -> Finding:
     """The upper end of 120 x 48 by other quadratures and by the printed potential."""
-    own = changes(solutions, M48)[-1, 0]
-    found = {name: changes(solutions, spec)[-1, 0] for name, spec in OTHERS.items()}
-    most = max(abs(zw - own) for zw in found.values())
-    rows = "; ".join(f"{name}: {zw:.5f}" for name, zw in found.items())
-    return bool(0 < most < 0.01), f"edge midpoints and vertical flux: {own:.5f}; {rows}"
+    moved = [abs(changes(solutions, spec, -1) - changes(solutions, M48, -1)) for spec in OTHERS.values()]
+    return decide.all_of(
+        decide.at_most("upper end moves by", decide.stack(moved), HARDLY),
+        decide.positive("the most by", decide.stack(moved).largest()),
+    )
 
 
 def bloch(solutions: Solutions) -> Finding:
     """All ends against matrices reduced by wave number, of another code, each within the brackets' halves."""
-    table = reference(5, "surface_ranges")
-    columns, good, worst = table.columns, True, (0.0, 0.0)
+    table, found = reference(5, "surface_ranges"), []
     rows = [(spec, 1.0, ("lower", "upper")) for spec in MESHES.values()]
     rows += [(spec, rule, ("upper",)) for spec, rule in zip(OTHERS.values(), (2.0, 3.0, 4.0), strict=True)]
     for spec, rule, ends in rows:
         mesh = [dict(spec.parameters)[name] for name in ("meridional", "circumferential")]
-        keys = np.column_stack([columns[name] for name in ("N_S", "N_C", "rule")])
+        keys = np.column_stack([table.columns[name] for name in ("N_S", "N_C", "rule")])
         (row,) = np.flatnonzero((keys == [*mesh, rule]).all(axis=1))
-        points = solutions.points(spec, "stability_change")
-        for name, point in zip(("lower", "upper"), (points[0], points[-1]), strict=True):
+        for name, place in (("lower", 0), ("upper", -1)):
             if name in ends:
-                error = abs(point.values["zw"] - columns[name][row])
-                bound = 2 * np.hypot(point.uncertainty["zw"], table.uncertainty[name])
-                good &= bool(error <= bound <= 1e-4)
-                worst = max(worst, (error, bound))
+                found.append(
+                    decide.agree(
+                        f"{name} end", changes(solutions, spec, place), table.number(name)[row], 1e-4, 1.0
+                    )
+                )
         if "lower" in ends:
-            good &= points[0].values["n"] == columns["n_lower"][row]
-    return bool(
-        good
-    ), f"{len(rows)} meshes and conventions; largest difference {worst[0]:.1e} <= {worst[1]:.1e}"
+            waves_here = solutions.points(spec, "stability_change")[0].values["n"]
+            found.append(decide.same("waves", waves_here, table.columns["n_lower"][row]))
+    return decide.all_of(found)
 
 
 def printed(what: str, text: str, spec: object, index: int) -> Printed:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, hemisphere, surface
+from weakforms import At, Case, Claim, Finding, Solutions, decide, hemisphere, surface
 
 SIZES = (0.1, 0.05, 0.025)
 MESHES = [
@@ -19,45 +19,60 @@ SPECTRUM = {-0.55: (1, 1, 0, 2, 2), -0.7: (1, 1, 2, 2, 0)}
 """Waves of the five lowest modes, those of n > 0 twice; n = 0 without torsion."""
 
 
-FALL = {-0.55: 8, -0.7: 2}
-"""Least factor by which errors fall from the first mesh to the last, four times as fine: with the square of
-the size where the sheet is taut; where it wrinkles, triangles change state singly and they fall unevenly."""
+FALL = {
+    -0.55: decide.Stated(
+        8, "converge", "with the square of the size where the sheet is taut, 16 from first to last"
+    ),
+    -0.7: decide.Stated(
+        2, "converge", "where it wrinkles triangles change state singly, and errors fall unevenly"
+    ),
+}
+CLOSE = decide.Stated(
+    0.005, "those of the axisymmetric theory", "on flat triangles of a fortieth of the radius"
+)
+NEAREST = decide.Stated(
+    0.01, "the nearest surface of revolution", "on the coarsest mesh, a tenth of its size"
+)
+ASKED = 0.1
+"""Accuracy asked of the meshes' own spread."""
 
 
 def spectrum(solutions: Solutions) -> Finding:
     """The five lowest eigenvalues converge to those of the axisymmetric theory, within their own spread."""
-    good, rows = True, []
+    found = []
     for at in LEVELS:
-        one = [solutions.value(REVOLVED, at, f"Lambda_n{n}_1") for n in SPECTRUM[at.value]]
-        all_sizes = np.array([[solutions.value(s, at, f"Lambda_{i}") for i in range(1, 6)] for s in MESHES])
-        error = np.abs(all_sizes / one - 1)
-        spread = np.ptp(all_sizes, axis=0) / one
-        worst = error.max(axis=1)
-        good &= bool(np.all(error[2] <= spread) and worst[2] < 0.005 and worst[0] > FALL[at.value] * worst[2])
-        largest = ", ".join(f"{e:.1e}" for e in error.max(axis=1))
-        rows.append(f"{at}: largest relative errors {largest}")
-    return good, "; ".join(rows)
+        one = decide.stack(solutions.number(REVOLVED, at, f"Lambda_n{n}_1") for n in SPECTRUM[at.value])
+        sizes = np.array([[solutions.value(s, at, f"Lambda_{i}") for i in range(1, 6)] for s in MESHES])
+        error = np.abs(sizes / one.value - 1)
+        # The meshes' own uncertainty: how far they differ from each other.
+        spread = decide.Number(sizes[2] / one.value, np.ptp(sizes, axis=0) / one.value / 2)
+        found += [
+            decide.agree(f"eigenvalues, {at}", spread, np.ones(5), ASKED),
+            decide.at_most("largest error on the finest mesh", error[2], CLOSE),
+            decide.at_least("fall of the largest error", error[0].max() / error[2].max(), FALL[at.value]),
+        ]
+    return decide.all_of(found)
 
 
 def state(solutions: Solutions) -> Finding:
     """Volume by the mesh, and how far SNES goes from the nearest surface of revolution."""
-    good, rows = True, []
+    found = []
     for at in LEVELS:
-        one = 2 * np.pi * solutions.value(REVOLVED, at, "V")
-        error = np.array([abs(solutions.value(s, at, "V") / one - 1) for s in MESHES])
-        away = np.array([solutions.value(s, at, "departure") for s in MESHES])
-        good &= bool(np.all(error[1:] < error[:-1] / 3) and away[2] < away[0] < 0.01)
-        rows.append(
-            f"{at}: relative errors of V {', '.join(f'{e:.1e}' for e in error)}; "
-            f"departures {', '.join(f'{a:.1e}' for a in away)}"
-        )
-    return good, "; ".join(rows)
+        one = 2 * np.pi * solutions.number(REVOLVED, at, "V")
+        error = decide.stack(abs(solutions.value(s, at, "V") / one - 1) for s in MESHES)
+        away = [solutions.value(s, at, "departure") for s in MESHES]
+        found += [
+            decide.order(f"volume, {at}", [1 / size for size in SIZES], error, 2),
+            decide.less("departures", away[2], away[0]),
+            decide.at_most("the first", away[0], NEAREST),
+        ]
+    return decide.all_of(found)
 
 
 def stable(solutions: Solutions) -> Finding:
     """All states counted are stable: these meshes do not resolve the short waves that are not."""
     counts = np.concatenate([solutions.branch(s).columns["n_negative"] for s in MESHES])
-    return bool(np.all(counts == 0)), f"negative eigenvalues: {counts.tolist()}"
+    return decide.every("states without a negative eigenvalue", counts == 0)
 
 
 WANTS = tuple((s, at) for s in (*MESHES, REVOLVED) for at in LEVELS)
