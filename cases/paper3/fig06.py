@@ -23,7 +23,7 @@ LOW = decide.Stated(0.1, "low", "no number is printed; a tenth of the largest")
 def no_wrinkles(solutions: Solutions) -> Finding:
     """Smallest principal resultant anywhere."""
     return decide.all_of(
-        decide.positive(f"T_min, L = {length}", solutions.number(tube, BENT, "T_min"), decide.LEAST_CLEAR)
+        decide.positive(f"T_min, L = {length}", solutions.number(tube, BENT, "T_min"))
         for length, tube in TUBES.items()
     )
 

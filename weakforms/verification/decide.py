@@ -51,9 +51,6 @@ CLEAR = 10
 """By how many combined uncertainties the two sides of an inequality must be apart. Twice is what agreement
 allows; five times more is left, so that no number can agree with the other side and be clear of it."""
 
-LEAST_CLEAR = FACTOR
-"""The same for what is all but zero, and whose sign a finer mesh would only repeat: as for agreement."""
-
 ROUNDING = 400 * np.finfo(float).eps
 """What rounding leaves of an identity (9e-14 relative): a few hundred operations, each of half a unit."""
 
@@ -132,15 +129,15 @@ def exact(what: str, found: Any, expected: Any, scale: float = 1.0) -> Finding:
     )
 
 
-def positive(what: str, found: Any, clear: float = CLEAR) -> Finding:
-    """A number, or every entry, is above zero, by ``clear`` times its uncertainty."""
+def positive(what: str, found: Any) -> Finding:
+    """A number, or every entry, is above zero."""
     x = number(found)
     if not _some(x):
         return Finding(False, f"{what}: there are no numbers")
-    i = np.argmin(np.where(np.isnan(x.uncertainty), -np.inf, x.value - clear * x.uncertainty))
+    i = np.argmin(np.where(np.isnan(x.uncertainty), -np.inf, x.value - CLEAR * x.uncertainty))
     worst = Number(x.value.flat[i], x.uncertainty.flat[i])
     detail = f"{what}: {_shown(worst)}" + (f", the least of {x.value.size}" if x.value.size > 1 else "")
-    return Finding(bool(np.all(x.value > clear * x.uncertainty)), detail)
+    return Finding(bool(np.all(x.value > CLEAR * x.uncertainty)), detail)
 
 
 def negative(what: str, found: Any) -> Finding:
