@@ -61,7 +61,7 @@ def test_fixture(project):
     done.stdout.fnmatch_lines(
         [
             "paper2.fig03, fig03a_delta1_1.1: 100 rows over u_max in *all of it is judged",
-            "*p *OUT OF BOUNDS*1.0e-04*5.0e-10*u_max = *",
+            "*p *OUT OF BOUNDS*1.0e-04*1.0e-09*u_max = *",
             "*V *within*",
             "left out: lam1_mid, t1_mid",
             "*p *OUT OF BOUNDS*",
