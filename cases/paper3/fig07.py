@@ -5,6 +5,7 @@ and the tube with delta = 3 never reaches it.
 """
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from weakforms import (
     At,
@@ -34,21 +35,25 @@ def delta_2_is_meant(solutions: Solutions) -> Finding:
     return decide.less("limit levels of delta = 3 and 2, around the printed level", three, AFTER.value, two)
 
 
+def crest(z: np.ndarray, r: np.ndarray) -> decide.Number:
+    """Height of the largest radius, by splines through all rows and through every other one."""
+    heights = []
+    for step in (1, 2):
+        rows = slice(int(r.argmax()) % step, None, step)  # with the widest row in both
+        turns = CubicSpline(z[rows], r[rows]).derivative().roots(extrapolate=False)
+        heights.append(turns[np.argmin(np.abs(turns - z[r.argmax()]))])
+    return decide.Number(heights[0], abs(heights[0] - heights[1]))
+
+
 def goes_down(solutions: Solutions) -> Finding:
     """Past the limit point: level, largest radius, the height at which it lies."""
     found = [
         decide.falls("zw", solutions.numbers(TUBE, LATER, "zw")),
         decide.rises("r_max", solutions.numbers(TUBE, LATER, "r_max")),
     ]
-    heights = []
-    for at in (LATER[0], LATER[-1]):
-        z, widest = solutions.column(TUBE, at, "z"), int(solutions.column(TUBE, at, "r").value.argmax())
-        # The widest row: the crest itself lies between its neighbours.
-        heights.append(
-            decide.Number(
-                z.value[widest], np.abs(np.diff(z.value[widest - 1 : widest + 2])).max() / decide.CLEAR
-            )
-        )
+    heights = [
+        crest(*(solutions.profile(TUBE, at).columns[n] for n in ("z", "r"))) for at in (LATER[0], LATER[-1])
+    ]
     return decide.all_of(*found, decide.falls("height of r_max", heights))
 
 
