@@ -25,7 +25,9 @@ from weakforms import (
 TUBE, OTHER = (fluid_tube(L=24, delta=d, gamma=0.116) for d in (2, 3))
 BEFORE, AFTER = At("zw", 7.1019), At("zw", 8.356, crossing=2)
 SHOWN = {"a": (BEFORE, "before the limit point, $z_w = 7.1019$"), "b": (AFTER, "after it, $z_w = 8.356$")}
-LATER = (At("limit_point", 1.0, profile=()), *(At("V", v, profile=()) for v in (80.0, 100.0, 120.0)))
+BULGE = tuple(np.linspace(0.5, 2.5, 81).tolist())
+"""Material points around the widest place."""
+LATER = (At("limit_point", 1.0, profile=BULGE), *(At("V", v, profile=BULGE) for v in (80.0, 100.0, 120.0)))
 AXES = (Axis("x", -3, 3), Axis("y", -3, 3), Axis("z", 0, 24))
 
 
@@ -51,9 +53,8 @@ def goes_down(solutions: Solutions) -> Finding:
         decide.falls("zw", solutions.numbers(TUBE, LATER, "zw")),
         decide.rises("r_max", solutions.numbers(TUBE, LATER, "r_max")),
     ]
-    heights = [
-        crest(*(solutions.profile(TUBE, at).columns[n] for n in ("z", "r"))) for at in (LATER[0], LATER[-1])
-    ]
+    ends = (LATER[0], LATER[-1])
+    heights = [crest(*(solutions.sampled(TUBE, at, n)[0] for n in ("z", "r"))) for at in ends]
     return decide.all_of(*found, decide.falls("height of r_max", heights))
 
 
