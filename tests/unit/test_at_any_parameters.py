@@ -88,3 +88,16 @@ def test_a_branch_that_ends_before_a_value_says_why():
     branch = run.free(0.3)
     with pytest.raises(ConvergenceError, match=r"t0 = 0\.9 is not reached"):
         branch.end_at("t0", 0.9)
+
+
+def test_a_scheme_that_touches_nothing_says_so():
+    given = {
+        "alpha": 0.6091,
+        "delta1": 3.757,
+        "lf": 3.978,
+        "k": 98.02,
+        "s": 3.575,
+        "scheme": "pressure_steps",
+    }
+    with pytest.raises(InputError, match=r"p_end = 0\.05848 is below first contact at p = "):
+        solve("tube_scheme", **given, p_end=0.05848, numerics={"cells": 32, "steps": 8})

@@ -26,6 +26,7 @@ from dolfinx import fem
 from mpi4py import MPI
 from pydantic import Field
 
+from weakforms.errors import InputError
 from weakforms.forms.kinematics import tube_stretches
 from weakforms.forms.loads import gas_potential, substrate_potential
 from weakforms.forms.materials import mooney_rivlin
@@ -215,6 +216,11 @@ class TubeScheme:
 def _run(comm: MPI.Intracomm, parameters: SchemeParameters, cells: int, steps: int) -> dict[str, float]:
     tube = FixedMesh.build(comm, parameters, cells)
     state = tube.touch()
+    if state.loads["p"] >= parameters.p_end:
+        raise InputError(
+            f"tube_scheme: p_end = {parameters.p_end:g} is below first contact at "
+            f"p = {state.loads['p']:.6g}; raise p_end above it, or choose a smaller s"
+        )
     if parameters.scheme == "front_nodes":
         state = tube.front_nodes(state)
     else:
