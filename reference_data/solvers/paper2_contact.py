@@ -162,6 +162,11 @@ def _tables() -> dict[str, Builder]:
             if spring == "unilateral" and case.tube.delta1 == 1:
                 name = f"{head}_deflation_unilateral_low_{tail}"
                 out[name] = partial(deflation, name, case, spring, source.format("6(b)"), low=True)
+    tail, source = f"{cc.DISTANT.label}_lf_{cc.DISTANT.tube.lf:g}", "the problem of figure {} at other data"
+    name = f"off_contact_frictionless_{tail}"
+    out[name] = partial(inflation, name, cc.DISTANT, "frictionless", source.format("6(a)"))
+    name = f"off_contact_deflation_bilateral_{tail}"
+    out[name] = partial(deflation, name, cc.DISTANT, "bilateral", source.format("6(b)"))
     return out
 
 

@@ -53,6 +53,9 @@ class Case:
 SOFT = Substrate(20.0, 1.3)
 PAPER = tuple(Case(Tube(a, d, 6.0), SOFT) for a, d in ((0.0, 1.0), (0.0, 2.0), (0.1, 1.0), (0.1, 2.0)))
 OFF = (Case(Tube(0.05, 1.3, 8.0), Substrate(50.0, 1.2)), Case(Tube(0.05, 1.5, 6.0), SOFT))
+DISTANT = Case(Tube(0.1, 1.5, 6.0), Substrate(100.0, 1.6))
+"""Far from the tube at first: at ``P_END`` the patch is still short. Just after contact finite differences do
+not resolve the traction at its edge well enough for a table of adhesive inflation."""
 
 
 @lru_cache(maxsize=4)

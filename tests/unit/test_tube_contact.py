@@ -1,5 +1,7 @@
 """The tube in contact: conditions at the front, history, limits, and faults that must be noticed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mpi4py import MPI
@@ -97,6 +99,16 @@ def test_a_patch_that_is_still_short_at_p_end_has_its_history(changes):
     for point in run.adhesive.points[1:]:
         assert point.monitors["lam1_mid"] == pytest.approx(run.onset.values["lam1_mid"], abs=1e-9)
         assert point.monitors["line_force"] < 1e-4
+
+
+def test_a_largest_value_is_found_between_the_nodes():
+    """At p = 3 the spring's largest force lies inside the patch: the nodal values of it err by 1e-7."""
+    table = reference(2, "off_contact_deflation_bilateral_alpha_0.1_delta1_1.5_lf_6")
+    finer = replace(data(delta1=1.5, k=100.0, s=1.6), cells=24)
+    run = ContactRun(MPI.COMM_SELF, finer, p_end=3.0, step=0.08, terms=18)
+    assert table.columns["p"][-1] == 3.0
+    found = run.adhesive.at("p", 3.0).values["spring_max"]
+    assert found == pytest.approx(table.columns["spring_max"][-1], rel=1e-8)
 
 
 def test_contact_is_followed_until_the_patch_holds_nearly_all_of_the_tube():
