@@ -24,6 +24,7 @@ KNOWN: dict[str, str] = {
     "wrinkled_tube: Z_front_3": "tables have fronts at the states of the figures only",
     "hemisphere: state": "a label of what opens or closes, not a number",
     "hemisphere: load": "of an event: the control's own value, under the name that both controls share",
+    "tube: traction_max": "a peak at the edge of a patch that lets go, known to a few percent there",
     "circular: X_iso": "where two stretches part by 1e-4: compared in the cases that show it",
     "fluid_tube: profile:H": "a first integral: its constancy is judged where a case shows it, not its size",
 }

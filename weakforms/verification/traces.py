@@ -40,6 +40,9 @@ DRAWN = 2
 SHARP = 1e-3
 """Bound, relative to the size of the column, that must be sharper: a tenth of an error of one percent."""
 
+BLUNT, BLUNT_TO = ("traction_max", "traction_front"), 0.1
+"""Columns known less sharply, and to what: peaks of traction at the edge of a patch that lets go."""
+
 ZERO = 10.0
 """Size taken for a column that is zero all along: its bound is sharper than 1e-2 in its own unit."""
 
@@ -175,7 +178,11 @@ def _at_point(branch: Branch, name: str, values: np.ndarray, i: int, state: Stat
     spread = branch.uncertainty.get(name)
     own = 0.0 if quantity.uncertainty is None else float("nan") if spread is None else float(spread[i])
     other = quantity.uncertainty or 0.0
-    return compare(values[i], own, quantity.value, other, size_of(values, 2 * float(np.hypot(own, other))))
+    bound = 2 * float(np.hypot(own, other))
+    size = size_of(values, bound)
+    if name in BLUNT and bound < BLUNT_TO * size:
+        size = max(size, bound / SHARP)
+    return compare(values[i], own, quantity.value, other, size)
 
 
 def size_of(values: np.ndarray, bound: float) -> float:
@@ -204,7 +211,8 @@ def judge_curve(paper: int | str, curve: Curve, case: Case, solutions: Solutions
 
 
 def _judged(table: Reference, curve: Curve, case: Case) -> list[str]:
-    return [name for name in table.ordinates if name in asked_of(curve, case)]
+    """Columns that a trace has, too: fronts of zones belong to states."""
+    return [name for name in table.ordinates if name in asked_of(curve, case) and "_front_" not in name]
 
 
 def table_names(table: Reference | None, columns: Iterable[str]) -> list[str]:
@@ -226,7 +234,7 @@ def _dense(table: Reference, name: str) -> np.ndarray:
 
 
 def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -> list[Verdict]:
-    """Verdict on the points of a trace that lie where a table is dense, up to where the abscissa first turns.
+    """Verdict on points of a trace where a table is dense and the abscissa is met for the first time.
 
     Args:
         branch: The trace.
@@ -238,9 +246,9 @@ def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -
         return []
     rows = np.sort(table.columns[table.abscissa])
     along = np.asarray(branch.columns[called[table.abscissa]], float)
-    turned = np.flatnonzero(np.diff(along) * (along[1] - along[0]) <= 0)
-    along = along[: turned[0] + 1] if len(turned) else along
-    inside = (along >= rows[0]) & (along < rows[-1])
+    highest, lowest = np.maximum.accumulate(along), np.minimum.accumulate(along)
+    first = np.r_[True, (along[1:] > highest[:-1]) | (along[1:] < lowest[:-1])]
+    inside = first & (along >= rows[0]) & (along < rows[-1])
     interval = np.where(inside, np.searchsorted(rows, along, "right") - 1, -1)
     found = []
     for name in judged:
