@@ -16,6 +16,7 @@ EXEMPT_SIZE: dict[str, str] = {
 
 KNOWN: dict[str, str] = {
     "wrinkled_tube: Pi": "in traces of few steps the work is not known to one percent (gas, near its end)",
+    "wrinkled_tube: profile:slope": "its size is held by the axial force, its sign by nothing",
     "wrinkled_tube: state": "a label of what opens or closes, not a number",
     "wrinkled_tube: load": "of an event: the control's own value, under the name that both controls share",
     "wrinkled_tube: Z": "of an event: where on the meridian; compared in the cases of zones only",

@@ -152,7 +152,9 @@ def _axial(result: Result, state: State, c: Columns) -> np.ndarray:
     """Axial force a reference angle: the tension's part along the axis less the pressure's on the section."""
     q = state.quantities
     pressure = q["p"].value if "p" in q else _gamma(result) * np.maximum(q["zw"].value - c["z"], 0.0)
-    upwards = np.sign(np.gradient(c["z"]))  # a membrane that sags hangs down below its ring
+    # A membrane that sags hangs down below its ring; where it turns the samples do not tell which way it runs.
+    steps = np.sign(np.diff(c["z"], prepend=2 * c["z"][0] - c["z"][1], append=2 * c["z"][-1] - c["z"][-2]))
+    upwards = np.where(steps[1:] == steps[:-1], steps[1:], np.nan)
     return upwards * c["tension"] / np.hypot(1, c["slope"]) - pressure * c["r"] ** 2 / 2
 
 
@@ -237,7 +239,6 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         field("gw", "gw = lam2 sqrt(lam1)", lambda _, __, c: c["lam2"] * np.sqrt(c["lam1"])),
         field("lam2", "lam2 = r over the undeformed radius", lambda _, __, c: c["r"]),
         field("axial", "axial = N cos(phi) - P r^2/2", _axial),
-        derived("slope", "slope = dr/dz of the profile", np.divide, "r", "z"),
         derived("lam1", "lam1 is the slope of the profile", np.hypot, "r", "z"),
     ),
     "fluid_tube": (
