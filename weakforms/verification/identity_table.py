@@ -238,7 +238,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         read("wrinkled_fraction", "zones between the fronts where gw < 1", zone("Z_front")),
         field("gw", "gw = lam2 sqrt(lam1)", lambda _, __, c: c["lam2"] * np.sqrt(c["lam1"])),
         field("lam2", "lam2 = r over the undeformed radius", lambda _, __, c: c["r"]),
-        field("axial", "axial = N cos(phi) - P r^2/2", _axial),
+        _over(field("axial", "axial = N cos(phi) - P r^2/2", _axial), lambda given: "load_end" not in given),
         derived("lam1", "lam1 is the slope of the profile", np.hypot, "r", "z"),
     ),
     "fluid_tube": (
