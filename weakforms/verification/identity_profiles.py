@@ -161,7 +161,9 @@ def field(name: str, statement: str, by: Callable[[Result, State, Columns], np.n
                 there = np.broadcast_to(by(result, state, profile.columns), here.shape)
             good = np.isfinite(there)
             i = int(np.argmax(np.where(good, np.abs(here - there), -1)))
-            used = 20 * max(profile.uncertainty.get(of, 0.0) for of in ("lam1", "lam2", "r", "z", "tension", name))
+            used = 20 * max(
+                profile.uncertainty.get(of, 0.0) for of in ("lam1", "lam2", "r", "z", "tension", name)
+            )
             size = max(float(np.abs(here).max()), SMALL)
             found = compare(here[i], profile.uncertainty[name], there[i], used, size)
             yield f"{name} ({state.branch})", f"row {i}", found

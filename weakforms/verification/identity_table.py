@@ -152,7 +152,8 @@ def _axial(result: Result, state: State, c: Columns) -> np.ndarray:
     """Axial force a reference angle: the tension's part along the axis less the pressure's on the section."""
     q = state.quantities
     pressure = q["p"].value if "p" in q else _gamma(result) * np.maximum(q["zw"].value - c["z"], 0.0)
-    # A membrane that sags hangs down below its ring; where it turns the samples do not tell which way it runs.
+    # A membrane that sags hangs down below its ring; where it turns the samples do not tell which way it
+    # runs.
     steps = np.sign(np.diff(c["z"], prepend=2 * c["z"][0] - c["z"][1], append=2 * c["z"][-1] - c["z"][-2]))
     upwards = np.where(steps[1:] == steps[:-1], steps[1:], np.nan)
     return upwards * c["tension"] / np.hypot(1, c["slope"]) - pressure * c["r"] ** 2 / 2
