@@ -71,7 +71,7 @@ LABEL org.opencontainers.image.title="weakforms" \
       org.opencontainers.image.licenses="MIT" \
       org.opencontainers.image.authors="The weakforms authors"
 WORKDIR /weakforms
-COPY pyproject.toml README.md LICENSE CITATION.cff ./
+COPY pyproject.toml setup.py README.md LICENSE CITATION.cff ./
 COPY weakforms weakforms
 COPY cases cases
 COPY reference_data reference_data

@@ -72,7 +72,7 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 class SignOfLife:
-    """In a log, a line a minute: how many tests are done, and which of them run."""
+    """In a log, a line a minute: how many tests are done, which of them run; and each that fails, at once."""
 
     def __init__(self, reporter, session) -> None:
         self.reporter, self.session = reporter, session
@@ -87,6 +87,10 @@ class SignOfLife:
         self.running.pop(nodeid, None)
         self.done += 1
 
+    def pytest_runtest_logreport(self, report):  # noqa: D102
+        if report.failed:
+            self.say(f"failed: {report.nodeid}")
+
     def pytest_sessionfinish(self):  # noqa: D102
         self.over.set()
 
@@ -95,7 +99,12 @@ class SignOfLife:
         while not self.over.wait(SILENCE):
             minutes = (time.monotonic() - self.begun) / 60
             done = f"{minutes:.0f} min, {self.done} of {self.session.testscollected} tests done"
-            self.reporter.write_line(f"\n{done}; now {', '.join(list(self.running)) or 'none'}")
+            self.say(f"{done}; now {', '.join(list(self.running)) or 'none'}")
+
+    def say(self, text: str) -> None:
+        """A line that can be read at once: what goes into a file waits in a buffer otherwise."""
+        self.reporter.write_line(f"\n{text}")
+        self.reporter.flush()
 
 
 def pytest_sessionstart(session) -> None:

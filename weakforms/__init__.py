@@ -8,8 +8,7 @@ from weakforms.errors import (
     WeakformsError,
 )
 from weakforms.scaling import dimensional, nondimensional
-from weakforms.verification import continuity, decide
-from weakforms.verification.case import (
+from weakforms.verification.cases.case import (
     Axis,
     Case,
     Claim,
@@ -32,11 +31,8 @@ from weakforms.verification.case import (
     States,
     Surface,
 )
-from weakforms.verification.compare import compare
-from weakforms.verification.decide import Finding
-from weakforms.verification.references import load as reference
-from weakforms.verification.solutions import Solutions
-from weakforms.verification.specs import (
+from weakforms.verification.cases.references import load as reference
+from weakforms.verification.cases.specs import (
     At,
     Spec,
     circular,
@@ -61,6 +57,10 @@ from weakforms.verification.specs import (
     wrinkled_tube,
     wrinkled_tube_threshold,
 )
+from weakforms.verification.crosscheck.compare import compare
+from weakforms.verification.judging import continuity, decide
+from weakforms.verification.judging.decide import Finding
+from weakforms.verification.run.solutions import Solutions
 
 __version__ = "0.1.0"
 

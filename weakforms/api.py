@@ -30,7 +30,7 @@ def require_environment() -> Any:
             f"{missing} is not installed here; use ./run, or on Debian trixie: "
             "apt install python3-dolfinx-real python3-petsc4py-real python3-slepc4py-real"
         ) from error
-    from weakforms.solvers import compat
+    from weakforms.solvers.support import compat
 
     low, high = compat.SUPPORTED
     if not low <= compat.version() < high:
@@ -89,7 +89,7 @@ def prepare(
         EnvironmentLackError: When dolfinx is missing.
     """
     chosen = require_environment().get(problem)
-    from weakforms.problems.base import StateRequest
+    from weakforms.problems.problem import StateRequest
 
     if branch not in chosen.branches:
         raise InputError(f"{problem} has no branch {branch!r}; it has {', '.join(chosen.branches)}")
@@ -126,7 +126,7 @@ def _prepared(
     registry = require_environment()
     from mpi4py import MPI
 
-    from weakforms.problems.base import Requests, silent, validated
+    from weakforms.problems.problem import Requests, silent, validated
 
     chosen = registry.get(problem)
     values = validated(chosen.parameters, dict(parameters), problem)
@@ -145,6 +145,6 @@ def _number(name: str, value: object) -> float:
 
 def cases() -> list[str]:
     """Ids of all cases."""
-    from weakforms.verification.discovery import find_cases
+    from weakforms.verification.cases.discovery import find_cases
 
     return [found.id for found in find_cases()]

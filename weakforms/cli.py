@@ -66,7 +66,7 @@ def list_(
     as_json: Json = False,
 ) -> None:
     """Every problem and every case, one line each."""
-    from weakforms.verification.catalogue import listing, print_listing
+    from weakforms.verification.cases.catalogue import listing, print_listing
 
     entries = listing(paper)
     if as_json:
@@ -78,7 +78,7 @@ def list_(
 @app.command()
 def show(name: Annotated[str, typer.Argument(help="A problem or a case.")], as_json: Json = False) -> None:
     """A problem's parameters, ranges and energy; a case's source, checks and references."""
-    from weakforms.verification.catalogue import describe, print_description
+    from weakforms.verification.cases.catalogue import describe, print_description
 
     facts = describe(name)
     if as_json:
@@ -163,8 +163,8 @@ def check(
     resume: Resume = False,
 ) -> None:
     """Solve and check single cases."""
-    from weakforms.verification import verbs
-    from weakforms.verification.discovery import get_case
+    from weakforms.verification.cases.discovery import get_case
+    from weakforms.verification.run import verbs
 
     names = list(dict.fromkeys(names))
     verbs.verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
@@ -182,8 +182,8 @@ def verify(
     out: Out = Path("out"),
 ) -> None:
     """All cases with a progress bar; then the report."""
-    from weakforms.verification import verbs
-    from weakforms.verification.discovery import select
+    from weakforms.verification.cases.discovery import select
+    from weakforms.verification.run import verbs
 
     if profile not in ("quick", "full"):
         raise InputError(f"--profile {profile!r}: allowed are quick and full")
@@ -215,7 +215,7 @@ def report(
     ] = None,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
-    from weakforms.verification import verbs
+    from weakforms.verification.run import verbs
 
     verbs.report(folder, out, as_pdf, seeded, tuple(others or ()), jobs)
 
@@ -259,13 +259,13 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
     within bounds, 1 out of bounds, 2 bad input (a result for other parameters too), 5 not judged: a column is
     missing, or most of its rows lie where the table cannot tell to the accuracy asked.
     """
-    from weakforms.verification.catalogue import print_verdicts
-    from weakforms.verification.compare import compare as compare_curve
+    from weakforms.verification.cases.catalogue import print_verdicts
+    from weakforms.verification.crosscheck.compare import compare as compare_curve
 
     given = (once("--map", names), once("--constant", constants))
     verdicts = compare_curve(case, file, curve, accuracy, *given, only, branch)
     if out is not None:
-        from weakforms.verification.verdict_page import write_verdicts
+        from weakforms.verification.report.verdict_page import write_verdicts
 
         write_verdicts(verdicts, out)
     if as_json:
@@ -287,7 +287,7 @@ def batch(
     Exit status: the largest of all requests' own (0 within bounds, 1 out of bounds, 2 bad input, 3 a solve
     did not converge, 4 something is not installed, 5 not judged).
     """
-    from weakforms.verification.requests import run_batch
+    from weakforms.verification.run.requests import run_batch
 
     with progress_bar() as progress:
         answers = run_batch(folder, out, resume, rank() == 0, progress)
@@ -311,8 +311,8 @@ def bench(
 ) -> None:
     """Time and memory by stage for fixed problems, cold and warm."""
     from weakforms import api
-    from weakforms.verification.bench import print_bench, run_bench
-    from weakforms.verification.bench_surface import print_surface_bench, run_surface_bench
+    from weakforms.verification.audit.bench import print_bench, run_bench
+    from weakforms.verification.audit.bench_surface import print_surface_bench, run_surface_bench
 
     api.require_environment()
     with progress_bar() as progress:
@@ -360,7 +360,7 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
     as_json: Json = False,
 ) -> None:
     """Seed faults in scratch copies of the tree; say which check catches each."""
-    from weakforms.verification.faults import verb
+    from weakforms.verification.audit.faults import verb
 
     chosen = only or (expression and not measured)
     if sum((bool(chosen), random is not None, measured)) > 1:
@@ -393,7 +393,7 @@ def audit(
     as_json: Json = False,
 ) -> None:
     """Solve at parameters drawn over all allowed ranges; say which sets are not answered, and why."""
-    from weakforms.verification.audit.verb import audit_verb
+    from weakforms.verification.audit.any_parameters.verb import audit_verb
 
     try:
         status = audit_verb(problems or [], sets, seed, limit, out, resume, as_json, console())
@@ -426,7 +426,7 @@ def warm() -> None:
     """Solve the problems of the benchmark once, so that the image holds their compiled forms."""
     import time
 
-    from weakforms.verification.bench import measure
+    from weakforms.verification.audit.bench import measure
 
     for name in ("tube", "bent", "surface-small"):
         measure(name, time.time(), only_start=True)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from weakforms.verification.compare import Verdicts
+    from weakforms.verification.crosscheck.compare import Verdicts
 
 CurveLike = str | Path | Mapping[str, Sequence[float]]
 
@@ -25,7 +25,7 @@ def weakforms_check() -> Callable[..., Verdicts]:
     ("not judged"), unless ``unjudged=True`` lets that pass.
     """
     from weakforms.errors import InputError
-    from weakforms.verification.compare import compare
+    from weakforms.verification.crosscheck.compare import compare
     from weakforms.verification.crosscheck.rows import NOT_JUDGED
 
     def check(
@@ -57,7 +57,7 @@ def _table(verdicts: Verdicts) -> str:
 
     from rich.console import Console
 
-    from weakforms.verification.catalogue import print_verdicts
+    from weakforms.verification.cases.catalogue import print_verdicts
 
     text = io.StringIO()
     print_verdicts(verdicts, Console(file=text, width=110, highlight=False))

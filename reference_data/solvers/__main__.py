@@ -14,8 +14,8 @@ import sys  # noqa: E402
 import time  # noqa: E402
 from pathlib import Path  # noqa: E402
 
+from reference_data.solvers.core.tables import folder_of, write  # noqa: E402
 from reference_data.solvers.registry import tables  # noqa: E402
-from reference_data.solvers.tables import folder_of, write  # noqa: E402
 
 
 def parser() -> argparse.ArgumentParser:

@@ -1,14 +1,13 @@
-"""Which tables exist: every module ``paperN*`` or ``GROUP_tables*`` here offers a dictionary TABLES."""
+"""Which tables exist: every module ``tables*`` in a folder of a paper or a group offers a dictionary."""
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
-import re
 from collections.abc import Callable
 
 from reference_data import solvers
-from reference_data.solvers.tables import Table
+from reference_data.solvers.core.tables import Table
 
 Builder = Callable[[], Table]
 
@@ -24,13 +23,21 @@ def tables() -> dict[str, tuple[int | str, Builder]]:
         ValueError: If two modules claim one name.
     """
     found: dict[str, tuple[int | str, Builder]] = {}
-    for info in sorted(pkgutil.iter_modules(solvers.__path__), key=lambda i: i.name):
-        match = re.match(rf"paper(\d+)|({'|'.join(GROUPS)})_tables", info.name)
-        if not match:
-            continue
-        module = importlib.import_module(f"{solvers.__name__}.{info.name}")
-        for name, builder in module.TABLES.items():
-            if name in found:
-                raise ValueError(f"table {name} is defined twice")
-            found[name] = (int(match[1]) if match[1] else match[2], builder)
+    for folder in solvers_folders():
+        group = int(folder.removeprefix("paper")) if folder.startswith("paper") else folder
+        package = importlib.import_module(f"{solvers.__name__}.{folder}")
+        for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda i: i.name):
+            if not info.name.startswith("tables"):
+                continue
+            module = importlib.import_module(f"{package.__name__}.{info.name}")
+            for name, builder in module.TABLES.items():
+                if name in found:
+                    raise ValueError(f"table {name} is defined twice")
+                found[name] = (group, builder)
     return found
+
+
+def solvers_folders() -> list[str]:
+    """The groups that have tables: a folder a paper, and those that belong to none."""
+    names = (info.name for info in pkgutil.iter_modules(solvers.__path__) if info.ispkg)
+    return sorted((name for name in names if name != "core"), key=lambda n: (n in GROUPS, n))

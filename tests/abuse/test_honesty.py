@@ -10,14 +10,14 @@ from dolfinx import fem, mesh
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, EnvironmentLackError
-from weakforms.solvers import newton
-from weakforms.solvers.branch import EquilibriumBranch
-from weakforms.solvers.constraints import Held
-from weakforms.solvers.continuation import Continuation, StepControl
-from weakforms.solvers.family import BranchFamily
-from weakforms.solvers.newton import ExtendedNewton
-from weakforms.solvers.stability import Spectrum, Stability
-from weakforms.solvers.system import Formulation, System
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.equilibrium import newton
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.stability.spectra import Spectrum, Stability
+from weakforms.solvers.uncertainty.family import BranchFamily
 
 COMM = MPI.COMM_SELF
 

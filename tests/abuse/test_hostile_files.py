@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from weakforms.errors import InputError
 from weakforms.problems import registry
-from weakforms.verification import references
+from weakforms.verification.cases import references
 
 MEMORY = 1500
 """MiB that a hostile file may cost."""
@@ -232,7 +232,7 @@ def write_mesh(path) -> None:
     """A coarse tube as a user's file."""
     import meshio
 
-    from weakforms.problems.surface_triangles import tube
+    from weakforms.problems.triangles.meshes import tube
 
     found = tube(2.0, 3, 6)
     form = {"msh": "gmsh22", "vtu": "vtu", "stl": "stl"}[path.suffix[1:]]

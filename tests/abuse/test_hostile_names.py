@@ -14,8 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from weakforms.results import Branch, Failure
-from weakforms.verification import references
-from weakforms.verification.outcome import (
+from weakforms.verification.cases import references
+from weakforms.verification.judging.outcome import (
     CaseOutcome,
     Convergence,
     CurveOutcome,

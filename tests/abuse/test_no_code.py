@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from abuse_tools import CASE, COMPARE, CURVE, call, canned, orderly, start, verify
 
-from weakforms.verification.discovery import Expression
+from weakforms.verification.cases.discovery import Expression
 
 pytestmark = pytest.mark.usefixtures("nothing_is_solved")
 

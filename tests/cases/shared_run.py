@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from weakforms.verification.discovery import FoundCase
-from weakforms.verification.outcome import CaseOutcome
-from weakforms.verification.runner import Plan, Solver, judge_case, solution_key
-from weakforms.verification.specs import Spec
+from weakforms.verification.cases.discovery import FoundCase
+from weakforms.verification.cases.specs import Spec
+from weakforms.verification.judging.outcome import CaseOutcome
+from weakforms.verification.run.runner import Plan, Solver, judge_case, solution_key
 
 
 class SharedRun:

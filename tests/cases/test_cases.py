@@ -11,10 +11,10 @@ import pytest
 from shared_run import SharedRun
 
 from weakforms.errors import InputError
-from weakforms.verification.discovery import FoundCase, find_cases
-from weakforms.verification.outcome import Verdict
-from weakforms.verification.runner import check_ids
-from weakforms.verification.summary import scientific
+from weakforms.verification.cases.discovery import FoundCase, find_cases
+from weakforms.verification.judging.outcome import Verdict
+from weakforms.verification.report.summary import scientific
+from weakforms.verification.run.runner import check_ids
 
 CASES = find_cases()
 UNSOUND: dict[str, str] = {}

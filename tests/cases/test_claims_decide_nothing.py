@@ -1,4 +1,4 @@
-"""No case decides by itself: statements about numbers are judged in ``weakforms.verification.decide``."""
+"""No case decides by itself: statements about numbers are judged in ``weakforms.decide``."""
 
 import ast
 from pathlib import Path

@@ -9,10 +9,10 @@ import pytest
 from shared_run import SharedRun
 
 from weakforms.errors import ConvergenceError
-from weakforms.verification import runner
-from weakforms.verification.case import Case, Claim
-from weakforms.verification.discovery import FoundCase
-from weakforms.verification.specs import At, tube
+from weakforms.verification.cases.case import Case, Claim
+from weakforms.verification.cases.discovery import FoundCase
+from weakforms.verification.cases.specs import At, tube
+from weakforms.verification.run import runner
 
 SPECS = [tube(delta1=d, u_end=0.3).on(cells=16, levels=2) for d in (1.5, 2)]
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from weakforms.errors import InputError
-from weakforms.verification import discovery, references, runner
+from weakforms.verification.cases import discovery, references
+from weakforms.verification.run import runner
 
 CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
 TUBE = "solve tube --out new/r.json"

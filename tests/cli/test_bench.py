@@ -6,8 +6,8 @@ import time
 import pytest
 from mpi4py import MPI
 
-from weakforms.solvers.linear import Factorization
-from weakforms.verification import bench, bench_work
+from weakforms.solvers.equilibrium.linear import Factorization
+from weakforms.verification.audit import bench, bench_work
 
 
 @pytest.fixture

@@ -15,9 +15,9 @@ from weakforms.problems import registry
 from weakforms.results import Branch, Result
 from weakforms.results.io import branch_csv
 from weakforms.scaling import KINDS, SCALINGS, Scaling
-from weakforms.verification import references
-from weakforms.verification.compare import compare
-from weakforms.verification.requests import schema
+from weakforms.verification.cases import references
+from weakforms.verification.crosscheck.compare import compare
+from weakforms.verification.run.requests import schema
 
 CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
 CONSTANTS = {"R_f": 0.02, "C1": 2.1e5, "h_o": 1.5e-4}

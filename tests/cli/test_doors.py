@@ -8,8 +8,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from weakforms.verification import references, verbs
-from weakforms.verification.outcome import Printed, Verdict
+from weakforms.verification.cases import references
+from weakforms.verification.judging.outcome import Printed, Verdict
+from weakforms.verification.run import verbs
 
 CURVE = ("compare", "paper2.fig03", "--curve", "fig03a_delta1_1.1", "--column", "p")
 quickly = settings(

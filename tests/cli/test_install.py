@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from weakforms.verification import references
+from weakforms.verification.cases import references
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "fig03a_delta1_1.1"
@@ -48,7 +48,7 @@ def wheel(tmp_path_factory):
     skipped = shutil.ignore_patterns("__pycache__", "*.egg-info")
     for name in ("weakforms", "cases", "reference_data"):
         shutil.copytree(ROOT / name, folder / "tree" / name, ignore=skipped)
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
+    for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, folder / "tree")
     pip("wheel", "--no-deps", "--no-index", "--no-build-isolation", "-w", folder, folder / "tree")
     (built,) = folder.glob("*.whl")

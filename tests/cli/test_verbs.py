@@ -14,10 +14,10 @@ import pytest
 from weakforms import api
 from weakforms.errors import ConvergenceError
 from weakforms.problems import registry
-from weakforms.problems import tube as tube_module
+from weakforms.problems.tube import model as tube_module
 from weakforms.results import load_result, validate
-from weakforms.solvers.continuation import StepControl
-from weakforms.verification import references
+from weakforms.solvers.continuation.continuation import StepControl
+from weakforms.verification.cases import references
 from weakforms.verification.crosscheck.rows import interpolated
 
 TUBE = ("solve", "tube", "--set", "contact=none", "--set", "alpha=0.1", "--set", "delta1=1.1")

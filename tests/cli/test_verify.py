@@ -14,9 +14,10 @@ import pytest
 
 from weakforms import api, terminal
 from weakforms.errors import ConvergenceError
-from weakforms.verification import catalogue, discovery, runner
-from weakforms.verification.effort import Effort
-from weakforms.verification.specs import tube
+from weakforms.verification.cases import catalogue, discovery
+from weakforms.verification.cases.specs import tube
+from weakforms.verification.run import runner
+from weakforms.verification.run.effort import Effort
 
 PAGES = {"faults.html", "index.html", "junit.xml", "paper2.html", "report.json"}
 

@@ -7,7 +7,7 @@ import pytest
 from on_ranks import allowed, start
 
 from weakforms.results import Result
-from weakforms.verification.same import differences
+from weakforms.verification.audit.same import differences
 
 PROGRAM = """
 import json, sys

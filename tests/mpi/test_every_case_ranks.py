@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from on_ranks import allowed, start
 
-from weakforms.verification.discovery import find_cases
-from weakforms.verification.same import Run, runs
+from weakforms.verification.audit.same import Run, runs
+from weakforms.verification.cases.discovery import find_cases
 
 pytestmark = [pytest.mark.mpi, pytest.mark.usefixtures("launcher")]
 CHEAP = ("paper2.fig05", "paper4.fig11", "paper5.fig02", "closed_form.infinite_tube")

@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 
-from weakforms.verification.outcome import (
+from weakforms.verification.judging.outcome import (
     CaseOutcome,
     Convergence,
     CurveOutcome,

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from canned_run import failing_case, hostile_case, passing_case, sample
 
-from weakforms.verification.report import write_report
+from weakforms.verification.report.report import write_report
 
 
 @pytest.fixture(scope="session")

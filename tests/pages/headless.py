@@ -9,7 +9,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from weakforms.verification.pdf import QUIET, browser
+from weakforms.verification.report.pdf import QUIET, browser
 
 PATIENCE = 60
 HIGH = 20

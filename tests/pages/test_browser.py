@@ -7,8 +7,8 @@ from canned_run import failing_case, passing_case, sample
 from headless import CONTRASTS, SIZES, Browser
 
 from weakforms.errors import EnvironmentLackError
-from weakforms.verification.pdf import browser, write_pdf
-from weakforms.verification.report import write_report
+from weakforms.verification.report.pdf import browser, write_pdf
+from weakforms.verification.report.report import write_report
 
 PAGES = ("index.html", "paper2.html")
 WIDTHS = (1280, 390, 320)

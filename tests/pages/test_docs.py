@@ -12,10 +12,10 @@ from weakforms.docs import api, site
 from weakforms.docs.prose import docstring, formula, markdown
 from weakforms.errors import EnvironmentLackError
 from weakforms.problems import registry
-from weakforms.problems.base import validated
-from weakforms.verification import gallery
-from weakforms.verification.catalogue import describe
-from weakforms.verification.pdf import browser
+from weakforms.problems.problem import validated
+from weakforms.verification.cases import gallery
+from weakforms.verification.cases.catalogue import describe
+from weakforms.verification.report.pdf import browser
 
 
 @pytest.fixture(scope="module")

@@ -11,10 +11,10 @@ import pytest
 from canned_run import CaseOutcome, CurveOutcome, Marker, Reader, curve, panel, sample, verdict
 from matplotlib.figure import Figure
 
-from weakforms.verification import figures
-from weakforms.verification.figures import convergence_figure, panel_figure
-from weakforms.verification.junit import junit_xml
-from weakforms.verification.pages import GROUPS, render, render_whole
+from weakforms.verification.report import figures
+from weakforms.verification.report.figures import convergence_figure, panel_figure
+from weakforms.verification.report.junit import junit_xml
+from weakforms.verification.report.pages import GROUPS, render, render_whole
 
 
 @pytest.fixture(scope="session")

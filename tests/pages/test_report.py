@@ -10,10 +10,10 @@ import pytest
 from canned_run import failing_case, passing_case, sample, surface
 
 from weakforms.errors import EnvironmentLackError, InputError
-from weakforms.verification import pdf
-from weakforms.verification.junit import clean, junit_xml
-from weakforms.verification.report import load_run, write_report
-from weakforms.verification.vtu import vtu
+from weakforms.verification.report import pdf
+from weakforms.verification.report.junit import clean, junit_xml
+from weakforms.verification.report.report import load_run, write_report
+from weakforms.verification.report.vtu import vtu
 
 
 def test_report_json_is_strict_and_comes_back(run, folder, tmp_path):
@@ -108,7 +108,7 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
 
 
 def test_a_page_that_cannot_be_drawn_leaves_the_numbers(tmp_path, monkeypatch):
-    monkeypatch.setattr("weakforms.verification.report.render", lambda *_: 1 / 0)
+    monkeypatch.setattr("weakforms.verification.report.report.render", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(sample(passing_case()), tmp_path)
     assert load_run(tmp_path).cases[0] == passing_case()

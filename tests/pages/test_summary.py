@@ -10,7 +10,7 @@ from canned_run import passing_case, sample, verdict
 from rich.cells import cell_len
 from rich.console import Console
 
-from weakforms.verification import summary
+from weakforms.verification.report import summary
 
 
 @pytest.mark.parametrize("width", [40, 60, 140])

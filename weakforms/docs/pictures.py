@@ -8,11 +8,11 @@ from markupsafe import Markup
 
 from weakforms.results import Result
 from weakforms.terminal import WorkProgress
-from weakforms.verification.figures import panel_figure
-from weakforms.verification.gallery import SHOWN, Shown
-from weakforms.verification.outcome import CurveOutcome, Marker, PanelOutcome
-from weakforms.verification.runner import Plan, Solver
-from weakforms.verification.specs import Spec
+from weakforms.verification.cases.gallery import SHOWN, Shown
+from weakforms.verification.cases.specs import Spec
+from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome
+from weakforms.verification.report.figures import panel_figure
+from weakforms.verification.run.runner import Plan, Solver
 
 MARGIN = 0.05
 """Of an axis's length, left free at either end."""

@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.mathtext import MathTextParser
 
-from weakforms.verification.figures import drawing, svg
-from weakforms.verification.summary import html_tex
+from weakforms.verification.report.figures import drawing, svg
+from weakforms.verification.report.summary import html_tex
 
 SIZE = 13.0
 """Of formulas, in points; on the page they scale with the text."""

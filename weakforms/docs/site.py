@@ -19,14 +19,14 @@ from weakforms.docs.prose import docstring, formula, markdown
 from weakforms.errors import InputError
 from weakforms.results import write_atomically
 from weakforms.results.io import require_writable
-from weakforms.solvers.provenance import revision
+from weakforms.solvers.support.provenance import revision
 from weakforms.terminal import WorkProgress
-from weakforms.verification import gallery
-from weakforms.verification.catalogue import describe
-from weakforms.verification.discovery import find_cases
-from weakforms.verification.figures import LOOK, TEMPLATES
-from weakforms.verification.references import ROOT
-from weakforms.verification.summary import html_tex
+from weakforms.verification.cases import gallery
+from weakforms.verification.cases.catalogue import describe
+from weakforms.verification.cases.discovery import find_cases
+from weakforms.verification.cases.references import ROOT
+from weakforms.verification.report.figures import LOOK, TEMPLATES
+from weakforms.verification.report.summary import html_tex
 
 VARIATIONS = (
     r"\delta\Pi(u; v) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} \Pi(u + \epsilon v) \,|_{\epsilon = 0} = 0, "
@@ -162,7 +162,7 @@ def _title(path: Path) -> str:
 @cache
 def _problems_of_cases() -> dict[str, set[str]]:
     """Which problems each case solves; none for a case whose tables cannot be read."""
-    from weakforms.verification.runner import case_wants
+    from weakforms.verification.run.runner import case_wants
 
     out = {}
     for found in find_cases():

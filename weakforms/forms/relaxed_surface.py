@@ -17,8 +17,8 @@ from ufl import Jacobian, conditional, cross, det, dot, grad, gt, inv, sqrt, tr
 from ufl.core.expr import Expr
 
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
+from weakforms.forms.materials.surface import mooney_rivlin_invariants
 from weakforms.forms.wrinkling import (
-    mooney_rivlin_invariants,
     principal_stretches,
     surface_tension_field,
 )

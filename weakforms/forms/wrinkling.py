@@ -13,14 +13,12 @@ chosen by ``conditional`` *around* smooth branches: UFL then differentiates the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from ufl import And, conditional, det, gt, inv, max_value, sqrt, tr
 from ufl.conditional import Condition
 from ufl.core.expr import Expr
 
-if TYPE_CHECKING:
-    from weakforms.forms.materials.surface import SurfaceLaw
+from weakforms.forms.materials.surface import SurfaceLaw
 
 Law = Callable[[Expr, Expr], Expr]
 """Energy per reference volume as a function of the two principal stretches."""
@@ -138,14 +136,6 @@ def surface_tension_field(c: Expr, law: SurfaceLaw) -> Expr:
     slackened = conditional(gt(l1, 1), relaxed(law.stretches)(l1), 0.0)
     taut = gt(area * l2**2, 1)
     return conditional(taut, law.where(taut, tr(c), area), slackened)
-
-
-def mooney_rivlin_invariants(trace: Expr, area: Expr, alpha: Expr) -> Expr:
-    r"""Mooney-Rivlin energy of a surface over ``C1`` without principal stretches.
-
-    .. math:: w = I + 1/D - 3 + \alpha\,(I/D + D - 3), \qquad I = \mathrm{tr}\,C,\quad D = \det C
-    """
-    return trace + 1 / area - 3 + alpha * (trace / area + area - 3)
 
 
 def metric(tangents: Expr, reference: Expr) -> Expr:

@@ -1,24 +1,12 @@
 """Which physical problem: mesh, unknowns, energy, boundary conditions, functionals, contact history."""
 
-from weakforms.problems import (  # noqa: F401  (they register their problems)
-    circular_problem,
-    circular_scheme,
-    closed_problem,
-    fluid_tube_coincidence,
-    fluid_tube_problem,
-    fluid_tube_whole,
-    hemisphere,
-    material,
-    surface,
-    tube_problem,
-    tube_schemes,
-    wrinkled_load,
-    wrinkled_material,
-    wrinkled_patch,
-    wrinkled_sheet,
-    wrinkled_threshold,
-    wrinkled_tube,
-)
-from weakforms.problems.base import registry
+import pkgutil
+from importlib import import_module
+
+from weakforms.problems.problem import registry
 
 __all__ = ["registry"]
+
+# A module that defines a problem registers it when it is imported: a new one is found, not listed.
+for _found in pkgutil.walk_packages(__path__, f"{__name__}."):
+    import_module(_found.name)

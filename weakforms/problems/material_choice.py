@@ -14,7 +14,7 @@ from ufl.core.expr import Expr
 from weakforms.errors import InputError
 from weakforms.forms.materials import MATERIALS, Material, SurfaceLaw, surface_law
 from weakforms.forms.materials.surface import LAWS
-from weakforms.problems.base import Parameters, TogetherError
+from weakforms.problems.problem import Parameters, TogetherError
 
 MOONEY_RIVLIN = "mooney_rivlin"
 

@@ -2,7 +2,7 @@
 
 Every number here is converged: what did not converge is absent and listed as a :class:`Failure`.
 Uncertainties are absolute, in the units of the value, and come from mesh refinement
-(:mod:`weakforms.solvers.refinement`).
+(:mod:`weakforms.solvers.uncertainty.refinement`).
 """
 
 from __future__ import annotations

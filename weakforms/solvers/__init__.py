@@ -1,5 +1,5 @@
 """How it is solved: SNES, continuation, critical points, SLEPc, dolfinx versions. No physics."""
 
-from weakforms.solvers import jit_cache
+from weakforms.solvers.support import jit_cache
 
 jit_cache.install()

@@ -25,7 +25,6 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.materials import chains, phenomenological, plane_stress
 from weakforms.forms.materials.catalogue import MATERIALS, SERIES
-from weakforms.forms.wrinkling import mooney_rivlin_invariants
 
 TERMS = 11
 """Terms of the series of a pair of powers. Below :data:`NEAR` what is left out is below round-off ..."""
@@ -84,6 +83,14 @@ def _first(trace: Expr, area: Expr) -> Expr:
 def _second(trace: Expr, area: Expr) -> Expr:
     """``I2 - 3``."""
     return trace / area + area - 3
+
+
+def mooney_rivlin_invariants(trace: Expr, area: Expr, alpha: Expr) -> Expr:
+    r"""Mooney-Rivlin energy of a surface over ``C1`` without principal stretches.
+
+    .. math:: w = I + 1/D - 3 + \alpha\,(I/D + D - 3), \qquad I = \mathrm{tr}\,C,\quad D = \det C
+    """
+    return trace + 1 / area - 3 + alpha * (trace / area + area - 3)
 
 
 def rivlin(trace: Expr, area: Expr, **c: Expr) -> Expr:

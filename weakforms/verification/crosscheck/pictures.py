@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from weakforms.verification.case import LABELS, Panel
+from weakforms.verification.cases.case import LABELS, Panel
+from weakforms.verification.cases.references import Reference
 from weakforms.verification.crosscheck.rows import JudgedColumn
-from weakforms.verification.outcome import CurveOutcome, PanelOutcome
-from weakforms.verification.references import Reference
+from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome
 
 
 def picture(

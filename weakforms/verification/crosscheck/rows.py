@@ -10,8 +10,8 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from weakforms.errors import InputError
-from weakforms.verification.outcome import Verdict
-from weakforms.verification.references import Reference
+from weakforms.verification.cases.references import Reference
+from weakforms.verification.judging.outcome import Verdict
 
 PASSED, FAILED, NOT_JUDGED = "passed", "failed", "not judged"
 EXIT_STATUS = {PASSED: 0, FAILED: 1, NOT_JUDGED: 5}

@@ -1,0 +1,1 @@
+"""Closed and nearly closed forms."""

@@ -1,0 +1,1 @@
+"""What several reference codes use: collocation, laws, tables."""

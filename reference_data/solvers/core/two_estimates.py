@@ -1,0 +1,43 @@
+"""What tables of material laws and closed forms have in common: two estimates, held against each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reference_data.solvers.core.tables import Array, Column, agreed
+
+HAND, CONTOUR = 2e-13, 2e-11
+"""Uncertainties, relative to one plus the value, of numbers by hand-made derivatives and by contours: about
+ten times the rounding that changing nodes and radius shows."""
+
+
+@dataclass
+class Rounded:
+    """Numbers exact but for rounding."""
+
+    value: Array
+    uncertainty: Array
+
+
+def rounded(values: Sequence[float], level: float) -> Rounded:
+    """Numbers with an uncertainty relative to one plus their magnitude."""
+    array = np.array(values, dtype=float)
+    return Rounded(array, level * (1 + np.abs(array)))
+
+
+def both(
+    table: str,
+    name: str,
+    about: tuple[str, str],
+    hand: Sequence[float],
+    contour: Sequence[float],
+    levels: tuple[float, float] = (HAND, CONTOUR),
+) -> Column:
+    """A column of numbers by hand-made derivatives, once those by contours agree."""
+    first, second = rounded(hand, levels[0]), rounded(contour, levels[1])
+    column = agreed(table, name, second, first, about, other="contour integrals")
+    column.extra["uncertainty_by_hand"] = column.extra.pop("uncertainty_collocation")
+    return column

@@ -1,0 +1,1 @@
+"""Tables of material laws, and of the papers' bodies made of them."""

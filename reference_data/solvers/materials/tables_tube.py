@@ -1,0 +1,109 @@
+"""Tables of the tube and of the disk of other laws than Mooney and Rivlin's, by the papers' reference codes.
+
+The codes are those of papers 1 and 2; only the law they are given is another (``material_laws``).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from reference_data.solvers.core.collocation import newton
+from reference_data.solvers.core.laws import CONSTANTS, law
+from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.tables import Array, Column, Table, agreed, prescribed
+from reference_data.solvers.core.two_estimates import Rounded
+from reference_data.solvers.paper2 import text
+from reference_data.solvers.paper2.collocation import critical as col
+from reference_data.solvers.paper2.common import steps
+from reference_data.solvers.paper2.differences import branch as fdb
+from reference_data.solvers.registry import Builder
+
+MODELS = ("ogden", "gent", "arruda_boyce")
+LF = 6.0
+U_STOP = 4.5
+NEAR = {"ogden": (0.838, 4.293), "gent": (0.857, 3.645), "arruda_boyce": (0.848, 3.61)}
+"""Displacements near which limit points are looked for: anywhere within a window of theirs."""
+WINDOW, NODES = 0.12, 12
+
+
+def make(name: str, title: str, model: str, columns: list[Column], source: str, notes: str) -> Table:
+    """A table with what is common to all."""
+    return Table(
+        name=name,
+        paper="materials",
+        title=title,
+        source=source,
+        method=text.METHOD,
+        grid=text.grid(),
+        tolerance=text.TOLERANCE,
+        parameters={"model": model, **CONSTANTS[model], "delta1": 1.0, "lf": LF},
+        abscissa=columns[0].name,
+        columns=columns,
+        notes=notes,
+    )
+
+
+def collocated(tube: Tube, targets: Array) -> dict[str, col.Resolved]:
+    """Columns on two meshes; as the paper's tables, but for rates, which need a law's third derivatives."""
+    levels = []
+    for mesh in col.MESHES:
+        state, rows = col.start(tube, mesh, "u_max", float(targets[0])), []
+        for target in targets:
+            state, system = newton(state, "u_max", float(target))
+            rows.append(col.quantities(state, system.volume))
+        levels.append({c: np.array([row[c] for row in rows]) for c in rows[0]})
+    return {c: col.resolved(levels[0][c], levels[1][c]) for c in levels[0]}
+
+
+def tube_curve(name: str, model: str) -> Table:
+    """Free inflation of a tube over its mid-plane displacement."""
+    tube = Tube(law(model), 1.0, LF)
+    targets = steps(0.05, U_STOP, 0.05)
+    a, b = fdb.curve(tube, "u_max", targets), collocated(tube, targets)
+    columns = [prescribed("u_max", targets, text.COLUMNS["u_max"])]
+    columns += [agreed(name, c, a[c], b[c], text.COLUMNS[c]) for c in ("p", "lam1_mid", "t1_mid", "V")]
+    return make(name, f"Free inflation of a tube of {model}", model, columns, f"{text.PAPER}, section 2", "")
+
+
+def tube_limits(name: str, model: str) -> Table:
+    """Limit points of a tube: maxima and minima of polynomials through states at Chebyshev nodes."""
+    tube = Tube(law(model), 1.0, LF)
+    nodes = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)[::-1]
+    found: dict[str, list[Rounded]] = {"a": [], "b": []}
+    for centre in NEAR[model]:
+        window = centre + WINDOW * nodes
+        targets = np.concatenate([steps(0.05, window[0] - 0.02, 0.05), window])
+        a, b = fdb.curve(tube, "u_max", targets), collocated(tube, targets)
+        for key, value in (("a", a["p"]), ("b", b["p"])):
+            p, spread = value.value[-NODES:], float(np.max(value.uncertainty[-NODES:]))
+            found[key].append(_turn(window, p, spread, centre))
+    columns = [prescribed("order", np.arange(1, len(NEAR[model]) + 1), text.COLUMNS["order"])]
+    for i, c in enumerate(("p", "u_max")):
+        a, b = (
+            Rounded(np.array([r.value[i] for r in found[k]]), np.array([r.uncertainty[i] for r in found[k]]))
+            for k in ("a", "b")
+        )
+        columns.append(agreed(name, c, a, b, text.COLUMNS[c]))
+    notes = "dp/du_max = 0 of a polynomial of degree 11 through p at Chebyshev nodes, both methods."
+    title = f"Limit points of a tube of {model}"
+    return make(name, title, model, columns, f"{text.PAPER}, section 2", notes)
+
+
+def _turn(u: Array, p: Array, spread: float, centre: float) -> Rounded:
+    """``(p, u)`` where a polynomial turns, and what an error ``spread`` of ``p`` does to it."""
+    fit = np.polynomial.Chebyshev.fit(u, p, NODES - 1, domain=[centre - WINDOW, centre + WINDOW])
+    roots = [r.real for r in fit.deriv().roots() if abs(r.imag) < 1e-9 and abs(r.real - centre) < WINDOW]
+    if len(roots) != 1:
+        raise RuntimeError(f"{len(roots)} limit points near u_max = {centre:g}")
+    at = roots[0]
+    # A polynomial of size e and degree n on a window of half width h has slopes up to n^2 e/h.
+    slope = NODES**2 * spread / WINDOW
+    return Rounded(np.array([fit(at), at]), np.array([2 * spread, slope / abs(fit.deriv(2)(at))]))
+
+
+TABLES: dict[str, Builder] = {}
+for _m in MODELS:
+    TABLES[f"tube_{_m}"] = partial(tube_curve, f"tube_{_m}", _m)
+    TABLES[f"tube_limits_{_m}"] = partial(tube_limits, f"tube_limits_{_m}", _m)

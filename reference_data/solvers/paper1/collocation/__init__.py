@@ -1,0 +1,1 @@
+"""The circular membrane by piecewise Chebyshev collocation (method b)."""

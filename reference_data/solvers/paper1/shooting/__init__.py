@@ -1,0 +1,1 @@
+"""The circular membrane by shooting (method a)."""

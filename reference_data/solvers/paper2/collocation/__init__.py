@@ -1,0 +1,1 @@
+"""The tube by piecewise Chebyshev collocation (method b)."""

@@ -1,0 +1,1 @@
+"""The tube by finite differences (method a)."""

@@ -1,0 +1,1 @@
+"""The bent tube as a surface in space."""

@@ -1,0 +1,64 @@
+"""The bent states by the second method, and the columns on which both methods agree."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reference_data.solvers.core.tables import TWO_GRIDS, Column, agreed, round_up
+from reference_data.solvers.paper3 import text
+from reference_data.solvers.paper3.bent.equations import Surface
+from reference_data.solvers.paper3.common import Resolved
+from reference_data.solvers.paper3.data import FluidTube
+from reference_data.solvers.paper3.strong import equations as strong
+from reference_data.solvers.paper3.strong.equations import Bent
+from reference_data.solvers.paper3.strong.net import Array, Net
+
+# Wet and dry elements, degree, highest wave number; the tubes that bulge most need the finer pair.
+NETS = ((6, 4, 13, 21), (6, 4, 17, 27))
+STEEP_NETS = ((6, 4, 15, 25), (7, 4, 17, 33))
+STEEP = (FluidTube(8, 2), FluidTube(8, 3))
+LEFT = 1e-10  # relative; above what Newton's last step and rounding leave in a column (a test measures it)
+
+
+def chosen(tube: FluidTube) -> tuple[tuple[int, int, int, int], ...]:
+    """Elements, degree and wave numbers of the two nets of a tube."""
+    return STEEP_NETS if tube in STEEP else NETS
+
+
+def nets(tube: FluidTube, partial: bool) -> tuple[Net, Net]:
+    """Coarse and fine net of a tube, partially or over-filled."""
+    coarse, fine = (Net(wet, dry * partial, degree, modes) for wet, dry, degree, modes in chosen(tube))
+    return coarse, fine
+
+
+def balanced(guess: Surface, offset: float | None = None) -> tuple[Bent, Bent]:
+    """The bent state by collocation on both nets, from another method's coarse state."""
+    coarse, fine = nets(guess.tube, guess.partial)
+    first = strong.newton(strong.taken(guess, coarse), offset)
+    return first, strong.newton(strong.taken(first, fine), offset)
+
+
+def refined(coarse: Array, fine: Array, left: float = LEFT) -> Resolved:
+    """Finer values; one uncertainty: TWO_GRIDS times the column's largest difference, and what is left."""
+    coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
+    own = TWO_GRIDS * np.abs(fine - coarse).max() + left * max(1.0, np.abs(fine).max())
+    return Resolved(fine, np.full(fine.shape, own))
+
+
+def paired(table: str, name: str, galerkin: tuple[Array, Array], balance: tuple[Array, Array]) -> Column:
+    """Column of Galerkin values, once collocation is found to agree; each at two resolutions.
+
+    Raises:
+        DisagreementError: Naming table, column and worst row.
+    """
+    return joined(table, name, refined(*galerkin), refined(*balance), galerkin)
+
+
+def joined(table: str, name: str, galerkin: Resolved, balance: Resolved, both: tuple[Array, Array]) -> Column:
+    """The same from values whose uncertainties are known."""
+    column = agreed(
+        table, name, balance, galerkin, text.COLUMNS[name], other="collocation", written="Galerkin"
+    )
+    gap = float(np.abs(np.subtract(*both)).max())
+    column.extra["largest_difference_of_resolutions"] = round_up(gap)
+    return column

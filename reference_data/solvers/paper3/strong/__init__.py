@@ -1,0 +1,1 @@
+"""The bent tube by collocation of the strong form (method b)."""

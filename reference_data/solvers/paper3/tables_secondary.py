@@ -1,0 +1,337 @@
+"""Tables of paper 3: the secondary branch, its stability, its states and how it starts.
+
+Patil, Nordmark & Eriksson, Proc. R. Soc. A 471 (2015) 20150016, figures 2, 3, 6 and 8.
+"""
+
+from __future__ import annotations
+
+from functools import cache, partial
+
+import numpy as np
+
+from reference_data.solvers.core.tables import Column, Table, prescribed, round_up
+from reference_data.solvers.paper3 import text, weak
+from reference_data.solvers.paper3.bent import both_methods as bent
+from reference_data.solvers.paper3.bent import branch, states
+from reference_data.solvers.paper3.bent.equations import Array, Grid, Surface
+from reference_data.solvers.paper3.bent.newton import newton, raised
+from reference_data.solvers.paper3.collocation import State
+from reference_data.solvers.paper3.common import Rows, given, make, named
+from reference_data.solvers.paper3.data import FluidTube
+from reference_data.solvers.paper3.galerkin import Elements, Shape
+from reference_data.solvers.paper3.modes import critical_point, galerkin_critical, zeros
+from reference_data.solvers.paper3.modes import quantities as axisymmetric
+from reference_data.solvers.paper3.path import RESOLUTIONS
+from reference_data.solvers.paper3.strong import states as balance
+from reference_data.solvers.paper3.tables_primary import PAPER
+from reference_data.solvers.registry import Builder
+
+# Levels of the tables; the branch starts just above the last one.
+LEVELS: dict[FluidTube, tuple[float, ...]] = {
+    FluidTube(8, 1.5): (7.875, 7.925, 7.975, 8.025, 8.075, 8.125, 8.15, 8.17),
+    FluidTube(8, 2): (7.3, 7.336, 7.4, 7.5, 7.6, 7.65, 7.7, 7.75, 7.779, 7.8, 7.85, 7.89),
+    FluidTube(8, 3): (7.5, 7.6, 7.7, 7.8, 7.85, 7.9, 7.95, 7.97),
+    FluidTube(24, 1.5): (7.9, 8.0, 8.1, 8.2, 8.25, 8.3, 8.33),
+    FluidTube(24, 2): (7.6, 7.65, 7.7, 7.75, 7.779, 7.8, 7.85, 7.9, 7.95, 8.0, 8.015),
+    FluidTube(24, 3): (7.6, 7.65, 7.7, 7.75, 7.8, 7.85, 7.9, 7.95),
+}
+COMPRESSED = (FluidTube(24, 1.5),)  # T2 < 0 in the dry part: see COMPRESSED_NOTES
+OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch is left
+STEP = 0.08
+
+
+def documented(
+    name: str,
+    title: str,
+    source: str,
+    parameters: dict[str, object],
+    columns: list[Column],
+    grids: tuple[tuple[int, int, int, int], ...],
+    nets: tuple[tuple[int, int, int, int], ...] = bent.NETS,
+    **more: object,
+) -> Table:
+    """A table of the two-dimensional codes."""
+    own = {
+        "method": text.SECONDARY_METHOD,
+        "tolerance": text.SECONDARY_TOLERANCE,
+        "grid": text.secondary_grid(grids, nets),
+    }
+    return make(name, title, source, parameters, columns, **(own | more))
+
+
+@cache
+def start(tube: FluidTube) -> tuple[State, Shape]:
+    """The first n = 1 bifurcation by collocation and by Galerkin's method."""
+    how = RESOLUTIONS[1]
+    near = zeros(tube, PAPER[tube][1], 4.0, (1,))[1]
+    state = critical_point(near.moved_to(how.partial if near.partial else how.full), how, 1).state
+    return state, galerkin_critical(state, how, 1)
+
+
+@cache
+def followed(tube: FluidTube) -> branch.Secondary:
+    """The secondary branch on the coarsest grid, over the levels of the table."""
+    line = branch.Secondary(start(tube)[1], 0)
+    line.leave(OFFSETS)
+    line.to_level(LEVELS[tube][0], STEP)
+    return line
+
+
+@cache
+def on_levels(tube: FluidTube, zw: float) -> tuple[Surface, Surface, Surface]:
+    """The state at a level on the three grids."""
+    coarse = followed(tube).at_level(zw)
+    middle = raised(coarse, branch.grid(coarse.partial, 1))
+    return coarse, middle, raised(middle, branch.grid(coarse.partial, 2))
+
+
+def curve(name: str, tube: FluidTube) -> Table:
+    """Secondary branch over the level."""
+    levels = LEVELS[tube]
+    rows: tuple[Rows, ...] = ([], [], [], [])  # Galerkin's method coarse and fine, collocation likewise
+    eigen: tuple[Rows, ...] = ([], [], [], [])
+    spin = 0.0
+    for zw in levels:
+        found = on_levels(tube, zw)
+        pair = found[1:] if tube in bent.STEEP else found[:2]  # for the eigenvalues
+        first = states.stability(pair[0])
+        second = states.stability(pair[1], first)
+        spin = max(spin, abs(second.rotation))
+        others = bent.balanced(found[0])
+        one = [states.quantities(s) for s in found[1:]] + [balance.quantities(s) for s in others]
+        two = [first.columns(), second.columns(), *(balance.stability(s) for s in others)]
+        for i in range(4):
+            rows[i].append(one[i])
+            eigen[i].append(two[i])
+    kept = ("Lambda_1", "LambdaV_1") if tube in COMPRESSED else tuple(eigen[0][0])
+    columns = [prescribed("zw", np.array(levels), text.COLUMNS["zw"])]
+    for found, names in ((rows, [k for k in rows[0][0] if k != "zw"]), (eigen, kept)):
+        for k in names:
+            values = [np.array([row[k] for row in part]) for part in found]
+            columns.append(bent.paired(name, k, tuple(values[:2]), tuple(values[2:])))
+    notes = text.SECONDARY_NOTES + (text.COMPRESSED_NOTES if tube in COMPRESSED else "")
+    title = f"Secondary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
+    extra = {"rotation_eigenvalue": round_up(spin)}
+    return documented(
+        name,
+        title,
+        "figures 2 and 3",
+        given(tube),
+        columns,
+        branch.GRIDS[:3],
+        bent.chosen(tube),
+        notes=notes,
+        extra=extra,
+    )
+
+
+def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, source: str) -> Table:
+    """Positions, stretches and stress resultants at one level."""
+    middle = on_levels(tube, zw)[-1]
+    found = middle, raised(middle, branch.grid(middle.partial, 3))
+    at = np.round(across * tube.length, 12)
+    fields = []
+    for surface in (*found, *bent.balanced(on_levels(tube, zw)[0])):
+        x, a, b = surface.evaluate(at, around)
+        if isinstance(surface, Surface):
+            lam = weak.stretches(a, b)
+            principal = *lam, *weak.resultants(*lam)
+        else:
+            principal = balance.principal(a, b)
+        fields.append([v.ravel() for v in (x[..., 0], x[..., 1], x[..., 2], *principal)])
+    columns = [
+        prescribed("Z", np.repeat(at, len(around)), text.COLUMNS["Z"]),
+        prescribed("Theta", np.tile(np.round(around, 12), len(at)), text.COLUMNS["Theta"]),
+    ]
+    for i, c in enumerate(("x", "y", "z", "lam1", "lam2", "T1", "T2")):
+        values = [f[i] for f in fields]
+        columns.append(bent.paired(name, c, tuple(values[:2]), tuple(values[2:])))
+    fine = states.quantities(found[-1])
+    facts = given(tube) | {"zw": zw} | {k: fine[k] for k in ("V", "r_mid", "z_min", "T_min")}
+    title = f"Secondary branch at z_w = {zw:g}, L = {tube.L:g}, delta = {tube.delta:g}"
+    extra = {"keys": ["Z", "Theta"]}
+    return documented(
+        name,
+        title,
+        source,
+        facts,
+        columns,
+        branch.GRIDS[2:],
+        bent.chosen(tube),
+        notes=text.PRESSURE_NOTES,
+        extra=extra,
+    )
+
+
+SLOPE_OFFSETS = np.array([0.03, 0.045, 0.06, 0.075, 0.09])
+SLOPE_GRIDS = ((11, 5, 9, 12), (12, 6, 10, 15))
+
+
+def _special(partial_filling: bool, which: int) -> Grid:
+    wet, dry, degree, highest = SLOPE_GRIDS[which]
+    return Grid(Elements(wet, dry if partial_filling else 0, degree, 1.0), highest, 2 * highest + 16)
+
+
+def _limit(values: Array, count: int) -> float:
+    """Value at A = 0 of the polynomial in A^2 through the first ``count`` values."""
+    square = SLOPE_OFFSETS[:count] ** 2
+    return float(
+        sum(
+            v * np.prod([b / (b - a) for b in square if b != a])
+            for v, a in zip(values[:count], square, strict=True)
+        )
+    )
+
+
+def _slopes(tube: FluidTube) -> list[tuple[dict[str, float], dict[str, float]]]:
+    """Initial slopes with all offsets and with all but the largest.
+
+    By Galerkin's method on both grids, then by collocation on both nets.
+    """
+    critical, shape = start(tube)
+    found: tuple[Rows, ...] = ([], [], [], [])
+    for offset in SLOPE_OFFSETS:
+        guesses = [branch.injected(shape, float(offset), _special(critical.partial, i)) for i in (0, 1)]
+        rows = [states.quantities(newton(guess, float(offset))) for guess in guesses]
+        rows += [balance.quantities(s) for s in bent.balanced(guesses[0], float(offset))]
+        for part, row in zip(found, rows, strict=True):
+            part.append(row)
+    return [_initial(rows, axisymmetric(critical)) for rows in found]
+
+
+def _initial(rows: Rows, base: dict[str, float]) -> tuple[dict[str, float], dict[str, float]]:
+    """Slopes at the bifurcation from states at all offsets, and at all but the largest."""
+    a = SLOPE_OFFSETS
+    zw, volume, near, far = (np.array([r[k] for r in rows]) for k in ("zw", "V", "r_mid", "r_mid_pi"))
+    series = {
+        "zw": (zw - base["zw"]) / a**2,
+        "V": (volume - base["V"]) / a**2,
+        "odd": (near - far) / (2 * a),
+        "even": ((near + far) / 2 - base["r_mid"]) / a**2,
+    }
+    out = []
+    for count in (len(a), len(a) - 1):
+        at = {k: _limit(v, count) for k, v in series.items()}
+        out.append(
+            {
+                "dzw_dV": at["zw"] / at["V"],
+                "dzw_dr2": at["zw"] / at["odd"] ** 2,
+                "dr_mean_dzw": at["even"] / at["zw"],
+                "dzw_dA2": at["zw"],
+                "dV_dA2": at["V"],
+            }
+        )
+    return out[0], out[1]
+
+
+def _extrapolated(
+    table: str,
+    name: str,
+    found: list[list[tuple[dict[str, float], dict[str, float]]]],
+    left: float = 0.0,
+) -> Column:
+    """Column of values that hang on a grid and on a number of states; [tube][method and grid][states]."""
+    pairs = []
+    for i in (0, 2):
+        coarse, fine, fewer = (
+            np.array([row[k][j][name] for row in found]) for k, j in ((i, 0), (i + 1, 0), (i + 1, 1))
+        )
+        own = bent.refined(coarse, fine, left)
+        own.uncertainty = own.uncertainty + bent.TWO_GRIDS * np.abs(fine - fewer).max()
+        pairs.append((own, (coarse, fine)))
+    return bent.joined(table, name, pairs[0][0], pairs[1][0], pairs[0][1])
+
+
+def slopes(name: str) -> Table:
+    """How the secondary branch leaves the bifurcation."""
+    tubes = list(LEVELS)
+    found = [_slopes(tube) for tube in tubes]
+    columns = [
+        prescribed(k, np.array([float(getattr(t, k)) for t in tubes]), text.COLUMNS[k])
+        for k in ("L", "delta")
+    ]
+    columns += [_extrapolated(name, k, found) for k in found[0][0][0]]
+    extra = {"keys": ["L", "delta"]}
+    title, source = "Initial slopes of the secondary branch", "figures 2 and 3"
+    return documented(
+        name,
+        title,
+        source,
+        {"gamma": tubes[0].gamma},
+        columns,
+        SLOPE_GRIDS,
+        (*bent.NETS, *bent.STEEP_NETS),
+        notes=text.SLOPE_NOTES,
+        extra=extra,
+    )
+
+
+def turn(name: str) -> Table:
+    """Largest r_mid on the secondary branch of L = 8, delta = 2."""
+    tube = FluidTube(8, 2)
+    line = followed(tube)
+    offsets = np.linspace(0.215, 0.257, 7)
+    near = [min(line.states, key=lambda s, o=o: abs(branch.offset_of(s) - o)) for o in offsets]
+    found = []
+    for level in (1, 2):
+        grid = branch.grid(True, level)
+        moved = [newton(s.moved_to(grid), float(o)) for s, o in zip(near, offsets, strict=True)]
+        found.append([states.quantities(s) for s in moved])
+    balanced = [bent.balanced(s, float(o)) for s, o in zip(near, offsets, strict=True)]
+    found += [[balance.quantities(pair[i]) for pair in balanced] for i in (0, 1)]
+    tops = [tuple(_top(offsets[s], rows[s]) for s in (slice(None), slice(1, None))) for rows in found]
+    columns = [
+        prescribed("L", np.array([tube.L]), text.COLUMNS["L"]),
+        prescribed("delta", np.array([tube.delta]), text.COLUMNS["delta"]),
+    ]
+    columns += [_extrapolated(name, k, [tops], bent.LEFT) for k in ("zw", "V", "r_mid")]
+    notes = "Stationary point of the polynomial in the centroid's offset through seven states around it."
+    return documented(
+        name,
+        "Largest r_mid on the secondary branch",
+        "figure 2(a)",
+        {"gamma": tube.gamma},
+        columns,
+        branch.GRIDS[1:],
+        bent.chosen(tube),
+        notes=notes,
+        extra={"keys": ["L", "delta"]},
+    )
+
+
+def _top(offsets: Array, rows: Rows) -> dict[str, float]:
+    """Columns where the interpolated r_mid is largest."""
+    mid = offsets.mean()
+    fits = {
+        k: np.polynomial.Polynomial.fit(offsets - mid, [r[k] for r in rows], len(rows) - 1)
+        for k in ("zw", "V", "r_mid")
+    }
+    roots = fits["r_mid"].deriv().roots()
+    inside = [r.real for r in roots if abs(r.imag) < 1e-12 and abs(r.real) < 0.05]
+    if len(inside) != 1:
+        raise RuntimeError(f"r_mid has {len(inside)} stationary points where one was expected")
+    return {k: float(f(inside[0])) for k, f in fits.items()}
+
+
+def _tables() -> dict[str, Builder]:
+    out: dict[str, Builder] = {}
+    for tube in LEVELS:
+        name = named("secondary", tube, False)
+        out[name] = partial(curve, name, tube)
+    net = np.arange(41) / 40, np.pi * np.arange(13) / 12
+    lines = np.arange(61) / 60, np.array([0.0, np.pi / 2, np.pi])
+    for name, L, zw, (across, around), source in (
+        ("fig08a", 8, 7.336, net, "figure 8(a)"),
+        ("fig08b", 24, 7.779, net, "figure 8(b), delta = 2 assumed"),
+        ("fig06", 24, 7.779, lines, "figure 6, L = 24 and delta = 2 assumed"),
+        ("fig06_L_8", 8, 7.779, lines, "figure 6, for L = 8 and delta = 2"),
+    ):
+        out[name] = partial(state, name, FluidTube(L, 2), zw, across, around, source)
+    return out
+
+
+TABLES: dict[str, Builder] = {
+    **_tables(),
+    "secondary_slopes": partial(slopes, "secondary_slopes"),
+    "secondary_turn": partial(turn, "secondary_turn"),
+}

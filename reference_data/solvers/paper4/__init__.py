@@ -1,0 +1,1 @@
+"""Reference codes and tables of Paper 4."""

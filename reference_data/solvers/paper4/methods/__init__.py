@@ -1,0 +1,1 @@
+"""Wrinkled states by collocation, by shooting and by finite differences."""

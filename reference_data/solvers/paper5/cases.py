@@ -1,0 +1,160 @@
+"""Eigenvalues by both methods for the states of paper 5, and the loads where they change sign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+
+import numpy as np
+from scipy.optimize import brentq
+
+from reference_data.solvers.paper4 import cases as cas
+from reference_data.solvers.paper4.cases import Pair
+from reference_data.solvers.paper4.material import Membrane
+from reference_data.solvers.paper5.hemisphere import shooting as hsh
+from reference_data.solvers.paper5.hemisphere import states as hem
+from reference_data.solvers.paper5.hemisphere.collocation import Hanging
+from reference_data.solvers.paper5.waves import cylinder as cyl
+from reference_data.solvers.paper5.waves import hemisphere as rhm
+from reference_data.solvers.paper5.waves import shots as sht
+from reference_data.solvers.paper5.waves.second_variation import Quadratic
+from reference_data.solvers.paper5.waves.transfer import Parts, Transfer, halved
+
+SPLITS = (1, 2)  # of the base state's elements, coarse and fine
+ROUNDING = 5e-10  # of an eigenvalue, relative or absolute: what is seen between resolutions
+SLOPE_STEP = 1e-4
+
+
+@dataclass
+class Spectrum:
+    """One state: matrices on two resolutions, and parts for the canonical system on two.
+
+    Attributes:
+        forms: Matrices, coarse and fine.
+        parts: For a wave number, coarse and fine.
+    """
+
+    forms: tuple[Quadratic, Quadratic]
+    parts: Callable[[float], tuple[Parts, Parts]]
+
+    def lowest(self, n: float, count: int = 3) -> tuple[Pair, Pair]:
+        """Lowest eigenvalues by both methods."""
+        a = [q.lowest(n, count)[0] for q in self.forms]
+        b = [Transfer(p, n).lowest(count) for p in self.parts(n)]
+        floors = [ROUNDING * np.maximum(1.0, np.abs(x[1])) for x in (a, b)]
+        return Pair(a[0], a[1], floors[0]), Pair(b[0], b[1], floors[1])
+
+
+def refined(parts: Parts, times: int) -> Parts:
+    """Parts halved some times."""
+    for _ in range(times):
+        parts = halved(parts)
+    return parts
+
+
+@cache
+def cylinder(membrane: Membrane, load: float) -> Spectrum:
+    """The cylinder at a load."""
+    solved = cas.solved(membrane, load)
+    forms = tuple(cyl.quadratic(x[0], k) for x, k in zip(solved.tracked, SPLITS, strict=True))
+
+    def parts(n: float) -> tuple[Parts, Parts]:
+        times = int(np.searchsorted((30, 60, 120), n))
+        return tuple(refined(sht.parts(x), times) for x in solved.shots)
+
+    return Spectrum(forms, parts)
+
+
+@dataclass
+class Walk:
+    """Hemispheres met so far, by level, on the coarse rule; found by walking from the nearest."""
+
+    known: dict[float, Hanging] = field(default_factory=dict)
+
+    def at(self, zw: float) -> Hanging:
+        """The state at a level before the limit point.
+
+        Raises:
+            RuntimeError: If the walk fails.
+        """
+        if not self.known:
+            self.known[-0.6] = hem.start(-0.6)
+        here = min(self.known, key=lambda x: abs(x - zw))
+        state = self.known[here]
+        while here != zw:
+            step = 0.01 if max(here, zw) > -0.6 else 0.03
+            here = zw if abs(zw - here) <= step else here + float(np.sign(zw - here)) * step
+            state = hem.polished(state, "zw", here)
+        self.known[zw] = state
+        return state
+
+
+WALK = Walk()
+
+
+@dataclass
+class Hemisphere:
+    """The hemisphere at a level, by both methods."""
+
+    zw: float
+
+    @cached_property
+    def tracked(self) -> list[Hanging]:
+        """By collocation."""
+        coarse = WALK.at(self.zw)
+        return [coarse, hem.polished(hem.moved_to(coarse, hem.RULES[1]), "zw", self.zw)]
+
+    @cached_property
+    def shots(self) -> list[hsh.Shot]:
+        """By shooting."""
+        _, z0, stretch0, _ = self.tracked[0].y[0, 0]
+        out = []
+        for tol in hsh.TOLERANCES:
+            out.append(hsh.solve(float(stretch0), float(z0), "zw", self.zw, tol))
+            stretch0, z0 = out[-1].stretch0, out[-1].z0
+        return out
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        """Its second variation."""
+        forms = tuple(rhm.quadratic(x, k) for x, k in zip(self.tracked, SPLITS, strict=True))
+
+        def parts(n: float) -> tuple[Parts, Parts]:
+            return tuple(sht.hemisphere_parts(x, n, k) for x, k in zip(self.shots, (1, 2), strict=True))
+
+        return Spectrum(forms, parts)
+
+
+@cache
+def hemisphere(zw: float) -> Hemisphere:
+    """The hemisphere at a level."""
+    return Hemisphere(zw)
+
+
+@dataclass
+class Crossing:
+    """A load where the lowest eigenvalue of a wave number passes zero.
+
+    Attributes:
+        n: Wave number.
+        direction: 1 if it turns negative as the load rises, -1 if positive.
+        pairs: The load by both methods.
+        slope: Derivative of the eigenvalue by the load.
+    """
+
+    n: float
+    direction: int
+    pairs: tuple[Pair, Pair]
+    slope: float
+
+
+def crossing(spectrum: Callable[[float], Spectrum], n: float, low: float, high: float) -> Crossing:
+    """Root on the fine matrices; the other three values by their own eigenvalues and the slope there."""
+    x = float(brentq(lambda x: spectrum(float(x)).forms[1].first(n), low, high, xtol=1e-13))
+    ends = [spectrum(x + k * SLOPE_STEP).forms[1].first(n) for k in (-1, 1)]
+    slope = (ends[1] - ends[0]) / (2 * SLOPE_STEP)
+    a, b = spectrum(x).lowest(n, 1)
+    floor = np.array([ROUNDING / abs(slope)])
+    pairs = tuple(Pair(x - p.coarse / slope, x - p.fine / slope, floor) for p in (a, b))
+    return Crossing(n, -int(np.sign(slope)), pairs, slope)

@@ -1,0 +1,1 @@
+"""Second variation of wrinkled states for a wave number."""

@@ -1,0 +1,343 @@
+"""The material laws: admissible, differentiated rightly, wrinkling alike, and the same as the references'."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from reference_data.solvers.core import langevin
+from reference_data.solvers.core import laws as material_laws
+from weakforms import solve
+from weakforms.errors import InputError
+from weakforms.forms.materials import MATERIALS
+from weakforms.problems import registry
+from weakforms.problems.homogeneous.material_point import NAMES, evaluated
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.problem import validated
+
+INCOMPRESSIBLE = [name for name, m in MATERIALS.items() if m.incompressible]
+COMPRESSIBLE = ["saint_venant_kirchhoff", "harmonic"]
+STRETCH = st.floats(0.4, 2.4)
+CHECKED = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def default(model: str) -> Chosen:
+    return Chosen(model, tuple((n, c.default) for n, c in MATERIALS[model].constants.items()))
+
+
+def numbers(model: str, a: float, b: float, energy: str = "full") -> np.ndarray:
+    found = evaluated(default(model), a, b, energy)
+    return np.array([found[n] for n in NAMES])
+
+
+def defined(model: str, a: float, b: float) -> bool:
+    return bool(np.all(np.isfinite(numbers(model, a, b))))
+
+
+# -- the five conditions of section 3.1.1 -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("model", INCOMPRESSIBLE)
+@CHECKED
+@given(a=STRETCH, b=STRETCH)
+def test_1_energy_is_not_negative(model, a, b):
+    assume(defined(model, a, b))
+    w = numbers(model, a, b)[0]
+    assert w >= -1e-13
+    if max(abs(a - 1), abs(b - 1)) > 1e-3:
+        assert w > 0
+
+
+@pytest.mark.parametrize("model", INCOMPRESSIBLE)
+@CHECKED
+@given(a=STRETCH, b=STRETCH, turn=st.floats(0, math.pi), rotation=st.floats(0, math.pi))
+def test_2_energy_does_not_depend_on_the_frame(model, a, b, turn, rotation):
+    """The law as a function of F is that of its singular values: frames on both sides drop out."""
+
+    def q(angle):
+        return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+    f = q(rotation) @ np.diag([a, b]) @ q(turn)
+    one, other = np.linalg.svd(f, compute_uv=False)
+    assume(defined(model, a, b))
+    expected = numbers(model, a, b)[0]
+    assert numbers(model, one, other)[0] == pytest.approx(expected, rel=1e-10, abs=1e-12)
+
+
+@pytest.mark.parametrize("model", INCOMPRESSIBLE)
+@CHECKED
+@given(a=STRETCH, b=STRETCH)
+def test_3_energy_is_symmetric_in_all_three_stretches(model, a, b):
+    c = 1 / (a * b)
+    pairs = [(a, b), (b, a), (a, c), (c, a), (b, c), (c, b)]
+    assume(all(defined(model, *p) for p in pairs))
+    energies = [numbers(model, *p)[0] for p in pairs]
+    assert np.allclose(energies, energies[0], rtol=1e-10, atol=1e-11)
+
+
+@pytest.mark.parametrize("model", MATERIALS)
+def test_4_rest_has_no_energy_and_no_stress(model):
+    w, w1, w2, w11, w12, w22 = numbers(model, 1.0, 1.0)
+    assert max(abs(w), abs(w1), abs(w2)) < 1e-13
+    assert w11 == pytest.approx(w22, rel=1e-13)
+    assert w11 > abs(w12) >= 0
+
+
+@pytest.mark.parametrize("model", INCOMPRESSIBLE)
+def test_5_energy_grows_without_bound(model):
+    """Along stretches to zero and to infinity it grows, or ends at a full extension it cannot pass."""
+    for towards in (np.geomspace(1, 1e-4, 60), np.geomspace(1, 1e4, 60)):
+        w = np.array([numbers(model, x, 1.0)[0] for x in towards])
+        finite = np.isfinite(w)
+        end = len(w) if finite.all() else int(np.argmin(finite))
+        assert np.all(np.diff(w[:end]) > 0)
+        if finite.all():
+            assert w[-1] > 1e3
+        else:
+            assert not finite[end:].any()
+
+
+# -- the laws that fail ------------------------------------------------------------------------------
+
+
+def test_kirchhoff_fails_condition_5_and_3():
+    near = [numbers("saint_venant_kirchhoff", x, 1.0)[0] for x in (1e-2, 1e-4)]
+    assert near[1] - near[0] < 1e-3
+    assert near[1] < 1.01
+    a, b = 1.4, 0.9
+    assert numbers("saint_venant_kirchhoff", a, b)[0] != pytest.approx(
+        numbers("saint_venant_kirchhoff", a, 1 / (a * b))[0], rel=1e-2
+    )
+
+
+def test_harmonic_fails_conditions_1_and_5():
+    assert numbers("harmonic", 7.0, 7.0)[0] < 0
+    near = [numbers("harmonic", x, 1.0)[0] for x in (1e-3, 1e-4)]
+    assert near[1] == pytest.approx(3.0, abs=1e-3)  # 2 mu f(5/2), by hand: it does not grow
+    assert abs(near[1] - near[0]) < 1e-2
+
+
+@pytest.mark.parametrize("model", COMPRESSIBLE)
+@CHECKED
+@given(a=st.floats(0.8, 1.5), b=st.floats(0.8, 1.5))
+def test_they_are_sound_in_moderate_stretches(model, a, b):
+    assert numbers(model, a, b)[0] >= -1e-14
+    assert numbers(model, a, b)[0] == pytest.approx(numbers(model, b, a)[0], abs=1e-13)
+
+
+# -- against the references --------------------------------------------------------------------------
+
+
+def drawn(model: str, data: st.DataObject) -> dict[str, float]:
+    """Constants near the defaults, of any admitted sign."""
+    out = {}
+    for name, c in MATERIALS[model].constants.items():
+        out[name] = c.default * data.draw(st.floats(0.7, 1.3), label=name)
+    if "poisson" in out:
+        out["poisson"] = min(out["poisson"], 0.49)
+    return out
+
+
+@pytest.mark.parametrize("model", MATERIALS)
+@CHECKED
+@given(data=st.data(), a=st.floats(0.6, 2.0), b=st.floats(0.6, 2.0))
+def test_energy_and_derivatives_are_the_references(model, data, a, b):
+    constants = drawn(model, data)
+    assume(not MATERIALS[model].refusal(constants))
+    law = material_laws.BUILDERS[model](**constants)
+    with np.errstate(invalid="ignore"):
+        expected = np.array(
+            [
+                law.energy(a, b),
+                law.slope(a, b),
+                law.slope(b, a),
+                law.curvature(a, b),
+                law.mixed(a, b),
+                law.curvature(b, a),
+            ]
+        )
+    values = evaluated(Chosen(model, tuple(constants.items())), a, b)
+    found = np.array([values[n] for n in NAMES])
+    if model == "harmonic" and not np.isfinite(found).all():
+        assert a + b > 3 + (a * b - 1) / constants["f2"]
+        return
+    assert np.allclose(found, expected, rtol=1e-10, atol=1e-11)
+
+
+# -- inverse Langevin function -----------------------------------------------------------------------
+
+
+@CHECKED
+@given(x=st.floats(1e-6, 0.9999))
+def test_inverse_langevin(x):
+    """Value and derivative of the chain in Gauss's limit of one stretch: epsilon' and epsilon''."""
+    from weakforms.forms.materials.chains import NUMERATOR
+
+    assert len(NUMERATOR) == 8
+    value, slope = chain(x)
+    y = langevin.inverse(np.array(x))
+    assert value == pytest.approx(float(y), rel=1e-12)
+    assert slope == pytest.approx(float(1 / langevin.langevin_slope(y)), rel=3e-12)
+
+
+def chain(x: float) -> tuple[float, float]:
+    import ufl
+    from dolfinx import fem, mesh
+    from mpi4py import MPI
+
+    from weakforms.forms.materials.chains import chain_energy, inverse_langevin
+
+    if not hasattr(chain, "compiled"):
+        line = mesh.create_unit_interval(MPI.COMM_SELF, 1)
+        constant = fem.Constant(line, 0.5)
+        at = ufl.variable(constant)
+        second = ufl.diff(ufl.diff(chain_energy(at), at), at)
+        values = ufl.as_vector([inverse_langevin(constant), second])
+        chain.compiled = line, constant, fem.Expression(values, np.array([[0.5]]))
+    line, constant, expression = chain.compiled
+    constant.value = x
+    return tuple(expression.eval(line, np.array([0], dtype=np.int32)).ravel())
+
+
+def test_beyond_full_extension_there_is_no_number():
+    assert all(math.isnan(v) for v in chain(1.0001))
+    assert not defined("gent", 8.0, 8.0)
+    assert not defined("arruda_boyce", 8.0, 8.0)
+    assert not defined("three_chain", 5.2, 1.0)
+
+
+# -- wrinkling ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("model", INCOMPRESSIBLE)
+@CHECKED
+@given(a=st.floats(0.5, 2.2), b=st.floats(0.5, 2.2))
+def test_modified_gradient_is_the_relaxed_energy(model, a, b):
+    # Where states meet, second derivatives jump and rounding decides on which side one stands.
+    near = [a - b**-0.5, b - a**-0.5, a - 1, b - 1, a - b]
+    assume(min(abs(x) for x in near) > 1e-9)
+    assume(defined(model, max(a, b), max(min(a, b), max(a, b) ** -0.5)))
+    relaxed, modified = (numbers(model, a, b, e) for e in ("relaxed", "modified_gradient"))
+    assert np.allclose(relaxed, modified, rtol=1e-12, atol=1e-12)
+    assert relaxed[0] <= numbers(model, a, b)[0] + 1e-12 or not defined(model, a, b)
+
+
+@pytest.mark.parametrize("model", MATERIALS)
+@pytest.mark.parametrize("stretch", [1.05, 1.2, 1.5])
+def test_natural_width_leaves_no_stress_across(model, stretch):
+    chosen = default(model)
+    width = chosen.material.natural_width({n: c for n, c in chosen.constants})(stretch)
+    width = float(width(()) if hasattr(width, "ufl_shape") else width)
+    assert abs(numbers(model, stretch, width)[2]) < 1e-12
+    if chosen.material.incompressible:
+        assert width == pytest.approx(stretch**-0.5, rel=1e-15)
+
+
+# -- the two theories of membranes -------------------------------------------------------------------
+
+
+def test_elimination_of_the_thickness_is_the_theory_in_space():
+    """Naghdi & Tang: with lam3 from zero normal stress both theories have the same stresses."""
+    law = material_laws.law("harmonic")
+    mu, f2 = law.shear, law.f2
+    for a, b in ((1.1, 1.2), (1.5, 1.3), (0.9, 1.4)):
+        l3 = 3 + (a * b - 1) / f2 - a - b
+        rate = 1 + f2 * (a + b + l3 - 3)  # f'
+        assert 2 * mu * (rate - a * b) == pytest.approx(0, abs=1e-13)  # no normal stress
+        in_space = [2 * mu * (rate - b * l3), 2 * mu * (rate - a * l3)]
+        assert numbers("harmonic", a, b)[1:3] == pytest.approx(in_space, rel=1e-13)
+
+
+def test_the_harmonic_sheet_is_no_harmonic_material_in_space():
+    """W11 - W12 is constant for equation 3.26 with any g; the reduced material of 3.25 does not have that."""
+    differences = []
+    for a, b in ((1.1, 1.2), (1.5, 1.3), (0.9, 1.4)):
+        _, _, _, w11, w12, _ = numbers("harmonic", a, b)
+        differences.append(w11 - w12)
+    assert np.ptp(differences) > 0.1
+
+
+def test_the_incompressible_elimination_is_the_papers():
+    a, b = 1.3, 1.1
+    l3 = 1 / (a * b)
+    in_space = a**2 + b**2 + l3**2 - 3
+    assert numbers("neo_hookean", a, b)[0] == pytest.approx(in_space, rel=1e-14)
+    pressure = 2 * l3**2  # from sigma_33 = 0
+    assert numbers("neo_hookean", a, b)[1] * a == pytest.approx(2 * a**2 - pressure, rel=1e-14)
+
+
+# -- parameters --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("given_", "words"),
+    [
+        ({"model": "ogden", "mu1": -1.0}, "mu1 alpha1 positive"),
+        ({"model": "ogden", "mu1": 0, "mu2": 0, "mu3": 0}, "must not be 0"),
+        ({"model": "gent", "jm": 0}, "jm 0 > 0"),
+        ({"model": "gent", "alpha": 0.1}, "alpha no constant gent shear jm"),
+        ({"model": "biderman", "c20": -1.0}, "c20 negative"),
+        ({"model": "rivlin", "c10": 0, "c01": 0}, "c10 c01 positive"),
+        ({"model": "rivlin", "c11": -1}, "c11 -1 >= 0"),
+        ({"model": "beda_chevalier", "power": 2}, "power 2 > 2"),
+        ({"model": "arruda_boyce", "links": 0.5}, "links 0.5 > 1"),
+        ({"model": "harmonic", "f2": 0.6}, "f2 0.6 > 0.666667"),
+        ({"model": "saint_venant_kirchhoff", "poisson": 0.7}, "poisson 0.7 <= 0.5"),
+        ({"model": "rubber"}, "model rubber neo_hookean"),
+        ({"model": "gent", "shear": "stiff"}, "shear stiff number"),
+        ({"model": "gent", "shear": float("nan")}, "shear nan number"),
+        ({"constants": [["a", 1]]}, "constants own names"),
+        ({"model": "gent", "l1": 9.0, "l2": 9.0}, "gent not defined l1 9"),
+        ({"model": "harmonic", "l1": 4.0, "l2": 0.5}, "harmonic not defined"),
+    ],
+)
+def test_bad_constants_are_refused_in_one_line(given_, words):
+    with pytest.raises(InputError) as error:
+        solve("material", **given_)
+    text = str(error.value)
+    assert "\n" not in text
+    assert all(re.search(re.escape(word), text) for word in words.split()), text
+
+
+def test_constants_stand_among_the_parameters_of_a_result_and_solve_it_again():
+    first = solve("material", model="ogden", mu1=1.0, l1=1.3, l2=0.7)
+    assert first.parameters["mu1"] == 1.0
+    assert first.parameters["alpha3"] == -2.0
+    assert "constants" not in first.parameters
+    again = solve("material", **first.parameters)
+    assert again.quantities == first.quantities
+
+
+def test_the_papers_own_ratio_is_that_laws_constant_only():
+    tube = registry.get("tube").parameters
+    assert validated(tube, {"alpha": 0.2}, "tube").material == Chosen("mooney_rivlin", (("alpha", 0.2),))
+    other = validated(tube, {"model": "gent", "jm": 50}, "tube")
+    assert "alpha" not in other.model_dump()
+    assert other.material == Chosen("gent", (("shear", 2.0), ("jm", 50.0)))
+    with pytest.raises(InputError, match="alpha is no constant"):
+        validated(tube, {"model": "gent", "alpha": 0.2}, "tube")
+
+
+def test_every_law_says_where_it_is_from():
+    for material in MATERIALS.values():
+        assert material.source
+        assert material.text
+        assert material.scale
+        for constant in material.constants.values():
+            assert constant.contains(constant.default)
+            assert constant.meaning
+        assert not material.refusal({n: c.default for n, c in material.constants.items()})
+
+
+@pytest.mark.parametrize("term", [1, 2, 3])
+def test_exponents_of_ogden_have_another_range_than_moduli(term):
+    """An exponent of -1000 leaves no number to compute with; a modulus of -1000 is one of another rubber."""
+    constants = MATERIALS["ogden"].constants
+    modulus, exponent = constants[f"mu{term}"], constants[f"alpha{term}"]
+    assert (exponent.low, exponent.high) == (-100.0, 100.0)
+    assert modulus.low < -1000 < 1000 < modulus.high
+    with pytest.raises(InputError, match=f"alpha{term}"):
+        solve("material", model="ogden", l1=1.1, l2=1.0, **{f"alpha{term}": -1000.0})

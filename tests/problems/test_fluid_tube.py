@@ -1,0 +1,392 @@
+"""The fluid-loaded tube: its forms against the paper's, its branch, its eigenvalues and critical points."""
+
+import dolfinx.fem.petsc as fem_petsc
+import numpy as np
+import pytest
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+from scipy.linalg import eigh
+
+import weakforms.problems.liquid_tube.model as fluid_module
+from weakforms import InputError, reference, solve
+from weakforms.problems.liquid_tube.branch import FluidPath
+from weakforms.problems.liquid_tube.critical import PrimaryBranch
+from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.problems.problem import Requests, StateRequest, registry
+
+pytestmark = pytest.mark.paper3
+GAMMA = 0.116
+COARSE = {"cells": 32, "degree": 4, "levels": 2}
+
+
+def path(L=8.0, delta=2.0, cells=12, n_max=2, gamma=GAMMA):
+    return FluidPath(MPI.COMM_SELF, TubeData(L, delta, gamma, 0.0, cells, 4), n_max)
+
+
+@pytest.fixture(scope="module")
+def short():
+    return path()
+
+
+@pytest.fixture(scope="module")
+def partially_filled(short):
+    solved = short.pieces[1].at("zw", 6.0)
+    assert 0.3 < solved.state.loads["front"] < 0.9
+    return solved
+
+
+def dense(matrix):
+    rows = range(matrix.getSize()[0])
+    return matrix.getValues(rows, rows)
+
+
+# -- forms -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("zw", [3.0, 6.0])
+def test_tangent_is_the_residuals_derivative_and_symmetric(short, zw):
+    system, state = short.model.system, short.pieces[1].at("zw", zw).state
+    direction = np.random.default_rng(0).standard_normal(system.size)
+    direction[system.bc_dofs] = 0.0
+    h, sides = 1e-6, []
+    for sign in (1, -1):
+        system.set_state(state.u + sign * h * direction, state.loads)
+        sides.append(system.residual())
+    system.set_state(state.u, state.loads)
+    matrix = system.tangent()
+    product = system.multiply(matrix, direction)
+    assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(product, rel=1e-6, abs=1e-6 * abs(product).max())
+    values = dense(matrix)
+    assert abs(values - values.T).max() < 1e-11 * abs(values).max()
+
+
+def test_residual_is_the_potentials_gradient(short, partially_filled):
+    # Where the front stays on the surface (no vertical displacement of x = 1) the potential holds no more.
+    system, state = short.model.system, partially_filled.state
+    space = system.unknown.function_space
+    shapes = []
+    for k in (1, 2):
+        shape = fem.Function(space)
+        shape.interpolate(lambda x, k=k: np.vstack([np.sin(k * np.pi * x[0] / 2), np.sin(k * np.pi * x[0])]))
+        shapes.append(shape.x.array.copy())
+    base, direction = state.u + 0.1 * shapes[0], shapes[1]
+    h, values = 1e-5, []
+    for sign in (1, -1):
+        system.set_state(base + sign * h * direction, state.loads)
+        values.append(system.monitor("Pi"))
+    system.set_state(base, state.loads)
+    slope = 2 * np.pi * system.dot(system.residual(), direction)
+    assert abs(slope) > 0.01
+    assert (values[0] - values[1]) / (2 * h) == pytest.approx(slope, rel=1e-6)
+
+
+def typed_form(model, n, u, beta, w):
+    """The quadratic form of the second variation as derived by hand, per pi (for n = 0 per 2 pi)."""
+    jacobian = model._jacobian()
+    at = model.surface()
+    r, z = at.x[0], at.x[2]
+    r_z, z_z = at.a[0], at.a[2]
+    u_z, beta_z, w_z = (f.dx(0) / jacobian for f in (u, beta, w))
+    lam1 = r_z**2 + z_z**2
+    j0 = lam1 * r**2
+    g11, g22 = 2 * (r_z * u_z + z_z * w_z), 2 * r * (u + n * beta)
+    g12 = -r_z * (n * u + beta) - z_z * n * w + r * beta_z
+    h11 = u_z**2 + w_z**2 + beta_z**2
+    h22 = (u + n * beta) ** 2 + (n * u + beta) ** 2 + n**2 * w**2
+    j1 = r**2 * g11 + lam1 * g22
+    j2 = r**2 * h11 + lam1 * h22 + g11 * g22 - g12**2
+    wet, gamma = model._wet(), model._fixed["gamma"]
+    pressure = gamma * wet * (model.loads["zw"][1] - z)
+    swelling = z_z * (u**2 + beta**2 + 2 * n * u * beta) - r_z * (u * w + 2 * n * beta * w)
+    swelling += r * (u * w_z - w * u_z)
+    density = h11 + h22 - j2 / j0**2 + j1**2 / j0**3 - pressure * swelling
+    density += gamma * wet * w * (r * z_z * u - r * r_z * w)
+    return density * jacobian * model.dx
+
+
+@pytest.mark.parametrize("n", [1, 2, 5])
+@pytest.mark.parametrize("where", ["zw", "bifurcation"])
+def test_automatic_second_variation_is_the_one_derived_by_hand(short, n, where):
+    piece = short.pieces[1] if where == "zw" else short.pieces[2]
+    state = piece.at("V", 20.0 if where == "zw" else 90.0).state
+    model = short.model
+    model.system.set_state(state.u, state.loads)
+    variation = short.modes.variation(n)
+    q = fem.Function(variation.unknown.function_space)
+    q.x.array[:] = np.random.default_rng(n).standard_normal(len(q.x.array))
+    q.x.array[variation.bc_dofs] = 0.0
+    by_hand = fem.assemble_scalar(fem.form(typed_form(model, n, *q)))
+    product = variation.multiply(variation.tangent(), q.x.array)
+    assert variation.dot(q.x.array, product) == pytest.approx(by_hand, rel=1e-10)
+
+
+def without_rings(variation):
+    """The operator with no condition at the rings."""
+    form = ufl.derivative(variation.formulation.residual, variation.unknown, variation.trial)
+    matrix = fem_petsc.assemble_matrix(fem.form(form))
+    matrix.assemble()
+    return dense(matrix)
+
+
+def test_rigid_displacements_cost_nothing(short, partially_filled):
+    model = short.model
+    model.system.set_state(partially_filled.state.u, partially_filled.state.loads)
+    waves = short.modes.variation(1)
+    sideways = np.tile([1.0, -1.0, 0.0], waves.size // 3)
+    inside = np.setdiff1d(np.arange(waves.size), waves.bc_dofs)
+    stiffness = without_rings(waves)
+    assert abs((stiffness @ sideways)[inside]).max() < 1e-10 * abs(stiffness).max()
+    torsion = model.torsion
+    turned = 1 + model.unknown.x.array[::2]  # beta = r: a rotation about the axis
+    stiffness = without_rings(torsion)
+    inside = np.setdiff1d(np.arange(torsion.size), torsion.bc_dofs)
+    assert abs((stiffness @ turned)[inside]).max() < 1e-10 * abs(stiffness).max()
+
+
+# -- eigenvalues -----------------------------------------------------------------------------------
+
+
+def lowest(variation, count=1):
+    variation.tangent()
+    free = np.setdiff1d(np.arange(variation.size), variation.bc_dofs)
+    k, m = (dense(matrix)[np.ix_(free, free)] for matrix in (variation.matrix, variation.mass))
+    return eigh((k + k.T) / 2, m, eigvals_only=True)[:count], k, m, free
+
+
+@pytest.mark.parametrize("n", [0, 1, 2])
+def test_eigenvalues_are_those_of_the_dense_problem(short, partially_filled, n):
+    short.model.system.set_state(partially_filled.state.u, partially_filled.state.loads)
+    variation = short.modes.variation(n)
+    assert variation.spectrum().eigenvalues[0] == pytest.approx(lowest(variation)[0][0], rel=1e-9)
+
+
+def test_zero_waves_are_the_axisymmetric_space_and_torsion(short, partially_filled):
+    model = short.model
+    model.system.set_state(partially_filled.state.u, partially_filled.state.loads)
+    model.wave_number.value = 0
+    both = lowest(model.waves, 6)[0]
+    apart = np.sort(np.concatenate([lowest(v, 6)[0] for v in (model.axial, model.torsion)]))[:6]
+    assert both == pytest.approx(apart, rel=1e-9)
+
+
+@pytest.mark.parametrize("V", [20.0, 90.0, 125.0])
+def test_volume_control_is_a_term_of_rank_one_or_a_constraint(short, V):
+    piece = next(p for p in short.pieces[1:] if p.points[-1].monitors["V"] > V)
+    solved = piece.at("V", V)
+    system, axial = short.model.system, short.model.axial
+    system.set_state(solved.state.u, solved.state.loads)
+    _, k, m, free = lowest(axial)
+    d = -system.load_derivative("zw")[free] / GAMMA  # per radian
+    if solved.state.loads["high"]:
+        basis = np.linalg.svd(d[None, :])[2][1:].T
+        expected = eigh(basis.T @ k @ basis, basis.T @ m @ basis, eigvals_only=True)[0]
+    else:
+        area = np.pi * system.monitor("r_front") ** 2
+        expected = eigh(k + 2 * np.pi * GAMMA / area * np.outer(d, d), m, eigvals_only=True)[0]
+    assert solved.values["LambdaV_n0"] == pytest.approx(expected, rel=1e-8)
+    assert expected > 0
+
+
+# -- the branch ------------------------------------------------------------------------------------
+
+
+def test_pieces_follow_one_another(short):
+    assert [len(p.points) > 1 for p in short.pieces] == [False, True, True, True]
+    for before, after in zip(short.pieces, short.pieces[1:], strict=False):
+        end, start = before.points[-1], after.points[0]
+        assert end.state.loads["zw"] == pytest.approx(start.state.loads["zw"], abs=2e-3)
+        assert end.monitors["Pi"] == pytest.approx(start.monitors["Pi"], abs=2e-2)
+    volumes = [point.monitors["V"] for piece in short.pieces for point in piece.points]
+    assert np.all(np.diff(volumes) > 0)
+
+
+def test_a_slender_tube_never_fills():
+    slender = path(24.0, 2.0)
+    assert len(slender.pieces) == 2
+    kinds = [(s.kind, s.values.get("n")) for piece in slender.pieces for s in piece.special()]
+    assert kinds[:2] == [("limit_point", None), ("bifurcation_point", 1.0)]
+
+
+def test_level_and_volume_are_work_conjugate(short):
+    piece, h = short.pieces[1], 1e-4
+    energies = [piece.at("zw", 6.0 + s * h).values["Pi"] for s in (1, -1)]
+    assert (energies[0] - energies[1]) / (2 * h) == pytest.approx(
+        -GAMMA * piece.at("zw", 6.0).values["V"], rel=1e-7
+    )
+
+
+def test_critical_points_have_a_zero_eigenvalue_of_their_family(short):
+    found = [solved for piece in short.pieces for solved in piece.special()]
+    assert [s.kind for s in found] == ["limit_point", "bifurcation_point", "bifurcation_point"]
+    limit, first, second = found
+    assert abs(limit.values["Lambda_n0"]) < 1e-9
+    assert abs(first.values["Lambda_n1"]) < 1e-9
+    assert abs(second.values["Lambda_n2"]) < 1e-9
+    highest = max(p.state.loads["zw"] for p in short.pieces[2].points)
+    assert highest == pytest.approx(limit.state.loads["zw"], abs=1e-12)
+
+
+def test_levels_just_below_the_highest_are_met_twice(short):
+    (limit,) = (s for piece in short.pieces for s in piece.special() if s.kind == "limit_point")
+    level = limit.state.loads["zw"] - 1e-7
+    piece = short.pieces[2]
+    assert len(piece.crossings("zw", level)) == 2
+    below, past = (piece.at("zw", level, crossing).values["V"] for crossing in (1, 2))
+    assert below < limit.values["V"] < past
+    assert past - below < 0.1
+
+
+def test_the_membrane_keeps_its_first_integral(short):
+    points = np.linspace(0, 4, 41)
+    spreads = []
+    for branch in (short, path(cells=24)):
+        state = branch.pieces[2].at("V", 100.0).state
+        lam1, t1, h = branch.sampled(state, points, ("lam1", "T1", "H"))
+        spreads.append(np.ptp(h))
+        assert abs(t1[0] - t1[-1]) < 1e-3 * abs(t1[0])
+        assert abs(lam1[0] - lam1[-1]) < 1e-3
+    assert spreads[1] < spreads[0] / 8 < 1e-3
+
+
+def test_a_dry_tube_is_no_cylinder():
+    result = solve("fluid_tube", L=24, delta=2, at={"zw": 0.0}, numerics=COARSE)
+    values = result.states[0].quantities
+    assert values["V"].value == 0.0
+    assert 2**-0.5 - 5e-3 < values["r_mid"].value < 2**-0.5
+    assert values["LambdaV_n0"].value == pytest.approx(values["Lambda_n0"].value)
+
+
+def test_states_are_found_at_any_column():
+    wanted = [("zw", 8.2), ("V", 30.0), ("r_mid", 1.5), ("Lambda_n1", 0.3), ("r_front", 0.9)]
+    result = solve("fluid_tube", L=8, delta=2, at=wanted, numerics=COARSE)
+    for state, (name, value) in zip(result.states, wanted, strict=True):
+        assert state.quantities[name].value == pytest.approx(value, abs=1e-9)
+    after = solve("fluid_tube", L=8, delta=2, at={"zw": 8.2}, crossing=2, numerics=COARSE)
+    assert after.states[0].quantities["n_negative"].value == 1
+
+
+def test_states_and_modes_can_be_read_by_others():
+    points = np.linspace(0, 4, 81)
+    state = PrimaryBranch(MPI.COMM_SELF, 8.0, 2.0, cells=12, degree=4).bifurcation(points)
+    assert state.r[[0, -1]] == pytest.approx(1.0, abs=1e-12)
+    assert state.z[[0, -1]] == pytest.approx([0.0, 8.0], abs=1e-12)
+    assert state.mode[:, [0, -1]] == pytest.approx(0.0, abs=1e-12)
+    norm = np.sum(state.mode**2) * (points[1] - points[0])
+    assert norm == pytest.approx(1.0, rel=1e-2)
+    assert state.mode[0].max() > abs(state.mode[0].min())
+
+
+@pytest.mark.parametrize(("L", "delta", "gamma"), [(24.0, 1.1, 0.116), (8.0, 7.0, 0.05), (16.0, 1.1, 0.05)])
+def test_branches_off_the_paper_converge(L, delta, gamma):
+    branch = path(L, delta, gamma=gamma)
+    assert all(piece.stalled is None for piece in branch.pieces)
+    kinds = {solved.kind for piece in branch.pieces for solved in piece.special()}
+    assert "limit_point" in kinds
+
+
+# -- seeded faults ---------------------------------------------------------------------------------
+
+
+def judged():
+    """Whether rows of two tables are met within bounds: the branch, and its eigenvalues."""
+    branch, spectrum = (reference(3, f"{name}_L_8_delta_2") for name in ("primary", "spectrum"))
+    rows = [row for row in (20.0, 40.0, 100.0) if row in branch.columns["V"] and row in spectrum.columns["V"]]
+    assert rows
+    problem = registry.get("fluid_tube")
+    given, mesh = problem.parameters(L=8, delta=2, gamma=0.116, n_max=2), problem.numerics(**COARSE)
+    wanted = Requests(tuple(StateRequest("V", row) for row in rows), branch_uncertainty=False)
+    found = problem.solve(given, mesh, wanted, MPI.COMM_SELF)
+    good = []
+    for table, names in ((branch, ("zw", "r_mid")), (spectrum, ("Lambda_n0", "Lambda_n1", "Lambda_n2"))):
+        differences = []
+        for state, row in zip(found.states, rows, strict=True):
+            k = int(np.flatnonzero(table.columns["V"] == row)[0])
+            for name in names:
+                value = state.quantities[name]
+                bound = 2 * np.hypot(value.uncertainty, table.uncertainty[name])
+                differences.append(abs(value.value - table.columns[name][k]) <= bound)
+        good.append(all(differences))
+    return tuple(good)
+
+
+def pressure_reversed(monkeypatch):
+    right = fluid_module.pressure_work
+    monkeypatch.setattr(fluid_module, "pressure_work", lambda at, v, p: -right(at, v, p))
+
+
+def hydrostatic_halved(monkeypatch):
+    right = fluid_module.hydrostatic
+    monkeypatch.setattr(fluid_module, "hydrostatic", lambda *given: right(*given) / 2)
+
+
+def volume_change_forgotten(monkeypatch):
+    def energy(a, b, alpha):
+        return (ufl.dot(a, a) + ufl.dot(b, b) - 2 + alpha * 0) / 2
+
+    monkeypatch.setattr("weakforms.forms.fluid.strain_energy", energy)
+
+
+def load_stiffness_dropped(monkeypatch):
+    """The pressure does not feel the displacement: equilibria are right, eigenvalues are not."""
+
+    def work(self, at, v):
+        pressure = fluid_module.hydrostatic(
+            self.height, self.loads["zw"][1], self._fixed["gamma"], self._wet()
+        )
+        elastic = fluid_module.membrane_work(at, v, self._fixed["alpha"])
+        return elastic + fluid_module.pressure_work(at, v, pressure)
+
+    right = fluid_module.TubeModel._variation
+
+    def variation(self, *given):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(fluid_module.TubeModel, "_work", work)
+            return right(self, *given)
+
+    monkeypatch.setattr(fluid_module.TubeModel, "_variation", variation)
+
+
+def test_without_a_fault_both_tables_are_met():
+    assert judged() == (True, True)
+
+
+@pytest.mark.parametrize("fault", [hydrostatic_halved, volume_change_forgotten])
+def test_a_fault_in_the_weak_form_is_noticed(fault, monkeypatch):
+    fault(monkeypatch)
+    assert judged() == (False, False)
+
+
+def test_with_the_pressure_reversed_the_tube_does_not_fill(monkeypatch):
+    pressure_reversed(monkeypatch)
+    with pytest.raises(InputError, match=r"V = 20 is not met .* ranges over \[-"):
+        judged()
+
+
+def test_a_dropped_load_stiffness_is_noticed_by_the_eigenvalues(monkeypatch):
+    load_stiffness_dropped(monkeypatch)
+    assert judged() == (True, False)
+
+
+# -- bad input -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"delta": 1.0}, "delta = 1.0: input should be greater than 1"),
+        ({"gamma": 0.0}, "gamma = 0.0: input should be greater than 0"),
+        ({"n_max": 9}, "n_max = 9: input should be less than or equal to 6"),
+        ({"at": {"zw": -1.0}}, "zw = -1 is below the tube"),
+        ({"at": {"Lambda_n5": 0.1}}, "n up to n_max = 3"),
+        ({"at": {"zw": 7.3}, "branch": "secondary"}, "secondary = true"),
+    ],
+)
+def test_bad_input_is_refused_before_anything_is_solved(given, message):
+    with pytest.raises(InputError, match=message.replace("+", r"\+")):
+        solve("fluid_tube", **given)
+
+
+def test_a_level_above_the_highest_is_refused_with_the_range():
+    with pytest.raises(InputError, match=r"zw = 8.5 is not met .* ranges over \[0, 8.37"):
+        solve("fluid_tube", at={"zw": 8.5}, numerics=COARSE)

@@ -1,0 +1,399 @@
+"""The fluid-loaded tube as a surface: meshes, forms against the paper's, symmetry of the circle."""
+
+import dolfinx.fem.petsc as fem_petsc
+import numpy as np
+import pytest
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+
+from weakforms import InputError, solve
+from weakforms.forms.fluid import (
+    hydrostatic,
+    membrane_work,
+    pressure_work,
+    strain_energy,
+    submerged_flux,
+)
+from weakforms.problems.liquid_tube.bent.bifurcation_point import bifurcation_on, position
+from weakforms.problems.liquid_tube.bent.family import free_surface
+from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
+from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
+from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.branch import FluidPath
+from weakforms.problems.liquid_tube.critical import PrimaryBranch
+from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.spectra import Stability
+
+pytestmark = pytest.mark.paper3
+GAMMA, L, DELTA = 0.116, 8.0, 2.0
+ONE = MPI.COMM_SELF
+
+
+def data(cells=8, around=4, degree=3, full=False, uneven=0.0, alpha=0.0, front=None):
+    return SurfaceData(L, DELTA, GAMMA, alpha, cells, around, degree, full, uneven, front)
+
+
+def fitted(cells=6, around=4, degree=4, front=3.5):
+    model = SurfaceModel(ONE, data(cells, around, degree, front=front))
+    return model, Fitting(model, KeptNewton(model.system, ["zw"]))
+
+
+@pytest.fixture(scope="module")
+def model():
+    return SurfaceModel(ONE, data())
+
+
+@pytest.fixture(scope="module")
+def primary():
+    return PrimaryBranch(ONE, L, DELTA, GAMMA)
+
+
+def bulged(z, theta):
+    """No equilibrium: a smooth surface without any symmetry but the mirror's, that meets the rings."""
+    t = np.pi * z / (L / DELTA)
+    out = 1 + np.sin(t) * (0.6 + 0.3 * np.cos(theta) + 0.1 * np.cos(2 * theta))
+    up = DELTA * z - 0.4 * np.sin(t) * (1 + 0.5 * np.cos(theta))
+    return np.vstack([out * np.cos(theta), out * np.sin(theta), up])
+
+
+def put(model, zw, shape=bulged):
+    values = model.interpolated(shape)
+    loads = {"zw": zw} | ({"phase": 0.0} if model.data.full else {})
+    model.system.set_state(values, loads)
+    return values, loads
+
+
+def assembled(model, form):
+    vector = fem_petsc.assemble_vector(fem.form(form))
+    out = vector.array.copy()
+    out[model.system.bc_dofs] = 0.0
+    return out
+
+
+# -- meshes ----------------------------------------------------------------------------------------
+
+
+def test_sheet_is_uniform_around_and_refined_from_the_top_down():
+    nodes = heights(16, 4.0)
+    sheet = flat_sheet(ONE, nodes, 6)
+    x = np.round(sheet.geometry.x, 12)
+    assert np.unique(x[:, 0]) == pytest.approx(nodes)
+    assert np.diff(np.unique(x[:, 1])) == pytest.approx(np.pi / 6)
+    assert sheet.topology.index_map(2).size_global == 96
+    assert {1.0, 2.0} <= set(nodes.tolist()), "a quarter and half of the length are nodes"
+    assert np.diff(nodes)[-1] > 1.5 * np.diff(nodes)[0]
+    assert np.diff(nodes)[-1] < np.diff(nodes)[12], "finer again towards the upper ring"
+    assert heights(32, 4.0)[::2] == pytest.approx(nodes)
+    with pytest.raises(ValueError, match="multiple of 4"):
+        heights(6, 1.0)
+
+
+@pytest.mark.parametrize(
+    "sides", [np.full(8, np.pi / 4), np.array([0.5, 0.9, 1.1, 0.8, 1.3, 2 * np.pi - 4.6])]
+)
+def test_polygon_closes_with_the_sides_asked_for(sides):
+    corners = polygon(sides)
+    closed = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
+    assert closed == pytest.approx(sides, rel=1e-12)
+
+
+@pytest.mark.parametrize("uneven", [0.0, 0.3])
+def test_prism_has_the_area_of_the_tube_and_its_angles(uneven):
+    model = SurfaceModel(ONE, data(full=True, uneven=uneven))
+    area = fem.assemble_scalar(fem.form(fem.Constant(model.mesh, 1.0) * model.dx))
+    assert area == pytest.approx(2 * np.pi * L / DELTA, rel=1e-13)
+    # The cylinder's tangent vectors, found from its interpolated position.
+    put(model, 0.0, lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), DELTA * z]))
+    at = model.surface(model.unknown)
+    wanted = (ufl.dot(at.a, at.a) - DELTA**2) ** 2 + (ufl.dot(at.b, at.b) - 1) ** 2 + ufl.dot(at.a, at.b) ** 2
+    assert fem.assemble_scalar(fem.form(wanted * model.dx)) < 1e-4
+
+
+def test_prism_is_closed():
+    mesh = prism(ONE, heights(4, 2.0), np.arange(6) * np.pi / 3)
+    mesh.topology.create_connectivity(1, 2)
+    assert len(dmesh.exterior_facet_indices(mesh.topology)) == 12, "only the two rings are edges"
+
+
+# -- forms -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("zw", [3.37, 6.1, 9.0])
+def test_tangent_is_the_residuals_derivative_and_symmetric(model, zw):
+    system = model.system
+    values, loads = put(model, zw)
+    direction = np.random.default_rng(0).standard_normal(system.size)
+    direction[system.bc_dofs] = 0.0
+    h, sides = 1e-6, []
+    for sign in (1, -1):
+        system.set_state(values + sign * h * direction, loads)
+        out = system.residual()
+        out[system.bc_dofs] = 0.0
+        sides.append(out)
+    system.set_state(values, loads)
+    matrix = system.tangent()
+    product = system.multiply(matrix, direction)
+    error = abs((sides[0] - sides[1]) / (2 * h) - product).max()
+    assert error < 1e-5 * abs(product).max()  # a random direction moves the front across a few points
+    rows = range(system.size)
+    dense = matrix.getValues(rows, rows)
+    assert abs(dense - dense.T).max() < 1e-12 * abs(dense).max()
+
+
+@pytest.mark.parametrize("zw", [3.37, 6.1, 9.0])
+@pytest.mark.parametrize("full", [False, True])
+def test_potential_has_the_papers_first_variation(zw, full):
+    """Vertical flux against ``w_a.v_Z + w_b.v_Theta - P v.N``, by one rule; the kink's error falls."""
+    model = SurfaceModel(ONE, data(full=full, alpha=0.1))
+    put(model, zw)
+    at, v = model.surface(model.unknown), model.surface(ufl.TestFunction(model.space))
+    pressure = hydrostatic(at.x[2], zw, GAMMA, ufl.conditional(ufl.lt(at.x[2], zw), 1.0, 0.0))
+    energy = strain_energy(at.a, at.b, 0.1) + GAMMA * submerged_flux(at, model.zw, 2)
+    errors = []
+    for degree in (20, 80):
+        rule = ufl.Measure("dx", model.mesh, metadata={"quadrature_degree": degree})
+        typed = assembled(model, (membrane_work(at, v, 0.1) + pressure_work(at, v, pressure)) * rule)
+        derived = assembled(model, ufl.derivative(energy * rule, model.unknown))
+        load = assembled(model, pressure_work(at, v, pressure) * rule)
+        errors.append(abs(derived - typed).max() / abs(load).max())
+    assert errors[1] < max(errors[0] / 5, 1e-12)
+    assert errors[1] < 1e-3
+    own = model.system.residual()
+    own[model.system.bc_dofs] = 0.0
+    assert own == pytest.approx(model.copies * typed, abs=1e-2 * model.copies * abs(load).max())
+
+
+def test_volume_is_the_one_between_membrane_and_surface(model):
+    for zw in (3.3, 7.1, 11.0):
+        put(model, zw, lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), DELTA * z]))
+        assert model.system.monitor("V") == pytest.approx(np.pi * min(zw, L), abs=1e-5)
+        area = model.system.monitor_gradient("V")[1]["zw"]
+        assert area == pytest.approx(np.pi if zw < L else 0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("zw", [3.37, 6.1, 9.0])
+def test_level_and_volume_are_work_conjugate(model, zw):
+    values, _ = put(model, zw)
+    h, sides = 1e-4, []
+    for sign in (1, -1):
+        model.system.set_state(values, {"zw": zw + sign * h})
+        sides.append(model.system.monitor("Pi"))
+    model.system.set_state(values, {"zw": zw})
+    # V has a finer rule than Pi: what is left is the kink's quadrature error.
+    assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(-GAMMA * model.system.monitor("V"), rel=5e-4)
+
+
+def test_points_read_the_position_they_name(model):
+    put(model, 5.0)
+    values = model.system.monitors()
+    half, quarter = (bulged(np.array([f * L / DELTA] * 2), np.array([0.0, np.pi])) for f in (0.5, 0.25))
+    assert [values["r_mid"], -values["r_mid_pi"]] == pytest.approx(half[0], abs=2e-4)
+    assert [values["x_quarter_0"], values["x_quarter_pi"]] == pytest.approx(quarter[0], abs=2e-4)
+    assert [values["z_quarter_0"], values["z_quarter_pi"]] == pytest.approx(quarter[2], abs=2e-4)
+    row, _ = model.system.monitor_gradient("r_mid")
+    free = model.system.owned().copy()
+    assert row @ free == pytest.approx(values["r_mid"], rel=1e-12), "linear in the position"
+
+
+def test_a_spline_of_the_position_is_a_guess_for_another_mesh(model):
+    put(model, 5.0)
+    other = SurfaceModel(ONE, data(cells=16, around=8, degree=4))
+    put(other, 5.0)
+    exact = other.system.owned().copy()
+    fitting = Fitting(model, KeptNewton(model.system, ["zw"]))
+    assert other.interpolated(fitting.shape()) == pytest.approx(exact, abs=2e-3)
+
+
+# -- the mesh that follows the free surface ------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("front", "rows"),
+    [(3.5, (2.0, 3.5, 4.0)), (4.0, (2.0, 3.8, 4.0)), (1.3, (1.0, 1.3, 2.0)), (2.1, (1, 1.8, 2))],
+)
+def test_fitted_sheet_has_a_row_for_the_free_surface(front, rows):
+    nodes, found = fitted_heights(12, 4.0, front)
+    assert found == pytest.approx(rows)
+    for row in (*rows, 1.0, 2.0):
+        assert min(abs(nodes - row)) < 1e-12
+    assert fitted_heights(24, 4.0, front)[0][::2] == pytest.approx(nodes)
+    with pytest.raises(ValueError, match="multiple of 6"):
+        fitted_heights(8, 4.0, front)
+
+
+def test_the_map_moves_the_row_and_is_inverted():
+    model, _ = fitted()
+    front, theta = model.front, np.linspace(0, np.pi, 9)
+    front.put(front.fitted(3.4 + 0.1 * np.cos(front.angles)))
+    assert front.at(theta) == pytest.approx(3.4 + 0.1 * np.cos(theta), abs=1e-14)
+    assert front.material(np.full(9, 3.5), theta) == pytest.approx(front.at(theta), abs=1e-14)
+    z = np.linspace(0, 4, 9)
+    assert front.material(front.mesh(z, theta), theta) == pytest.approx(z, abs=1e-13)
+    assert front.material(np.array([1.7, 2.0, 4.0]), np.zeros(3)) == pytest.approx([1.7, 2.0, 4.0])
+    area = fem.assemble_scalar(fem.form(model.front.function.dx(0) * model.dx))
+    assert area == pytest.approx(np.pi * L / DELTA, rel=1e-13)
+    assert front.fitted(np.full(9, 4.1))[0] == pytest.approx(4.0 - 2e-4), "kept off the ring"
+
+
+def test_a_surface_is_the_same_on_a_mesh_that_has_moved():
+    """Position, tangent vectors and integrals do not know where the mesh has its rows."""
+    (one, first), (two, _) = fitted(12, 6, 5), fitted(12, 6, 5)
+    two.front.put(two.front.fitted(3.55 + 0.02 * np.cos(two.front.angles)))
+    for model in (one, two):
+        put(model, 9.0)
+    a, b = one.system.monitors(), two.system.monitors()
+    assert {k: b[k] for k in a} == pytest.approx(a, rel=1e-11)
+    like = State(two.system.owned().copy(), two.system.state().loads)
+    moved = first.moved(one.system.state(), like)
+    assert moved.u == pytest.approx(like.u, abs=1e-4)
+
+
+def test_tangent_on_a_moved_mesh_is_the_residuals_derivative_and_symmetric():
+    model, _ = fitted()
+    model.front.put(model.front.fitted(3.4 + 0.1 * np.cos(model.front.angles)))
+    test_tangent_is_the_residuals_derivative_and_symmetric(model, 6.1)
+
+
+def test_resultants_are_read_more_accurately_than_the_elements_have_them():
+    errors = []
+    for cells, around in ((6, 4), (12, 8)):
+        model, _ = fitted(cells, around)
+        put(model, 9.0)
+        h = 1e-5
+        got = model.system.monitors()
+        for side, theta in (("0", 0.0), ("pi", np.pi)):
+            z, t = np.array([1.0 - h, 1.0 + h, 1.0, 1.0]), theta + np.array([0, 0, -h, h])
+            x = bulged(z, t)
+            lam1, lam2 = (np.linalg.norm(x[:, k + 1] - x[:, k]) / (2 * h) for k in (0, 2))
+            errors.append(abs(got[f"T1_quarter_{side}"] - (lam1 / lam2 - (lam1 * lam2) ** -3)))
+    assert max(errors[2:]) < 1e-5
+    assert max(errors[2:]) < max(errors[:2]) / 16
+
+
+def test_the_mesh_comes_to_rest_on_the_free_surface_and_keeps_the_order(primary):
+    """Volumes on three meshes: their differences fall faster than by the sixth power of the size."""
+    state, volumes = primary.at("zw", 7.0, np.linspace(0, L / DELTA, 121)), []
+    for cells, around in ((6, 4), (12, 8), (24, 16)):
+        model, fitting = fitted(cells, around)
+        guess = State(model.interpolated(position(state)), {"zw": 7.0})
+        found = fitting.solve(guess, [Held("zw", 7.0)])
+        assert fitting.refit() < 1e-9
+        model.system.set_state(found.u, found.loads)
+        volumes.append(model.system.monitor("V"))
+    errors = abs(np.array(volumes) / state.values["V"] - 1)
+    assert errors[1] < errors[0] / 32
+    assert errors[2] < 1e-9
+
+
+def test_a_full_tube_has_no_free_surface_to_follow(primary):
+    model, fitting = fitted()
+    state = primary.at("zw", 8.1, np.linspace(0, L / DELTA, 121))
+    model.front.put(model.front.fitted(np.full(9, 3.7)))
+    fitting.solve(State(model.interpolated(position(state)), {"zw": 8.1}), [Held("zw", 8.1)])
+    assert model.front.at(np.array([0.0])) == pytest.approx(model.front.row)
+
+
+# -- against the axisymmetric side ---------------------------------------------------------------
+
+
+def test_spectrum_about_an_axisymmetric_state_is_that_of_the_waves(primary):
+    """C1v holds n = 0 and the cos family of each n, the breaking space torsion and the sin family."""
+    path = FluidPath(ONE, TubeData(L, DELTA, GAMMA, 0.0, 24, 4), 3)
+    solved = path.pieces[1].at("zw", 7.0)
+    columns = solved.values
+    points = np.linspace(0, L / DELTA, 121)
+    model = SurfaceModel(ONE, data(cells=12, around=6, degree=4))
+    state = primary.at("zw", 7.0, points)
+    model.system.set_state(model.interpolated(position(state)), {"zw": 7.0})
+    found, _ = ExtendedNewton(model.system).solve(model.system.state())
+    keeps = Stability(model.system).spectrum(found, 16).eigenvalues
+    breaks = Stability(model.breaking).spectrum(found, 16).eigenvalues
+    for n in range(4):
+        assert min(abs(np.array(keeps) - columns[f"Lambda_n{n}"])) < 1e-4
+    for name in ("Lambda_n1", "Lambda_n2", "Lambda_n3", "Lambda_torsion"):
+        assert min(abs(np.array(breaks) - columns[name])) < 1e-4
+    assert min(abs(np.array(breaks) - columns["Lambda_n0"])) > 1e-2
+
+
+def test_eigenvalues_about_a_target_are_those_of_the_spectrum(primary):
+    model = SurfaceModel(ONE, data(cells=12, around=6, degree=3))
+    state = primary.at("V", 140.0, np.linspace(0, L / DELTA, 121))
+    guess = State(model.interpolated(position(state)), {"zw": state.values["zw"]})
+    found, _ = ExtendedNewton(model.system).solve(guess)
+    stability = Stability(model.system)
+    lowest = stability.spectrum(found, 4)
+    assert lowest.n_negative == 2, "past the limit point and the bifurcation"
+    modes, below = stability.about(found, 0.0, 4)
+    assert below == 2
+    assert sorted(mode.eigenvalue for mode in modes)[-1] > 0
+    _, between = stability.about(found, (lowest.eigenvalues[2] + lowest.eigenvalues[3]) / 2, 1)
+    assert between == 3
+    (first, *_), _ = stability.about(found, 1.5 * lowest.eigenvalues[0], 1)
+    assert first.eigenvalue == pytest.approx(lowest.eigenvalues[0], rel=1e-9)
+    rest = model.system.multiply(model.system.mass, first.vector)
+    assert model.system.dot(rest, first.vector) == pytest.approx(1)
+
+
+def test_bifurcation_on_the_surface_is_the_axisymmetric_one(primary):
+    begin = primary.bifurcation(np.linspace(0, L / DELTA, 121))
+    model = SurfaceModel(ONE, data(cells=12, around=6, degree=4))
+    point, mode, beside, _ = bifurcation_on(model, primary, begin)
+    assert point.kind == "bifurcation_point"
+    assert beside == 1, "past the limit point of the level"
+    assert model.system.dot(mode, model.system.mass_times(mode)) == pytest.approx(1)
+    assert point.state.loads["zw"] == pytest.approx(begin.values["zw"], rel=1e-6)
+    assert point.values["V"] == pytest.approx(begin.values["V"], rel=1e-5)
+
+
+def test_bifurcation_is_the_same_by_comparison_with_a_coarser_mesh(primary):
+    begin = primary.bifurcation(np.linspace(0, L / DELTA, 121))
+    coarse, fine = (
+        SurfaceModel(ONE, data(cells, around, 4, front=free_surface(begin)))
+        for cells, around in ((6, 4), (12, 8))
+    )
+    trend = bifurcation_on(coarse, primary, begin)[-1]
+    whole, compared = (bifurcation_on(fine, primary, begin, below)[0] for below in (None, trend))
+    for name in ("zw", "V", "z_quarter_pi"):
+        assert compared.values[name] == pytest.approx(whole.values[name], rel=1e-8), "from fewer states"
+
+
+# -- the whole circumference ---------------------------------------------------------------------
+
+
+def test_full_circle_has_a_double_zero_and_the_same_branch():
+    mesh = {"cells": 8, "degree": 3}
+    half = solve("fluid_tube_surface", extent="half", numerics=mesh).quantities
+    full = solve("fluid_tube_surface", numerics=mesh).quantities
+    assert half["multiplicity"].value == 1
+    assert full["multiplicity"].value == 2
+    assert abs(full["Lambda_split"].value) < 1e-11
+    for name in ("zw_bifurcation", "V_bifurcation", "zw_bent", "V_bent", "Pi_bent"):
+        assert full[name].value == pytest.approx(half[name].value, rel=1e-9)
+    assert abs(full["phase"].value) < 1e-10
+    assert abs(full["Lambda_bent_1"].value) < 1e-6 < half["Lambda_bent_1"].value
+
+
+def test_a_mesh_uneven_around_splits_the_pair():
+    uneven = solve("fluid_tube_surface", uneven=0.3, numerics={"cells": 8, "degree": 3}).quantities
+    assert uneven["Lambda_split"].value > 1e-7
+    assert uneven["multiplicity"].value == 0
+    assert abs(uneven["phase"].value) > 1e-9, "the pattern is held where the mesh would not have it"
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"extent": "half", "uneven": 0.1}, "uneven = 0.1 needs extent = 'full'"),
+        ({"uneven": 0.9}, "uneven = 0.9"),
+        ({"at": {"zw": 7.0}}, "no states to ask for"),
+        ({"numerics": {"cells": 10}}, "multiple of 4"),
+    ],
+)
+def test_bad_input_is_refused(given, words):
+    with pytest.raises(InputError, match=words):
+        solve("fluid_tube_surface", **given)

@@ -1,0 +1,23 @@
+"""The hemisphere that holds a liquid: what its results say of one state fits together."""
+
+import numpy as np
+import pytest
+
+from weakforms.api import solve_requests
+from weakforms.problems.problem import StateRequest
+
+COARSE = {"cells": 8, "degree": 3}
+
+
+def test_level_at_the_limit_point_is_where_the_membrane_has_that_height():
+    """The surface is a point of the mesh, which moves with the state on the way to the limit point."""
+    wanted = [StateRequest("limit_point", 1, profile=())]
+    given = {"c2": 0.0658, "gamma": 3.1549}
+    result = solve_requests("hemisphere", given, COARSE, wanted, branch_uncertainty=False)
+    (state,) = result.states
+    columns = state.fields[0].columns
+    level = state.quantities["t_level"].value
+    height = np.interp(level, columns["t"], columns["z"])
+    assert height == pytest.approx(state.quantities["zw"].value, abs=2e-4)  # linear between 161 points
+    (limit,) = [point for point in result.special_points if point.kind == "limit_point"]
+    assert limit.values["t_level"] == pytest.approx(level, abs=1e-12)

@@ -1,0 +1,416 @@
+"""Waves around wrinkled membranes: second variation, spectra, changes of stability."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+from weakforms import Case, InputError, Points, solve, wrinkled_linear
+from weakforms.errors import ConvergenceError
+from weakforms.forms import revolution
+from weakforms.forms.fluid import axisymmetric
+from weakforms.problems.wrinkled import hemisphere
+from weakforms.problems.wrinkled import state as wrinkled_state
+from weakforms.problems.wrinkled.body import CYLINDER, HEMISPHERE
+from weakforms.problems.wrinkled.fields import Meridian
+from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.problem import NEAR_FRONTS, PAPER_GAMMA
+from weakforms.problems.wrinkled.waves import modes as wrinkled_modes
+from weakforms.problems.wrinkled.waves.bands import Bands
+from weakforms.problems.wrinkled.waves.koiter import shell_eigenvalue
+from weakforms.problems.wrinkled.waves.modes import waves_at
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.verification.cases.discovery import FoundCase
+from weakforms.verification.run.runner import verify
+
+pytestmark = pytest.mark.paper5
+COARSE = {"cells": 6, "levels": 2}
+PAPER = {"M": 1.5, "delta": 3.0, "Af": 0.4362}
+VALUES = {**PAPER, "c2": 0.01, "L": 8.0}
+CELLS = (3, 6)
+
+
+@pytest.fixture(autouse=True)
+def fresh_models():
+    """Models are kept between solves: a test that changes a form must not find another nor leave its own."""
+    caches = (wrinkled_state.model_on, wrinkled_state.solver_of, wrinkled_modes.waves_of)
+    for cache in caches:
+        cache.cache_clear()
+    yield
+    for cache in caches:
+        cache.cache_clear()
+
+
+def cylinder(load, liquid=True, energy="relaxed"):
+    """A fitted state of the paper's cylinder on the finer mesh."""
+    values = VALUES | ({"gamma": PAPER_GAMMA} if liquid else {})
+    tube = Membrane(MPI.COMM_SELF, CYLINDER, values, liquid, CELLS, 6, energy, NEAR_FRONTS)
+    state, _ = tube.by_homotopy(load)
+    return tube.fitted(tube.plain(state), Held(tube.control, load))[-1]
+
+
+def bowl(level):
+    """A fitted state of the paper's hemisphere on the finer mesh."""
+    values = {"c2": 0.0, "gamma": hemisphere.GAMMA}
+    membrane = Membrane(MPI.COMM_SELF, HEMISPHERE, values, True, CELLS, 6, "relaxed", hemisphere.NEAR_FRONTS)
+    held = membrane.plain(membrane.by_gas(hemisphere.START))
+    for zw in np.linspace(hemisphere.START, level, 6):
+        held = membrane.fitted(held, Held("zw", float(zw)))[-1]
+    return held
+
+
+STATES = {
+    "liquid, wrinkled all over": (lambda: cylinder(3.0), VALUES | {"gamma": PAPER_GAMMA, "zw": 3.0}),
+    "liquid, taut zone": (lambda: cylinder(8.0), VALUES | {"gamma": PAPER_GAMMA, "zw": 8.0}),
+    "gas, taut zone": (lambda: cylinder(0.2, liquid=False), VALUES | {"p": 0.2}),
+    "hemisphere": (lambda: bowl(-0.9), {"c2": 0.0, "gamma": hemisphere.GAMMA, "zw": -0.9}),
+}
+
+
+# -- the whole energy, by quadrature of its own ---------------------------------------------------------
+
+
+def shapes(t):
+    """Three smooth functions of ``t`` in [0, 1] that vanish at both ends to third order, and derivatives."""
+    bump, bump_t = (t * (1 - t)) ** 3, 3 * (t * (1 - t)) ** 2 * (1 - 2 * t)
+    parts = []
+    for k, shift in ((3.0, 0.3), (2.0, 1.1), (4.0, 0.7)):
+        wave, wave_t = np.cos(k * t + shift), -k * np.sin(k * t + shift)
+        parts.append((64 * bump * wave, 64 * (bump_t * wave + bump * wave_t)))
+    return parts
+
+
+def base_at(held, s):
+    """``r, z`` and their derivatives at material points."""
+    held.put()
+    e = held.model.expressions
+    return Meridian(held.model, {k: e[k] for k in ("r", "z", "r_s", "z_s")}).sampled(s, held.state.loads)
+
+
+def gauss(held):
+    """Points and weights in ``S``, the break points between them."""
+    x, w = np.polynomial.legendre.leggauss(10)
+    breaks = held.model.breaks
+    edges = np.concatenate([np.linspace(a, b, 9)[:-1] for a, b in pairwise(breaks)])
+    edges = np.append(edges, breaks[-1])
+    half = np.diff(edges) / 2
+    points = ((edges[:-1] + half)[:, None] + half[:, None] * x).ravel()
+    return points, (half[:, None] * w).ravel()
+
+
+def whole_energy(held, q, n, e, angles=48):
+    """Energy over ``2 pi`` waves of the surface displaced by ``e`` times the shapes, over ``pi``.
+
+    Principal stretches by numpy's eigenvalues, the state chosen anew at each point.
+    """
+    s, weights = gauss(held)
+    base, length = base_at(held, s), held.model.breaks[-1]
+    (u, u_t), (v, v_t), (w, w_t) = shapes(s / length)
+    u_s, v_s, w_s = u_t / length, v_t / length, w_t / length
+    pole = held.model.body.pole
+    radius = np.sin(s) if pole else np.ones_like(s)
+    thickness = np.ones_like(s) if pole else q["M"] + 2 * (1 - q["M"]) * s / q["L"]
+    total = 0.0
+    for theta in 2 * np.pi * np.arange(angles) / angles:
+        c, k = np.cos(n * theta), np.sin(n * theta)
+        # In the frame e_r, e_theta, e_z at theta.
+        x = np.array([base["r"] + e * u * c, e * v * k, base["z"] + e * w * c])
+        a = np.array([base["r_s"] + e * u_s * c, e * v_s * k, base["z_s"] + e * w_s * c])
+        b = np.array([-n * e * u * k - x[1], x[0] + n * e * v * c, -n * e * w * k])
+        metric = np.array([[(a * a).sum(0), (a * b).sum(0) / radius], [(a * b).sum(0) / radius, 0 * s]])
+        metric[1, 1] = (b * b).sum(0) / radius**2
+        squares = np.linalg.eigvalsh(np.moveaxis(metric, 2, 0))
+        total += weights @ (thickness * radius * relaxed_energy(*squares.T[::-1], q["c2"]))
+        normal = np.cross(b.T, a.T).T
+        if "zw" in q:
+            total += weights @ (q["gamma"] * np.maximum(q["zw"] - x[2], 0) ** 2 / 2 * normal[2])
+        else:
+            total -= weights @ (q["p"] * (x * normal).sum(0) / 3)
+    return 2 * total / angles
+
+
+def relaxed_energy(x1, x2, c2):
+    """By squared principal stretches, the larger first."""
+    full = x1 + x2 + 1 / (x1 * x2) - 3 + c2 * (1 / x1 + 1 / x2 + x1 * x2 - 3)
+    lam = np.sqrt(x1)
+    folded = lam**2 + 2 / lam - 3 + c2 * (2 * lam + 1 / lam**2 - 3)
+    return np.where(x2 * lam > 1, full, folded)
+
+
+def quadratic_form(held, n):
+    """``d^T K d`` of the compiled second variation for the same shapes."""
+    variation = waves_at(held).variation(n)
+    space = variation.unknown.function_space
+    x = space.tabulate_dof_coordinates()[:, 0]
+    t = held.model.material(x, held.state.loads) / held.model.breaks[-1]
+    d = np.column_stack([part for part, _ in shapes(t)]).ravel()
+    d[variation.bc_dofs] = 0.0
+    return variation.dot(d, variation.multiply(variation.tangent(), d))
+
+
+@pytest.mark.parametrize("name", STATES)
+@pytest.mark.parametrize(("n", "e"), [(2, 1e-4), (7, 3e-5), (30, 1e-5)])
+def test_second_variation_is_that_of_the_whole_energy(name, n, e):
+    """The step is so small that a front moves over less than the quadrature sees."""
+    make, q = STATES[name]
+    held = make()
+    values = [whole_energy(held, q, n, a) for a in (-e, 0.0, e)]
+    assert (values[0] - 2 * values[1] + values[2]) / e**2 == pytest.approx(quadratic_form(held, n), rel=1e-5)
+
+
+@pytest.mark.parametrize("name", STATES)
+def test_operator_is_symmetric(name):
+    held = STATES[name][0]()
+    variation = waves_at(held).variation(13)
+    a, b = np.random.default_rng(3).standard_normal((2, variation.size))
+    a[variation.bc_dofs] = b[variation.bc_dofs] = 0.0
+    tangent = variation.tangent()
+    left, right = (variation.dot(p, variation.multiply(tangent, r)) for p, r in ((a, b), (b, a)))
+    assert left == pytest.approx(right, rel=1e-11)
+
+
+# -- spectra ------------------------------------------------------------------------------------------
+
+
+def test_axisymmetric_spectrum_is_part_of_that_for_no_waves():
+    """Without waves the angle decouples: torsion, and the tangent the equilibrium was found with."""
+    held = cylinder(8.0)
+    waves = waves_at(held)
+    own = waves.spectrum(0, 4).eigenvalues
+    whole = np.array(waves.variation(0.0).spectrum(12).eigenvalues)
+    for value in own[:4]:
+        assert np.abs(whole - value).min() < 1e-9 * max(1.0, abs(value))
+
+
+def test_without_pressure_the_lowest_eigenvalue_is_positive_and_the_same_for_all_waves():
+    held = cylinder(0.0)
+    found = [waves_at(held).spectrum(n, 1).eigenvalues[0] for n in (1, 2, 10, 50, 200)]
+    assert found[0] > 0.1
+    assert np.ptp(found) < 1e-9
+
+
+def test_the_full_energy_is_unstable_to_short_waves_even_without_pressure():
+    """Compression makes an ordinary membrane unstable with ``n^2``; the relaxed one is not."""
+    held = cylinder(0.0, energy="standard")
+    found = [waves_at(held).spectrum(n, 1).eigenvalues[0] for n in (20, 40, 80)]
+    assert found[2] < found[1] < 0
+    assert found[2] / found[1] > 3
+
+
+def test_short_waves_follow_the_local_limit():
+    r"""``Lambda_1/n`` tends to ``-max p lam1/(H R)`` from above, with a correction in ``n^(-1/2)``."""
+    held = cylinder(3.0)
+    s = np.linspace(0, 8, 4001)
+    found = held.sampled(s)
+    pressure = PAPER_GAMMA * np.maximum(3.0 - found["z"], 0)
+    mu = (pressure * found["lam1"] / (1.5 - s / 8)).max()
+    rates = {n: waves_at(held).spectrum(n, 1).eigenvalues[0] / n for n in (50, 100, 200, 400)}
+    gaps = np.array([rates[n] + mu for n in rates])
+    assert np.all(gaps > 0)
+    assert np.all(np.diff(gaps) < 0)
+    assert gaps[-1] < 0.5 * mu
+
+
+def test_a_mode_has_unit_length_and_no_meridional_part():
+    held = cylinder(3.0)
+    waves = waves_at(held)
+    s, weights = gauss(held)
+    mode = waves.sampled(waves.lowest_mode(100), s, held.state.loads)
+    square = sum(mode[name] ** 2 for name in wrinkled_modes.MODE)
+    assert weights @ ((1.5 - s / 8) * square) == pytest.approx(1.0, rel=1e-6)
+    assert np.abs(mode["meridional"]).max() < 0.02 * mode["normal"].max()
+    assert mode["normal"].max() >= -mode["normal"].min()
+
+
+def test_one_wave_may_shift_the_pole_and_more_may_not():
+    held = bowl(-0.8)
+    place = np.array([0.0])
+    for n, moves in ((1, True), (2, False)):
+        waves = waves_at(held)
+        mode = waves.sampled(waves.lowest_mode(n), place, held.state.loads)
+        assert (abs(mode["circumferential"][0]) > 1e-3) == moves
+
+
+def test_bending_stiffness_never_lowers_an_eigenvalue():
+    held = cylinder(6.0)
+    for n in (5, 10, 40):
+        found = [waves_at(held).spectrum(n, 1, beta).eigenvalues[0] for beta in (0.0, 1e-6, 1e-5, 1e-4)]
+        assert np.all(np.diff(found) > 0)
+
+
+def test_the_shells_bending_energy_is_near_that_of_hoops_alone_and_starts_from_the_membrane():
+    held = cylinder(6.0)
+    plain, hoops = (waves_at(held).spectrum(10, 1, beta).eigenvalues[0] for beta in (0.0, 6.7e-5))
+    assert shell_eigenvalue(held, 10, 0.0) == pytest.approx(plain, rel=1e-9)
+    assert 1.0 < (shell_eigenvalue(held, 10, 6.7e-5) - plain) / (hoops - plain) < 1.05
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 7])
+def test_a_ring_bends_by_what_is_known(n):
+    """Inextensible waves of a unit ring change its curvature by ``(n^2 - 1) u``; one wave is a shift."""
+    ring = axisymmetric(1.0, 0.0, (0.0, 1.0))
+    bent = revolution.hoop_bending(ring, (1.0, -1.0 / n, 0.0), (0.0, 0.0, 0.0), n)
+    assert float(bent) == pytest.approx(-(n**2 - 1), abs=1e-14)
+
+
+def test_axisymmetric_eigenvalues_are_the_limit_of_very_long_waves():
+    """The equilibrium's own tangent and mass against the second variation in waves, which has torsion too."""
+    waves = waves_at(cylinder(6.0))
+    short, long = (np.array(waves.spectrum(n, 6).eigenvalues) for n in (2e-3, 1e-3))
+    limits = (4 * long - short) / 3  # what n adds is of order n^2
+    for eigenvalue in waves.spectrum(0, 4).eigenvalues:
+        assert np.abs(limits - eigenvalue).min() < 1e-9
+
+
+def test_eigenvalues_scale_with_the_mass_and_keep_their_sign():
+    held = cylinder(3.0)
+    variation = waves_at(held).variation(50)
+    light = variation.spectrum(2).eigenvalues
+    heavy = ufl.replace(variation.formulation.mass, {})
+    variation._forms["mass"], variation._weighed = fem.form(4 * heavy), None
+    try:
+        assert np.array(variation.spectrum(2).eigenvalues) == pytest.approx(np.array(light) / 4, rel=1e-8)
+    finally:
+        variation._forms["mass"], variation._weighed = fem.form(heavy), None
+
+
+@pytest.mark.parametrize("n", [6, 9.5])
+def test_the_stabilising_stiffness_makes_the_lowest_eigenvalue_zero(n):
+    bands = Bands(cylinder(6.0))
+    beta = bands.stiffness(n)
+    assert bands.lowest(n, 0.99 * beta) < -1e-6 < 1e-6 < bands.lowest(n, 1.01 * beta)
+    assert abs(bands.lowest(n, beta)) < 1e-9
+    with pytest.raises(ConvergenceError, match="not positive"):
+        waves_at(bands.held).stiffness(n, 0.5 * beta)
+
+
+# -- the problems -------------------------------------------------------------------------------------
+
+
+def test_the_papers_crossings():
+    result = solve("wrinkled_tube", **PAPER, n="20,50", load_end=6, numerics=COARSE)
+    changes = {p.values["n"]: p for p in result.points("stability_change")}
+    assert changes[50].values["zw"] == pytest.approx(2.6497876, abs=1e-6)
+    assert changes[20].values["zw"] == pytest.approx(3.5948164, abs=1e-6)
+    assert all(p.values["direction"] == 1 and p.uncertainty["zw"] < 1e-6 for p in changes.values())
+    assert result.failures == []
+    assert {"Lambda_n20_1", "Lambda_n50_3"} <= set(result.branch().columns)
+
+
+def test_a_change_of_stability_is_a_state_one_can_ask_for():
+    result = solve("wrinkled_tube", **PAPER, n=50, load_end=4, at=[("stability_change", 1)], numerics=COARSE)
+    (state,) = result.states
+    assert state.quantities["Lambda_n50_1"].value == pytest.approx(0, abs=1e-8)
+    assert [f.name for f in state.fields] == ["profile", "mode_n50"]
+
+
+def test_no_waves_set_in_where_the_hemispheres_level_is_largest():
+    result = solve("hemisphere", n=0, low_end=-0.85, numerics=COARSE)
+    (limit,), (change,) = (result.points(kind) for kind in ("limit_point", "stability_change"))
+    assert limit.values["zw"] == pytest.approx(-0.47834625, abs=1e-6)
+    assert change.values["zw"] == pytest.approx(limit.values["zw"], abs=1e-9)
+    assert change.values["n"] == 0
+    assert result.failures == []
+
+
+def test_linearised_theory_is_affine_in_the_wave_number_and_overestimates():
+    result = solve("wrinkled_linear", zw=4.0, f=2, numerics=COARSE)
+    found = {name: q.value for name, q in result.quantities.items()}
+    assert abs(found["curved"]) < 1e-12
+    assert found["B"] == pytest.approx(found["B_exact"], rel=1e-9)
+    assert found["B"] < 0 < found["A"]
+    assert found["n_star"] > found["n_critical"]
+    assert found["n_true"] == np.ceil(found["n_critical"])
+
+
+def test_bending_makes_the_band_finite():
+    result = solve("wrinkled_bending", zw=7.0, beta=5e-6, numerics=COARSE)
+    found = {name: q.value for name, q in result.quantities.items()}
+    assert found["n_minus"] < found["n_c"] < found["n_plus"] < 400
+    assert found["beta_c"] > 5e-6
+    assert found["Lambda_B1"] > found["Lambda_membrane"]
+
+
+@pytest.mark.parametrize("wrong", ["-1", "2.5", "many", "401", True, "20,", [20, -3]])
+def test_wave_numbers_that_are_none_are_refused(wrong):
+    for problem in ("wrinkled_tube", "hemisphere"):
+        with pytest.raises(InputError, match="whole numbers from 0 to"):
+            solve(problem, n=wrong)
+
+
+def test_wave_numbers_as_text_and_as_a_list():
+    from weakforms.problems.wrinkled.problem import WrinkledParameters
+
+    for given in ("20,50", [20, 50], (20, 50, 20), "20, 50"):
+        assert WrinkledParameters(n=given).n == (20, 50)
+    assert WrinkledParameters(n=7).n == (7,)
+
+
+@pytest.mark.parametrize("level", [0.0, 0.3, -1.3])
+def test_levels_outside_the_hemisphere_are_refused(level):
+    with pytest.raises(InputError, match=r"zw = .* allowed: from"):
+        solve("hemisphere", at={"zw": level})
+
+
+def test_levels_above_the_hemispheres_limit_are_refused():
+    with pytest.raises(InputError, match="ranges over"):
+        solve("hemisphere", at={"zw": -0.3}, low_end=-0.8, numerics=COARSE)
+
+
+# -- seeded faults ------------------------------------------------------------------------------------
+
+SENTINEL = Case(
+    title="sentinel",
+    source="tests",
+    checks=(
+        Points(
+            "quantity",
+            reference="linearised",
+            base=wrinkled_linear().on(cells=8, levels=2),
+            parameters=("zw", "f"),
+            where={"zw": 3.0, "f": 2.0},
+            asked={"A": 1e-6, "B": 1e-6, "n_star": 1e-6, "n_true": 1e-6},
+        ),
+    ),
+)
+
+
+def folds_taken_for_taut(monkeypatch):
+    monkeypatch.setattr(
+        wrinkled_modes.Waves, "_taut", lambda self: ufl.gt(self.model.expressions["lam1"], 0.0)
+    )
+
+
+def half_the_liquid(monkeypatch):
+    right = revolution.liquid_energy
+    monkeypatch.setattr(revolution, "liquid_energy", lambda *given: right(*given) / 2)
+
+
+def half_the_waves(monkeypatch):
+    right = revolution.around
+    monkeypatch.setattr(
+        revolution, "around", lambda base, parts, slopes, n: right(base, parts, slopes, n / 2)
+    )
+
+
+def second_invariant_forgotten(monkeypatch):
+    monkeypatch.setattr(revolution, "relaxed", lambda _law: lambda a: a**2 + 2 / a - 3)
+
+
+FAULTS = [folds_taken_for_taut, half_the_liquid, half_the_waves, second_invariant_forgotten]
+
+
+@pytest.mark.parametrize("fault", [None, *FAULTS])
+def test_a_fault_in_the_second_variation_fails_named_checks(fault, monkeypatch, tmp_path):
+    if fault is not None:
+        fault(monkeypatch)
+    found = FoundCase("paper5.sentinel", 5, Path(__file__), SENTINEL, "")
+    (outcome,) = verify([found], tmp_path, "full", "").cases
+    failed = [v.check for v in outcome.verdicts if not v.passed]
+    assert len(outcome.verdicts) == 4
+    assert (outcome.status == "passed") == (fault is None)
+    assert all(name.startswith("linearised:") for name in failed)

@@ -1,0 +1,223 @@
+"""The tube's weak form: exact states, invariants, and faults that must be noticed."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import weakforms.problems.tube.model as tube_module
+from weakforms import Axis, Case, Curve, InputError, Panel, Points, solve, tube
+from weakforms.forms import loads, materials
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.tube.model import TubeMesh, formulation, free_branch
+from weakforms.solvers.equilibrium.system import System
+from weakforms.verification.cases.discovery import FoundCase
+from weakforms.verification.run.runner import verify
+
+pytestmark = pytest.mark.paper2
+COARSE = {"cells": 32, "degree": 3}
+
+
+@pytest.fixture(scope="module")
+def branch():
+    system = System(formulation(MPI.COMM_SELF, 0.1, 1.2, 6.0, TubeMesh(24, 3, 0.6)))
+    return free_branch(system, 1.2, 5.0, 0.08)
+
+
+def test_residual_is_the_potentials_gradient_and_tangent_the_residuals(branch):
+    system, point = branch.system, branch.points[40]
+    rng = np.random.default_rng(0)
+    direction = rng.standard_normal(system.size)
+    direction[system.bc_dofs] = 0.0
+    h = 1e-7
+
+    def at(shift, what):
+        system.set_state(point.state.u + shift * direction, point.state.loads)
+        return what()
+
+    slope = (at(h, lambda: system.monitor("Pi")) - at(-h, lambda: system.monitor("Pi"))) / (2 * h)
+    shifted = point.state.copy()
+    shifted.u += 1e-4 * direction
+    system.set_state(shifted.u, shifted.loads)
+    gradient = system.dot(system.residual(), direction)
+    numeric = []
+    for sign in (1, -1):
+        system.set_state(shifted.u + sign * h * direction, shifted.loads)
+        numeric.append((system.monitor("Pi"), system.residual()))
+    assert (numeric[0][0] - numeric[1][0]) / (2 * h) == pytest.approx(gradient, rel=1e-6)
+    system.set_state(shifted.u, shifted.loads)
+    product = system.multiply(system.tangent(), direction)
+    assert (numeric[0][1] - numeric[1][1]) / (2 * h) == pytest.approx(product, rel=1e-5, abs=1e-5)
+    assert abs(slope) < 1e-5  # the point itself is stationary
+
+
+def test_clamps_hold_along_the_whole_branch(branch):
+    values = np.array([p.state.u[branch.system.bc_dofs] for p in branch.points])
+    assert np.ptp(values, axis=0).max() < 1e-12
+
+
+def test_pressure_is_the_energys_derivative_by_volume(branch):
+    # Along equilibria d(Pi + p V) = p dV: the strain energy's change is the gas's work.
+    columns = branch.columns()
+    strain = columns["Pi"] + columns["p"] * columns["V"]
+    volume = columns["V"]
+    work = np.cumsum(np.diff(volume) * (columns["p"][1:] + columns["p"][:-1]) / 2)
+    assert strain[1:] - strain[0] == pytest.approx(work, abs=3e-3)
+
+
+def test_a_taut_tube_without_pressure_is_a_cylinder():
+    result = solve("tube", delta1=1.3, u_end=0.5, at={"p": 0.0}, numerics=COARSE)
+    columns = result.states[0].fields[0].columns
+    assert columns["rho"] == pytest.approx(1.0, abs=1e-13)
+    assert columns["eta"] == pytest.approx(columns["Z"], abs=1e-13)
+    assert columns["t2"] == pytest.approx(0.0, abs=1e-11)
+
+
+def test_a_state_has_its_value_exactly_and_agrees_with_its_branch():
+    result = solve("tube", delta1=1.1, at=[("u_max", 1.25), ("V", 9.0)], numerics=COARSE)
+    by_displacement, by_volume = result.states
+    assert by_displacement.quantities["u_max"].value == pytest.approx(1.25, abs=1e-12)
+    assert by_volume.quantities["V"].value == pytest.approx(9.0, abs=1e-11)
+    columns = result.branch().columns
+    p = np.interp(1.25, columns["u_max"], columns["p"])
+    assert by_displacement.quantities["p"].value == pytest.approx(p, abs=1e-3)
+
+
+def test_the_whole_tube_meets_a_symmetry_breaking_point_the_half_does_not_see():
+    whole = solve("tube", alpha=0, extent="full", numerics=COARSE, u_end=2.0)
+    half = solve("tube", alpha=0, numerics=COARSE, u_end=2.0)
+    assert [p.kind for p in whole.special_points] == ["limit_point", "bifurcation_point"]
+    assert [p.kind for p in half.special_points] == ["limit_point"]
+    assert whole.branch().columns["n_negative"].max() == 2
+    assert half.branch().columns["n_negative"].max() == 1
+
+
+# -- laws that give way, laws that lock, and fold lines that begin elsewhere --------------------------
+
+
+def test_a_law_that_gives_way_has_the_same_limit_points_on_all_meshes():
+    """Varga's energy grows linearly: past u_max = 1.9 the mid-plane's stretch has no bound, on no mesh."""
+    result = solve("tube", model="varga", delta1=1.011, lf=6.72, numerics={"cells": 96})
+    (point,) = result.points("limit_point")
+    assert point.uncertainty["p"] < 1e-9
+    (failure,) = result.failures
+    assert "hardly resists meridional stretch" in failure.reason
+    columns, spread = result.branch().columns, result.branch().uncertainty
+    assert 1.85 < columns["u_max"][-1] < 1.95
+    assert np.all(spread["p"] < 1e-4)
+
+
+def test_a_pre_stretch_beyond_the_largest_of_its_law_is_refused():
+    with pytest.raises(InputError, match=r"delta1 = 4\.28 alone stretches .* lower delta1"):
+        solve("tube", model="gent", jm=8.97, delta1=4.28, lf=16.0, numerics=COARSE)
+
+
+def test_stresses_beyond_the_largest_stretch_are_no_numbers():
+    """They would be finite, of the wrong sign, and Newton's method could converge to them."""
+    gent = Chosen("gent", (("shear", 2.0), ("jm", 8.97)))
+    system = System(formulation(MPI.COMM_SELF, gent, 4.28, 6.0, TubeMesh(8, 2, 0.0)))
+    assert not np.any(np.isfinite(np.delete(system.residual(), system.bc_dofs)))
+
+
+def test_a_law_that_locks_ends_its_branch_with_the_reason():
+    numerics = {"cells": 16, "degree": 3, "levels": 2, "step": 0.4}
+    result = solve("tube", model="gent", jm=10.0, delta1=2.0, lf=6.0, u_end=9.0, numerics=numerics)
+    (failure,) = result.failures
+    assert re.match(r"free inflation was followed up to u_max = [12]\..*lower u_end", failure.reason)
+
+
+def test_a_fold_line_that_does_not_reach_the_unstretched_tube_begins_at_the_other_end():
+    given = {"alpha": 0.1, "lf": 3.4}
+    line = solve("tube_fold", **given, delta1_end=4.9, numerics=COARSE)
+    (cusp,) = line.points("cusp_point")
+    columns = line.branch().columns
+    assert 3.0 < cusp.values["delta1"] < columns["delta1"][0] == pytest.approx(4.9, abs=1e-12)
+    first, second = solve("tube", **given, delta1=4.9, numerics=COARSE).points("limit_point")
+    assert columns["p"][0] == pytest.approx(first.values["p"], abs=1e-9)
+    assert columns["u_max"][0] == pytest.approx(first.values["u_max"], abs=1e-8)
+    assert columns["u_max"][-1] > second.values["u_max"]
+
+
+def test_a_tube_without_limit_points_says_where_they_were_looked_for():
+    searched = r"no limit point of alpha = 0\.8, lf = 6 up to u_max = 2 at any of 17 .* from 1 to .* = 1\.5"
+    with pytest.raises(InputError, match=searched):
+        solve("tube_fold", alpha=0.8, u_end=2.0, delta1_end=1.5, numerics=COARSE)
+
+
+# -- seeded faults ---------------------------------------------------------------------------------
+
+SENTINEL = Case(
+    title="sentinel",
+    source="tests",
+    panels=(
+        Panel(
+            "a",
+            x=Axis("p", 0, 3),
+            y=Axis("u_max", 0, 5),
+            curves=(Curve(tube(alpha=0.1, delta1=1.5), "1.5", reference="fig02b_delta1_1.5"),),
+        ),
+    ),
+    checks=(
+        Points(
+            "limit_point",
+            reference="limit_points_off",
+            base=tube(),
+            parameters=("alpha", "delta1", "lf"),
+            asked={"p": 1e-8},
+        ),
+    ),
+    asked={"p": 1e-7},
+)
+
+
+def wrong_pressure_sign(monkeypatch):
+    right = loads.gas_potential
+    monkeypatch.setattr(tube_module, "gas_potential", lambda rho, eta, p: -right(rho, eta, p))
+
+
+def wrong_sign_in_second_invariant(monkeypatch):
+    def law(lam1, lam2, alpha):
+        second = 1 / lam1**2 - 1 / lam2**2 + (lam1 * lam2) ** 2 - 1
+        return materials.neo_hookean(lam1, lam2) + alpha * second
+
+    wrong = replace(materials.MATERIALS["mooney_rivlin"], law=law)
+    monkeypatch.setitem(materials.MATERIALS, "mooney_rivlin", wrong)
+
+
+def wrong_power_of_volume(monkeypatch):
+    monkeypatch.setattr(tube_module, "gas_potential", lambda rho, eta, p: -p * rho * eta.dx(0) / 2)
+
+
+def pre_stretch_forgotten_in_hoop(monkeypatch):
+    right = tube_module.tube_stretches
+    monkeypatch.setattr(
+        tube_module, "tube_stretches", lambda rho, eta, d: replace(right(rho, eta, d), lam2=rho)
+    )
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        wrong_pressure_sign,
+        wrong_sign_in_second_invariant,
+        wrong_power_of_volume,
+        pre_stretch_forgotten_in_hoop,
+    ],
+)
+def test_a_fault_in_the_weak_form_fails_named_checks(fault, monkeypatch, tmp_path):
+    fault(monkeypatch)
+    found = FoundCase("paper2.sentinel", 2, Path(__file__), SENTINEL, "")
+    (outcome,) = verify([found], tmp_path, "full", "").cases
+    beyond = [v.check for v in outcome.verdicts if not v.passed and v.error is not None]
+    assert outcome.status == "failed", outcome.errors
+    assert any(name.startswith("fig02b_delta1_1.5") for name in beyond), "not a stall"
+
+
+def test_without_a_fault_the_same_checks_hold(tmp_path):
+    found = FoundCase("paper2.sentinel", 2, Path(__file__), SENTINEL, "")
+    (outcome,) = verify([found], tmp_path, "full", "").cases
+    assert outcome.status == "passed"
+    assert len(outcome.verdicts) == 6

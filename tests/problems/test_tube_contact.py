@@ -1,0 +1,190 @@
+"""The tube in contact: conditions at the front, history, limits, and faults that must be noticed."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+import weakforms.problems.tube.contact as contact_module
+from weakforms import ConvergenceError, InputError, WeakformsError, reference, solve
+from weakforms.forms import loads
+from weakforms.problems.tube.contact import ContactData
+from weakforms.problems.tube.contact_phases import ContactRun
+
+pytestmark = pytest.mark.paper2
+MESH = {"cells": 48, "degree": 4, "levels": 2}
+
+
+def data(**changes):
+    given = {"alpha": 0.1, "delta1": 1.0, "lf": 6.0, "k": 20.0, "s": 1.3}
+    return ContactData(**given | changes, cells=12, degree=4, grading=0.6)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return ContactRun(MPI.COMM_SELF, data(), p_end=3.0, step=0.08, terms=14)
+
+
+def test_front_is_where_the_membrane_touches(run):
+    for branch in (run.frictionless, run.adhesive):
+        for point in branch.points:
+            assert abs(point.monitors["gap"]) < 1e-11
+            assert 0 < point.state.loads["front"] < 3
+
+
+def test_contact_begins_where_free_inflation_touches(run):
+    assert run.free.points[-1].monitors["u_max"] == pytest.approx(0.3, abs=1e-12)
+    assert run.frictionless.points[0].state.loads["p"] == pytest.approx(run.onset.values["p"], abs=2e-6)
+
+
+def test_frictionless_contact_keeps_both_first_integrals():
+    result = solve("tube", contact="frictionless", at={"p": 2.5}, numerics={"cells": 96})
+    field = result.states[0].fields[0]
+    for name in ("F_axial", "H"):
+        values = field.columns[name]
+        assert np.ptp(values) <= 4 * field.uncertainty[name]
+        assert field.uncertainty[name] < 1e-5
+
+
+def test_stuck_points_keep_stretch_at_the_mid_plane_and_no_line_force_while_the_patch_grows(run):
+    first = run.onset.values["lam1_mid"]
+    for point in run.adhesive.points[1:]:
+        assert point.monitors["lam1_mid"] == pytest.approx(first, abs=1e-9)
+        assert point.monitors["line_force"] < 1e-4
+
+
+def test_deflation_begins_where_inflation_ends(run):
+    start, end = run.deflation.points[0], run.adhesive.at("p", 3.0)
+    assert start.state.loads["p"] == pytest.approx(3.0, abs=1e-12)
+    assert start.monitors["u_max"] == pytest.approx(end.values["u_max"], abs=1e-12)
+    assert start.monitors["line_force"] < 1e-4
+
+
+def test_a_hard_substrate_holds_the_tube_at_its_radius():
+    run = ContactRun(MPI.COMM_SELF, data(k=5000.0), p_end=2.0, step=0.08)
+    assert run.frictionless.at("p", 2.0).values["u_max"] == pytest.approx(0.3, abs=1e-3)
+
+
+def test_p_end_before_contact_is_refused():
+    with pytest.raises(InputError, match=r"p_end = 1 is below first contact at p = 1\.4386"):
+        solve("tube", contact="frictionless", p_end=1.0, numerics=MESH)
+
+
+def test_states_before_and_after_contact_are_told_apart():
+    result = solve("tube", contact="frictionless", at=[("p", 1.2), ("p", 2.0)], numerics=MESH)
+    free, touching = (state.quantities["u_max"].value for state in result.states)
+    assert free < 0.3 < touching
+    (onset,) = result.points("contact_onset")
+    assert onset.values["u_max"] == pytest.approx(0.3, abs=1e-12)
+    columns = result.branch().columns
+    assert np.all(np.diff(columns["p"]) > 0)
+    assert np.all((columns["contact_length"] > 0) == (columns["Z_front"] > 0))
+
+
+# -- far from the tube, long patches, laws that give way ---------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "changes", [{"delta1": 1.5, "k": 100.0, "s": 1.6}, {"lf": 5.0, "delta1": 1.2, "k": 5.0, "s": 1.8}]
+)
+def test_a_patch_that_is_still_short_at_p_end_has_its_history(changes):
+    """The first edges of the history lie before the first point of the frictionless trace."""
+    run = ContactRun(MPI.COMM_SELF, data(**changes), p_end=3.0, step=0.08, terms=22)
+    (edge,) = {run.frictionless.points[0].state.loads["front"]}
+    before = run._slipped(edge / 2)
+    assert before.state.loads["front"] == pytest.approx(edge / 2, rel=1e-12)
+    assert run.onset.values["p"] < before.values["p"] < run.frictionless.points[0].state.loads["p"]
+    assert run.adhesive.points[-1].state.loads["p"] > 3.0
+    for point in run.adhesive.points[1:]:
+        assert point.monitors["lam1_mid"] == pytest.approx(run.onset.values["lam1_mid"], abs=1e-9)
+        assert point.monitors["line_force"] < 1e-4
+
+
+def test_a_largest_value_is_found_between_the_nodes():
+    """At p = 3 the spring's largest force lies inside the patch: the nodal values of it err by 1e-7."""
+    table = reference(2, "off_contact_deflation_bilateral_alpha_0.1_delta1_1.5_lf_6")
+    finer = replace(data(delta1=1.5, k=100.0, s=1.6), cells=24)
+    run = ContactRun(MPI.COMM_SELF, finer, p_end=3.0, step=0.08, terms=18)
+    assert table.columns["p"][-1] == 3.0
+    found = run.adhesive.at("p", 3.0).values["spring_max"]
+    assert found == pytest.approx(table.columns["spring_max"][-1], rel=1e-8)
+
+
+def test_contact_is_followed_until_the_patch_holds_nearly_all_of_the_tube():
+    given = {"alpha": 0.035, "lf": 1.5, "delta1": 1.5, "s": 1.015, "k": 15.0}
+    end = ContactRun(MPI.COMM_SELF, data(**given), p_end=10.0, step=0.08).frictionless.points[-1]
+    assert end.state.loads["p"] > 10.0
+    assert 0.97 < end.state.loads["front"] / 0.75 < 1.0
+
+
+def test_a_pressure_at_once_after_contact_is_refused_with_the_least_one(run):
+    close = run.onset.values["p"] + 1e-9
+    with pytest.raises(InputError, match=r"p_end = .* too close above first contact at p = 1\.43859"):
+        ContactRun(MPI.COMM_SELF, data(), p_end=close, step=0.08).frictionless  # noqa: B018
+
+
+def test_a_substrate_that_is_never_touched_is_told_with_the_largest_radius_that_is():
+    given = {"model": "varga", "lf": 2.6, "delta1": 1.2, "s": 2.9, "contact": "adhesive", "numerics": MESH}
+    with pytest.raises(ConvergenceError, match=r"s = 2\.9 is not touched.*lower s to less than 2\.5"):
+        solve("tube", **given)
+
+
+def test_a_pressure_that_is_not_reached_is_told():
+    given = {"model": "varga", "lf": 20.0, "delta1": 1.4, "s": 1.4, "k": 8.0, "p_end": 10.0}
+    with pytest.raises(ConvergenceError, match=r"followed up to p = .*, not p_end = 10.*lower p_end"):
+        solve("tube", **given, contact="adhesive", numerics=MESH)
+
+
+# -- seeded faults ---------------------------------------------------------------------------------
+
+right = loads.substrate_potential
+
+
+def reference_area(rho, eta, k, s, touching):
+    return k * touching * s * (rho - s) ** 2 * eta.dx(0) / 2
+
+
+def half_stiffness(rho, eta, k, s, touching):
+    return right(rho, eta, k / 2, s, touching)
+
+
+def outside_instead(rho, eta, k, s, touching):
+    return right(rho, eta, k, s, 1.0 - touching)
+
+
+def u_max_at_2():
+    return (
+        solve("tube", contact="frictionless", at={"p": 2.0}, numerics=MESH, p_end=2.5)
+        .states[0]
+        .quantities["u_max"]
+    )
+
+
+def table_value():
+    table = reference(2, "fig06a_alpha_0.1_delta1_1")
+    row = int(np.argmin(np.abs(table.columns["p"] - 2.0)))
+    return table.columns["u_max"][row]
+
+
+def test_without_a_fault_the_value_is_the_references():
+    found = u_max_at_2()
+    assert abs(found.value - table_value()) <= 2 * found.uncertainty + 1e-10
+
+
+@pytest.mark.parametrize("fault", [reference_area, half_stiffness, outside_instead])
+def test_a_fault_in_the_foundation_is_noticed(fault, monkeypatch):
+    monkeypatch.setattr(contact_module, "substrate_potential", fault)
+    try:
+        found = u_max_at_2()
+    except WeakformsError as error:
+        assert "onverge" in str(error) or "crossed" in str(error) or "not met" in str(error)  # noqa: PT017
+        return
+    assert abs(found.value - table_value()) > 1e4 * found.uncertainty
+
+
+def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
+    """A foundation that hardly resists leaves the free tube's, whatever mesh is used for the state."""
+    contact = solve("tube", contact="frictionless", k=1e-8, at={"Z_front": 0.5}).states[0].quantities
+    free = solve("tube", at={"u_max": contact["u_max"].value}).states[0].quantities
+    assert contact["eigenvalue_1"].value == pytest.approx(free["eigenvalue_1"].value, rel=1e-8)

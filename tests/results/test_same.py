@@ -1,0 +1,162 @@
+"""All numbers of two solutions are compared, and what differs is named."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from weakforms.errors import InputError
+from weakforms.results import Branch, Failure, Field, Quantity, Result, SpecialPoint, State
+from weakforms.verification.audit import same
+from weakforms.verification.audit.same import Run, differences, main, runs, table
+from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.elsewhere import NAME, elsewhere, load_elsewhere, write_elsewhere
+from weakforms.verification.report.pages import render
+
+
+def solution(**changed: float) -> Result:
+    """A small solution of everything there is; single numbers may be moved."""
+    at = {
+        "p": 1.0,
+        "rho": 2.0,
+        "limit": 3.0,
+        "energy": 4.0,
+        "mode": 5.0,
+        "split": 1e-14,
+        "count": 1,
+        "critical": 1e-6,
+    } | changed
+    field = Field("profile", {"Z": np.array([0.0, 1.0]), "rho": np.array([1.0, at["rho"]])}, {"rho": 1e-6})
+    return Result(
+        problem="tube",
+        parameters={},
+        scales={},
+        numerics={},
+        provenance={},
+        branches=[
+            Branch(
+                "primary",
+                "p",
+                {
+                    "p": np.array([0.0, at["p"], np.nan]),
+                    "n_negative": np.array([0, int(at["count"]), 1]),
+                    "residual": np.random.default_rng().random(3),
+                },
+            )
+        ],
+        special_points=[SpecialPoint("limit_point", "primary", "p", {"p": at["limit"]}, {"p": 1e-3})],
+        quantities={"energy": Quantity(at["energy"]), "split": Quantity(at["split"], 1e-10)}
+        | {"Lambda_1_stable": Quantity(at["critical"])},
+        states=[State({"p": 1.0}, "primary", {"eigenvalue_1": Quantity(at["mode"], 1e-9)}, (field,))],
+    )
+
+
+def test_the_same_is_the_same():
+    assert max(item.relative for item in differences(solution(), solution())) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "scale"),
+    [
+        ("p", "branch primary, p", 3.0),  # that of the limit point's p
+        ("rho", "profile rho", 2.0),
+        ("limit", "special point 1 (limit_point, primary), p", 3.0),
+        ("energy", "quantity energy", 4.0),
+        ("mode", "state p = 1 (crossing 1, primary), eigenvalue_1", 5.0),
+    ],
+)
+def test_one_number_that_moved_is_found_and_named(name, place, scale):
+    start = {"p": 1.0, "rho": 2.0, "limit": 3.0, "energy": 4.0, "mode": 5.0}[name]
+    worst, *others = differences(solution(), solution(**{name: start - 1e-7}))
+    assert place in worst.place
+    assert worst.relative == pytest.approx(1e-7 / scale, rel=1e-6)
+    assert all(item.relative == 0 for item in others)
+
+
+def test_a_count_is_the_same_or_not():
+    worst = differences(solution(), solution(count=0))[0]
+    assert worst.relative == np.inf
+    assert "n_negative" in worst.place
+
+
+def test_a_zero_has_no_scale_of_its_own():
+    assert differences(solution(), solution(split=-3e-14))[0].relative < 1e-13
+
+
+def test_what_is_missing_or_failed_on_one_side_is_infinitely_far():
+    less, failed, shorter = solution(), solution(), solution()
+    less.states.clear()
+    failed.failures.append(Failure("state at p = 2", "diverged"))
+    shorter.branches[0].columns["p"] = np.zeros(2)
+    for other in (less, failed, shorter):
+        assert differences(solution(), other)[0].relative == np.inf
+
+
+def test_uncertainties_count_where_they_are_no_noise():
+    other = solution()
+    other.special_points[0].uncertainty["p"] = 2e-3
+    worst = differences(solution(), other)[0]
+    assert worst.place.endswith("p, uncertainty")
+    assert worst.relative == pytest.approx(1e-3 / 3)
+    other.special_points[0].uncertainty["p"] = 1.0005e-3
+    assert differences(solution(), other)[0].relative == 0
+
+
+def test_eigenvalues_near_zero_have_the_scale_of_others():
+    worst = differences(solution(), solution(critical=1e-6 + 1e-12))[0]
+    assert worst.place == "quantity Lambda_1_stable"
+    assert worst.relative == pytest.approx(1e-10, rel=1e-3)
+
+
+def stored(folder: Path, result: Result, passed: bool = True) -> Path:
+    """A run with one case and one solution, as far as it is looked at."""
+    (folder / "solutions").mkdir(parents=True)
+    (folder / "report").mkdir()
+    versions = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
+    result.provenance = {**versions, "ranks": 1, "wall_s": 0.0}
+    (folder / "solutions" / "a.json").write_text(json.dumps(result.to_json()))
+    case = {
+        "id": "paper2.fig03",
+        "solutions": [{"spec": "tube()", "file": "solutions/a.json"}],
+        "verdicts": [{"check": "p", "passed": passed}],
+    }
+    (folder / "report" / "report.json").write_text(json.dumps({"cases": [case]}))
+    return folder
+
+
+def test_runs_are_compared_case_by_case(tmp_path, capsys):
+    first = stored(tmp_path / "a", solution())
+    second = stored(tmp_path / "b", solution(energy=4.4), passed=False)
+    (found,) = runs(Run(first), Run(second))
+    assert found.worst.relative == pytest.approx(0.4 / 4.4)
+    assert "| paper2.fig03 | 9 | p | 9.1e-02 | `tube(): quantity energy` |" in table(Run(first), Run(second))
+    assert main([str(first), str(second)]) == 0
+    assert capsys.readouterr().out.count("paper2.fig03") == 1
+    assert main([str(first), str(tmp_path / "c")]) == 2
+    assert main([str(first)]) == 2
+    (second / "solutions" / "a.json").unlink()
+    assert runs(Run(first), Run(second))[0].worst.relative == same.np.inf
+
+
+def test_another_run_stands_in_the_report(tmp_path):
+    first = stored(tmp_path / "a", solution())
+    second = stored(tmp_path / "b", solution(energy=4.4), passed=False)
+    report = json.loads((second / "report" / "report.json").read_text())
+    (second / "report" / "report.json").write_text(json.dumps(report | {"environment": {"ranks": "4"}}))
+    found = elsewhere(first, second)
+    write_elsewhere([found], tmp_path)
+    (read,) = load_elsewhere(tmp_path)
+    assert read == found
+    assert found.environment == {"ranks": "4"}
+    page = render(RunOutcome("full", "", "2026-01-01T00:00:00+00:00", 1.0, {}), None, (found,))["index.html"]
+    assert "ranks 4" in page
+    assert "9.1e-02" in page
+    assert load_elsewhere(first) == ()
+    (tmp_path / NAME).write_text('{"runs": [{"rows": 3}]}')
+    with pytest.raises(InputError, match="report --other"):
+        load_elsewhere(tmp_path)
+    report["cases"][0]["id"] = "paper2.fig04"
+    (second / "report" / "report.json").write_text(json.dumps(report))
+    with pytest.raises(InputError, match="no case"):
+        elsewhere(first, second)

@@ -1,0 +1,120 @@
+"""What Python raises while PETSc and SLEPc call it arrives as itself, and after they have returned."""
+
+import numpy as np
+import pytest
+from small_systems import system_of
+
+from weakforms.errors import ConvergenceError, EnvironmentLackError
+from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.subspace import Subspace
+from weakforms.solvers.stability.spectra import Stability
+
+NOT_SOLVED = [ConvergenceError("made up"), ZeroDivisionError("made up"), np.linalg.LinAlgError("made up")]
+OTHERS = [EnvironmentLackError("no compiler"), KeyboardInterrupt(), KeyError("a bug")]
+TIMES = [1, 2, 3]
+
+
+class Raises:
+    """In the place of a function: raises at one call, and counts the calls."""
+
+    def __init__(self, function, error, at):
+        self.function, self.error, self.at, self.calls = function, error, at, 0
+
+    def __call__(self, *given):
+        """As the function would answer."""
+        self.calls += 1
+        if self.calls == self.at:
+            raise self.error
+        return self.function(*given)
+
+
+def cubic():
+    """``u^3 + u = load``, a Newton iteration of several steps."""
+    return system_of(lambda u, v, p: (u**3 + u - p) * v)
+
+
+def column():
+    return system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
+
+
+def test_after_a_failure_nothing_more_is_done():
+    callbacks, done = Deferred(), []
+    callbacks.run(lambda: done.append("work"), lambda: done.append("spoil"))
+    callbacks.run(lambda: 1 / 0, lambda: done.append("spoil"))
+    callbacks.run(lambda: done.append("more"), lambda: done.append("spoil"))
+    assert done == ["work", "spoil", "spoil"]
+    with pytest.raises(ZeroDivisionError):
+        callbacks.release()
+    callbacks.release()
+    callbacks.run(lambda: done.append("work"), lambda: done.append("spoil"))
+    assert done[-1] == "work"
+
+
+@pytest.mark.parametrize("line_search", ["basic", "bt"])
+@pytest.mark.parametrize("at", TIMES)
+@pytest.mark.parametrize("part", ["residual", "tangent"])
+@pytest.mark.parametrize("error", NOT_SOLVED + OTHERS, ids=lambda e: type(e).__name__)
+def test_newton_names_what_its_forms_raise_and_solves_afterwards(error, part, at, line_search, monkeypatch):
+    system = cubic()
+    solver = ExtendedNewton(system, line_search=line_search)
+    guess = system.state()
+    guess.loads["load"] = 10.0
+    right = getattr(system, part)
+    monkeypatch.setattr(system, part, Raises(right, error, at))
+    expected = ConvergenceError if error in NOT_SOLVED else type(error)
+    with pytest.raises(expected, match=str(error.args[0]) if error.args else None) as caught:
+        solver.solve(guess)
+    assert error in (caught.value, caught.value.__cause__)
+    monkeypatch.setattr(system, part, right)
+    state, _ = solver.solve(guess)
+    assert state.u[0] == pytest.approx(2.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("part", ["value", "gradient"])
+@pytest.mark.parametrize("error", NOT_SOLVED + OTHERS, ids=lambda e: type(e).__name__)
+def test_newton_names_what_a_constraint_raises(error, part, monkeypatch):
+    system = cubic()
+    solver = ExtendedNewton(system, ["load"])
+    held = Held("u", 2.0)
+    monkeypatch.setattr(Held, part, Raises(getattr(held, part), error, 1))
+    with pytest.raises(ConvergenceError if error in NOT_SOLVED else type(error)):
+        solver.solve(system.state(), [held])
+
+
+@pytest.mark.parametrize("at", TIMES)
+@pytest.mark.parametrize("part", ["residual", "tangent"])
+@pytest.mark.parametrize("error", NOT_SOLVED + OTHERS, ids=lambda e: type(e).__name__)
+def test_a_subspace_names_what_its_forms_raise(error, part, at, monkeypatch):
+    system = cubic()
+    subspace = Subspace(system, *whole(system))
+    guess = system.state()
+    monkeypatch.setattr(system, part, Raises(getattr(system, part), error, at))
+    with pytest.raises(ConvergenceError if error in NOT_SOLVED else type(error)):
+        subspace.solve(guess, {"load": 10.0})
+    monkeypatch.undo()
+    state, _ = subspace.solve(guess, {"load": 10.0})
+    assert state.u[0] == pytest.approx(2.0, abs=1e-12)
+
+
+def whole(system):
+    """All of a system for a subspace: basis and lift."""
+    basis = system.tangent().duplicate()
+    basis.zeroEntries()
+    basis.shift(1.0)
+    return basis, np.zeros(system.size)
+
+
+@pytest.mark.parametrize("at", [1, 2, 7, 20])
+@pytest.mark.parametrize("error", [NOT_SOLVED[0], *OTHERS], ids=lambda e: type(e).__name__)
+def test_a_spectrum_names_what_its_inverse_raises(error, at):
+    system = column()
+    stability, state = Stability(system), system.state()
+    right = stability.spectrum(state).eigenvalues
+    inverse = Raises(stability.factor.solve, error, at)
+    with pytest.raises(ConvergenceError if error in NOT_SOLVED else type(error)) as caught:
+        stability._eigenvalues(8, inverse)
+    assert error in (caught.value, caught.value.__cause__)
+    assert inverse.calls == at  # it is not asked again
+    assert stability.spectrum(state).eigenvalues == right

@@ -1,0 +1,71 @@
+"""What is compiled once is found again."""
+
+import basix.ufl
+import numpy as np
+import pytest
+import ufl
+from dolfinx import fem, mesh
+from ffcx.naming import compute_signature
+from mpi4py import MPI
+
+from weakforms.solvers.support import jit_cache
+
+POINTS = np.array([[0.0], [1.0]])
+
+
+def expression(cells: int, variables: int = 1, swapped: bool = False) -> ufl.core.expr.Expr:
+    """Of a new function and new constants on a new mesh, as a problem makes them for each of its meshes."""
+    body = mesh.create_unit_interval(MPI.COMM_SELF, cells)
+    u = fem.Function(fem.functionspace(body, basix.ufl.element("Lagrange", "interval", 2)))
+    loads = [fem.Constant(body, 1.0) for _ in range(2)]
+    a, b = (ufl.variable(load) for load in loads[:: -1 if swapped else 1])
+    stretch = ufl.variable(u.dx(0))
+    energy = a * stretch**2 + b**2 * stretch
+    if variables == 2:
+        energy += ufl.variable(u.dx(0)) ** 3
+    return ufl.as_vector([ufl.diff(energy, stretch), energy])
+
+
+def signature(of: ufl.core.expr.Expr) -> str:
+    return compute_signature([(of, POINTS)], "")
+
+
+def test_an_expression_has_the_same_name_on_every_mesh_and_after_any_other():
+    first = signature(expression(2))
+    for _ in range(11):
+        ufl.variable(ufl.as_ufl(1.0))
+    assert signature(expression(5)) == first
+
+
+@pytest.mark.parametrize("other", [{"variables": 2}, {"swapped": True}])
+def test_different_expressions_have_different_names(other):
+    assert signature(expression(2, **other)) != signature(expression(2))
+
+
+def test_both_compile_to_what_they_say():
+    """The shared module reads the constants of the expression it is given."""
+    for swapped, expected in ((False, 2 * 3.0 * 2 + 5.0**2), (True, 2 * 5.0 * 2 + 3.0**2)):
+        body = mesh.create_unit_interval(MPI.COMM_SELF, 1)
+        u = fem.Function(fem.functionspace(body, basix.ufl.element("Lagrange", "interval", 1)))
+        u.interpolate(lambda x: 2 * x[0])
+        loads = [fem.Constant(body, value) for value in (3.0, 5.0)]
+        a, b = (ufl.variable(load) for load in loads[:: -1 if swapped else 1])
+        stretch = ufl.variable(u.dx(0))
+        slope = fem.Expression(ufl.diff(a * stretch**2 + b**2 * stretch, stretch), POINTS)
+        assert slope.eval(body, np.array([0], dtype=np.int32)).ravel() == pytest.approx([expected] * 2)
+
+
+def volume_and_moment(cells: int) -> list[ufl.Form]:
+    """Integrals over ``[0, 1]`` of 2 and of ``3 x``, on a new mesh, with a constant of their own."""
+    body = mesh.create_unit_interval(MPI.COMM_SELF, cells)
+    x, factors = ufl.SpatialCoordinate(body)[0], [fem.Constant(body, value) for value in (2.0, 3.0)]
+    return [factors[0] * ufl.dx(body), factors[1] * x * ufl.dx(body)]
+
+
+def test_forms_compiled_together_are_one_module_and_are_found_alone_on_every_mesh():
+    jit_cache.compile_together(MPI.COMM_SELF, volume_and_moment(2))
+    one, two = (fem.form(form) for form in volume_and_moment(5))
+    assert one.module is two.module
+    assert [fem.assemble_scalar(form) for form in (one, two)] == pytest.approx([2.0, 1.5])
+    alone = fem.form(2.0 * ufl.dx(mesh.create_unit_interval(MPI.COMM_SELF, 2)))  # no constant: another form
+    assert alone.module is not one.module

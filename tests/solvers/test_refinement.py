@@ -1,0 +1,86 @@
+"""The uncertainty of a number from meshes holds what it says."""
+
+import numpy as np
+import pytest
+
+from weakforms.solvers.uncertainty.refinement import ALGEBRAIC, Slow, doubt, estimate, order_in_mean
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0, 4.0, 8.0])
+@pytest.mark.parametrize("exact", [0.0, 1.0, -250.0])
+def test_true_error_lies_within_and_not_far_below(order, exact):
+    values = [exact + 0.3 * 0.25**order * 2.0 ** (-order * k) for k in range(3)]
+    found = estimate(values, cap=8.0)
+    error = abs(values[-1] - exact)
+    assert error <= found.uncertainty <= 30 * error + 2 * ALGEBRAIC * max(abs(exact), 1)
+    assert found.order == pytest.approx(order, abs=0.02) or error < 1e-8
+
+
+def test_arrays_are_estimated_point_by_point():
+    x = np.linspace(0, 1, 5)
+    levels = [np.sin(x) + np.cos(3 * x) * 4.0**-k for k in range(3)]
+    found = estimate(levels, cap=4.0)
+    assert found.uncertainty.shape == x.shape
+    assert np.all(np.abs(levels[-1] - np.sin(x)) <= found.uncertainty)
+
+
+def test_accidental_agreement_of_two_meshes_does_not_pass_for_accuracy():
+    values = [1.0, 1.1, 1.1]
+    assert estimate(values, cap=2.0).uncertainty >= 0.1 / 4 / 3
+
+
+def test_an_order_beyond_theory_is_not_believed():
+    assert estimate([1.0, 1.1, 1.1001], cap=2.0).uncertainty >= 0.1 / 4 / 3
+
+
+def test_divergence_widens():
+    assert estimate([1.0, 1.1, 1.4], cap=4.0).uncertainty >= 0.3 * 3
+
+
+def test_two_meshes_are_taken_to_converge_at_first_order():
+    found = estimate([1.0, 1.1], cap=4.0)
+    assert found.uncertainty >= 0.3
+    assert np.isnan(found.order)
+
+
+def test_an_order_known_from_elsewhere_counts_where_a_lower_one_is_observed():
+    values = [1.0, 1.0001, 1.0201]  # the first difference is small by accident
+    plain, known = (estimate(values, cap=4.0, least=least).uncertainty for least in (0.0, 3.0))
+    assert known == pytest.approx(1.25 * 0.02 / 7, rel=1e-6)
+    assert plain == pytest.approx(3 * 0.02, rel=1e-6)
+    steady = [1.0 + 0.25**k for k in range(3)]
+    assert estimate(steady, cap=4.0, least=1.0) == estimate(steady, cap=4.0)
+
+
+@pytest.mark.parametrize("width", [1.0, 0.1, 0.01])
+def test_a_slow_part_counts_where_it_shows(width):
+    """An error of order 6, and a small one of order 1.5: all that fine meshes leave."""
+    values = [1.0 + 0.3 * h**6 + 1e-9 * (h / width) ** 1.5 for h in width * 0.5 ** np.arange(3)]
+    error, slow = values[-1] - 1.0, Slow(size=1e-8, order=2.0)
+    found = estimate(values, 6.0, slow=slow).uncertainty
+    assert error <= found <= 30 * error
+    assert found - estimate(values, 6.0).uncertainty <= 1.25 * slow.size
+
+
+@pytest.mark.parametrize("order", [1.0, 3.0, 5.5])
+def test_order_of_a_field_does_not_heed_where_single_differences_vanish(order):
+    x = np.linspace(0, 1, 201)
+    levels = [np.cosh(x) + 1e-3 * np.sin((7 + k) * x) * 2.0 ** (-order * k) for k in range(4)]
+    assert order_in_mean(levels) == pytest.approx(order, abs=0.3)
+
+
+def test_order_of_a_field_is_unknown_from_two_meshes_or_from_round_off():
+    x = np.linspace(1, 2, 11)
+    assert order_in_mean([x, x + 1e-3]) == 0.0
+    assert order_in_mean([x, x + 1e-3, x + 1e-3 + 1e-15]) == 0.0
+
+
+def test_doubt_begins_where_a_field_falls_faster_than_its_elements():
+    assert doubt([], 4.0) == doubt([2.0, 4.4], 4.0) == 1.0
+    assert doubt([2.0, 4.75], 4.0) == pytest.approx(4**0.75)
+    assert doubt([5.0], 4.0) == doubt([7.0], 4.0) == pytest.approx(4.0)
+
+
+def test_one_mesh_is_refused():
+    with pytest.raises(ValueError, match="two meshes"):
+        estimate([1.0], cap=4.0)

@@ -1,0 +1,59 @@
+"""How much of the forces a state may leave over follows their size."""
+
+import numpy as np
+import pytest
+from small_systems import system_of
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.newton import OF_FORCES, RESIDUAL_LIMIT, ExtendedNewton, residual_limit
+
+SIZES = [1e-9, 1.0, 1e9]
+
+
+def bar(size, cells=400):
+    """A bar under its own weight whose stiffness and weight are of a size; cubic, so that Newton iterates."""
+    return system_of(
+        lambda u, v, p: size * ((u.dx(0) + u.dx(0) ** 3) * v.dx(0) - (1 + p) * v),
+        "Lagrange",
+        3,
+        cells,
+        ends=True,
+    )
+
+
+def solved(system, wrong=0.0):
+    """Solve, with nodal forces that are wrong by a share of themselves on every evaluation."""
+    right = system.residual
+    if wrong:
+        noise = np.random.default_rng(1).standard_normal(system.size)
+        noise[system.bc_dofs] = 0.0
+        shift = wrong * np.linalg.norm(right()) * noise / np.linalg.norm(noise)
+        calls = iter(range(10_000))
+        # It differs from call to call: the step comes to rest all the same, the forces never do.
+        system.residual = lambda: right() + shift * (-1) ** next(calls)
+    return ExtendedNewton(system, stol=1e-2 if wrong else 1e-10).solve(system.state())
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_round_off_is_accepted_whatever_the_forces(size):
+    system = bar(size)
+    solved(system)
+    left = np.sqrt(system.dot(system.residual(), system.residual()))
+    assert left < 0.2 * residual_limit(system)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_forces_that_do_not_balance_are_refused(size):
+    """A ten-thousandth of the load is left over; at small forces that is less than the limit of unit ones."""
+    with pytest.raises(ConvergenceError, match=r"CONVERGED_SNORM_RELATIVE .* residual"):
+        solved(bar(size), wrong=1e-4)
+
+
+def test_the_limit_is_the_usual_one_between_its_bounds():
+    low, high = OF_FORCES
+    for size in np.logspace(-9, 9, 19):
+        system = bar(size, cells=20)
+        system.tangent()
+        forces, limit = system.force_size(), residual_limit(system)
+        assert low * forces <= limit <= high * forces
+        assert limit == RESIDUAL_LIMIT or limit in (low * forces, high * forces)

@@ -1,0 +1,188 @@
+"""What the solvers refuse: states and points that look like what was wanted and are not."""
+
+from dataclasses import replace
+from math import cos, sin
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import ufl
+from petsc4py import PETSc
+from small_systems import COMM, system_of
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.subspace import Subspace
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.lowest import Lowest
+from weakforms.solvers.stability.modal import ModalBranch
+from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.roots import root
+
+
+def circle():
+    """``u^2 + load^2 = 1``, from ``u = -1`` on."""
+    system = system_of(lambda u, v, p: (u**2 + p**2 - 1) * v)
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(0.05, 0.2))
+    state = system.state()
+    state.u[:] = -1.0
+    return continuation, continuation.start(state, Held("load", 0.0), towards={"load": 1.0})
+
+
+def half_circle():
+    continuation, first = circle()
+    return EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] > 0.9)
+
+
+def test_a_missed_pair_of_bifurcations_is_named():
+    """One long step along ``u = 0`` of a column under too much load, past two of its buckling loads."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(60.0, 60.0))
+    first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.state.loads["load"] < -50)
+    assert [point.n_negative for point in branch.points] == [0, 2]
+    with pytest.raises(ConvergenceError, match="several eigenvalues change sign"):
+        branch.special()
+
+
+def test_a_bifurcation_is_where_the_eigenvalue_is_zero():
+    """Euler's first buckling load of the same column, whose branch does not turn there."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(3.0, 3.0))
+    first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.state.loads["load"] < -20)
+    (point,) = branch.special()
+    assert point.kind == "bifurcation_point"
+    assert point.values["load"] == pytest.approx(-(np.pi**2), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "function", [lambda x: x**2 + 1, lambda _: np.nan, lambda x: np.nan if x > 0 else -1.0]
+)
+def test_a_zero_that_is_not_there_is_no_zero(function):
+    with pytest.raises(ConvergenceError, match="the turn is not found between -1 and 2"):
+        root(function, -1.0, 2.0, "the turn")
+
+
+def test_a_special_point_that_is_not_bracketed_is_named():
+    with pytest.raises(ConvergenceError, match="limit_point in load is not found"):
+        half_circle()._root(2, lambda _: 1.0, "limit_point")
+
+
+def test_a_fold_the_inertia_does_not_see_is_named():
+    branch = half_circle()
+    assert len(branch.special()) == 1
+    branch.points = [replace(point, n_negative=0) for point in branch.points]
+    with pytest.raises(ConvergenceError, match="disagree"):
+        branch.special()
+
+
+def test_a_pair_of_one_family_is_named():
+    branch = ModalBranch.__new__(ModalBranch)
+    branch.modes, branch._limits = SimpleNamespace(wave_numbers=[2]), []
+    branch._counts = lambda _n: np.array([0, 2])
+    with pytest.raises(ConvergenceError, match="several eigenvalues of n = 2"):
+        branch.special()
+
+
+def test_a_state_on_another_branch_is_refused(monkeypatch):
+    """The other half of the circle has the same load."""
+    branch = half_circle()
+    right = branch.solver.solve
+
+    def astray(guess, constraints=(), chord=False):
+        state, record = right(guess, constraints, chord)
+        return State(-state.u, state.loads), record
+
+    assert branch.at("load", 0.5).state.u[0] == pytest.approx(-np.sqrt(0.75))
+    monkeypatch.setattr(branch.solver, "solve", astray)
+    with pytest.raises(ConvergenceError, match="away from where it was bracketed"):
+        branch.at("load", 0.5)
+
+
+def test_a_step_that_turns_back_is_repeated_shorter():
+    continuation, first = circle()
+    with pytest.raises(ConvergenceError, match="turns too sharply"):
+        continuation.advance(None, first, 0.6)
+    assert continuation.advance(None, first, 0.4).arclength > 0.39
+
+
+def test_an_unconverged_state_of_a_subspace_is_refused():
+    system = system_of(lambda u, v, _p: (u**2 + 1) * v)
+    basis = PETSc.Mat().createAIJ((1, 1), csr=([0, 1], [0], [1.0]), comm=COMM)
+    basis.assemble()
+    with pytest.raises(ConvergenceError, match="in the subspace"):
+        Subspace(system, basis, np.zeros(1)).solve(State(np.array([0.7]), {"load": 0.0}))
+
+
+def test_a_singular_bordered_system_is_refused():
+    """A string held nowhere, pulled to one side."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4)
+    factor = Factorization(system)
+    factor.update()
+    with pytest.raises(ConvergenceError, match="singular"):
+        BorderedMatrix(factor, [], [], np.zeros((0, 0))).solve(np.ones(system.size), np.zeros(0))
+
+
+def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
+    """Two strings in one system: every eigenvalue twice, one copy withheld at the first look."""
+    system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
+    lowest = Lowest(system)
+    exact = [np.pi**2, np.pi**2, 4 * np.pi**2, 4 * np.pi**2]
+    right, looks = lowest._solve, []
+
+    def forgetful(wanted, target, tolerance, apart_from):
+        found = right(wanted, target, tolerance, apart_from)
+        looks.append(len(apart_from))
+        return found if apart_from or wanted == 1 else found[:1] + found[2:]
+
+    monkeypatch.setattr(lowest, "_solve", forgetful)
+    assert [mode.eigenvalue for mode in lowest(system.state(), 4)] == pytest.approx(exact, rel=2e-5)
+    assert max(looks) > 0, "it looked again, apart from those found"
+
+
+def test_the_mode_of_a_double_eigenvalue_is_the_same_whichever_copies_are_found(monkeypatch):
+    system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
+    first = Lowest(system)(system.state(), 2)[0].vector
+    lowest = Lowest(system)
+    right = lowest._solve
+
+    def turned(*given):
+        (one, a), (other, b), *rest = right(*given)
+        return [(one, a * cos(2) + b * sin(2)), (other, b * cos(2) - a * sin(2)), *rest]
+
+    monkeypatch.setattr(lowest, "_solve", turned)
+    assert np.abs(first).max() > 0.1
+    assert np.abs(lowest(system.state(), 2)[0].vector - first).max() < 1e-9
+
+
+def test_a_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch):
+    system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
+    stability = Stability(system)
+    assert stability.spectrum(system.state()).n_negative == 1
+    right = stability._eigenvalues
+
+    def positive(*given, **named):
+        values = right(*given, **named)
+        return values[values > 0]
+
+    monkeypatch.setattr(stability, "_eigenvalues", positive)
+    with pytest.raises(ConvergenceError, match="inertia counts 1 negative eigenvalues, SLEPc finds 0"):
+        stability.spectrum(system.state())
+
+
+def test_a_factorisation_that_does_not_solve_is_made_again_with_pivoting(monkeypatch):
+    system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
+    stability = Stability(system)
+    expected = stability.spectrum(system.state())
+    assert stability.factor.package == "petsc"
+    right = stability.factor.solve
+    wrong = {"petsc": 1 + 1e-6, "mumps": 1.0}
+    monkeypatch.setattr(stability.factor, "solve", lambda rhs: wrong[stability.factor.package] * right(rhs))
+    found = stability.spectrum(system.state())
+    assert stability.factor.package == "mumps"
+    assert found.eigenvalues == pytest.approx(expected.eigenvalues, rel=1e-11)

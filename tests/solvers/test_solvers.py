@@ -1,0 +1,206 @@
+"""Continuation, critical points and stability on problems whose solutions are known exactly."""
+
+from itertools import pairwise
+
+import basix.ufl
+import numpy as np
+import pytest
+import ufl
+from dolfinx import fem, mesh
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
+from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.stability.spectra import Stability
+
+COMM = MPI.COMM_SELF
+
+
+def one_dof(function, load=0.0, second=0.0):
+    """``function(u, load, second) = 0`` for a single degree of freedom."""
+    domain = mesh.create_unit_interval(COMM, 1)
+    space = fem.functionspace(domain, basix.ufl.element("DG", "interval", 0))
+    u, v = fem.Function(space), ufl.TestFunction(space)
+    constants = {"load": fem.Constant(domain, load), "second": fem.Constant(domain, second)}
+    loads = {name: (c, ufl.variable(c)) for name, c in constants.items()}
+    expression = function(u, loads["load"][1], loads["second"][1])
+    return System(
+        Formulation(
+            unknown=u,
+            residual=expression * v * ufl.dx,
+            loads=loads,
+            bcs=[],
+            mass=ufl.TrialFunction(space) * v * ufl.dx,
+            monitors={"u": u * ufl.dx, "square": u**2 * ufl.dx},
+        )
+    )
+
+
+def start(system, u, scalars=("load",), **control: float):
+    solver = ExtendedNewton(system, scalars)
+    state = system.state()
+    state.u[:] = u
+    return Continuation(solver, control=StepControl(**control)), state
+
+
+@pytest.mark.parametrize("step", [0.05, 0.3, 1.0])
+@pytest.mark.parametrize("begin", [-1.0, 0.0, 2.0])
+def test_line_is_followed_exactly(step, begin):
+    continuation, state = start(one_dof(lambda u, p, _: u - p), begin, first=step, largest=step)
+    first = continuation.start(state, Held("u", begin), towards={"u": 1.0})
+    points = list(continuation.trace(first, stop=lambda p: p.monitors["u"] > begin + 3))
+    for a, b in pairwise(points):
+        assert b.state.loads["load"] == pytest.approx(b.state.u[0], abs=1e-14)
+        assert continuation.distance(a.state, b.state) == pytest.approx(step, abs=1e-12)
+    tangent = points[-1].tangent
+    assert tangent.u[0] == pytest.approx(np.sqrt(0.5), abs=1e-14)
+    assert tangent.loads["load"] == pytest.approx(np.sqrt(0.5), abs=1e-14)
+
+
+def test_circle_passes_both_folds_and_counts_two_factorisations_a_step():
+    system = one_dof(lambda u, p, _: u**2 + p**2 - 1)
+    continuation, state = start(system, 1.0, first=0.05, largest=0.1)
+    first = continuation.start(state, Held("load", 0.0), towards={"load": 1.0})
+    before = continuation.solver.factor.count
+    points = list(continuation.trace(first, stop=lambda p: p.state.u[0] < -0.5 and p.state.loads["load"] < 0))
+    for p in points:
+        assert p.state.u[0] ** 2 + p.state.loads["load"] ** 2 == pytest.approx(1, abs=1e-12)
+    assert continuation.solver.factor.count - before <= 2 * (len(points) - 1)
+
+
+def test_fold_is_located_and_agrees_with_inertia():
+    # load = 1 - (u - 0.3)^2 with K = 2 (u - 0.3): the fold is at u = 0.3, load = 1.
+    system = one_dof(lambda u, p, _: (u - 0.3) ** 2 + p - 1)
+    continuation, state = start(system, -1.0, first=0.05, largest=0.2)
+    first = continuation.start(state, Held("u", -1.0), towards={"u": 1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] > 1)
+    (fold,) = branch.special()
+    assert fold.kind == "limit_point"
+    assert fold.values["load"] == pytest.approx(1.0, abs=1e-12)
+    assert fold.values["u"] == pytest.approx(0.3, abs=1e-9)
+    assert [p.n_negative for p in branch.points] == [int(p.state.u[0] < 0.3) for p in branch.points]
+
+
+def test_cusp_is_located():
+    # Folds of u^3 - a u - load: 3 u^2 = a, load = -2 u^3; the cusp is at the origin, moved to (0.2, 0.1).
+    system = one_dof(lambda u, p, a: (u - 0.1) ** 3 - (a - 0.2) * (u - 0.1) - p, second=1.2)
+    continuation, state = start(system, -1.5, first=0.05, largest=0.1)
+    first = continuation.start(state, Held("u", -1.5), towards={"u": 1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] > 1.5)
+    folds = branch.special()
+    assert [f.values["u"] for f in folds] == pytest.approx([0.1 - 3**-0.5, 0.1 + 3**-0.5], abs=1e-9)
+    solver = ExtendedNewton(system, ["load", "second"])
+    line = Continuation(solver, [Fold("load", np.ones(1))], StepControl(first=0.05, largest=0.1), shift=1e-6)
+    begin = line.start(folds[0].state, Held("second", 1.2), towards={"second": -1.0})
+    fold_line = FoldLine(line, "second", begin, stop=lambda p: p.state.loads["second"] > 1.2)
+    for p in fold_line.points:
+        u, a = p.state.u[0] - 0.1, p.state.loads["second"] - 0.2
+        assert 3 * u * u == pytest.approx(a, abs=1e-9)
+    (cusp,) = fold_line.special()
+    assert cusp.values["second"] == pytest.approx(0.2, abs=1e-10)
+    assert cusp.values["u"] == pytest.approx(0.1, abs=1e-8)
+
+
+def test_functional_is_held_exactly_and_crossings_are_told_apart():
+    system = one_dof(lambda u, p, _: u**2 + p - 1)
+    continuation, state = start(system, -1.0, first=0.05, largest=0.2)
+    first = continuation.start(state, Held("u", -1.0), towards={"u": 1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] > 1)
+    assert branch.at("square", 0.25, 1).values["u"] == pytest.approx(-0.5, abs=1e-12)
+    assert branch.at("square", 0.25, 2).values["u"] == pytest.approx(0.5, abs=1e-12)
+    assert branch.at("load", 0.75, 2).values["u"] == pytest.approx(0.5, abs=1e-12)
+    with pytest.raises(InputError, match="crossed 2 times"):
+        branch.at("load", 0.75, 3)
+    with pytest.raises(InputError, match="ranges over"):
+        branch.at("load", 7.0)
+    with pytest.raises(InputError, match="cannot ask"):
+        branch.at("n_negative", 1.0)
+
+
+def string(spring=0.0, cells=80, fixed=True):
+    """``-u'' + spring u = load`` on the unit interval, fixed at both ends or at none."""
+    domain = mesh.create_unit_interval(COMM, cells)
+    space = fem.functionspace(domain, basix.ufl.element("Lagrange", "interval", 2))
+    u, v = fem.Function(space), ufl.TestFunction(space)
+    load = fem.Constant(domain, 0.0)
+    variable = ufl.variable(load)
+    ends = mesh.locate_entities_boundary(domain, 0, lambda x: np.full(x.shape[1], True))
+    dofs = fem.locate_dofs_topological(space, 0, ends)
+    energy = u.dx(0) * v.dx(0) + spring * u * v - variable * v
+    return System(
+        Formulation(
+            unknown=u,
+            residual=energy * ufl.dx,
+            loads={"load": (load, variable)},
+            bcs=[fem.dirichletbc(np.array(0.0), dofs, space)] if fixed else [],
+            mass=ufl.TrialFunction(space) * v * ufl.dx,
+            monitors={"mean": u * ufl.dx},
+        )
+    )
+
+
+@pytest.mark.parametrize(("spring", "negative"), [(0.0, 0), (-20.0, 1), (-50.0, 2), (-100.0, 3)])
+def test_spectrum_has_no_spurious_eigenvalues_and_the_inertias_count(spring, negative):
+    system = string(spring=spring)
+    spectrum = Stability(system).spectrum(system.state(), count=3)
+    exact = np.sort([(n * np.pi) ** 2 + spring for n in range(1, 5)])[: len(spectrum.eigenvalues)]
+    assert spectrum.n_negative == negative
+    assert spectrum.eigenvalues == pytest.approx(exact, rel=2e-5)
+
+
+def test_linear_problem_converges_in_one_step():
+    system = string()
+    state = system.state()
+    state.loads["load"] = 1.0
+    _, record = ExtendedNewton(system).solve(state)
+    assert record.iterations <= 2
+    assert system.monitor("mean") == pytest.approx(1 / 12, rel=1e-10)
+
+
+def test_singular_tangent_is_noticed():
+    system = string(fixed=False)
+    state = system.state()
+    state.loads["load"] = 1.0
+    with pytest.raises(ConvergenceError):
+        ExtendedNewton(system).solve(state)
+
+
+def test_no_solution_is_noticed():
+    system = one_dof(lambda u, p, _: u**2 + 1 + p)
+    state = system.state()
+    state.u[:] = 0.7
+    with pytest.raises(ConvergenceError, match="SNES"):
+        ExtendedNewton(system).solve(state)
+
+
+def test_nan_is_noticed():
+    system = one_dof(lambda u, p, _: ufl.sqrt(u) + p)
+    state = system.state()
+    state.u[:] = 1.0
+    state.loads["load"] = 0.5
+    with pytest.raises(ConvergenceError):
+        ExtendedNewton(system).solve(state)
+
+
+def test_continuation_that_cannot_go_on_keeps_what_it_has():
+    # u = sqrt(-load) ends at load = 0 with an infinite slope of the residual.
+    system = one_dof(lambda u, p, _: ufl.sqrt(u) - p)
+    continuation, state = start(system, 1.0, first=0.1, largest=0.1)
+    state.loads["load"] = 1.0
+    first = continuation.start(state, Held("u", 1.0), towards={"u": -1.0})
+    branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] < -1)
+    assert branch.stalled
+    assert len(branch.points) > 3
+    assert all(p.record.norms[-1] < 1e-8 for p in branch.points)
+
+
+def test_options_do_not_leak_between_solvers():
+    from petsc4py import PETSc
+
+    before = PETSc.Options().getAll()
+    ExtendedNewton(one_dof(lambda u, p, _: u - p), ["load"])
+    assert PETSc.Options().getAll() == before

@@ -1,0 +1,197 @@
+"""The audit draws what problems allow, says what became of each set, and outlives a solve that hangs."""
+
+import json
+from io import StringIO
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import pytest
+from markupsafe import escape
+from pydantic import Field
+from rich.console import Console
+
+from weakforms.errors import InputError
+from weakforms.problems import registry
+from weakforms.problems.problem import Parameters
+from weakforms.verification.audit.any_parameters import runner
+from weakforms.verification.audit.any_parameters.draw import HELD, MESHES, drawn, sets
+from weakforms.verification.audit.any_parameters.outcome import (
+    NAME,
+    STATUSES,
+    Audited,
+    AuditRun,
+    Draw,
+    load_audit,
+    print_audit,
+)
+from weakforms.verification.audit.any_parameters.runner import classified, run_audit, solved
+from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.pages import render
+
+FAILED = {"failures": [{"what": "special points", "reason": "several eigenvalues change sign"}]}
+
+
+@pytest.mark.parametrize(
+    ("code", "said", "result", "status", "message"),
+    [
+        (0, "", {"failures": []}, "answered", None),
+        (3, "weakforms: not converged: ...", FAILED, "in part", "special points: several eigenvalues"),
+        (2, "weakforms: tube: s = 9 is out of reach", {}, "refused", "tube: s = 9 is out of reach"),
+        (3, "weakforms: SNES ended with X", {}, "not converged", "SNES ended with X"),
+        (1, "weakforms: internal error", {}, "broke down", "internal error"),
+        (-11, "", {}, "broke down", "exit status -11"),
+        (4, "weakforms: not enough memory", {}, "broke down", "not enough memory"),
+        (None, "", {}, "too slow", "it did not end within 7 s"),
+        # What contradicts itself is no answer.
+        (0, "", {}, "broke down", "exit status 0"),
+        (0, "", FAILED, "broke down", "exit status 0"),
+        (3, "", {"failures": []}, "broke down", "exit status 3"),
+    ],
+)
+def test_every_way_a_solve_may_end_has_its_name(code, said, result, status, message):
+    found, messages = classified(code, said, result, 7)
+    assert found == status
+    assert found in STATUSES
+    assert message is None or message in " ".join(messages)
+
+
+# -- draws -----------------------------------------------------------------------------------------
+
+
+class Ranges(Parameters):
+    """One parameter of every sort."""
+
+    a: float = Field(1.0, gt=0, le=2)
+    wide: float = Field(1.0, gt=0, le=1e4)
+    ratio: float = Field(1.0, ge=1, le=60)
+    count: int = Field(3, ge=1, le=6)
+    law: Literal["x", "y"] = "x"
+    flag: bool = False
+    maybe: float | None = Field(None, ge=-3, le=-1)
+    free: float = 0.0
+
+
+class Canned:
+    """A problem that refuses what contradicts itself."""
+
+    name = "canned"
+    parameters = Ranges
+
+    def check(self, parameters, _requests):  # noqa: D102
+        if parameters.law == "y" and parameters.flag:
+            raise InputError("canned: flag = True needs law = 'x'")
+
+
+def test_draws_fill_the_ranges_that_the_parameters_state():
+    rows = [next(draws) for draws in [drawn(Canned(), 1)] for _ in range(400)]
+    for name, low, high in (("a", 0, 2), ("wide", 10, 1e4), ("ratio", 1, 60), ("count", 1, 6)):
+        values = np.array([row[name] for row in rows])
+        assert low <= values.min() < low + 0.1 * (high - low)
+        assert high - 0.2 * (high - low) < values.max() <= high
+    assert {row["law"] for row in rows} == {"x", "y"}
+    assert {row["flag"] for row in rows} == {True, False}
+    assert {"maybe" in row for row in rows} == {True, False}
+    assert all(-3 <= row["maybe"] <= -1 for row in rows if "maybe" in row)
+    assert not any("free" in row for row in rows), "nothing says what it may be"
+
+
+def test_contradictions_are_drawn_again_and_counted():
+    found, refused = sets(Canned(), 1, 40)
+    assert len(found) == 40
+    assert not any(row["law"] == "y" and row["flag"] for row in found)
+    assert list(refused) == ["canned: flag = True needs law = 'x'"]
+    assert sets(Canned(), 1, 7)[0] == found[:7], "the same however many are wanted"
+    assert sets(Canned(), 2, 7)[0] != found[:7]
+
+
+@pytest.mark.parametrize("name", list(registry.problems))
+def test_every_problem_can_be_drawn_and_its_laws_are(name):
+    found, _ = sets(registry.get(name), 5, 60)
+    fields = registry.get(name).parameters.model_fields
+    for field in (field for field, of in fields.items() if of.annotation is float):
+        given = {row[field] for row in found if field in row}
+        assert len(given) > 10 or field in HELD.get(name, {}), field
+    if "model" in fields:
+        assert len({row["model"] for row in found}) > 3
+
+
+def test_what_is_held_is_known_to_the_problems():
+    for name, values in HELD.items():
+        assert set(values) <= set(registry.get(name).parameters.model_fields)
+    for name, values in MESHES.items():
+        registry.get(name).numerics(**values)
+
+
+# -- runs ------------------------------------------------------------------------------------------
+
+
+def test_a_real_draw_is_solved_stored_and_taken_over(tmp_path, monkeypatch):
+    told = []
+    run = run_audit(["wrinkled_material"], 1, 3, 100.0, tmp_path, report=lambda *a: told.append(a))
+    (draw,) = run.draws
+    assert (draw.status, draw.messages) == ("answered", ())
+    assert told[0][:2] == (1, 1)
+    assert load_audit(tmp_path / NAME) == run
+    monkeypatch.setattr(runner, "solved", lambda *_: pytest.fail("it is stored"))
+    assert run_audit(["wrinkled_material"], 1, 3, 100.0, tmp_path, resume=True).draws == run.draws
+    with pytest.raises(pytest.fail.Exception):
+        run_audit(["wrinkled_material"], 1, 3, 99.0, tmp_path, resume=True)
+
+
+def test_a_solve_that_hangs_is_ended():
+    status, messages, seconds = solved(["solve", "tube"], 0.2)
+    assert (status, messages) == ("too slow", ("it did not end within 0.2 s",))
+    assert seconds < 10
+
+
+def test_a_refusal_is_kept_word_for_word():
+    status, messages, _ = solved(["solve", "tube", "--set", "delta1=0.5"], 100)
+    assert status == "refused"
+    assert "delta1 = '0.5'" in messages[0]
+
+
+def canned_run() -> AuditRun:
+    def draw(number, status, *messages):
+        return Draw("tube", number, {"s": 1.5, "flag": True}, {"cells": 8}, status, messages, 1.0)
+
+    draws = [draw(1, "answered"), draw(2, "refused", "s = 1.5 is out of reach"), draw(3, "answered")]
+    return AuditRun(7, 3, 60.0, "2026-01-01T00:00:00+00:00", 3.0, "abc", {}, {"tube": {"no": 2}}, draws)
+
+
+def test_the_table_names_every_set_that_is_not_answered_and_repeats_it():
+    written = StringIO()
+    print_audit(canned_run(), Console(width=200, file=written))
+    text = written.getvalue()
+    assert "weakforms solve tube --set s=1.5 --set flag=true --mesh cells=8" in text
+    assert "s = 1.5 is out of reach" in text
+    assert "67%" in text
+    assert "2 of 3 sets of parameters answered (66.7%), seed 7" in text
+
+
+def test_a_file_that_is_no_audit_is_a_problem_to_be_shown(tmp_path):
+    assert Audited.beside(tmp_path) == Audited()
+    data = canned_run().to_json()
+    for wrong in ({}, {**data, "schema": "x"}, {**data, "seed": "y"}, {**data, "draws": [{}]}):
+        (tmp_path / NAME).write_text(json.dumps(wrong))
+        assert Audited.beside(tmp_path).run is None
+        assert Audited.beside(tmp_path).problem
+    data["draws"][0]["status"] = "fine"
+    (tmp_path / NAME).write_text(json.dumps(data))
+    assert "status 'fine'" in Audited.beside(tmp_path).problem
+
+
+def test_the_folder_is_tried_before_anything_is_solved(monkeypatch):
+    monkeypatch.setattr(runner, "solved", lambda *_: pytest.fail("nothing is to be solved"))
+    with pytest.raises(InputError):
+        run_audit(["material"], 1, 3, 9.0, Path("/proc/nowhere"))
+    with pytest.raises(InputError, match="unknown problem"):
+        run_audit(["nothing"], 1, 3, 9.0, Path("/proc/nowhere"))
+
+
+def test_the_report_shows_it_when_it_lies_beside_the_results():
+    run = canned_run()
+    page = render(RunOutcome("quick", "all", "", 0.0, {}), audited=Audited(run))["audit.html"]
+    for text in (run.headline, "s = 1.5 is out of reach", run.missed[0].command, "67 %"):
+        assert escape(text) in page
+    assert "No audit lies beside" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]

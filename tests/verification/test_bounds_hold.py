@@ -1,0 +1,95 @@
+"""The stated uncertainties hold what they say: over sets of parameters, against the truth.
+
+The rate claimed is that of :mod:`weakforms.verification.audit.coverage`; the few sets solved here by default
+are the first of the many that are solved with ``-m slow``.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from weakforms import solve
+from weakforms.api import solve_requests
+from weakforms.problems.problem import StateRequest
+from weakforms.verification.audit.coverage import Judged, judged, statistics
+from weakforms.verification.audit.coverage_families import FAMILIES, QUICK, WIDE, Family
+
+RATE, MOST = 0.95, 30.0
+
+
+def checked(found: list[Judged]) -> None:
+    assert found
+    outside = [
+        f"{j.family}, {j.place}: {j.error:.1e} > 2 x {j.uncertainty:.1e}" for j in found if not j.bounded
+    ]
+    assert outside == []
+    assert np.mean([item.within for item in found]) >= RATE
+    wide = {f"{row.family}, {row.kind}": row.largest for row in statistics(found) if row.largest > MOST}
+    assert wide == {}
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_first_sets(name):
+    family = named(name)
+    checked([item for given in family.sets(QUICK[name]) for item in judged(family, given)])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [family.name for family in FAMILIES])
+def test_many_sets(name):
+    family = named(name)
+    checked([item for given in family.sets(WIDE) for item in judged(family, given)])
+
+
+def named(name: str) -> Family:
+    return next(family for family in FAMILIES if family.name == name)
+
+
+def test_sets_are_the_same_in_every_run():
+    tube = named("tube")
+    assert tube.sets(4) == tube.sets(8)[:4]
+    assert len({tuple(given.values()) for given in tube.sets(8)}) == 8
+
+
+def test_what_is_within_and_how_much_too_wide():
+    """Errors of 1, 1.9, 3 and 2 uncertainties; a column 5 times, another 40 times as wide as its errors."""
+    item = Judged("tube", (), "quantity p", "quantity", "p", 1.0, 1.0, 0.0, 1e-10)
+    found = [replace(item, error=error) for error in (1.0, 1.9, 3.0, 2.0)]
+    assert [one.within for one in found] == [True, False, False, False]
+    assert [one.bounded for one in found] == [True, True, False, True]
+    columns = [replace(item, name="p", uncertainty=5.0), replace(item, name="V", error=0.0, floor=1 / 40)]
+    (row,) = statistics(columns)
+    assert (row.count, row.within, row.bounded) == (2, 1.0, 1.0)
+    assert (row.median, row.largest) == pytest.approx((22.5, 40.0))
+
+
+def test_an_uncertainty_does_not_depend_on_what_else_is_asked():
+    family = named("tube")
+    given = family.sets(WIDE)[14]  # the one whose coarse meshes do not resolve it
+    bare, full = (StateRequest("u_max", 1.5, profile=profile) for profile in (None, (0.3,)))
+    states = solve_requests("tube", given, family.coarse, [bare, full], branch_uncertainty=False).states
+    assert states[0].quantities["p"] == states[1].quantities["p"]
+
+
+# -- closed forms: all that is left is round-off and Newton's stopping rule ------------------------
+
+EXACT = np.random.default_rng(2016).uniform((1.1, 0.0), (2.5, 0.3), (5, 2)).tolist()
+
+
+@pytest.mark.parametrize(("lam", "alpha"), EXACT)
+def test_balloon(lam, alpha):
+    """``P = 4 (1/lam - lam^-7)(1 + alpha lam^2)`` of a Mooney-Rivlin balloon."""
+    (state,) = solve("sphere", alpha=alpha, lam_end=3.0, at={"lam": lam}).states
+    exact = 4 * (1 / lam - lam**-7) * (1 + alpha * lam**2)
+    found = state.quantities["P"]
+    assert abs(found.value - exact) <= found.uncertainty <= 1e-9
+
+
+@pytest.mark.parametrize(("lam", "alpha"), EXACT)
+def test_uniaxial_piece(lam, alpha):
+    """``T = 2 (lam - lam^-2)(1 + alpha/lam)`` of a Mooney-Rivlin strip."""
+    given = {"loading": "uniaxial", "alpha": alpha, "lam_end": 3.0}
+    (state,) = solve("homogeneous", **given, at={"lam": lam}).states
+    found = state.quantities["T"]
+    assert abs(found.value - 2 * (lam - lam**-2) * (1 + alpha / lam)) <= found.uncertainty <= 1e-9

@@ -1,0 +1,91 @@
+"""What must hold between the columns of a solution does, and fails where one is off by one percent."""
+
+import copy
+
+import numpy as np
+import pytest
+
+from weakforms import circular, hemisphere, homogeneous, infinite_tube, sphere, tube
+from weakforms.verification.judging.consistency import identities, quadrature
+from weakforms.verification.judging.consistency.identity_table import IDENTITIES
+from weakforms.verification.judging.consistency.traces import TRACED
+from weakforms.verification.run.runner import solve_spec
+from weakforms.verification.run.solutions import Solutions
+
+SPECS = {
+    "tube": tube(alpha=0.1, delta1=1.1, u_end=1.0),
+    "circular": circular(t_end=0.5),
+    "sphere": sphere(model="mooney_rivlin", lam_end=2.0),
+    "infinite_tube": infinite_tube(model="mooney_rivlin"),
+}
+SEEN = {
+    "tube": ("Pi", "V", "p", "lam1_mid", "t1_mid", "field:t1", "field:t2", "field:lam1", "field:rho"),
+    "circular": ("Pi", "V", "p", "t_min", "t0", "lam_pole", "lam1_rim", "field:t2", "field:eta"),
+    "sphere": ("Pi", "P", "lam", "lam1", "lam2"),
+    "infinite_tube": ("Pi", "p", "V", "lam1", "lam2"),
+}
+"""Columns that an identity sees, everywhere in a solution."""
+
+
+@pytest.fixture(scope="module")
+def solved():
+    return {name: solve_spec(spec, []) for name, spec in SPECS.items()}
+
+
+def verdict(name, result):
+    (found,) = identities.judge(SPECS[name], Solutions({SPECS[name]: result}))
+    return found
+
+
+@pytest.mark.parametrize("name", SPECS)
+def test_identities_hold(solved, name):
+    found = verdict(name, solved[name])
+    assert found.passed, found
+    assert found.check in identities.names(SPECS[name])
+
+
+@pytest.mark.parametrize("factor", [1.01, -1.0])
+@pytest.mark.parametrize(("name", "column"), [(n, c) for n, columns in SEEN.items() for c in columns])
+def test_one_percent_or_a_sign_fails(solved, name, column, factor):
+    result = copy.deepcopy(solved[name])
+    field = column.removeprefix("field:")
+    for branch in result.branches if field == column else ():
+        branch.columns[column] = factor * branch.columns[column]
+    for state in result.states:
+        if column in state.quantities:
+            old = state.quantities[column]
+            state.quantities[column] = type(old)(factor * old.value, old.uncertainty)
+        for item in state.fields if field != column else ():
+            item.columns[field] = factor * item.columns[field]
+    assert not verdict(name, result).passed
+
+
+def test_a_sign_of_the_lowest_eigenvalue_fails(solved):
+    result = copy.deepcopy(solved["tube"])
+    for state in result.states:
+        old = state.quantities["eigenvalue_1"]
+        state.quantities["eigenvalue_1"] = type(old)(-old.value, old.uncertainty)
+    assert not verdict("tube", result).passed
+
+
+def test_every_problem_with_traces_has_identities():
+    assert set(IDENTITIES) == TRACED
+    assert identities.names(hemisphere().on(degree=2)) == identities.names(homogeneous().on(levels=2)) == []
+
+
+def test_numbers_of_points_carry_what_they_are_off():
+    x = np.linspace(0, 1, 40) ** 1.2
+    y = np.sin(5 * x)
+    found = {
+        "integral": (quadrature.integral(x, y, x**2), (2 * np.sin(5) - 10 * np.cos(5)) / 25),
+        "part": (quadrature.integral(x, np.ones(40), y, 0.3), np.sin(1.5)),
+        "slope": (quadrature.value_at(x, y, 0.4, 1), 5 * np.cos(2)),
+        "largest": (quadrature.extreme(x, y, np.argmax), 1.0),
+        "beyond": (quadrature.spread([d[1] for d in quadrature.beyond(x, y, 0.5, 1)]), 5 * np.cos(2.5)),
+    }
+    for name, ((value, spread), exact) in found.items():
+        assert abs(value - exact) <= 2 * spread + 1e-13, name
+        assert spread < 1e-3, name
+    assert abs(quadrature.where(x, x**3, 0.2) - 0.2 ** (1 / 3)) < 1e-6
+    assert quadrature.beyond(x, y, 0.99) is None
+    assert quadrature.lengths([0.0, 1.0, 3.0], lambda middle: middle > 1) == 2.0

@@ -1,0 +1,135 @@
+"""The trace that a user takes away is held against states, its own neighbours and tables."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from weakforms import tube
+from weakforms.results import Branch, Quantity, Result, SpecialPoint, State
+from weakforms.results.drawing import draw, seed_of
+from weakforms.verification.cases.references import Reference
+from weakforms.verification.judging.consistency import traces
+from weakforms.verification.run.solutions import Solutions
+
+SPEC = tube(alpha=0.1)
+U = np.linspace(0.0, 5.0, 120) ** 1.1
+COLUMNS = {"u_max": U, "p": 2 * np.tanh(U) - 0.1 * U, "V": 1 + U + U**2}
+
+
+def stored(**changed: np.ndarray) -> Solutions:
+    """A trace with two states drawn on it; columns of the trace may differ from the states'."""
+    columns = {**COLUMNS, "n_negative": (np.gradient(COLUMNS["p"], U) < 0).astype(int)}
+    spread = {name: np.full(len(U), 1e-10) for name in COLUMNS}
+    drawn = list(islice(draw(Branch("primary", "p", columns), ["u_max"], 3), 2))
+    states = [
+        State(
+            {"u_max": point.value},
+            "primary",
+            {n: Quantity(float(v[point.index]), 1e-10 if n in spread else None) for n, v in columns.items()},
+        )
+        for point in drawn
+    ]
+    points = [{"index": p.index, "column": p.column, "value": p.value} for p in drawn]
+    numerics = {"drawn": {"primary": {"seed": 3, "points": points, "left_out": []}}}
+    branch = Branch("primary", "p", columns | changed, spread)
+    return Solutions({SPEC: Result("tube", {}, {}, numerics, {}, [branch], states=states)})
+
+
+def verdicts(solutions: Solutions) -> dict[str, bool]:
+    return {v.check.partition(":")[0]: v.passed for v in traces.judge(SPEC, solutions)}
+
+
+def test_a_trace_that_is_its_states_passes():
+    assert verdicts(stored()) == {"trace": True, "smooth": True}
+    assert [v.check for v in traces.judge(SPEC, stored())] == traces.names(SPEC)
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+@pytest.mark.parametrize("factor", [1.01, -1.0, np.nan])
+def test_a_column_that_is_off_all_along_fails(name, factor):
+    assert not verdicts(stored(**{name: factor * COLUMNS[name]}))["trace"]
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+@pytest.mark.parametrize("index", [20, 40, 115])
+def test_one_point_that_is_off_by_a_millionth_fails(name, index):
+    off = COLUMNS[name].copy()
+    off[index] += 1e-6 * np.abs(off).max()
+    assert not verdicts(stored(**{name: off}))["smooth"]
+
+
+def test_a_count_is_a_whole_number_and_not_negative():
+    counts = stored().branch(SPEC).columns["n_negative"]
+    assert counts.max() == 1
+    for factor in (1.01, -1):
+        assert not verdicts(stored(n_negative=factor * counts))["smooth"]
+
+
+def test_a_point_drawn_without_a_state_fails():
+    solutions = stored()
+    del solutions.result(SPEC).states[0]
+    assert not verdicts(solutions)["trace"]
+
+
+def test_an_uncertainty_that_hides_one_percent_fails():
+    solutions = stored()
+    solutions.branch(SPEC).uncertainty["V"][:] = 1e-2 * U.max() ** 2
+    assert not verdicts(solutions)["trace"]
+    solutions.branch(SPEC).uncertainty.clear()
+    assert not verdicts(solutions)["trace"]
+
+
+def test_a_kink_at_a_special_point_is_no_error():
+    kinked = {"V": COLUMNS["V"] + np.maximum(U - U[40], 0)}
+    solutions = stored(**kinked)
+    at = {name: float(values[40]) for name, values in solutions.branch(SPEC).columns.items()}
+    solutions.result(SPEC).special_points.append(SpecialPoint("contact_onset", "primary", "p", at, {}))
+    assert verdicts(solutions)["smooth"]
+
+
+@pytest.mark.parametrize("factor", [1.01, -1.0])
+def test_a_trace_is_held_against_a_table(factor):
+    rows = np.linspace(0.0, 4.0, 41)
+    columns = {"u_max": rows, "p": 2 * np.tanh(rows) - 0.1 * rows}
+    table = Reference("t", "exact", "", "", "u_max", columns, dict.fromkeys(columns, 1e-9), {})
+    called = {"u_max": "u_max", "p": "p"}
+    (verdict,) = traces.against_table(stored().branch(SPEC), table, called)
+    assert verdict.passed
+    off = stored(p=factor * COLUMNS["p"]).branch(SPEC)
+    assert not traces.against_table(off, table, called)[0].passed
+
+
+def test_points_are_drawn_where_columns_speak_and_can_be_prescribed():
+    p = np.concatenate([np.linspace(0, 2, 10), np.linspace(1.9, 1.0, 10)])
+    u, front = np.linspace(0, 1, 20), np.r_[np.zeros(12), np.linspace(0.1, 1, 8)]
+    branch = Branch("primary", "p", {"p": p, "u_max": u, "front": front})
+    for seed in range(20):
+        points = list(draw(branch, ["p", "u_max"], seed))
+        assert points[0].index >= 12
+        assert sorted(point.index for point in points) == list(range(1, 19))
+        assert all(branch.columns[point.column][point.index] == point.value for point in points)
+        # Past the limit point p has each of its values twice: u_max tells the points apart.
+        assert all(point.column == "u_max" for point in points if p[point.index] > 1.0 and point.index > 10)
+    assert seed_of("a") != seed_of("b")
+
+
+def test_the_whole_of_it_on_a_solved_tube():
+    """What the runner asks of a solve is what the verdicts need; 1 % in one column fails."""
+    from weakforms.verification.run.runner import solve_spec
+
+    spec = tube(alpha=0.1, delta1=1.1, u_end=1.0)
+    result = solve_spec(spec, [])
+    judged = traces.judge(spec, Solutions({spec: result}))
+    assert [v.passed for v in judged] == [True, True], judged
+    result.branches[0].columns["p"] *= 1.01
+    assert not traces.judge(spec, Solutions({spec: result}))[0].passed
+
+
+def test_problems_with_traces_are_those_that_trace_paths():
+    from weakforms.api import require_environment
+    from weakforms.problems.branch_problem import PathProblem
+
+    problems = require_environment().problems.items()
+    found = {name for name, problem in problems if isinstance(problem, PathProblem)}
+    assert found == traces.TRACED

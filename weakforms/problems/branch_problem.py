@@ -1,0 +1,171 @@
+"""What problems share that are answered by branches traced on a family of meshes."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import asdict
+from typing import Any, ClassVar, Protocol, Self
+
+import numpy as np
+from mpi4py import MPI
+from pydantic import Field, model_validator
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, sample_points, silent
+from weakforms.results import Branch, Failure, Result, SpecialPoint, State
+from weakforms.results.drawing import draw, seed_of
+from weakforms.solvers.continuation.branch import DIAGNOSTICS
+from weakforms.solvers.equilibrium.newton import STOPPING
+from weakforms.solvers.support.provenance import provenance
+
+
+class MeshNumerics(Numerics):
+    """A family of meshes: ``cells`` on the finest, halved for each coarser level."""
+
+    degree: int = Field(4, ge=1, le=6, description="polynomial degree of the unknowns")
+    cells: int = Field(96, ge=8, le=20_000, description="cells on the finest mesh")
+    levels: int = Field(3, ge=2, le=4, description="meshes, each twice as fine as the one before")
+    step: float = Field(0.08, ge=0.01, le=0.5, description="largest arc-length step")
+
+    @model_validator(mode="after")
+    def _nested(self) -> Self:
+        coarsest = 2 ** (self.levels - 1)
+        if self.cells % coarsest:
+            raise ValueError(f"cells must be a multiple of {coarsest} for {self.levels} levels")
+        return self
+
+    @property
+    def meshes(self) -> list[int]:
+        """Cells of each mesh, coarse to fine."""
+        return [self.cells // 2**k for k in reversed(range(self.levels))]
+
+
+class Family(Protocol):
+    """A branch on a family of meshes: numbers with their uncertainties."""
+
+    name: str
+
+    @property
+    def quadrature_degree(self) -> int:
+        """Read off the form it solves."""
+
+    @property
+    def failures(self) -> list[Failure]:
+        """What did not converge."""
+
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All columns."""
+
+    def special_points(self) -> list[SpecialPoint]:
+        """In the order in which the branch meets them."""
+
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
+        """A state solved for."""
+
+
+class PathProblem:
+    """A problem whose answers are branches and their states; a subclass says which branches there are."""
+
+    name: ClassVar[str]
+    scales: ClassVar[dict[str, str]]
+    columns: ClassVar[tuple[str, ...]]
+    derived: ClassVar[tuple[str, ...]] = ()
+    """Columns that can be read, not prescribed."""
+
+    def families(
+        self, parameters: Any, numerics: Any, requests: Requests, comm: MPI.Intracomm, progress: Progress
+    ) -> dict[str, Family]:
+        """The branches by name, in the order in which results list them."""
+        raise NotImplementedError
+
+    def points(self, parameters: Any) -> np.ndarray:
+        """Where fields are sampled by default, from one end of the body to the other."""
+        raise NotImplementedError
+
+    def solve(
+        self,
+        parameters: Any,
+        numerics: Any,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Trace the branches on all meshes, locate their special points, solve for the states wanted."""
+        begun = time.perf_counter()
+        result = self._result(parameters, numerics)
+        families = self.families(parameters, numerics, requests, comm, progress)
+        self._answer(result, families, requests, self.points(parameters), progress)
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+    def _result(self, parameters: Parameters, numerics: MeshNumerics) -> Result:
+        return Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics={
+                **numerics.model_dump(),
+                "meshes": numerics.meshes,
+                "stopping": STOPPING,
+            },
+            provenance={},
+        )
+
+    def _answer(
+        self,
+        result: Result,
+        families: dict[str, Family],
+        requests: Requests,
+        default_points: np.ndarray,
+        progress: Progress,
+    ) -> None:
+        """Put branches, special points and the states wanted into a result; what fails is listed there."""
+        degrees = {name: family.quadrature_degree for name, family in families.items()}
+        alike = len(set(degrees.values())) == 1
+        result.numerics["quadrature_degree"] = next(iter(degrees.values())) if alike else degrees
+        for name, family in families.items():
+            if requests.branch_uncertainty:
+                progress(f"uncertainty of the {name} branch", 0, 1)
+            result.branches.append(family.branch(requests.branch_uncertainty))
+            try:
+                result.special_points.extend(family.special_points())
+            except ConvergenceError as error:
+                result.failures.append(Failure("special points", str(error)))
+        for i, wanted in enumerate(requests.states):
+            progress("states", i, len(requests.states))
+            points = sample_points(wanted.profile, default_points)
+            try:
+                family = families[wanted.branch]
+                result.states.append(family.state(wanted.name, wanted.value, wanted.crossing, points))
+            except ConvergenceError as error:
+                result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+        for name, family in families.items():
+            self._solve_drawn(result, name, family, requests.drawn, default_points)
+        for family in families.values():
+            result.failures.extend(family.failures)
+
+    def _solve_drawn(
+        self, result: Result, name: str, family: Family, count: int, default_points: np.ndarray
+    ) -> None:
+        """Solve for states at points of a trace drawn at random, the first with its profile.
+
+        What was drawn stands in the result's ``numerics``; a point that has no state on all meshes is listed
+        there with the reason, and another one is drawn.
+        """
+        if not count:
+            return
+        seed = seed_of(f"{self.name} {name} {sorted(result.parameters.items())}")
+        barred = (*DIAGNOSTICS, *self.derived)
+        columns = [column for column in self.columns if column not in barred]
+        record = {"seed": seed, "points": [], "left_out": []}
+        for drawn in draw(result.branch(name), columns, seed):
+            if len(record["points"]) == count or len(record["left_out"]) > count:
+                break
+            profile = default_points if not record["points"] else None
+            try:
+                result.states.append(family.state(drawn.column, drawn.value, 1, profile))
+            except (ConvergenceError, InputError) as error:
+                record["left_out"].append({**asdict(drawn), "reason": str(error)})
+            else:
+                record["points"].append(asdict(drawn))
+        result.numerics.setdefault("drawn", {})[name] = record

@@ -1,0 +1,1 @@
+"""The circular membrane of Paper 1."""

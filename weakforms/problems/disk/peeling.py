@@ -1,0 +1,159 @@
+"""Paper 1, peeling: the energy release rate over the position of the front at one pressure, and pull-off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.problems.disk.phases import DiskRun
+from weakforms.results import State as StateRecord
+from weakforms.solvers.continuation.branch import FittedBranch, Solved
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.uncertainty.family import BranchFamily
+
+SMALLEST_FRONT = 0.04
+"""Front at which a peeling curve ends, as a fraction of the radius: ``G`` grows without bound there."""
+
+DIFFERENCE = 2e-3
+"""Distance of the fronts between which potentials are compared, as a fraction of the radius."""
+
+
+class PeelingBranch(FittedBranch):
+    """Equilibria at one pressure whose patch keeps its inflation history, over the front ``x_f``.
+
+    The control is the front; ``n_negative`` counts the front among the freedoms: with an energy of adhesion
+    equal to ``G`` the state is stable against peeling where ``G`` grows with the patch.
+
+    Args:
+        run: Inflation on this mesh.
+        p: The pressure.
+    """
+
+    def __init__(self, run: DiskRun, p: float) -> None:
+        self.p, self._edge = p, run.data.edge
+        self._radius: dict[float, float] = {}
+        self._above_contact = p > run.onset.values["p"]
+        lowest = run.adhesive.at("p", p).state.loads["front"] if self._above_contact else 0.0
+        lowest = max(lowest, SMALLEST_FRONT * run.data.edge)
+        solver = ExtendedNewton(run.stick.system, ["front"])
+        continuation = Continuation(solver, control=_steps(run))
+        held = Held("front", run.end_of_inflation.loads["front"])
+        start = continuation.start(_lowered(run, p), held, towards={"front": -1.0})
+        super().__init__(continuation, "front", start, lambda point: point.state.loads["front"] < lowest)
+        if self.stalled is None:
+            self.end_at("front", lowest)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """Those of any branch, the pressure and the difference of potentials."""
+        out = super().columns()
+        states = [p.state for p in self.points]
+        out["p"] = np.full(len(states), self.p)
+        out["G_difference"] = np.array([self.difference(s) for s in states])
+        rates = np.array([self._release_rate(p) for p in self.points])
+        out["n_negative"] = out["n_negative"] + (rates < 0)
+        return out
+
+    @property
+    def shown(self) -> list[str]:
+        """Columns that results show."""
+        return ["p", *super().shown, "G_difference"]
+
+    def _values(self, state: State) -> dict[str, float]:
+        values = super()._values(state) | {"p": self.p}
+        return values | {"G_difference": self.difference(state)}
+
+    def difference(self, state: State, step: float = DIFFERENCE) -> float:
+        r"""Energy released a unit of deformed area, from potentials at neighbouring fronts and one pressure.
+
+        .. math:: G = \frac{1}{\rho_* \lambda_{1c}} \frac{\mathrm{d}}{\mathrm{d}x_f} \frac{\Pi}{2\pi}
+
+        by central differences at two distances, extrapolated (order four).
+
+        Args:
+            state: An equilibrium.
+            step: Distance of the front to the nearer neighbour, over the radius.
+        """
+        distance = step * self._edge / 2
+        slopes = [self._slope(state, distance * factor) for factor in (1, 2)]
+        self.system.set_state(state.u, state.loads)
+        monitors = self.system.monitors()
+        return (4 * slopes[0] - slopes[1]) / 3 / (monitors["rho_contact"] * monitors["lam1_contact"])
+
+    def _slope(self, state: State, distance: float) -> float:
+        potentials = []
+        for sign in (-1, 1):
+            front = state.loads["front"] + sign * distance
+            new, _ = self.solver.solve(state, [Held("front", front)])
+            self.system.set_state(new.u, new.loads)
+            potentials.append(self.system.monitor("Pi"))
+        return (potentials[1] - potentials[0]) / (2 * distance)
+
+    # -- pull-off ------------------------------------------------------------------------------
+
+    def special(self) -> list[Solved]:
+        """Pull-off: where ``G`` is least over the front.
+
+        None above the pressure of first contact, where ``G`` rises from zero, with zero slope, at the front
+        that inflation reaches.
+        """
+        if self._above_contact:
+            return []
+        rates = np.array([self._release_rate(p) for p in self.points])
+        turns = np.flatnonzero(rates[:-1] * rates[1:] < 0)
+        return [self._root(int(i), self._rate_along(int(i)), "pull_off") for i in turns]
+
+    def _release_rate(self, point: CurvePoint) -> float:
+        """``dG/dx_f`` up to a positive factor; the curve runs towards smaller fronts."""
+        self.system.set_state(point.state.u, point.state.loads)
+        return -self.continuation.rate("G", point.tangent)
+
+    def _rate_along(self, i: int) -> Callable[[Solved], float]:
+        along = self.points[i].tangent
+
+        def rate(_solved: Solved) -> float:
+            return self.continuation.rate("G", self.continuation.direction_here(along))
+
+        return rate
+
+
+def _steps(run: DiskRun) -> StepControl:
+    """Shorter than elsewhere: the curve itself is the result, and it is short."""
+    return StepControl(first=run.step / 8, largest=run.step / 4)
+
+
+def _lowered(run: DiskRun, p: float) -> State:
+    """The patch reached at ``p_end``, at a lower pressure."""
+    if p == run.p_end:
+        return run.end_of_inflation
+    return run.lowered(p).at("p", p).state
+
+
+class PeelingFamily(BranchFamily):
+    """A peeling curve on all meshes; asked for the state at its pressure, it gives the pull-off point."""
+
+    located_by: ClassVar[Mapping[str, str]] = {"pull_off": "G"}
+
+    def state(
+        self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None
+    ) -> StateRecord:
+        """As :meth:`BranchFamily.state`; at ``p`` the pull-off point, or the largest patch if there is none.
+
+        Raises:
+            InputError: When the curve has no such state.
+        """
+        if name != "p":
+            return super().state(name, value, crossing, profile)
+        pressure = self.fine.p
+        if value != pressure:
+            raise InputError(f"circular: this peeling curve is for p = {pressure:g}, not {value:g}")
+        if self.special_points():
+            found = super().state("pull_off", 1, crossing, profile)
+        else:
+            found = super().state("front", self.fine.points[0].state.loads["front"], crossing, profile)
+        return StateRecord({"p": value}, found.branch, found.quantities, found.fields, crossing)

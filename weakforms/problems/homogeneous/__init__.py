@@ -1,0 +1,1 @@
+"""Bodies that deform homogeneously, and material laws at a point."""

@@ -1,0 +1,71 @@
+r"""Two states of a long tube that coexist: equal pressure, equal potential (Maxwell's rule).
+
+.. math:: \Pi_{,\lambda}(\lambda^{a}; p) = \Pi_{,\lambda}(\lambda^{b}; p) = 0, \qquad
+          \Pi(\lambda^{a}; p) = \Pi(\lambda^{b}; p)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from weakforms.problems.homogeneous.body import Body, system_of
+from weakforms.problems.material_choice import Chosen
+from weakforms.results import Quantity
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.support.roots import root
+from weakforms.solvers.uncertainty.refinement import ALGEBRAIC
+
+NAMES = {"thin": "", "thick": "_2"}
+"""The two states and what the columns of the second one end in."""
+
+
+def maxwell_states(body: Body, chosen: Chosen, traced: Mapping[str, np.ndarray]) -> dict[str, Quantity]:
+    """The pressure and both states, solved for together; empty where the branch does not rise twice.
+
+    Args:
+        body: The tube.
+        chosen: Its law.
+        traced: Columns of the branch, from which the first guess is read.
+    """
+    guess = _guess(body, traced)
+    if guess is None:
+        return {}
+    p, stretches = guess
+    system = system_of(body, chosen, copies=2)
+    solver = ExtendedNewton(system, [body.load])
+    solver.solve(State(np.array(stretches), {body.load: p}), [Held("Pi_difference", 0.0)])
+    values = system.monitors()
+    found = {"p_maxwell": system.load(body.load), "Pi_maxwell": values["Pi"]}
+    for state, ending in NAMES.items():
+        found |= {f"{name}_{state}": values[name + ending] for name in body.unknowns}
+    return {name: Quantity(v, ALGEBRAIC * max(1.0, abs(v))) for name, v in found.items()}
+
+
+def _guess(body: Body, traced: Mapping[str, np.ndarray]) -> tuple[float, list[float]] | None:
+    """Where the potential over the pressure crosses itself: on the first and on the last rising part."""
+    p = traced[body.load]
+    rising = np.diff(p) > 0
+    ends = np.flatnonzero(np.diff(rising.astype(int)))  # turns of the pressure
+    if len(ends) < 2:
+        return None
+    first, last = slice(0, ends[0] + 2), slice(ends[1] + 1, None)
+    parts = []
+    for part in (first, last):
+        order = np.argsort(p[part])
+        names = ("Pi", *body.unknowns)
+        parts.append({n: CubicSpline(p[part][order], traced[n][part][order]) for n in names})
+    low = max(p[first].min(), p[last].min())
+    high = min(p[first].max(), p[last].max())
+
+    def gap(x: float) -> float:
+        return float(parts[0]["Pi"](x) - parts[1]["Pi"](x))
+
+    if low >= high or gap(low) * gap(high) > 0:
+        return None
+    x = root(gap, low, high, "the pressure of equal potentials")
+    return x, [float(part[n](x)) for part in parts for n in body.unknowns]

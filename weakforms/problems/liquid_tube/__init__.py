@@ -1,0 +1,1 @@
+"""The tube that holds a liquid, Paper 3."""

@@ -1,0 +1,1 @@
+"""The liquid-filled tube where it bends sideways, as a surface in space."""

@@ -1,0 +1,172 @@
+"""Paper 3: where the secondary branch starts, the first ``n = 1`` bifurcation, on a mesh of the surface.
+
+The axisymmetric side gives only guesses (a state and a mode as columns over ``Z``): eigenvalue and null
+vector are the mesh's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.interpolate import BarycentricInterpolator, CubicSpline
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
+from weakforms.problems.liquid_tube.bent.model import Shape, SurfaceModel
+from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
+from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.roots import root
+
+NODES, SPAN = 6, 0.005
+"""Volumes over which the coarsest mesh's bifurcation is interpolated: a Chebyshev grid within this fraction
+of the axisymmetric one's."""
+
+BESIDE = tuple(chebyshev.chebpts1(4)), (0.4, 0.2)
+"""Volumes, over :data:`SPAN`, at which the second mesh is compared with the coarsest one, and any further
+mesh with the next coarser one: what they differ by is as small as that one's error, and fewer nodes will do.
+The pair lies on one side of the bifurcation, towards it: the tangent of the first serves for both."""
+
+CLOSE = 1e-12
+"""Newton step, relative to the state, down to which the states there are solved for."""
+
+LOOKED_AT = 3
+"""Eigenvalues near zero among which that of the axisymmetric branch's mode is found."""
+
+READINGS = 121
+"""Material points ``Z`` over which axisymmetric guesses are splined."""
+
+LIKENESS = 0.9
+"""Least overlap of the surface's null vector with the axisymmetric branch's mode."""
+
+
+def position(of: AxisymmetricState) -> Shape:
+    """An axisymmetric state as a surface."""
+    r, z = CubicSpline(of.Z, of.r), CubicSpline(of.Z, of.z)
+    return lambda s, theta: np.vstack([r(s) * np.cos(theta), r(s) * np.sin(theta), z(s)])
+
+
+def displacement(of: AxisymmetricState) -> Shape:
+    """The mode at a bifurcation point as a displacement; at ``Theta = 0`` it bulges."""
+    u, beta, w = (CubicSpline(of.Z, part) for part in of.mode)
+    n = of.n
+
+    def mode(s: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        c, sn = np.cos(n * theta), np.sin(n * theta)
+        out, around = u(s) * c, beta(s) * sn
+        return np.vstack(
+            [
+                out * np.cos(theta) - around * np.sin(theta),
+                out * np.sin(theta) + around * np.cos(theta),
+                w(s) * c,
+            ]
+        )
+
+    return mode
+
+
+def turned(shape: Shape) -> Shape:
+    """The same displacement a quarter turn on: the other mode of a double eigenvalue."""
+
+    def mode(s: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        x, y, z = shape(s, theta - np.pi / 2)
+        return np.vstack([-y, x, z])
+
+    return mode
+
+
+class Trend(NamedTuple):
+    """Axisymmetric states of a mesh beside its bifurcation."""
+
+    row: Callable[[float], np.ndarray]
+    """Critical eigenvalue, columns and loads over the volume, from -1 to 1 within :data:`SPAN`. The front's
+    coefficients are the last loads; finer meshes have more of them."""
+    finer: tuple[float, ...]
+    """Where the next finer mesh is compared with this one."""
+
+
+def bifurcation_on(
+    model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, below: Trend | None = None
+) -> tuple[Solved, np.ndarray, int, Trend]:
+    """The bifurcation on the surface's own mesh: state, null vector, and negative eigenvalues beside it.
+
+    At the point itself even the bordered matrix is singular (the null vector breaks the symmetry of the
+    branch): the eigenvalue, the columns and the state are interpolated from axisymmetric states around it,
+    solved for at given volumes. State and null vector are to be corrected: they are not better than that.
+
+    Args:
+        model: The surface.
+        primary: The axisymmetric branch.
+        at: Its bifurcation.
+        below: Trend on the next coarser mesh.
+
+    Raises:
+        ConvergenceError: When the mode's eigenvalue has no zero there, or the null vector is not that mode.
+    """
+    system, volume = model.system, at.values["V"]
+    along = chebyshev.chebpts1(NODES) if below is None else np.array(below.finer)
+    solved, eigenvalues, modes, counts = _beside(model, primary, at, along)
+    rows = [
+        [eigenvalue, *s.values.values(), *s.state.loads.values()]
+        for eigenvalue, s in zip(eigenvalues, solved, strict=True)
+    ]
+    trend = _trend(along, np.array(rows), below)
+    if trend.row(-1.0)[0] * trend.row(1.0)[0] > 0 or len(set(counts)) > 1:
+        raise ConvergenceError(
+            f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
+            f"negative ones beside them {counts}"
+        )
+    zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
+    _, *found = trend.row(zero).tolist()
+    u, mode = (
+        BarycentricInterpolator(along, np.array(v))(zero) for v in ([s.state.u for s in solved], modes)
+    )
+    like = model.interpolated(displacement(at))
+    across = system.mass_times(mode)
+    if system.dot(like, across) < LIKENESS * np.sqrt(system.dot(like, system.mass_times(like))):
+        raise ConvergenceError("the null vector on the surface is not the axisymmetric branch's mode")
+    names = solved[0].values
+    state = State(u, dict(zip(solved[0].state.loads, found[len(names) :], strict=True)))
+    values = dict(zip(names, found[: len(names)], strict=True))
+    return Solved(values, state, "bifurcation_point"), mode, counts[0], trend
+
+
+def _beside(
+    model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, along: np.ndarray
+) -> tuple[list[Solved], list[float], list[np.ndarray], list[int]]:
+    """States beside a bifurcation, their critical eigenvalues and modes, and how many others are negative."""
+    system, stability = model.system, Stability(model.system)
+    fitting = Fitting(model, KeptNewton(system, ["zw"], CLOSE))
+    like = model.interpolated(displacement(at))
+    states, eigenvalues, vectors, counts = [], [], [], []
+    for i, s in enumerate(along):
+        begin = primary.at("V", at.values["V"] * (1 + SPAN * s), at.Z)
+        guess = State(model.interpolated(position(begin)), {"zw": begin.values["zw"]})
+        kept = i > 0 and min(along) > 0
+        state = fitting.solve(guess, [Held("V", begin.values["V"])], chord=True, kept=kept)
+        states.append(Solved({"zw": state.loads["zw"], **system.monitors()}, state))
+        modes, negative = stability.about(state, 0.0, LOOKED_AT)
+        row = system.mass_times(like)
+        overlaps = [system.dot(row, mode.vector) for mode in modes]
+        k = int(np.argmax(np.abs(overlaps)))
+        eigenvalues.append(modes[k].eigenvalue)
+        vectors.append(np.sign(overlaps[k]) * modes[k].vector)
+        counts.append(negative - int(modes[k].eigenvalue < 0))
+    return states, eigenvalues, vectors, counts
+
+
+def _trend(along: np.ndarray, rows: np.ndarray, below: Trend | None) -> Trend:
+    """Polynomials through rows of numbers, or through what they differ by from another mesh's trend."""
+    size = rows.shape[1]
+
+    def coarser(s: float) -> np.ndarray:
+        known = np.zeros(0) if below is None else below.row(s)
+        return np.append(known, np.zeros(size - len(known)))
+
+    difference = BarycentricInterpolator(along, rows - [coarser(s) for s in along])
+    return Trend(lambda s: coarser(s) + difference(s), BESIDE[below is not None])

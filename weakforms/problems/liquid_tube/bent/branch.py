@@ -1,0 +1,241 @@
+"""Paper 3: the secondary branch on one mesh.
+
+It starts at the first ``n = 1`` bifurcation point of the primary branch, by injecting the null vector found
+on the mesh of the whole surface itself, and is followed by arc-length: neither ``zw`` nor ``r_mid`` need be
+monotone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, Trend, bifurcation_on
+from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
+from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.bent.stability import BentStability
+from weakforms.problems.liquid_tube.critical import PrimaryBranch
+from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
+from weakforms.solvers.equilibrium.constraints import MonitorPlane, Plane
+from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
+from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord, residual_limit
+from weakforms.solvers.equilibrium.system import State
+
+AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
+"""Root mean square displacements along the mode from which initial slopes are extrapolated."""
+
+COMPARED = AMPLITUDES[::2]
+"""Those of them at which the finest mesh is compared with the next coarser one."""
+
+CORRECTIONS, EQUILIBRIUM = 3, 1e-11
+"""Steps, at most, that make an equilibrium of an interpolated bifurcation point, and the residual at which
+there is nothing left to mend."""
+
+ASTRAY = 0.05
+"""Root mean square distance from a coarser mesh's state beyond which a solution is another one."""
+
+
+def secondary_branch(
+    comm: MPI.Intracomm,
+    data: SurfaceData,
+    primary: PrimaryBranch,
+    step: float,
+    end: float,
+    followed: bool = True,
+    below: Trend | None = None,
+) -> SecondaryBranch:
+    """The secondary branch on one mesh.
+
+    Args:
+        comm: Ranks.
+        data: The tube and its mesh.
+        primary: The axisymmetric branch it leaves.
+        step: Largest arc-length step, as a root mean square displacement.
+        end: The branch ends when ``zw`` has fallen to this fraction of its value at the bifurcation.
+        followed: False where its states will be solved for from another mesh's.
+        below: Trend beside the bifurcation on the next coarser mesh.
+
+    Raises:
+        ConvergenceError: When no bifurcation with that mode is found on the surface's mesh.
+    """
+    model = SurfaceModel(comm, data)
+    begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
+    *found, trend = bifurcation_on(model, primary, begin, below)
+    branch = SecondaryBranch(model, *found, step, end, followed)
+    branch.trend = trend
+    return branch
+
+
+class SecondaryBranch(EquilibriumBranch):
+    """The secondary branch on one mesh; its first point is the bifurcation point.
+
+    Args:
+        model: The surface.
+        bifurcation: Where it begins.
+        mode: Nearly the null vector there, bulging at ``Theta = 0``.
+        n_negative: Negative eigenvalues there, the null one left out.
+        step: Largest arc-length step, as a root mean square displacement.
+        end: Fraction of the bifurcation's ``zw`` at which the branch ends.
+        followed: False where its states will be solved for from another mesh's: its only point is the first.
+
+    It is followed on the mesh fitted to the bifurcation point's free surface; any state asked for is solved
+    for on a mesh fitted to it.
+
+    Attributes:
+        small: States at small amplitudes, as far as they were wanted.
+        mode: The null vector, of unit length in the mass norm.
+        trend: Beside the bifurcation, for the next finer mesh.
+    """
+
+    trend: Trend | None = None
+
+    def __init__(
+        self,
+        model: SurfaceModel,
+        bifurcation: Solved,
+        mode: np.ndarray,
+        n_negative: int,
+        step: float,
+        end: float,
+        followed: bool = True,
+    ) -> None:
+        self.model, self.bifurcation, self.mode = model, bifurcation, mode
+        self.size = float(np.sqrt(2 * np.pi * model.data.length))
+        """Norm of a displacement of root mean square one."""
+        self.stability = BentStability(model)
+        control = StepControl(first=step * self.size / 2, largest=step * self.size, predictor_error=2e-2)
+        self.solver, self.system = KeptNewton(model.system, ["zw"]), model.system
+        self.fitting = Fitting(model, self.solver)
+        self.continuation = Continuation(self.solver, control=control)
+        self._lowest = end * bifurcation.state.loads["zw"]
+        self.control, self.loads, self.stalled = "zw", self.solver.scalars, None
+        self.points = [self._first(self.solver.factor, n_negative)]
+        self.small: dict[float, Solved] = {}
+        if followed:
+            self.follow()
+
+    def follow(self) -> None:
+        """Trace the branch to its end."""
+        super().__init__(
+            self.continuation,
+            "zw",
+            self.points[0],
+            stop=lambda point: point.state.loads["zw"] < self._lowest,
+        )
+
+    def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
+        """The bifurcation point with the mode for a direction, both corrected.
+
+        The state was interpolated; it is corrected at the same ``zw`` across the mode, where ``K`` is
+        regular. The null vector is what the bordered matrix makes of a displacement along the mode.
+        """
+        state, system = self.bifurcation.state.copy(), self.model.system
+        norms: list[float] = []
+        system.set_state(state.u, state.loads)
+        across, nothing = system.mass_times(self.mode), np.zeros(system.size)
+        factor.update()
+        bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
+        for step in range(CORRECTIONS + 1):
+            system.set_state(state.u, state.loads)
+            residual = system.residual()
+            norms.append(float(np.sqrt(system.dot(residual, residual))))
+            if step == CORRECTIONS or norms[-1] < EQUILIBRIUM:
+                break
+            state.u += bordered.solve(-residual, np.zeros(1))[0]
+        null = bordered.solve(nothing, np.ones(1))[0]
+        self.mode = null / np.sqrt(system.dot(null, system.mass_times(null)))
+        self._across = system.mass_times(self.mode)
+        if not norms[-1] <= residual_limit(system):
+            raise ConvergenceError(f"the bifurcation point has a residual of {norms[-1]:.1e}")
+        values = self.bifurcation.values | system.monitors()
+        self.bifurcation = Solved(values, state, self.bifurcation.kind)
+        record = SolveRecord("corrected", len(norms) - 1, 1, tuple(norms))
+        direction = Tangent(self.mode, {"zw": 0.0})
+        return CurvePoint(state, direction, 0.0, n_negative, record, system.monitors())
+
+    def at_guess(self, guess: State, constraint: Constraint) -> Solved:
+        """The state that meets a condition, from one of another mesh.
+
+        Raises:
+            ConvergenceError: When it does not converge, or not to the same state.
+        """
+        self.system.set_state(guess.u, guess.loads)
+        shape = self.fitting.shape()
+        state = self.fitting.solve(guess, [constraint], near=True, chord=True)
+        values = self._values(state)
+        gap = self.fitting.apart(shape)
+        if gap > ASTRAY:
+            raise ConvergenceError(f"converged {gap:.2g} away from another mesh's state")
+        return Solved(values, state)
+
+    def across(self, point: CurvePoint, names: tuple[str, ...]) -> tuple[Solved, MonitorPlane]:
+        """The state on a fitted mesh at a point of the trace, in a plane across the branch; that plane."""
+        rates = self.direction(point, names)
+        plane = MonitorPlane(rates, sum(rate * self._column(point, name) for name, rate in rates.items()))
+        return self._solve(point.state, plane), plane
+
+    def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
+        """On a mesh fitted to the state; in a plane across the trace, which is one of its mesh, on that."""
+        if isinstance(constraint, Plane):
+            return super()._solve(guess, constraint, kind)
+        state = self.fitting.solve(guess, [*self.continuation.fixed, constraint])
+        return Solved(self._values(state), state, kind)
+
+    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+        """As for any curve, on the mesh that the trace was made on."""
+        state = self.fitting.moved(solved.state, self.points[i].state)
+        super()._require_within(i, Solved(solved.values, state), what)
+        self.system.set_state(solved.state.u, solved.state.loads)
+
+    def special(self) -> list[Solved]:
+        """The bifurcation point it begins at, then what any branch may have."""
+        return [self.bifurcation, *super().special()]
+
+    # -- near the bifurcation ----------------------------------------------------------------------
+
+    def at_amplitude(self, amplitude: float, guess: Callable[[], State] | None = None) -> Solved:
+        """The state with a prescribed displacement along the mode (root mean square), ``zw`` free.
+
+        Args:
+            amplitude: Of the displacement.
+            guess: Gives a start from another mesh; by default the bifurcation point plus the mode.
+        """
+        base, offset = self.bifurcation.state, amplitude * self.size
+        plane = Plane(self._across, {}, self.system.dot(self._across, base.u) + offset)
+        begin = State(base.u + offset * self.mode, base.loads) if guess is None else guess()
+        state = self.fitting.solve(begin, [plane], near=True, chord=guess is not None)
+        return Solved(self._values(state), state)
+
+    def initial(self, given: Sequence[float] = AMPLITUDES) -> dict[str, float]:
+        """Slopes at the bifurcation and its ``zw`` from the branch alone.
+
+        ``zw`` and ``V`` are even in the amplitude, and the half turn that takes one amplitude to its negative
+        swaps ``r_mid`` and ``r_mid_pi``: polynomials in the square of the amplitude through a few small ones.
+
+        Args:
+            given: The amplitudes.
+        """
+        for amplitude in given:
+            if amplitude not in self.small:
+                self.small[amplitude] = self.at_amplitude(amplitude)
+        amplitudes, states = np.array(given), [self.small[a].values for a in given]
+        squares = amplitudes**2
+
+        def lowest(values: list[float] | np.ndarray) -> np.ndarray:
+            return np.polynomial.polynomial.polyfit(squares / squares[-1], values, len(squares) - 1)[:2]
+
+        zw, zw_2 = lowest([s["zw"] for s in states])
+        _, v_2 = lowest([s["V"] for s in states])
+        odd = np.array([(s["r_mid"] - s["r_mid_pi"]) / 2 for s in states]) / amplitudes
+        slope = lowest(odd)[0]
+        _, mean_2 = lowest([(s["r_mid"] + s["r_mid_pi"]) / 2 for s in states])
+        return {
+            "zw_extrapolated": float(zw),
+            "dzw_dV": float(zw_2 / v_2),
+            "dzw_dr2": float(zw_2 / squares[-1] / slope**2),
+            "dr_mean_dzw": float(mean_2 / zw_2),
+        }

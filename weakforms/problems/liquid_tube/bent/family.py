@@ -1,0 +1,342 @@
+"""Paper 3: the secondary branch, where the tube bends sideways, on a family of meshes.
+
+See :mod:`weakforms.problems.liquid_tube.bent.bifurcation_point` for where it starts and
+:mod:`weakforms.problems.liquid_tube.bent.stability` for how its stability is judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from mpi4py import MPI
+from scipy.interpolate import CubicSpline
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS
+from weakforms.problems.liquid_tube.bent.branch import (
+    AMPLITUDES,
+    COMPARED,
+    SecondaryBranch,
+    secondary_branch,
+)
+from weakforms.problems.liquid_tube.bent.columns import RESULTANTS, SLOPES
+from weakforms.problems.liquid_tube.bent.model import SurfaceData
+from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
+from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
+from weakforms.problems.problem import Progress
+from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint
+from weakforms.solvers.continuation.branch import DIAGNOSTICS, Solved
+from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import Constraint
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.support.sampling import Sampler
+from weakforms.solvers.uncertainty.family import BranchFamily
+from weakforms.solvers.uncertainty.refinement import estimate, estimate_in_norm
+
+SUPERCONVERGENT = 2
+"""What the order of numbers exceeds the elements' degree by: values at corners of quadrilaterals converge at
+least so, integrals and eigenvalues up to twice the degree. Estimates reckon with no more."""
+
+READ = 1
+"""The same for resultants read across elements, and for positions anywhere on the surface; stretches and
+resultants there, derivatives, converge with the degree."""
+
+GRID = (161, 97)
+"""Points along and around of the grid on which the smallest values on a surface are looked for."""
+
+THETAS = np.linspace(0, np.pi, 25)
+"""Meridians of a profile."""
+
+
+def secondary_family(
+    parameters: FluidTubeParameters, numerics: FluidTubeNumerics, comm: MPI.Intracomm, progress: Progress
+) -> SecondaryFamily:
+    """The secondary branch from its bifurcation point on all meshes.
+
+    Reads the numerics whose names begin with ``secondary``.
+
+    Raises:
+        ConvergenceError: When the primary branch has no ``n = 1`` bifurcation point, or no branch is found
+            there.
+    """
+    primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
+    begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
+
+    made: list[SecondaryBranch] = []
+
+    def make(level: int) -> SecondaryBranch:
+        progress("secondary branch", level, numerics.secondary_levels)
+        coarser = 2 ** (numerics.secondary_levels - 1 - level)
+        data = SurfaceData(
+            parameters.L,
+            parameters.delta,
+            parameters.gamma,
+            parameters.alpha,
+            numerics.secondary_cells // coarser,
+            around(numerics) // coarser,
+            numerics.secondary_degree,
+            front=free_surface(begin),
+        )
+        step, end = numerics.secondary_step, numerics.secondary_end
+        below = made[-1].trend if made else None
+        made.append(secondary_branch(comm, data, primary, step, end, level == 0, below))
+        return made[-1]
+
+    degree = numerics.secondary_degree
+    caps = dict.fromkeys(RESULTANTS, float(degree + READ))
+    cap = float(degree + SUPERCONVERGENT)
+    return SecondaryFamily(make, numerics.secondary_levels, cap, ("zw", "r_mid"), "secondary", caps)
+
+
+def around(numerics: FluidTubeNumerics) -> int:
+    """Cells over half the circumference on the finest mesh: as asked for, or two thirds of those along."""
+    return numerics.secondary_around or 2 * numerics.secondary_cells // 3
+
+
+def free_surface(of: AxisymmetricState) -> float:
+    """Material point at which the free surface meets an axisymmetric membrane; its end where that is full."""
+    height = CubicSpline(of.Z, of.z - of.values["zw"])
+    return float(height.roots(extrapolate=False).max(initial=0.0)) or float(of.Z[-1])
+
+
+class SecondaryFamily(BranchFamily):
+    """The secondary branch on a family of meshes.
+
+    It is traced on the coarsest one. A state is solved for there, on the mesh fitted to it, and on every
+    finer mesh from the one before.
+    """
+
+    fine: SecondaryBranch
+    levels: list[SecondaryBranch]
+    judges_points = False
+
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """The points of the trace, each brought to all meshes in a plane across the branch.
+
+        A point that cannot be is left out and listed as a failure.
+        """
+        names, fine = self.fine.shown, self.fine
+        kept, diagnostics, missed = [], [], []
+        for i, point in enumerate(self.levels[0].points):
+            try:
+                solved, marks = self._on_all(point)
+            except ConvergenceError as error:
+                missed.append((i, str(error)))
+                continue
+            kept.append([[s.values[name] for name in names] for s in solved])
+            diagnostics.append(marks)
+        if missed:
+            what = f"branch {self.name}, points {missed[0][0]} to {missed[-1][0]}, {len(missed)} left out"
+            self.failures.append(Failure(what, missed[0][1]))
+        if not kept:
+            raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
+        table = np.array(kept)  # (points, levels, columns)
+        columns = dict(zip(names, table[:, -1].T, strict=True))
+        columns |= dict(zip(DIAGNOSTICS, np.array(diagnostics).T, strict=True))
+        if not with_uncertainty:
+            return Branch(self.name, fine.control, columns)
+        caps = np.array([self.caps.get(name, self.cap) for name in names])
+        found = estimate([table[:, k] for k in range(table.shape[1])], caps)
+        return Branch(self.name, fine.control, columns, dict(zip(names, found.uncertainty.T, strict=True)))
+
+    def _on_all(self, point: CurvePoint) -> tuple[list[Solved], list[float]]:
+        """A point of the trace on all meshes, and on the finest the count of negative eigenvalues."""
+        fine, first = self.fine, self.levels[0].points[0]
+        if point is first:
+            point = fine.points[0]
+            record, negative = point.record, point.n_negative
+            solved = [level.bifurcation for level in self.levels]
+        else:
+            begin, plane = self.levels[0].across(point, self.across)
+            near = point.arclength / self.levels[0].points[-1].arclength
+            solved = self._raised(begin, plane, lambda level: level.at_position(point, plane.weights, near))
+            record, negative = fine.fitting.record, self._negative_count(point)
+        return solved, [negative, record.norms[-1], record.iterations]
+
+    def _negative_count(self, point: CurvePoint) -> int:
+        """Negative eigenvalues on the finest mesh, whose system holds a point of the trace.
+
+        Its solve ended with a tangent factorised on the way, as far off as the coarser mesh's state at most.
+        Where that has as many as the coarsest mesh's own, none is near zero and the state has no others.
+        """
+        factor = self.fine.solver.factor
+        if factor.stiffened is not None or factor.negative_count() != point.n_negative:
+            factor.update()
+        return factor.negative_count()
+
+    def _raised(
+        self, begin: Solved, constraint: Constraint, own: Callable[[SecondaryBranch], Solved]
+    ) -> list[Solved]:
+        """A state of the coarsest mesh on all of them; the last one's system holds it.
+
+        Args:
+            begin: The state.
+            constraint: What it meets.
+            own: Finds it by a mesh's own trace, where the coarser mesh's state leads nowhere: on a slack
+                membrane it may be far off.
+        """
+        solved = [begin]
+        for below, level in pairwise(self.levels):
+            state = solved[-1].state
+            below.system.set_state(state.u, state.loads)
+            try:
+                solved.append(level.at_guess(level.fitting.taken(below.fitting), constraint))
+            except ConvergenceError:
+                if len(level.points) == 1:
+                    level.follow()
+                solved.append(own(level))
+        return solved
+
+    def special_points(self) -> list[SpecialPoint]:
+        """As for any branch; the bifurcation point carries the branch's initial slopes.
+
+        The finest mesh's are those of the next coarser one and what they differ by, far smaller, for which
+        fewer amplitudes will do.
+        """
+        points = super().special_points()
+        for below, level in pairwise(self.levels):
+            for amplitude in COMPARED if level is self.fine else AMPLITUDES:
+                level.small[amplitude] = self._like(below, level, amplitude)
+        *_, last = coarser = self.levels[:-1]
+        slopes = [level.initial() for level in coarser]
+        fewer = last.initial(AMPLITUDES[:-1])  # for the error of the extrapolation
+        near, fine = last.initial(COMPARED), self.fine.initial(COMPARED)
+        for name in SLOPES:
+            whole = slopes[-1][name]
+            found = estimate([*(s[name] for s in slopes), whole + fine[name] - near[name]], self.cap)
+            points[0].values[name] = float(found.value)
+            points[0].uncertainty[name] = float(found.uncertainty) + abs(fewer[name] - whole)
+        points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
+        return points
+
+    @staticmethod
+    def _like(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
+        """The state of a small amplitude on a mesh, from that of the next coarser one."""
+
+        def guess() -> State:
+            if amplitude not in below.small:
+                below.small[amplitude] = below.at_amplitude(amplitude)
+            state = below.small[amplitude].state
+            below.system.set_state(state.u, state.loads)
+            return level.fitting.taken(below.fitting)
+
+        return level.at_amplitude(amplitude, guess)
+
+    def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
+        """On the coarsest mesh by the branch traced there; every other mesh starts from the one before."""
+        begin = self.levels[0].at(name, value, crossing)
+        return self._raised(begin, Held(name, value), lambda level: level.at(name, value, crossing))
+
+    def _locate(self) -> list[tuple[Solved, ...]]:
+        """The beginning; what else there is on the coarsest mesh's trace counts if all meshes have it.
+
+        On a compressed membrane, whose inertia depends on the mesh, the beginning only.
+        """
+        beginning = [tuple(level.bifurcation for level in self.levels)]
+        counts = {point.n_negative for point in self.levels[0].points}
+        if len(counts) == 1 and not len(self.levels[0].turns()):
+            return beginning
+        for level in self.levels[1:]:
+            level.follow()
+        return beginning if self.compressed else super()._locate()
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """Eigenvalues with uncertainties; the two finest meshes must count the same negative ones.
+
+        The coarsest one is there for the order of convergence: on a long tube it is too coarse for the dry
+        part. Where the membrane is compressed it wrinkles as finely as a mesh can show: but for the lowest
+        eigenvalue at fixed level, far below the wrinkles', nothing there converges, and nothing is given.
+        """
+        out = self._lowest(solved)
+        least = out["T_min"]
+        if least.value + least.uncertainty < 0:
+            lowest = [level.stability.lowest(s.state) for level, s in zip(self.levels, solved, strict=True)]
+            return out | {"Lambda_1": self._quantity(lowest)}
+        spectra: list[dict[str, float]] = []
+        for level, s in zip(self.levels, solved, strict=True):
+            spectra.append(level.stability.spectra(s.state, critical, spectra[-1] if spectra else None))
+        for name in spectra[-1]:
+            values = [spectrum[name] for spectrum in spectra]
+            if not name.startswith("n_negative"):
+                out[name] = self._quantity(values)
+            elif len(set(values[-2:])) > 1:
+                raise ConvergenceError(f"stability depends on the mesh: {name} = {values}")
+            else:
+                out[name] = Quantity(values[-1])
+        return out
+
+    @cached_property
+    def compressed(self) -> bool:
+        """Whether a resultant is negative on the branch: wrinkles there are as fine as a mesh can show."""
+        points = [Solved({}, point.state) for point in self.fine.points]
+        return min(self._sampled(-1, p, self._grid())["T2"].min() for p in points) < 0
+
+    def _grid(self) -> np.ndarray:
+        """Points ``(X, Theta)`` of the meshes as they were made, closer than cells, shape ``(n, 2)``."""
+        z, theta = np.linspace(0, self.fine.model.data.length, GRID[0]), np.linspace(0, np.pi, GRID[1])
+        return np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
+
+    def _lowest(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
+        """Lowest point and smallest resultant, from a grid finer than the meshes and a parabola there.
+
+        What twice as coarse a grid would have found is taken for the error of that, besides the meshes'.
+        """
+        places = self._grid()
+        found: dict[str, list[tuple[float, float]]] = {"z_min": [], "T_min": []}
+        for k in range(len(self.levels)):
+            sampled = self._sampled(k, solved[k], places)
+            for name, column in (("z_min", "z"), ("T_min", "T2")):
+                found[name].append(lowest_on_grid(sampled[column].reshape(GRID)))
+        out = {}
+        for name, rows in found.items():
+            quantity = self._quantity([value for value, _ in rows])
+            spread = quantity.uncertainty + max(missed for _, missed in rows)
+            out[name] = Quantity(quantity.value, spread, quantity.order)
+        return out
+
+    def _sampled(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
+        """Columns of a profile of one mesh's state at points of the mesh as it was made."""
+        level = self.levels[k]
+        level.system.set_state(solved.state.u, solved.state.loads)
+        return level.model.readings(self._sampler(k, places)())
+
+    def _sampled_at(self, k: int, solved: Solved, z: np.ndarray, theta: np.ndarray) -> dict[str, np.ndarray]:
+        """The same at material points; the mesh has them elsewhere for every state."""
+        model = self.levels[k].model
+        model.system.set_state(solved.state.u, solved.state.loads)
+        x = model.front.mesh(z, theta)
+        formulation = model.formulation
+        return model.readings(Sampler(model.unknown, formulation.profile, np.column_stack([x, theta]))())
+
+    def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
+        """Over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""
+        heights = np.unique(np.round(points, 12))  # several figures' points, equal but for round-off
+        z, theta = (part.ravel() for part in np.meshgrid(heights, THETAS, indexing="ij"))
+        samples = [self._sampled_at(k, s, z, theta) for k, s in enumerate(solved)]
+        columns: dict[str, np.ndarray] = {"Z": z, "Theta": theta}
+        uncertainty = {"Z": 0.0, "Theta": 0.0}
+        for name in samples[-1]:
+            columns[name] = samples[-1][name]
+            cap = self.fine.model.data.degree + (READ if name in "xyz" else 0)
+            uncertainty[name] = estimate_in_norm([sample[name] for sample in samples], float(cap))
+        return Field("profile", columns, uncertainty)
+
+
+def lowest_on_grid(values: np.ndarray) -> tuple[float, float]:
+    """Smallest value on a rectangular grid, by parabolas, and its distance from that of half the points."""
+    fine, coarse = (_by_parabolas(grid) for grid in (values, values[::2, ::2]))
+    return fine, abs(fine - coarse)
+
+
+def _by_parabolas(values: np.ndarray) -> float:
+    i, j = np.unravel_index(int(np.argmin(values)), values.shape)
+    reach = 0.0
+    for row, k in ((values[:, j], i), (values[i], j)):
+        if 0 < k < len(row) - 1:
+            left, here, right = row[k - 1 : k + 2]
+            reach += (right - left) ** 2 / (8 * (left - 2 * here + right))
+    return float(values[i, j] - reach)

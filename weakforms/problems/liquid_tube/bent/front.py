@@ -1,0 +1,161 @@
+r"""Paper 3: a mesh of the whole surface that follows the free surface of the liquid.
+
+The pressure has a kink where the membrane leaves the liquid, along a curve :math:`Z = Z_f(\Theta)`. Elements
+that hold the kink inside them lose their order. The mesh therefore stays as it is made, over ``(X, Theta)``,
+and the material point is a function on it,
+
+.. math:: Z = \begin{cases} Z_0 + (X - Z_0)\,\frac{Z_f(\Theta) - Z_0}{X_f - Z_0}, & Z_0 \le X \le X_f \\
+          Z_1 - (Z_1 - X)\,\frac{Z_1 - Z_f(\Theta)}{Z_1 - X_f}, & X_f \le X \le Z_1 \end{cases}
+
+and ``Z = X`` elsewhere: the row of edges ``X = X_f`` lies on the free surface, rows at and beyond ``Z_0`` and
+``Z_1`` stay. ``Z_f`` is a cosine polynomial, whose coefficients belong to the state. A row that is off by
+``d`` changes forces by ``O(d^2)`` only: it is put in place between solves, not solved for with them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from copy import copy
+
+import basix.ufl
+import numpy as np
+from dolfinx import fem
+from dolfinx.mesh import Mesh
+from numpy.polynomial import chebyshev
+from petsc4py import PETSc
+from scipy.fft import dct
+
+from weakforms.solvers.equilibrium.system import Formulation, State, System
+
+NAME = "front_"
+"""What the coefficients' names in a state's loads begin with."""
+
+THIN = 1e-4
+"""Least distance of the front from the rows that stay, over theirs."""
+
+
+class FrontMap:
+    """``Z(X, Theta)`` on a mesh of half the circumference.
+
+    Args:
+        mesh: Sheet over ``(X, Theta)``.
+        rows: ``Z_0``, ``X_f`` and ``Z_1``, rows of edges; the outer ones stay.
+        degree: Of the function.
+        count: Angles, equidistant on ``[0, pi]``, at which the front is fitted, less one.
+
+    Attributes:
+        function: ``Z``.
+        moves: How often it has changed.
+    """
+
+    def __init__(self, mesh: Mesh, rows: tuple[float, float, float], degree: int, count: int) -> None:
+        low, self.row, high = rows
+        self.between = low, high
+        self.angles = np.pi * np.arange(count + 1) / count
+        element = basix.ufl.element("Lagrange", "quadrilateral", degree)
+        self.function = fem.Function(fem.functionspace(mesh, element), name="material")
+        self.moves = 0
+        self.coefficients = np.zeros(count + 1)
+        self.reset()
+
+    def reset(self) -> None:
+        """``Z = X``: no free surface meets the membrane."""
+        nowhere = np.zeros(len(self.angles))
+        nowhere[0] = self.row
+        self.put(nowhere)
+
+    def put(self, coefficients: np.ndarray) -> None:
+        """Move the row to a front; of more coefficients than it has the first are taken, of fewer all."""
+        given = np.zeros(len(self.angles))
+        count = min(len(given), len(coefficients))
+        given[:count] = coefficients[:count]
+        if self.moves and np.array_equal(given, self.coefficients):
+            return
+        self.coefficients = given
+        self.function.interpolate(lambda x: self.material(x[0], x[1]))
+        self.function.x.scatter_forward()
+        self.moves += 1
+
+    def at(self, theta: np.ndarray) -> np.ndarray:
+        """``Z_f``."""
+        return chebyshev.chebval(np.cos(theta), self.coefficients)
+
+    def material(self, x: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        """``Z`` of points of the mesh."""
+        front = self.at(theta)
+        return self._moved(x, np.full_like(front, self.row), front)
+
+    def mesh(self, z: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        """``X`` of material points: the inverse of :meth:`material`."""
+        front = self.at(theta)
+        return self._moved(z, front, np.full_like(front, self.row))
+
+    def frozen(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+        """:meth:`mesh` with the front as it is now."""
+        return copy(self).mesh
+
+    def _moved(self, x: np.ndarray, old: np.ndarray, new: np.ndarray) -> np.ndarray:
+        low, high = self.between
+        below = low + (x - low) * (new - low) / (old - low)
+        above = high - (high - x) * (high - new) / (high - old)
+        return np.where((x <= low) | (x >= high), x, np.where(x <= old, below, above))
+
+    def fitted(self, places: np.ndarray) -> np.ndarray:
+        """Coefficients of the cosine polynomial through ``Z_f`` at :attr:`angles`, kept off other rows."""
+        low, high = self.between
+        room = THIN * (high - low)
+        clipped = np.clip(places, low + room, high - room)
+        out = dct(clipped, type=1) / (len(clipped) - 1)
+        out[[0, -1]] /= 2
+        return out
+
+    def loads(self) -> dict[str, float]:
+        """The coefficients by name."""
+        return {f"{NAME}{i}": float(c) for i, c in enumerate(self.coefficients)}
+
+
+class HalfSystem(System):
+    """Equations on half the circumference, on a mesh that may follow a front, with columns read at points.
+
+    Where it follows one a state's loads hold the front's coefficients too.
+
+    Args:
+        formulation: The weak form.
+        front: What the mesh follows; ``None`` where it follows nothing.
+        read: Further columns of the state held, to read, not to prescribe.
+    """
+
+    def __init__(
+        self, formulation: Formulation, front: FrontMap | None, read: Callable[[], dict[str, float]]
+    ) -> None:
+        self.front, self._read = front, read
+        self._weighed = -1
+        super().__init__(formulation)
+
+    @property
+    def mass(self) -> PETSc.Mat:
+        """Mass matrix over the material surface: it goes with the mesh."""
+        moves = 0 if self.front is None else self.front.moves
+        if self._weighed != moves:
+            self._weighed = moves
+            self.update_mass()
+        return super().mass
+
+    def set_loads(self, loads: Mapping[str, float]) -> None:
+        """Put scalars into the forms, and the row where they have the front."""
+        super().set_loads({name: value for name, value in loads.items() if not name.startswith(NAME)})
+        coefficients = [value for name, value in loads.items() if name.startswith(NAME)]
+        if coefficients:
+            self.front.put(np.array(coefficients))
+
+    def state(self) -> State:
+        """Copy of the state the forms hold."""
+        held = super().state()
+        if self.front is not None:
+            held.loads |= self.front.loads()
+        return held
+
+    def monitors(self) -> dict[str, float]:
+        """Every scalar functional of the state held, and what is read."""
+        found = super().monitors()
+        return found | self._read() if found else found

@@ -1,0 +1,365 @@
+r"""Paper 3: the fluid-loaded tube as a surface in space, in Cartesian components.
+
+Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016; scaling as in
+:mod:`weakforms.problems.liquid_tube.model`. The unknown is the position ``(x, y, z)`` over the material
+rectangle ``(Z, Theta)``, on half the circumference with ``y = 0`` on ``Theta = 0`` and ``pi`` (states of C1v
+symmetry), or on a mesh that closes on itself (no symmetry imposed).
+
+The potential of the liquid is written with the vertical flux. As ``P`` depends on ``z`` alone, but for a
+function of ``zw``
+
+.. math:: -\int P\,\mathrm dV = \int\!\!\int \tfrac\gamma2 (z_w - z)_+^2 N_z\,\mathrm d\Theta\,\mathrm dZ,
+          \qquad N = b \times a
+
+It is twice differentiable in the position: its first variation holds the pressure, its second one a bounded
+step at the free surface and no line term, so that UFL's derivatives are right and the tangent is symmetric
+at every quadrature. The printed ``-P(z) (x e_x + y e_y).N/2`` has the same value, but UFL drops a line term
+of its second variation. By the same flux the volume of the liquid is
+
+.. math:: V = -\frac1\gamma \frac{\partial\Pi}{\partial z_w}
+            = \pi \min(z_w, L) - \int\!\!\int (z_w - z)_+ N_z \,\mathrm d\Theta\,\mathrm dZ
+
+whose derivative in the position UFL finds in full; that in ``zw`` is the free surface's area ``A_s``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import basix.ufl
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+from ufl.core.expr import Expr
+
+from weakforms.forms.fluid import (
+    Surface,
+    strain_energy,
+    submerged_flux,
+)
+from weakforms.problems.liquid_tube.bent.edge_points import EdgePoints
+from weakforms.problems.liquid_tube.bent.edge_tangents import EdgeTangents
+from weakforms.problems.liquid_tube.bent.front import FrontMap, HalfSystem
+from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
+from weakforms.solvers.equilibrium.system import Formulation, System
+
+READ = {"mid": 1 / 2, "quarter": 1 / 4}
+"""Heights of the points that columns show, over the length of the stress-free tube."""
+
+RULES = 3, 5, 16
+"""Quadrature degrees over that of the elements: membrane, liquid, and its volume, assembled once a state."""
+
+FITTED_RULE = 2
+"""What the quadrature degree exceeds twice that of the elements by where no element holds the load's kink."""
+
+SIDES = {"0": 0.0, "pi": np.pi}
+"""Meridians they lie on."""
+
+Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""Position ``(3, n)``, or displacement, at material points ``Z``, ``Theta``."""
+
+
+@dataclass(frozen=True)
+class SurfaceData:
+    """The tube, its liquid and its mesh.
+
+    ``cells`` along the tube (a multiple of four), ``around`` over half the circumference. ``uneven`` is the
+    relative amplitude by which the widths of the cells vary around, on the whole circumference only.
+    """
+
+    L: float
+    delta: float
+    gamma: float
+    alpha: float
+    cells: int
+    around: int
+    degree: int
+    full: bool = False
+    uneven: float = 0.0
+    front: float | None = None
+    """On half the circumference: about where the free surface meets the membrane; the mesh follows it."""
+
+    @property
+    def length(self) -> float:
+        """Of the stress-free tube."""
+        return self.L / self.delta
+
+
+class SurfaceModel:
+    """Weak form of the surface on one mesh. Load: ``zw``; on the whole circumference ``phase`` too.
+
+    On the whole circumference a bent state may be turned about the axis. ``phase`` times ``partner`` is a
+    force that vanishes at every solution found with the turn prescribed; it makes that system regular.
+
+    Attributes:
+        system: Residual, tangent and columns in the space of the states (C1v on the half circumference).
+        breaking: On the half circumference the same second variation for displacements that break the mirror
+            symmetry (``u`` odd, ``v`` even, ``w`` odd about ``Theta = 0`` and ``pi``); ``None`` on the whole.
+    """
+
+    def __init__(self, comm: MPI.Intracomm, data: SurfaceData) -> None:
+        self.data = data
+        if data.front is None:
+            nodes = heights(data.cells, data.length)
+        else:
+            nodes, rows = fitted_heights(data.cells, data.length, data.front)
+        if data.full:
+            self._angles = _edges(2 * data.around, data.uneven)
+            self.mesh = prism(comm, nodes, self._angles)
+        else:
+            self.mesh = flat_sheet(comm, nodes, data.around)
+        element = basix.ufl.element("Lagrange", "quadrilateral", data.degree, shape=(3,))
+        self.space = fem.functionspace(self.mesh, element)
+        self.front = None
+        if data.front is not None:
+            self.front = FrontMap(self.mesh, rows, data.degree, 2 * data.around)
+        self.nodes = nodes
+        self.unknown = fem.Function(self.space, name="surface")
+        self.level = fem.Constant(self.mesh, 0.0)
+        self.zw = ufl.variable(self.level)
+        self.partner, self._phase = fem.Function(self.space), fem.Constant(self.mesh, 0.0)
+        self._fixed = {
+            name: fem.Constant(self.mesh, float(getattr(data, name))) for name in ("L", "gamma", "alpha")
+        }
+        self.copies = 1 if data.full else 2
+        self._across = self._circumferential() if data.full else None
+        self.unknown.interpolate(self._over(_cylinder(data.delta)))
+        self._rings = fem.Function(self.space)
+        self._rings.interpolate(self._over(_cylinder(data.delta)))
+        self._points = None if data.full else self._edge_points(nodes)
+        self._tangents = None
+        if not data.full:
+            at = {side: self._point("quarter", side) for side in SIDES}
+            self._tangents = EdgeTangents(self.space, nodes, data.around, at, self.front)
+        # The load's kink at the free surface lies inside cells: its quadrature is what limits the accuracy.
+        self.dx, self._wet, self._wet_once = (
+            ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": rule}) for rule in self._rules()
+        )
+        conditions = self._ring_conditions()
+        mirrored = [] if data.full else self._mirror_conditions((1,))
+        self.formulation = self._formulation(conditions + mirrored)
+        self.system = self._assembled(self.formulation)
+        self.breaking = None
+        if not data.full:
+            odd = conditions + self._mirror_conditions((0, 2))
+            self.breaking = self._assembled(self._second_variation_only(odd))
+
+    def _rules(self) -> list[int]:
+        if self.front is not None:
+            return [2 * self.data.degree + FITTED_RULE] * len(RULES)
+        return [times * self.data.degree for times in RULES]
+
+    def _assembled(self, formulation: Formulation) -> System:
+        if self.data.full:
+            return System(formulation)
+        return HalfSystem(formulation, self.front, self._resultants_read)
+
+    # -- geometry --------------------------------------------------------------------------------
+
+    def material(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """``(Z, Theta)`` of mesh coordinates, shape ``(3, n)``."""
+        if self.front is not None:
+            return self.front.material(points[0], points[1]), points[1]
+        if not self.data.full:
+            return points[0], points[1]
+        corners, next_corners, widths = self._faces()
+        # A point belongs to the face whose chord it lies on; on an edge either face gives the same angle.
+        along = (next_corners - corners) / widths[:, None]
+        offset = points[:2].T[:, None, :] - corners[None]
+        s = np.einsum("ijk,jk->ij", offset, along)
+        miss = np.abs(offset[..., 0] * along[:, 1] - offset[..., 1] * along[:, 0])
+        miss += np.maximum(-s, 0) + np.maximum(s - widths, 0)
+        face = np.argmin(miss, axis=1)
+        return points[2], self._angles[face] + s[np.arange(len(face)), face]
+
+    def _faces(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """First and second corner of each face of the prism, and its width."""
+        widths = np.diff([*self._angles, self._angles[0] + 2 * np.pi])
+        corners = polygon(widths)
+        return corners, np.roll(corners, -1, axis=0), widths
+
+    def _over(self, shape: Shape) -> Callable[[np.ndarray], np.ndarray]:
+        return lambda points: shape(*self.material(points))
+
+    def _circumferential(self) -> fem.Function:
+        """Unit vector along ``Theta`` on each face of the prism."""
+        space = fem.functionspace(self.mesh, ("DG", 0, (3,)))
+        direction = fem.Function(space)
+
+        def tangent(points: np.ndarray) -> np.ndarray:
+            # The middle of a face of a polygon inscribed in a circle lies on the face's normal.
+            radius = np.hypot(points[0], points[1])
+            return np.vstack([-points[1] / radius, points[0] / radius, np.zeros_like(radius)])
+
+        direction.interpolate(tangent)
+        return direction
+
+    @property
+    def _stretch(self) -> Expr | float:
+        """Material area over the mesh's."""
+        return 1.0 if self.front is None else self.front.function.dx(0)
+
+    def surface(self, of: Expr) -> Surface:
+        """A field with its derivatives in ``Z`` and ``Theta``."""
+        if self.front is not None:
+            a = of.dx(0) / self._stretch
+            return Surface(of, a, of.dx(1) - a * self.front.function.dx(1))
+        if self._across is None:
+            return Surface(of, of.dx(0), of.dx(1))
+        return Surface(of, of.dx(2), ufl.dot(ufl.grad(of), self._across))
+
+    def interpolated(self, shape: Shape) -> np.ndarray:
+        """Owned degrees of freedom of a position or displacement, with the rings' values at the rings."""
+        function = fem.Function(self.space)
+        function.interpolate(self._over(shape))
+        return function.x.array[: self.system.size].copy()
+
+    # -- forms -----------------------------------------------------------------------------------
+
+    def energy(self, position: Expr) -> ufl.Form:
+        """The part of ``Pi`` that depends on the position; times two on the half circumference."""
+        at, fixed = self.surface(position), self._fixed
+        membrane = strain_energy(at.a, at.b, fixed["alpha"]) * self._stretch * self.dx
+        liquid = fixed["gamma"] * submerged_flux(at, self.zw, 2) * self._stretch * self._wet
+        return self.copies * membrane + self.copies * liquid
+
+    def _formulation(self, conditions: list[fem.DirichletBC]) -> Formulation:
+        at, gamma = self.surface(self.unknown), self._fixed["gamma"]
+        energy = self.energy(self.unknown)
+        test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
+        full_head = ufl.max_value(self.zw - self._fixed["L"], 0.0)
+        area = self.data.length * 2 * np.pi / self.copies
+        # What the disks' fluxes add is spread over the surface, to be the integral of a form.
+        base = ufl.pi * (self.zw - full_head) / area
+        potential = -gamma * ufl.pi / 2 * (self.zw**2 - full_head**2) / area
+        loads = {"zw": (self.level, self.zw)}
+        residual = ufl.derivative(energy, self.unknown, test)
+        if self.data.full:
+            loads["phase"] = (self._phase, ufl.variable(self._phase))
+            residual += loads["phase"][1] * ufl.inner(self.partner, test) * self.dx
+        return Formulation(
+            unknown=self.unknown,
+            residual=residual,
+            loads=loads,
+            bcs=conditions,
+            mass=self.product(trial, test),
+            monitors={
+                "V": (base - self.copies * submerged_flux(at, self.zw, 1)) * self._stretch * self._wet_once,
+                "Pi": energy + potential * self._stretch * self.dx,
+                **({} if self.data.full else self._read_points(at)),
+            },
+            profile={
+                f"{prefix}{name}": part[i]
+                for prefix, part in (("", at.x), ("a_", at.a), ("b_", at.b))
+                for i, name in enumerate("xyz")
+            },
+        )
+
+    def readings(self, sampled: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Columns of a profile from the sampled position and tangent vectors.
+
+        Stretches are computed point by point and not interpolated: where both are equal they are no smooth
+        functions of the position. ``lam1 >= lam2``.
+        """
+        a, b = (np.array([sampled[f"{part}_{name}"] for name in "xyz"]) for part in "ab")
+        g11, g22, g12 = (np.sum(u * v, axis=0) for u, v in ((a, a), (b, b), (a, b)))
+        root = np.sqrt((g11 - g22) ** 2 + 4 * g12**2)
+        lam1, lam2 = (np.sqrt((g11 + g22 + sign * root) / 2) for sign in (1, -1))
+        out = {name: sampled[name] for name in "xyz"} | {"lam1": lam1, "lam2": lam2}
+        return out | self._resultants(lam1, lam2)
+
+    def _second_variation_only(self, conditions: list[fem.DirichletBC]) -> Formulation:
+        """The same second variation on another space of displacements."""
+        whole = self.formulation
+        return Formulation(self.unknown, whole.residual, whole.loads, conditions, whole.mass, monitors={})
+
+    def turn(self) -> Expr:
+        """``e_z x x - x_,Theta``: the displacement that turns a state's pattern about the axis."""
+        at = self.surface(self.unknown)
+        return ufl.as_vector([-at.x[1], at.x[0], 0]) - at.b
+
+    def product(self, u: Expr, v: Expr) -> ufl.Form:
+        """Inner product of two displacements on the whole circumference."""
+        return self.copies * ufl.inner(u, v) * self._stretch * self.dx
+
+    # -- points that columns show ----------------------------------------------------------------
+
+    def _point(self, name: str, side: str) -> tuple[float, float]:
+        return SIDES[side], READ[name] * self.data.length
+
+    def _edge_points(self, nodes: np.ndarray) -> EdgePoints:
+        points = [self._point(name, side) for name in READ for side in SIDES]
+        return EdgePoints(self.mesh, nodes, points, self.data.degree)
+
+    def _read_points(self, at: Surface) -> dict[str, ufl.Form]:
+        """Radius at mid-length and position at a quarter of it, at both meridians."""
+        x, z, read = at.x[0], at.x[2], self._points.read
+        forms = {
+            "r_mid": read(x, self._point("mid", "0")),
+            "r_mid_pi": read(-x, self._point("mid", "pi")),
+        }
+        for name, value in {"x": x, "z": z}.items():
+            for side in SIDES:
+                forms[f"{name}_quarter_{side}"] = read(value, self._point("quarter", side))
+        return forms
+
+    def _resultants_read(self) -> dict[str, float]:
+        """Resultants at the quarter points of the state held.
+
+        On a mirror plane the principal directions are the meridian's and the circumference's.
+        """
+        out = {}
+        for side, (lam1, lam2) in self._tangents(self.unknown).items():
+            for name, value in self._resultants(lam1, lam2).items():
+                out[f"{name}_quarter_{side}"] = float(value)
+        return out
+
+    def _resultants(self, lam1: np.ndarray | float, lam2: np.ndarray | float) -> dict[str, np.ndarray]:
+        """Principal Cauchy resultants ``T1`` and ``T2``."""
+        out = {}
+        for name, own, other in (("T1", lam1, lam2), ("T2", lam2, lam1)):
+            first = own - own**-3 / other**2
+            second = own * other**2 - own**-3
+            out[name] = (first + self.data.alpha * second) / other
+        return out
+
+    # -- conditions ------------------------------------------------------------------------------
+
+    def _ring_conditions(self) -> list[fem.DirichletBC]:
+        """Both rings held where the stress-free tube was bonded to its disks, the upper one lifted."""
+        axis = 2 if self.data.full else 0
+
+        def rings(x: np.ndarray) -> np.ndarray:
+            return np.isclose(x[axis], 0.0) | np.isclose(x[axis], self.data.length)
+
+        facets = dmesh.locate_entities_boundary(self.mesh, 1, rings)
+        dofs = fem.locate_dofs_topological(self.space, 1, facets)
+        return [fem.dirichletbc(self._rings, dofs)]
+
+    def _mirror_conditions(self, components: tuple[int, ...]) -> list[fem.DirichletBC]:
+        """Components that vanish on the plane of symmetry, on both its meridians."""
+
+        def plane(x: np.ndarray) -> np.ndarray:
+            return np.isclose(x[1], 0.0) | np.isclose(x[1], np.pi)
+
+        facets = dmesh.locate_entities_boundary(self.mesh, 1, plane)
+        out = []
+        for i in components:
+            component = self.space.sub(i)
+            dofs = fem.locate_dofs_topological(component, 1, facets)
+            out.append(fem.dirichletbc(np.array(0.0), dofs, component))
+        return out
+
+
+def _edges(cells: int, uneven: float) -> np.ndarray:
+    """Angles of the edges of the prism's faces, whose widths vary by ``uneven`` once around."""
+    even = 2 * np.pi * np.arange(cells) / cells
+    return even + uneven * (np.sin(even + 0.7) - np.sin(0.7))
+
+
+def _cylinder(delta: float) -> Shape:
+    """The uniformly stretched cylinder."""
+    return lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), delta * z])

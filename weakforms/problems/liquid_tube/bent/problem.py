@@ -1,0 +1,252 @@
+"""Problem ``fluid_tube_surface``: the whole surface near its bifurcation, half or full circumference.
+
+What the symmetry of the circle means for a mesh: on the full circumference the critical eigenvalue is double
+(its mode may be turned), on the mirror-symmetric half single, with the same zero and the same secondary
+branch. A mesh that is not uniform around splits the pair.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+from mpi4py import MPI
+from numpy.polynomial import chebyshev
+from pydantic import Field, model_validator
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, displacement, position, turned
+from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
+from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, registry, silent
+from weakforms.results import Failure, Quantity, Result
+from weakforms.solvers.equilibrium.constraints import Held, Plane
+from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.provenance import provenance, quadrature_degree
+from weakforms.solvers.support.roots import root
+
+SOURCE = "Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016"
+
+NODES, SPAN = 6, 0.01
+"""Volumes over which the zero is interpolated: a Chebyshev grid within this fraction of the bifurcation's."""
+
+LOOKED_AT = 12
+"""Eigenvalues near zero among which those of the ``n = 1`` modes are found."""
+
+SCALES = {
+    "length": "A, radius of the disks and of the stress-free tube",
+    "zw_bifurcation": "level at which the critical eigenvalue, or the mean of the pair, is zero, over A",
+    "V_bifurcation": "volume there over A^3",
+    "Lambda_pair_1": "smaller of the eigenvalues of the n = 1 modes at that volume",
+    "Lambda_pair_2": "larger one (full circumference)",
+    "Lambda_split": "their distance: zero for a double eigenvalue",
+    "multiplicity": "eigenvalues smaller there than 1e-9 of the next one",
+    "zw_bent": "level of the secondary state with the prescribed amplitude over A",
+    "V_bent": "its volume over A^3",
+    "Pi_bent": "its potential over mu H A^2",
+    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference that of the turn",
+    "phase": "force that holds the turn at that state: zero but for round-off",
+    "amplitude": "root mean square displacement along the axisymmetric branch's mode over A",
+    "uneven": "relative amplitude by which the widths of the cells vary around",
+}
+
+
+class WholeNumerics(Numerics):
+    """One mesh: what is looked at are effects of the mesh itself."""
+
+    cells: int = Field(16, ge=4, le=64, description="cells along the tube; as many around the circumference")
+    degree: int = Field(3, ge=2, le=5, description="polynomial degree of the unknowns")
+
+    @model_validator(mode="after")
+    def _quarters(self) -> Self:
+        if self.cells % 4:
+            raise ValueError("cells must be a multiple of 4")
+        return self
+
+
+class WholeParameters(Parameters):
+    """The tube, its liquid, and how much of the circumference is modelled."""
+
+    L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
+    delta: float = Field(2.0, gt=1, le=10, description="axial pre-stretch")
+    gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
+    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    extent: Literal["half", "full"] = Field(
+        "full", description="mirror-symmetric half, or the full circumference"
+    )
+    uneven: float = Field(0.0, ge=0, le=0.5, description="unevenness of the mesh around (full only)")
+    amplitude: float = Field(
+        0.1, ge=0.02, le=0.2, description="root mean square displacement of the bent state"
+    )
+
+
+class FluidTubeSurface:
+    """Numbers of the whole surface at and near its ``n = 1`` bifurcation, on one mesh."""
+
+    name: ClassVar[str] = "fluid_tube_surface"
+    title: ClassVar[str] = "Fluid-loaded tube as a whole surface: symmetry of circle and mesh"
+    paper: ClassVar[int] = 3
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = (
+        "Pi/(mu H A^2) = int_0^{L/delta} int_0^{2 pi} [ (I1 - 3 + alpha (I2 - 3))/2 "
+        "+ (gamma/2) max(zw - z, 0)^2 N_z ] dTheta dZ - (gamma pi/2) (zw^2 - max(zw - L, 0)^2),  "
+        "N = x_Theta x x_Z"
+    )
+    scales: ClassVar[dict[str, str]] = SCALES
+    parameters = WholeParameters
+    numerics = WholeNumerics
+    special_points: ClassVar[tuple[str, ...]] = ()
+    columns: ClassVar[tuple[str, ...]] = ()
+    branches: ClassVar[tuple[str, ...]] = ("primary",)
+    control: ClassVar[str] = "none: the problem's numbers stand under quantities"
+
+    def check(self, parameters: WholeParameters, requests: Requests) -> None:
+        """Refuse states, of which there are none, and an uneven mesh that would break the mirror symmetry.
+
+        Raises:
+            InputError: For either.
+        """
+        if requests.states:
+            raise InputError(
+                "fluid_tube_surface: there are no states to ask for; its numbers are quantities of any solve"
+            )
+        if parameters.uneven and parameters.extent == "half":
+            raise InputError(
+                f"fluid_tube_surface: uneven = {parameters.uneven:g} needs extent = 'full'; "
+                "allowed on the half: 0"
+            )
+
+    def solve(
+        self,
+        parameters: WholeParameters,
+        numerics: WholeNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Locate the bifurcation on the surface's own mesh and step onto the branch that starts there.
+
+        The numbers are the mesh's own; they carry no uncertainty.
+        """
+        begun = time.perf_counter()
+        result = Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics={
+                **numerics.model_dump(),
+                "stopping": STOPPING,
+            },
+            provenance={},
+        )
+        run = WholeRun(parameters, numerics, comm)
+        result.numerics["quadrature_degree"] = quadrature_degree(run.system.formulation.residual)
+        for i, (what, part) in enumerate({"bifurcation": run.critical, "bent state": run.bent}.items()):
+            progress(what, i, 2)
+            try:
+                result.quantities |= {name: Quantity(value) for name, value in part().items()}
+            except ConvergenceError as error:
+                result.failures.append(Failure(what, str(error)))
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+
+class WholeRun:
+    """The surface on one mesh, started from the axisymmetric branch."""
+
+    def __init__(self, parameters: WholeParameters, numerics: WholeNumerics, comm: MPI.Intracomm) -> None:
+        self.amplitude = parameters.amplitude
+        self.full = parameters.extent == "full"
+        given = parameters.L, parameters.delta, parameters.gamma, parameters.alpha
+        self.primary = PrimaryBranch(comm, *given)
+        given = (*given, numerics.cells, numerics.cells // 2, numerics.degree)
+        data = SurfaceData(*given, self.full, parameters.uneven)
+        self.model = SurfaceModel(comm, data)
+        self.system = self.model.system
+        self.begin = self.primary.bifurcation(np.linspace(0, data.length, READINGS))
+        mode = displacement(self.begin)
+        shapes = [mode, turned(mode)] if self.full else [mode]
+        self.modes = [self._unit(self.model.interpolated(shape)) for shape in shapes]
+        self.rows = [self.system.mass_times(mode) for mode in self.modes]
+        self.size = float(np.sqrt(2 * np.pi * data.length))
+        scalars = ["zw", "phase"] if self.full else ["zw"]
+        self.solver = ExtendedNewton(self.system, scalars)
+        if self.full:
+            self.model.partner.x.array[: self.system.size] = self.modes[1]
+            self.model.partner.x.scatter_forward()
+
+    def _unit(self, mode: np.ndarray) -> np.ndarray:
+        mode[self.system.bc_dofs] = 0.0
+        return mode / np.sqrt(self.system.dot(mode, self.system.mass_times(mode)))
+
+    def _guess(self, at: AxisymmetricState) -> State:
+        loads = {"zw": at.values["zw"]} | ({"phase": 0.0} if self.full else {})
+        return State(self.model.interpolated(position(at)), loads)
+
+    def _pinned(self) -> list[Plane]:
+        """No displacement along the turned mode: holds the turn of a bent state."""
+        return [Plane(self.rows[1], {}, 0.0)] if self.full else []
+
+    def critical(self) -> dict[str, float]:
+        """Where the eigenvalue of the ``n = 1`` modes is zero (the mean of the pair), and the pair there."""
+        at_zero = self.begin.values["V"]
+        x = chebyshev.chebpts1(NODES)
+        rows = [self._near(at_zero * (1 + SPAN * s)) for s in x]
+        means = [np.mean(row[1]) for row in rows]
+        fits = {
+            "mean": chebyshev.chebfit(x, means, NODES - 1),
+            "zw": chebyshev.chebfit(x, [row[0] for row in rows], NODES - 1),
+            "pair": chebyshev.chebfit(x, np.array([row[1] for row in rows]), NODES - 1),
+            "next": chebyshev.chebfit(x, [row[2] for row in rows], NODES - 1),
+        }
+        if np.sign(means[0]) == np.sign(means[-1]):
+            raise ConvergenceError(f"the n = 1 eigenvalue is not zero within {SPAN:g} of V = {at_zero:g}")
+        zero = root(lambda s: chebyshev.chebval(s, fits["mean"]), -1, 1, "the bifurcation", xtol=1e-14)
+        pair = np.sort(np.atleast_1d(chebyshev.chebval(zero, fits["pair"])))
+        other = float(chebyshev.chebval(zero, fits["next"]))
+        out = {
+            "zw_bifurcation": float(chebyshev.chebval(zero, fits["zw"])),
+            "V_bifurcation": at_zero * (1 + SPAN * zero),
+            "Lambda_pair_1": float(pair[0]),
+            "multiplicity": float(np.sum(np.abs(pair) < 1e-9 * other)),
+        }
+        if self.full:
+            out |= {"Lambda_pair_2": float(pair[1]), "Lambda_split": float(pair[1] - pair[0])}
+        return out
+
+    def _near(self, volume: float) -> tuple[float, np.ndarray, float]:
+        """At an axisymmetric state: ``zw``, eigenvalues of the ``n = 1`` modes, size of the next one."""
+        guess = self._guess(self.primary.at("V", volume, self.begin.Z))
+        solver = ExtendedNewton(self.system, ["zw"])
+        state, _ = solver.solve(guess, [Held("V", volume)])
+        found = Stability(self.system).modes(state, LOOKED_AT)
+        alike = [sum(self.system.dot(row, mode.vector) ** 2 for row in self.rows) for mode in found]
+        order = np.argsort(alike)[::-1]
+        count = len(self.rows)
+        if alike[order[count - 1]] < 0.5:
+            raise ConvergenceError("the n = 1 modes are not among the eigenvalues nearest to zero")
+        values = np.array([mode.eigenvalue for mode in found])[order]
+        return state.loads["zw"], np.sort(values[:count]), float(np.abs(values[count:]).min())
+
+    def bent(self) -> dict[str, float]:
+        """The secondary state with the prescribed displacement along the axisymmetric mode."""
+        guess = self._guess(self.begin)
+        offset = self.amplitude * self.size
+        target = self.system.dot(self.rows[0], guess.u) + offset
+        guess.u = guess.u + offset * self.modes[0]
+        state, _ = self.solver.solve(guess, [*self._pinned(), Plane(self.rows[0], {}, target)])
+        values = self.system.monitors()
+        nearest = Stability(self.system).modes(state, 1)[0]
+        return {
+            "zw_bent": state.loads["zw"],
+            "V_bent": values["V"],
+            "Pi_bent": values["Pi"],
+            "Lambda_bent_1": nearest.eigenvalue,
+            "phase": state.loads.get("phase", 0.0),
+        }
+
+
+registry.add(FluidTubeSurface())

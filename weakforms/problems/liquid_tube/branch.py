@@ -1,0 +1,260 @@
+"""Paper 3: the primary branch on one mesh, in pieces: dry, partially filled, full, partially filled again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+from mpi4py import MPI
+from scipy.interpolate import CubicSpline
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.liquid_tube.model import DRY, FULL, PART, TubeData, TubeModel
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.modal import ModalBranch, SinglePoint
+from weakforms.solvers.stability.modes import SecondVariation
+from weakforms.solvers.support.sampling import Peak, Probe, Sampler
+
+EDGE = 1e-4
+"""Fraction of the length within which the front is not followed towards a ring: that part of the mesh would
+be of no length, and its stiffness of no bound. A ring leaves the membrane no room there."""
+
+NEARLY_FULL = 0.97
+"""Front, as a fraction of the length, from which the tube is filled in steps of equal ratio ..."""
+
+TOPPING = 6
+"""... that are one fewer than this."""
+
+ZW_END, STEP = 0.7, 0.5
+"""Where the branch ends, as a fraction of its highest level, and the largest step, unless told."""
+
+TRANSFER = 257
+"""Points through which a state goes from one position of the front to another, as a guess."""
+
+WALK = 0.05
+"""Largest change of ``delta`` in the walk to a pre-stretch at which a guess of one's own does not
+converge."""
+
+
+class TubeModes:
+    """What is watched along the branch: eigenvalues by wave number, torsion, volume control, the middle.
+
+    Eigenvalues are those of the second variation against ``int |dx|^2 dZ dTheta`` (reference area).
+    """
+
+    def __init__(self, model: TubeModel, n_max: int) -> None:
+        self.model, self.n_max = model, n_max
+        self.wave_numbers = range(1, n_max + 1)
+        profile = model.system.formulation.profile
+        self.columns = (
+            "r_mid",
+            "T1_mid",
+            "T2_mid",
+            "r_max",
+            *(f"Lambda_n{n}" for n in range(n_max + 1)),
+            "Lambda_torsion",
+            "LambdaV_n0",
+        )
+        self._middle = Probe(model.unknown, {name: profile[name] for name in ("r", "T1", "T2")})
+        self._widest = Peak(model.unknown, 0)
+
+    def variation(self, n: int) -> SecondVariation:
+        """The operator of a wave number; of 0 the axisymmetric one without torsion."""
+        if n == 0:
+            return self.model.axial
+        self.model.wave_number.value = n
+        return self.model.waves
+
+    def observe(self) -> dict[str, float]:
+        """Radii and resultants at the middle, largest radius, lowest eigenvalues."""
+        state = self.model.system.state()
+        place = self.model.locate(np.array(self.model.data.L / state.loads["delta"] / 2), state.loads)
+        middle = self._middle(float(place))
+        values = (
+            middle["r"],
+            middle["T1"],
+            middle["T2"],
+            1 + self._widest(),
+            *(self._lowest(self.variation(n)) for n in range(self.n_max + 1)),
+            self._lowest(self.model.torsion),
+            self.at_fixed_volume(state),
+        )
+        return dict(zip(self.columns, values, strict=True))
+
+    @staticmethod
+    def _lowest(variation: SecondVariation) -> float:
+        return variation.spectrum().eigenvalues[0]
+
+    def at_fixed_volume(self, state: State) -> float:
+        r"""Lowest axisymmetric eigenvalue at fixed volume.
+
+        With ``R`` the first variation, ``R_zw = -gamma d`` and :math:`A_s = \pi r_f^2` the free surface,
+        :math:`K_V = K + (\gamma/A_s)\, d\, d^T` (per radian :math:`K + 2/(\gamma r_f^2)\, R_{zw} R_{zw}^T`);
+        over a full tube the volume allows only :math:`R_{zw}^T x = 0`.
+        """
+        model = self.model
+        if not state.loads["low"]:
+            return self._lowest(model.axial)
+        border = model.system.load_derivative("zw")
+        compliance = 0.0
+        if not state.loads["high"]:
+            compliance = model.data.gamma * model.system.monitor("r_front") ** 2 / 2
+        return model.axial.fixed(border, compliance).eigenvalues[0]
+
+
+class FluidPath:
+    """The primary branch on one mesh from the dry tube on.
+
+    Args:
+        comm: Ranks.
+        data: Tube, liquid and mesh.
+        n_max: Largest wave number watched.
+        zw_end: The branch ends where the level has fallen to this fraction of the highest one.
+        step: Largest arc-length step.
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        data: TubeData,
+        n_max: int,
+        zw_end: float = ZW_END,
+        step: float = STEP,
+    ) -> None:
+        self.data, self.zw_end, self.step = data, zw_end, step
+        self.model = TubeModel(comm, data)
+        self.modes = TubeModes(self.model, n_max)
+        self._highest = self._volume = 0.0
+
+    def _ends(self, point: CurvePoint) -> bool:
+        """Whether the level has fallen far enough or, where the law stiffens, rises again after that."""
+        level, volume = point.state.loads["zw"], point.monitors["V"]
+        if level > self._highest:
+            self._highest, self._volume = level, volume
+        rises = volume > self._volume and point.tangent.loads["zw"] > 0
+        return level < self.zw_end * self._highest or (rises and self.data.material is not None)
+
+    # -- pieces --------------------------------------------------------------------------------
+
+    @cached_property
+    def pieces(self) -> list[ModalBranch]:
+        """Dry, partially filled, and if the level passes the upper ring: full, partially filled again."""
+        pieces = [self._dry_piece(), self._filling()]
+        while self._left_at_top(pieces[-1]):
+            full = self._full(pieces[-1])
+            pieces.append(full)
+            if full.stalled or self._ends(full.points[-1]):
+                break
+            pieces.append(self._draining(full))
+        return pieces
+
+    def _left_at_top(self, piece: ModalBranch) -> bool:
+        last = piece.points[-1]
+        return piece.stalled is None and not self._ends(last) and last.state.loads["front"] > NEARLY_FULL
+
+    def _dry_piece(self) -> SinglePoint:
+        solver = ExtendedNewton(self.model.system, ["zw"])
+        continuation = Continuation(solver, control=self._steps())
+        start = continuation.start(self.dry(), Held("zw", 0.0), towards={"zw": 1.0})
+        return SinglePoint(continuation, "zw", start, self.modes, hidden=("Z_front", "r_front"))
+
+    def _filling(self) -> ModalBranch:
+        return self._partially_filled(self.dry(), EDGE, 1.0)
+
+    def _full(self, before: ModalBranch) -> ModalBranch:
+        guess = self.transferred(before.points[-1].state, front=0.5, zw=self.data.L, **FULL)
+        solver = ExtendedNewton(self.model.system, ["zw"])
+        continuation = Continuation(solver, control=self._steps())
+        start = continuation.start(guess, Held("zw", self.data.L), towards={"zw": 1.0})
+
+        def stop(point: CurvePoint) -> bool:
+            return self._ends(point) or point.state.loads["zw"] < self.data.L
+
+        branch = self._branch(continuation, start, stop, ("Z_front", "r_front"))
+        if branch.points[-1].state.loads["zw"] < self.data.L:
+            branch.end_at("zw", self.data.L)
+        return branch
+
+    def _draining(self, before: ModalBranch) -> ModalBranch:
+        return self._partially_filled(before.points[-1].state, 1 - EDGE, -1.0)
+
+    def _partially_filled(self, state: State, front: float, sign: float) -> ModalBranch:
+        guess = self.transferred(state, front=front, zw=self.data.L if sign < 0 else 0.0, **PART)
+        solver = ExtendedNewton(self.model.system, ["zw", "front"])
+        continuation = Continuation(solver, [Held("gap", 0.0)], self._steps(), allowed=_in_order)
+        start = continuation.start(guess, Held("front", front), towards={"front": sign})
+
+        def stop(point: CurvePoint) -> bool:
+            rising = point.tangent.loads["front"] > 0
+            return self._ends(point) or (rising and point.state.loads["front"] > NEARLY_FULL)
+
+        branch = self._branch(continuation, start, stop)
+        if self._left_at_top(branch):
+            left = 1 - branch.points[-1].state.loads["front"]
+            for exponent in np.linspace(np.log(left), np.log(EDGE), TOPPING)[1:]:
+                branch.extend_to("front", 1 - float(np.exp(exponent)))
+        return branch
+
+    def _branch(
+        self,
+        continuation: Continuation,
+        start: CurvePoint,
+        stop: Callable[[CurvePoint], bool],
+        hidden: tuple[str, ...] = (),
+    ) -> ModalBranch:
+        return ModalBranch(continuation, "zw", start, stop, self.modes, hidden)
+
+    def _steps(self) -> StepControl:
+        return StepControl(first=self.step / 4, largest=self.step)
+
+    # -- states --------------------------------------------------------------------------------
+
+    def dry(self) -> State:
+        """The pre-stretched tube without liquid.
+
+        It is no cylinder: hoop tension pulls it in to the radius ``delta^(-1/2)`` of uniaxial tension. Where
+        a guess with that shape does not converge, the tube is stretched to ``delta`` step by step.
+        """
+        solver, delta = ExtendedNewton(self.model.system), self.data.delta
+        try:
+            return solver.solve(self._necked(delta))[0]
+        except ConvergenceError:
+            pass
+        begin = min(delta, 1.5)
+        state = self._necked(begin)
+        for stretch in np.linspace(begin, delta, 2 + int((delta - begin) / WALK)):
+            state.loads["delta"] = float(stretch)
+            state, _ = solver.solve(state)
+        return state
+
+    def _necked(self, delta: float) -> State:
+        loads = {"front": 0.5, "zw": 0.0, **DRY, "delta": delta}
+        length, narrow = self.data.L / delta, delta**-0.5
+        z = self.model.nodes(loads)
+        wall = np.cosh(z - length / 2) / np.cosh(length / 2)
+        return self.model.state_from(narrow + (1 - narrow) * wall, delta * z, loads)
+
+    def transferred(self, state: State, **loads: float) -> State:
+        """A state as a guess for other loads, the position of the front among them."""
+        points = np.linspace(0.0, self.data.length, TRANSFER)
+        r, z = self.sampled(state, points, ("r", "z"))
+        given = {**state.loads, **loads}
+        nodes = self.model.nodes(given)
+        return self.model.state_from(CubicSpline(points, r)(nodes), CubicSpline(points, z)(nodes), given)
+
+    def sampled(self, state: State, points: np.ndarray, names: tuple[str, ...]) -> list[np.ndarray]:
+        """Columns of a state's profile at material points, the same on every rank."""
+        system = self.model.system
+        system.set_state(state.u, state.loads)
+        profile = {name: system.formulation.profile[name] for name in names}
+        found = Sampler(self.model.unknown, profile, self.model.locate(points, state.loads))()
+        return [found[name] for name in names]
+
+
+def _in_order(state: State) -> bool:
+    """Whether the front lies between the rings."""
+    return 0.0 < state.loads["front"] < 1.0

@@ -1,0 +1,139 @@
+"""Paper 3: states and modes of the primary branch as plain arrays, for whoever starts from them.
+
+A model of the whole surface begins where the axisymmetric one bifurcates; it has another mesh and knows
+nothing of this one's. What passes between them are columns over the material coordinate ``Z``, the same on
+every rank.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.liquid_tube.branch import FluidPath
+from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.stability.modal import ModalBranch
+from weakforms.solvers.support.sampling import Sampler
+
+
+@dataclass(frozen=True)
+class AxisymmetricState:
+    """A state of the primary branch at material points ``Z``, and at a bifurcation point its mode."""
+
+    values: dict[str, float]
+    """Columns of the branch: ``zw``, ``V``, ``Pi``, ``r_mid``, eigenvalues ..."""
+    Z: np.ndarray
+    r: np.ndarray
+    z: np.ndarray
+    n: int = 0
+    """Wave number of the mode; 0 where there is none."""
+    mode: np.ndarray | None = None
+    """Null vector ``(u, beta, w)`` at ``Z``, shape ``(3, len(Z))``: the displacement
+    ``u cos(n Theta) e_r + beta sin(n Theta) e_theta + w cos(n Theta) e_z``, of unit norm
+    ``int (u^2 + beta^2 + w^2) dZ = 1``, with ``u > 0`` where it is largest."""
+
+
+class PrimaryBranch:
+    """The primary branch on one mesh, read at any state and any ``Z``.
+
+    Args:
+        comm: Ranks.
+        L: Length of the stretched tube over the radius.
+        delta: Pre-stretch.
+        gamma: ``rho g A^2/(mu H)``.
+        alpha: Second Mooney-Rivlin constant over the first; 0 is neo-Hookean.
+        cells: Cells on each of the two parts of the mesh.
+        degree: Of the elements.
+        n_max: Largest wave number watched.
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        L: float,
+        delta: float,
+        gamma: float = 0.116,
+        alpha: float = 0.0,
+        cells: int = 48,
+        degree: int = 5,
+        n_max: int = 1,
+    ) -> None:
+        data = TubeData(L, delta, gamma, alpha, cells, degree)
+        self.path = FluidPath(comm, data, n_max)
+
+    def bifurcation(self, points: np.ndarray, n: int = 1, order: int = 1) -> AxisymmetricState:
+        """The ``order``-th zero of a wave number's eigenvalue along the branch, with its mode.
+
+        Raises:
+            ConvergenceError: When the branch has no such point, or it is not converged to.
+        """
+        found = 0
+        for piece in self.path.pieces:
+            for solved in piece.special():
+                found += solved.values.get("n") == n
+                if solved.values.get("n") == n and found == order:
+                    return self._bifurcated(piece, solved, np.asarray(points, dtype=float), n)
+        raise ConvergenceError(f"the primary branch has {found} bifurcation points of n = {n}, not {order}")
+
+    def at(self, name: str, value: float, points: np.ndarray, crossing: int = 1) -> AxisymmetricState:
+        """The state at which a column has a value, at the ``crossing``-th of them along the branch.
+
+        Raises:
+            ConvergenceError: When the branch has no such state.
+        """
+        left = crossing
+        for piece in self.path.pieces:
+            here = len(piece.crossings(name, value))
+            if left <= here:
+                solved = piece.at(name, value, left)
+                return self._read(solved, np.asarray(points, dtype=float))
+            left -= here
+        raise ConvergenceError(f"{name} = {value:g} is not met {crossing} times on the primary branch")
+
+    def _read(self, solved: Solved, points: np.ndarray) -> AxisymmetricState:
+        r, z = self.path.sampled(solved.state, points, ("r", "z"))
+        return AxisymmetricState({"zw": solved.state.loads["zw"], **solved.values}, points, r, z)
+
+    def _bifurcated(
+        self, piece: ModalBranch, solved: Solved, points: np.ndarray, n: int
+    ) -> AxisymmetricState:
+        base = self._read(solved, points)
+        waves = self.path.model.waves
+        waves.set_state(piece.null_vector(solved), {})
+        columns = {name: waves.unknown[i] for i, name in enumerate(("u", "beta", "w"))}
+        where = self.path.model.locate(points, solved.state.loads)
+        found = Sampler(waves.unknown, columns, where)()
+        waves.set_state(np.zeros(waves.size), {})
+        mode = np.array([found[name] for name in columns])
+        sign = np.sign(mode[0][np.argmax(np.abs(mode[0]))])
+        return AxisymmetricState(base.values, points, base.r, base.z, n, sign * mode)
+
+
+def first_bifurcation(
+    comm: MPI.Intracomm,
+    L: float,
+    delta: float,
+    points: np.ndarray,
+    gamma: float = 0.116,
+    alpha: float = 0.0,
+    cells: int = 48,
+) -> AxisymmetricState:
+    """The first n = 1 bifurcation point of the primary branch: state and mode at material points ``Z``.
+
+    Args:
+        comm: Ranks; each gets the same arrays.
+        L: Length of the stretched tube over the radius.
+        delta: Pre-stretch; ``Z`` lies in ``[0, L/delta]``.
+        points: ``Z`` at which state and mode are wanted.
+        gamma: ``rho g A^2/(mu H)``.
+        alpha: Second Mooney-Rivlin constant over the first.
+        cells: Cells on each of the two parts of the mesh; 48 of degree 5 give ten digits.
+
+    Raises:
+        ConvergenceError: When it is not found.
+    """
+    return PrimaryBranch(comm, L, delta, gamma, alpha, cells).bifurcation(points)

@@ -1,0 +1,192 @@
+"""What every problem offers: parameters with ranges, and a solve that answers requests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+from mpi4py import MPI
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from weakforms.errors import InputError
+from weakforms.results import Result
+from weakforms.solvers.continuation.branch import DIAGNOSTICS
+
+
+class Parameters(BaseModel):
+    """Parameters of a problem: names, defaults, ranges; nothing unknown, no NaN, immutable."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True)
+
+    @classmethod
+    def further(cls) -> frozenset[str]:
+        """Names that may be given besides the fields' own."""
+        return frozenset()
+
+
+class TogetherError(ValueError):
+    """What is wrong with several parameters together: its text names them and their values."""
+
+
+class Numerics(Parameters):
+    """How a problem is discretised; the defaults are what the accuracy statements were made with."""
+
+
+@dataclass(frozen=True)
+class StateRequest:
+    """A state wanted: a column at a value, on which branch, at which crossing, with which profile."""
+
+    name: str
+    """A column, or a kind of special point."""
+    value: float
+    """Of the column; or which special point of that kind, from 1."""
+    crossing: int = 1
+    branch: str = "primary"
+    profile: tuple[float, ...] | None = None
+    """Points at which fields are sampled besides the problem's own; ``None`` for no fields."""
+
+
+@dataclass(frozen=True)
+class Requests:
+    """All that is wanted of one solve."""
+
+    states: tuple[StateRequest, ...] = ()
+    branch_uncertainty: bool = True
+    """Whether every point of the trace gets an uncertainty (costs a solve a mesh and point)."""
+    drawn: int = 0
+    """Points of each trace, drawn at random, at which states are solved for besides."""
+
+
+Progress = Callable[[str, int, int], None]
+"""Called with what is being done, how much of it is done, and how much there is."""
+
+
+def silent(_what: str, _done: int, _total: int) -> None:
+    """No progress wanted."""
+
+
+class Problem(Protocol):
+    """A physical problem of the papers."""
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    paper: ClassVar[int]
+    source: ClassVar[str]
+    energy: ClassVar[str]
+    """The functional, as text for people."""
+    scales: ClassVar[dict[str, str]]
+    """Scaling of every column and parameter."""
+    parameters: ClassVar[type[Parameters]]
+    numerics: ClassVar[type[Numerics]]
+    special_points: ClassVar[tuple[str, ...]]
+    columns: ClassVar[tuple[str, ...]]
+    branches: ClassVar[tuple[str, ...]]
+
+    def check(self, parameters: Any, requests: Requests) -> None:
+        """Refuse, before anything is solved, what the ranges of single parameters cannot."""
+
+    def solve(
+        self,
+        parameters: Any,
+        numerics: Any,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Solve and answer the requests."""
+
+
+@dataclass
+class Registry:
+    """Problems by name."""
+
+    problems: dict[str, Problem] = field(default_factory=dict)
+
+    def add(self, problem: Problem) -> Problem:
+        """Register one."""
+        self.problems[problem.name] = problem
+        return problem
+
+    def get(self, name: str) -> Problem:
+        """The problem of that name.
+
+        Raises:
+            InputError: When there is none.
+        """
+        if name not in self.problems:
+            known = ", ".join(self.problems)
+            raise InputError(f"unknown problem {name!r}; the problems are {known}")
+        return self.problems[name]
+
+
+registry = Registry()
+
+
+def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
+    """Parameters from names and values.
+
+    Raises:
+        InputError: One line naming each offending parameter, its value and what is allowed.
+    """
+    unknown = sorted(set(given) - set(model.model_fields) - model.further())
+    if unknown:
+        known = ", ".join(model.model_fields)
+        raise InputError(f"{what} has no parameter {unknown[0]!r}; it has {known}")
+    try:
+        return model(**given)
+    except ValidationError as error:
+        parts = []
+        for item in error.errors():
+            name = ".".join(str(part) for part in item["loc"]) or "parameters"
+            message = item["msg"][0].lower() + item["msg"][1:]
+            cause = item.get("ctx", {}).get("error")
+            together = isinstance(cause, TogetherError)
+            parts.append(str(cause) if together else f"{name} = {item['input']!r}: {message}")
+        raise InputError(f"{what}: " + "; ".join(parts)) from error
+
+
+def check_requests(problem: Problem, requests: Requests) -> None:
+    """Refuse states that no solution of the problem could answer.
+
+    Raises:
+        InputError: For an unknown column or branch, a crossing below one, a value that is no number.
+    """
+    barred = (*DIAGNOSTICS, *getattr(problem, "derived", ()))
+    allowed = [*(c for c in problem.columns if c not in barred), *problem.special_points]
+    for wanted in requests.states:
+        if wanted.name not in allowed:
+            raise InputError(
+                f"{problem.name}: cannot ask for a state at {wanted.name!r}; allowed: {', '.join(allowed)}"
+            )
+        if wanted.branch not in problem.branches:
+            raise InputError(
+                f"{problem.name} has no branch {wanted.branch!r}; it has {', '.join(problem.branches)}"
+            )
+        if not np.isfinite(wanted.value):
+            raise InputError(f"{problem.name}: {wanted.name} = {wanted.value} is not a finite number")
+        if wanted.crossing < 1:
+            raise InputError(f"{problem.name}: crossing = {wanted.crossing} must be 1 or more")
+        if wanted.name in problem.special_points and wanted.value not in range(1, 1000):
+            raise InputError(
+                f"{problem.name}: {wanted.name} = {wanted.value:g} must be a whole number from 1: "
+                "which of them along the branch"
+            )
+
+
+def sample_points(wanted: tuple[float, ...] | None, default: np.ndarray) -> np.ndarray | None:
+    """Sorted sample points of a request: the default ones and those it names.
+
+    Raises:
+        InputError: For a point outside the body.
+    """
+    if wanted is None:
+        return None
+    points = np.unique(np.concatenate([default, np.asarray(wanted, dtype=float)]))
+    if points[0] < default[0] - 1e-9 or points[-1] > default[-1] + 1e-9:
+        raise InputError(
+            f"profile points must lie in [{default[0]:g}, {default[-1]:g}], "
+            f"not in [{points[0]:g}, {points[-1]:g}]"
+        )
+    return points

@@ -1,0 +1,225 @@
+"""Equilibria of a triangulated membrane over its load, and the loads at which its stability changes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.triangles.model import SurfaceModel
+from weakforms.results import SpecialPoint
+from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord, residual_limit
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.lowest import Lowest
+from weakforms.solvers.stability.spectra import Mode, Stability
+
+HALVINGS = 8
+"""Times a step of the load is halved before it is given up."""
+
+ONTO, OFF = 1.0, -1.0
+"""Direction of a stability change as the load rises along the walk: to unstable, back to stable."""
+
+SOLVED = 1e-9
+"""Error of an eigenvalue on either side of a stability change."""
+
+BINS = 24
+"""Bands along the meridian in which waves of a mode are counted on an unstructured mesh."""
+
+
+@dataclass
+class Point:
+    """An equilibrium of the whole discrete surface."""
+
+    load: float
+    state: State
+    record: SolveRecord
+    symmetric: State
+    """The equilibrium among the positions that turn with ``Theta``; on a tube of rings the same."""
+    residual: float
+    """Norm of the whole surface's residual."""
+    departure: float
+    """Largest distance of a node from where the symmetric equilibrium has it."""
+    n_negative: int = -1
+    lowest: Mode | None = None
+    """The lowest mode, once it has been asked for."""
+    values: dict[str, float] = field(default_factory=dict)
+
+
+class SurfaceRun:
+    """One discrete membrane, walked over its load.
+
+    On a tube of rings the equilibrium is the ring-periodic one, found among ring-periodic positions; that the
+    whole residual vanishes too is checked at every state. On any other mesh SNES goes on from the equilibrium
+    among surfaces of revolution to that of the whole discrete surface.
+
+    Args:
+        model: The discrete equations.
+        control: Name of the load, ``zw`` or ``p``.
+        loads: Values of the loads to begin with.
+    """
+
+    def __init__(self, model: SurfaceModel, control: str, loads: dict[str, float]) -> None:
+        self.model, self.system, self.control = model, model.system, control
+        self.rings = model.body.triangles.rings
+        self.stability = Stability(model.system)
+        self.stability.factor.use_pivoting()
+        self._lowest = Lowest(model.system)
+        self._subspace = model.symmetric()
+        self._newton: ExtendedNewton | None = None
+        self._begin = State(self.system.owned().copy(), dict(loads))
+        self._known: list[Point] = []
+
+    # -- equilibria ------------------------------------------------------------------------------
+
+    def at(self, load: float) -> Point:
+        """Equilibrium at a load, reached from the nearest one known; counted by inertia.
+
+        Raises:
+            ConvergenceError: When it is not reached, or is none of the whole surface.
+        """
+        if not self._known:
+            return self._keep(self._point(load, self._begin))
+        nearest = min(self._known, key=lambda point: abs(point.load - load))
+        if nearest.load == load:
+            self.system.set_state(nearest.state.u, nearest.state.loads)
+            return nearest
+        return self._keep(self._towards(load, nearest, HALVINGS))
+
+    def _towards(self, load: float, start: Point, left: int) -> Point:
+        try:
+            return self._point(load, start.symmetric)
+        except ConvergenceError:
+            if not left:
+                raise
+        middle = self._towards((start.load + load) / 2, start, left - 1)
+        return self._towards(load, middle, left - 1)
+
+    def _point(self, load: float, guess: State) -> Point:
+        symmetric, record = self._subspace.solve(guess, {self.control: load})
+        state = symmetric
+        if not self.rings:
+            self._newton = self._newton or self._solver()
+            state, record = self._newton.solve(symmetric)
+        r = self.system.residual()
+        residual = float(np.sqrt(self.system.dot(r, r)))
+        if not residual <= residual_limit(self.system):
+            raise ConvergenceError(
+                f"{self.control} = {load:g}: the ring-periodic equilibrium is none of the whole surface, its "
+                f"residual is {residual:.1e}"
+            )
+        away = np.linalg.norm(self.model.nodal(state.u - symmetric.u), axis=1).max()
+        return Point(load, state, record, symmetric, residual, float(away))
+
+    def _solver(self) -> ExtendedNewton:
+        solver = ExtendedNewton(self.system, prefix="weakforms_surface_")
+        solver.factor.use_pivoting()
+        return solver
+
+    def _keep(self, point: Point) -> Point:
+        if point.n_negative < 0:
+            self.stability.factor.update()
+            point.n_negative = self.stability.factor.negative_count()
+        self._known.append(point)
+        return point
+
+    # -- what a state shows ----------------------------------------------------------------------
+
+    def columns(self, point: Point, count: int) -> dict[str, float]:
+        """Columns of a state; its ``count`` lowest eigenvalues by SLEPc, complete by the inertia.
+
+        Raises:
+            ConvergenceError: When SLEPc does not find as many as the inertia counts.
+        """
+        if not point.values:
+            self.system.set_state(point.state.u, point.state.loads)
+            radius = np.hypot(*self.model.nodal(point.state.u)[:, :2].T)
+            point.values = {
+                self.control: point.load,
+                **self.system.monitors(),
+                "r_max": float(radius.max()),
+                "departure": point.departure,
+                "n_negative": point.n_negative,
+                "residual": point.residual,
+                "iterations": point.record.iterations,
+            }
+        if count and f"Lambda_{count}" not in point.values:
+            modes = self._lowest(point.state, count)
+            point.lowest = modes[0]
+            point.values |= {f"Lambda_{i}": mode.eigenvalue for i, mode in enumerate(modes, 1)}
+        return point.values
+
+    def lowest_mode(self, point: Point) -> Mode:
+        """The lowest mode, of unit length in the mass norm."""
+        if point.lowest is None:
+            self.columns(point, 1)
+        return point.lowest
+
+    def waves(self, vector: np.ndarray) -> int:
+        """Number of waves around the axis that a displacement has most of."""
+        given = self.model.body.triangles
+        x, y, z = self.model.nodal(vector).T
+        c, s = np.cos(given.angle), np.sin(given.angle)
+        height = given.points[:, 2]
+        if self.rings:
+            band, bands = np.rint(height / height.max() * self.rings[0]).astype(int), self.rings[0] + 1
+            most = self.rings[1] // 2
+        else:
+            band = np.minimum((BINS * (height - height.min()) / np.ptp(height)).astype(int), BINS - 1)
+            bands, most = BINS, int(np.pi * given.radius.max() / given.size)
+        power = []
+        for n in range(most + 1):
+            turn = np.exp(-1j * n * given.angle)
+            parts = [
+                np.bincount(band, v * turn.real, bands) + 1j * np.bincount(band, v * turn.imag, bands)
+                for v in (c * x + s * y, c * y - s * x, z)
+            ]
+            power.append(float(np.sum(np.abs(parts) ** 2)))
+        return int(np.argmax(power))
+
+    # -- stability changes -----------------------------------------------------------------------
+
+    def changes(self, loads: np.ndarray, tolerance: float) -> Iterator[SpecialPoint]:
+        """Loads between those given at which a first negative eigenvalue appears or the last one goes.
+
+        Bracketed by the inertia of the whole tangent and halved down to ``tolerance``; the uncertainty is
+        half of the bracket that is left. The lowest eigenvalue passes through zero, or it jumps: where a ring
+        of triangles goes from one state to another the second derivative of the relaxed energy does.
+
+        Args:
+            loads: In the order of the walk.
+            tolerance: Width of the bracket.
+
+        Raises:
+            ConvergenceError: When a state in a bracket is not reached.
+        """
+        for before, after in pairwise(self.at(float(load)) for load in loads):
+            if (before.n_negative > 0) != (after.n_negative > 0):
+                yield self._located(before, after, tolerance)
+
+    def _located(self, before: Point, after: Point, tolerance: float) -> SpecialPoint:
+        low, high = before, after
+        while abs(high.load - low.load) > tolerance:
+            middle = self.at((low.load + high.load) / 2)
+            if (middle.n_negative > 0) == (low.n_negative > 0):
+                low = middle
+            else:
+                high = middle
+        onto = high.n_negative > 0
+        unstable, stable = (high, low) if onto else (low, high)
+        mode = self.lowest_mode(unstable)
+        last = self.lowest_mode(stable).eigenvalue
+        sides = [self.columns(point, 0) for point in (low, high)]
+        shown = {name: [side[name] for side in sides] for name in (self.control, "V", "r_max")}
+        values = {name: (a + b) / 2 for name, (a, b) in shown.items()}
+        spread = {name: abs(b - a) / 2 for name, (a, b) in shown.items()}
+        values |= {
+            "direction": ONTO if onto else OFF,
+            "n": float(self.waves(mode.vector)),
+            "Lambda_1": mode.eigenvalue,
+            "Lambda_1_stable": last,
+        }
+        spread |= {"direction": 0.0, "n": 0.0, "Lambda_1": SOLVED, "Lambda_1_stable": SOLVED}
+        return SpecialPoint("stability_change", "primary", self.control, values, spread)

@@ -1,0 +1,196 @@
+"""Triangulated membranes of revolution: the structured tube, a hemisphere by gmsh, a user's own file."""
+
+from __future__ import annotations
+
+import io
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+
+import basix.ufl
+import gmsh
+import numpy as np
+import ufl
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+
+from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.problems.triangles.checks import edges_of, require_surface
+from weakforms.solvers.support import compat
+
+SUFFIXES = (".msh", ".vtu", ".stl")
+"""Files a surface is read from."""
+
+MAX_BYTES = 512 * 2**20
+"""Size up to which they are."""
+
+
+@dataclass(frozen=True)
+class Triangulation:
+    """Flat triangles in space, the same on every rank; seen from outside their vertices turn left."""
+
+    points: np.ndarray
+    """Reference position of the nodes, ``(n, 3)``; the axis is that of ``z``."""
+    triangles: np.ndarray
+    """Nodes of the triangles, ``(m, 3)``."""
+    rings: tuple[int, int] | None = None
+    """Rows and columns of quadrilaterals where nodes are numbered ring by ring; each has one diagonal."""
+
+    @property
+    def held(self) -> np.ndarray:
+        """Whether a node lies on an edge of the surface."""
+        edges, count = edges_of(self.triangles)
+        out = np.zeros(len(self.points), dtype=bool)
+        out[edges[count == 1]] = True
+        return out
+
+    @property
+    def angle(self) -> np.ndarray:
+        """``Theta`` of the nodes, in ``(-pi, pi]``."""
+        return np.arctan2(self.points[:, 1], self.points[:, 0])
+
+    @property
+    def radius(self) -> np.ndarray:
+        """Distance of the nodes from the axis."""
+        return np.hypot(self.points[:, 0], self.points[:, 1])
+
+    @property
+    def size(self) -> float:
+        """Mean length of the edges."""
+        edges, _ = edges_of(self.triangles)
+        return float(np.linalg.norm(np.diff(self.points[edges], axis=1)[:, 0], axis=1).mean())
+
+    def mesh(self, comm: MPI.Intracomm) -> dmesh.Mesh:
+        """The mesh on all ranks: a manifold in space, its own reference surface."""
+        element = basix.ufl.element("Lagrange", "triangle", 1, shape=(3,))
+        first = comm.rank == 0
+        cells = self.triangles if first else np.empty((0, 3), dtype=np.int64)
+        points = self.points if first else np.empty((0, 3))
+        mesh = compat.create_mesh(comm, cells.astype(np.int64), points, ufl.Mesh(element))
+        mesh.topology.create_connectivity(1, 2)
+        return mesh
+
+
+def tube(length: float, meridional: int, circumferential: int, mirrored: bool = False) -> Triangulation:
+    """A cylinder of radius 1: nodes uniform in ``(S, Theta)``, all diagonals in the same direction.
+
+    The nodes lie on the cylinder and the triangles are flat, so that the metric is that of the inscribed
+    prism, as any finite element code has it.
+
+    Args:
+        length: Of the cylinder.
+        meridional: Quadrilaterals along it.
+        circumferential: Quadrilaterals around it.
+        mirrored: The other diagonal of every quadrilateral.
+
+    Raises:
+        InputError: When fewer than three columns are to close.
+    """
+    if circumferential < 3:
+        raise InputError(
+            f"surface: a mesh of circumferential = {circumferential} cannot close; allowed: 3 or more"
+        )
+    s = length * np.arange(meridional + 1) / meridional
+    theta = 2 * np.pi * np.arange(circumferential) / circumferential
+    around = np.column_stack([np.cos(theta), np.sin(theta)])
+    points = np.column_stack([np.tile(around, (meridional + 1, 1)), np.repeat(s, circumferential)])
+    i, k = np.divmod(np.arange(meridional * circumferential), circumferential)
+    corners = [(i + a) * circumferential + (k + b) % circumferential for a in (0, 1) for b in (0, 1)]
+    low, low_next, high, high_next = corners
+    if mirrored:
+        pairs = (low, low_next, high), (low_next, high_next, high)
+    else:
+        pairs = (low, low_next, high_next), (low, high_next, high)
+    triangles = np.stack([np.stack(pair, axis=1) for pair in pairs], axis=1).reshape(-1, 3)
+    return Triangulation(points, triangles, (meridional, circumferential))
+
+
+def hemisphere(size: float) -> Triangulation:
+    """The lower half of the unit sphere, unstructured, by gmsh on four octants; a node at the pole.
+
+    Args:
+        size: Length of the edges.
+    """
+    mine = not gmsh.isInitialized()
+    if mine:
+        gmsh.initialize(interruptible=False)
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.model.add("hemisphere")
+    try:
+        geo = gmsh.model.geo
+        centre = geo.addPoint(0, 0, 0)
+        pole = geo.addPoint(0, 0, -1, size)
+        rim = [geo.addPoint(x, y, 0, size) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+        down = [geo.addCircleArc(point, centre, pole) for point in rim]
+        along = [geo.addCircleArc(rim[k], centre, rim[(k + 1) % 4]) for k in range(4)]
+        for k in range(4):
+            loop = geo.addCurveLoop([along[k], down[(k + 1) % 4], -down[k]])
+            geo.addSurfaceFilling([loop], sphereCenterTag=centre)
+        geo.synchronize()
+        gmsh.model.mesh.generate(2)
+        tags, flat, _ = gmsh.model.mesh.getNodes()
+        _, nodes = gmsh.model.mesh.getElementsByType(2)
+    finally:
+        gmsh.model.remove()
+        if mine:
+            gmsh.finalize()
+    place = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+    place[tags] = np.arange(len(tags))
+    points, triangles = compact(flat.reshape(-1, 3), place[nodes].reshape(-1, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    return outwards(Triangulation(points, triangles))
+
+
+def from_file(path: Path) -> Triangulation:
+    """A user's triangulated surface of revolution about the ``z`` axis.
+
+    Args:
+        path: A file meshio reads; lines and single nodes in it are passed over.
+
+    Raises:
+        InputError: When it cannot be read or is no surface a membrane can be made of; says what is wrong.
+        EnvironmentLackError: Without meshio.
+    """
+    try:
+        import meshio
+    except ImportError as error:
+        raise EnvironmentLackError("meshio is not installed here: apt install python3-meshio") from error
+    if not path.is_file():
+        raise InputError(f"surface: geometry = {path}: there is no such file")
+    if path.stat().st_size > MAX_BYTES:
+        raise InputError(f"surface: geometry = {path} is larger than {MAX_BYTES >> 20} MiB")
+    said = io.StringIO()
+    try:
+        with redirect_stderr(said), redirect_stdout(said):  # to say it in one line, or not at all
+            read = meshio.read(path)
+    except (Exception, SystemExit) as error:  # a damaged file raises whatever its reader stumbles over
+        reason = " ".join((said.getvalue() if isinstance(error, SystemExit) else str(error)).split())
+        reason = reason[:200] or type(error).__name__
+        raise InputError(f"surface: geometry = {path} cannot be read: {reason}") from None
+    other = sorted({block.type for block in read.cells} - {"triangle", "line", "vertex"})
+    if other:
+        raise InputError(f"surface: geometry = {path} has cells of type {other[0]}; allowed: triangle")
+    blocks = [block.data for block in read.cells if block.type == "triangle"]
+    if not blocks:
+        raise InputError(f"surface: geometry = {path} has no triangles")
+    points, triangles = compact(np.asarray(read.points, float), np.vstack(blocks).astype(np.int64))
+    if points.shape[1] != 3:
+        raise InputError(f"surface: geometry = {path} lies in a plane; a surface in space is wanted")
+    require_surface(points, triangles, str(path))
+    return outwards(Triangulation(points, triangles))
+
+
+def compact(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes that some triangle has, and the triangles in their numbers."""
+    used, inverse = np.unique(triangles, return_inverse=True)
+    return points[used], inverse.reshape(triangles.shape)
+
+
+def outwards(given: Triangulation) -> Triangulation:
+    """The same surface, oriented consistently already, with its normals away from the axis."""
+    corners = given.points[given.triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    middle = corners.mean(axis=1)
+    if np.sum(middle[:, :2] * normal[:, :2]) >= 0:
+        return given
+    return Triangulation(given.points, given.triangles[:, ::-1].copy(), None)

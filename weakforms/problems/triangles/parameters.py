@@ -1,0 +1,119 @@
+"""Parameters of the problem ``surface``: what each geometry takes, and the paper's values for it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, Field
+
+from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.problem import Numerics
+from weakforms.problems.triangles.meshes import SUFFIXES, Triangulation, from_file, hemisphere, tube
+from weakforms.problems.wrinkled.problem import PAPER_GAMMA
+
+CONTROL = {"fluid": "zw", "gas": "p"}
+
+DEFAULTS: dict[str, dict[str, Any]] = {
+    "tube": {"M": 1.5, "delta": 3.0, "Af": 0.4362, "L": 8.0, "c2": 0.01, "gamma": PAPER_GAMMA},
+    "hemisphere": {"c2": 0.0, "gamma": 100 * PAPER_GAMMA},
+    "file": {"M": 1.0, "delta": 1.0, "Af": 1.0, "c2": 0.0, "gamma": PAPER_GAMMA},
+}
+"""What each geometry takes, and its values where none are given: the paper's."""
+
+WALK = {
+    ("tube", "fluid"): (0.5, 0.5, 10.5),
+    ("tube", "gas"): (0.0, 0.0, 0.38),
+    ("hemisphere", "fluid"): (-0.6, -0.5, -0.95),
+}
+"""Load at which the first state is solved for; first and last load shown where none are given."""
+
+ALLOWED = {("tube", "fluid"): (0.0, 100.0), ("hemisphere", "fluid"): (-1.05, -0.48)}
+"""Levels. A hemisphere has no state above its limit point near -0.478, and is all but empty below -1."""
+
+
+def _known(geometry: str) -> str:
+    if geometry not in ("tube", "hemisphere") and Path(geometry).suffix.lower() not in SUFFIXES:
+        raise ValueError(f"'tube', 'hemisphere' or a file ending in {', '.join(SUFFIXES)} is wanted")
+    return geometry
+
+
+def _closes(columns: int) -> int:
+    if columns < 3:
+        raise ValueError("a mesh of fewer than 3 columns cannot close; allowed: 3 to 2000")
+    return columns
+
+
+class SurfaceParameters(MaterialChoice):
+    """The membrane, its mesh (which is part of the question here) and its load."""
+
+    ratio: ClassVar[str] = "c2"
+
+    geometry: Annotated[str, AfterValidator(_known)] = Field(
+        "tube",
+        description="tube, hemisphere, or a file with triangles (msh, vtu, stl)",
+        examples=["tube", "hemisphere"],
+    )
+    meridional: int = Field(120, ge=2, le=2000, description="tube: quadrilaterals along it")
+    circumferential: Annotated[int, AfterValidator(_closes)] = Field(
+        48, le=2000, description="tube: quadrilaterals around it"
+    )
+    degree: Literal[1] = Field(1, description="of the elements: flat triangles")
+    size: float = Field(0.1, ge=0.004, le=0.5, description="hemisphere: length of the triangles' edges")
+    M: float | None = Field(
+        None, gt=0, lt=2, description="thickness at the lowest point over its mean (tube: 1.5)"
+    )
+    delta: float | None = Field(None, ge=1, le=6, description="axial pre-stretch (tube: 3)")
+    c2: float | None = Field(None, ge=0, le=1, description="C2/C1 of mooney_rivlin (tube: 0.01, else 0)")
+    L: float | None = Field(None, ge=1, le=40, description="tube: undeformed length (8)")
+    Af: float | None = Field(
+        None, gt=0, le=3, description="radius of the held edges over the undeformed (tube: 0.4362)"
+    )
+    load: Literal["fluid", "gas"] = Field("fluid", description="what the membrane is filled with")
+    gamma: float | None = Field(None, gt=0, le=100, description="weight of the fluid; by default the paper's")
+    rule: int = Field(1, ge=1, le=4, description="quadrature of the load: 1 edge midpoints, 2 centroid, ...")
+    potential: Literal["vertical", "horizontal"] = Field(
+        "vertical", description="the load's potential: flux of Phi(z) e_z, or the printed one"
+    )
+    load_start: float | None = Field(None, description="first load of the branch")
+    load_end: float | None = Field(None, description="last load of the branch")
+
+    @property
+    def kind(self) -> str:
+        """``tube``, ``hemisphere`` or ``file``."""
+        return self.geometry if self.geometry in DEFAULTS else "file"
+
+    @property
+    def control(self) -> str:
+        """Name of the load."""
+        return CONTROL[self.load]
+
+    def filled(self) -> SurfaceParameters:
+        """The same with every default in place."""
+        start = WALK.get((self.kind, self.load), (None, None, None))
+        own = DEFAULTS[self.kind] | {"load_start": start[1], "load_end": start[2]}
+        missing = {name: value for name, value in own.items() if getattr(self, name) is None}
+        return self.model_copy(update=missing)
+
+    def triangles(self) -> Triangulation:
+        """The mesh.
+
+        Raises:
+            InputError: For a file that holds no such surface.
+        """
+        if self.kind == "tube":
+            return tube(self.L or DEFAULTS["tube"]["L"], self.meridional, self.circumferential)
+        return hemisphere(self.size) if self.kind == "hemisphere" else from_file(Path(self.geometry))
+
+
+class SurfaceNumerics(Numerics):
+    """How the branch is walked; the mesh stands among the parameters."""
+
+    scan: int = Field(
+        50, ge=1, le=2000, description="intervals of the load between states counted by inertia"
+    )
+    shown: int = Field(5, ge=1, le=2000, description="every how many of them stand in the branch")
+    eigenvalues: int = Field(3, ge=0, le=20, description="lowest eigenvalues of the states shown")
+    tolerance: float = Field(
+        1e-6, ge=1e-10, le=1e-2, description="bracket of a stability change, of the load"
+    )

@@ -1,0 +1,250 @@
+"""Problem ``surface`` (Paper 5): the relaxed membrane on flat triangles in space, its range of instability.
+
+Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315, print the unstable ranges that a finite
+element code found on the tube. Here such meshes are assembled in three dimensions, and stability is read off
+the inertia of the whole tangent: nothing is decomposed into waves.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import ClassVar
+
+import numpy as np
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.problem import Progress, Requests, StateRequest, check_requests, registry, silent
+from weakforms.problems.triangles.branch import Point, SurfaceRun
+from weakforms.problems.triangles.fields import fields
+from weakforms.problems.triangles.model import Body, SurfaceModel
+from weakforms.problems.triangles.parameters import (
+    ALLOWED,
+    CONTROL,
+    DEFAULTS,
+    WALK,
+    SurfaceNumerics,
+    SurfaceParameters,
+)
+from weakforms.problems.triangles.symmetry import Meridian
+from weakforms.results import Branch, Failure, Quantity, Result, SpecialPoint, State
+from weakforms.solvers.equilibrium.newton import STOPPING
+from weakforms.solvers.support.provenance import provenance
+
+SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
+
+SCALES = {
+    "length": "Ao, undeformed radius (the tube's or the hemisphere's; of a file 1)",
+    "geometry": "tube, hemisphere, or the name of a file",
+    "meridional": "quadrilaterals along the tube, each cut into two triangles",
+    "circumferential": "quadrilaterals around the tube",
+    "size": "length of the triangles' edges on the hemisphere over Ao",
+    "M": "thickness at the lowest point over its mean (2 - M at the highest)",
+    "delta": "axial pre-stretch",
+    "c2": "C2/C1",
+    "C1": "of another model the stress S its constants are over (weakforms show material)",
+    "L": "L_o/Ao",
+    "Af": "radius of the held edges over their undeformed one",
+    "gamma": "rho g Ao^2/(C1 h)",
+    "rule": "of the load on a triangle: 1 edge midpoints, 2 centroid, 3 three inner points, 4 of degree 6",
+    "zw": "level of the fluid over Ao, in the coordinate z of the reference surface",
+    "p": "P Ao/(C1 h)",
+    "V": "integral of (x N_x + y N_y)/2 over the surface over Ao^3",
+    "Pi": "strain energy less integral of P (x N_x + y N_y)/2, over C1 h Ao^2",
+    "r_max": "largest distance of a node from the axis over Ao",
+    "departure": "largest distance of a node from the equilibrium among surfaces of revolution over Ao",
+    "Lambda_1": "lowest eigenvalue against the membrane's mass (density C1/(Ao g)) over g/Ao; 2, 3 alike",
+    "n_negative": "negative eigenvalues of the whole tangent, by inertia",
+    "lower": "load at which a negative eigenvalue first appears along the walk",
+    "upper": "load at which the last one goes for good",
+    "gaps": "stable intervals between them",
+    "n_lower": "waves around the axis of the critical mode at the lower end, as the mesh shows them",
+    "n_upper": "the same at the upper end",
+    "direction": "1 where instability begins along the walk, -1 where it ends",
+    "n": "waves around the axis of the critical mode, as the mesh shows them",
+    "Lambda_1_stable": "of a stability change: lowest eigenvalue at the stable end of its bracket (Lambda_1 "
+    "is that at the unstable one); both near zero unless it jumps",
+    "unknowns": "degrees of freedom, held ones included",
+}
+
+
+class Surface:
+    """The relaxed membrane as a discrete surface in space."""
+
+    name: ClassVar[str] = "surface"
+    title: ClassVar[str] = "Wrinkled membrane of revolution on flat triangles in space"
+    paper: ClassVar[int] = 5
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = (
+        "Pi/(C1 h Ao^2) = int H W(C) dA + int Phi(z) N_z dA,  Phi = -p z + gamma max(zw - z, 0)^2/2,  "
+        "C = (J^T J)^-1 F^T F of each triangle;  W = I1 - 3 + c2 (I2 - 3) where taut, "
+        "lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another "
+        "model w and w(lam1, lam1^(-1/2)), its S for C1"
+    )
+    scales: ClassVar[dict[str, str]] = SCALES
+    parameters = SurfaceParameters
+    numerics = SurfaceNumerics
+    columns = (
+        *("zw", "p", "V", "Pi", "r_max", "departure", "Lambda_1", "Lambda_2", "Lambda_3"),
+        *("n_negative", "residual", "iterations"),
+    )
+    derived = ("V", "Pi", "r_max", "departure", "Lambda_1", "Lambda_2", "Lambda_3")
+    special_points = ("stability_change",)
+    branches = ("primary",)
+    control: ClassVar[str] = "zw (load = fluid) or p (gas)"
+
+    def check(self, parameters: SurfaceParameters, requests: Requests) -> None:
+        """Refuse what the ranges of single parameters cannot; a file is read and looked at.
+
+        Raises:
+            InputError: Naming the value and what is allowed.
+        """
+        check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=True)
+        kind, full = parameters.kind, parameters.filled()
+        for name in ("M", "delta", "L", "Af"):
+            value = getattr(parameters, name)
+            if value is not None and name not in DEFAULTS[kind]:
+                raise InputError(f"surface: {name} = {value:g} has no meaning with geometry = {kind!r}")
+        if parameters.load == "gas" and kind == "hemisphere":
+            raise InputError(
+                "surface: load = 'gas' is for the tube or a file; the hemisphere hangs full of fluid"
+            )
+        if full.load_start is None or full.load_end is None:
+            raise InputError("surface: a file needs load_start and load_end, the loads to walk between")
+        if full.load_start == full.load_end:
+            raise InputError(f"surface: load_start = load_end = {full.load_end:g}; two loads are wanted")
+        _require_loads(full, requests)
+        if kind == "file":
+            given = parameters.triangles()
+            Meridian.of(given).require_revolved(parameters.geometry)
+
+    def solve(
+        self,
+        parameters: SurfaceParameters,
+        numerics: SurfaceNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Walk the load, count negative eigenvalues, locate the ends of the unstable range.
+
+        The numbers are the mesh's own: only what is located carries an uncertainty.
+        """
+        begun = time.perf_counter()
+        full = parameters.filled()
+        run = _run(full, comm)
+        result = Result(
+            problem=self.name,
+            parameters=full.model_dump(),
+            scales=self.scales,
+            numerics=numerics.model_dump()
+            | {"stopping": f"symmetric states: relative Newton step 1e-11; all: {STOPPING}"},
+            provenance={},
+        )
+        loads = np.linspace(full.load_start, full.load_end, numerics.scan + 1)
+        reached = _walk(run, loads, result, progress)
+        _branch(run, reached, numerics, result, progress)
+        progress("stability changes", 0, 1)
+        try:
+            tolerance = numerics.tolerance * max(1.0, abs(full.load_end))
+            result.special_points.extend(run.changes(loads[: len(reached)], tolerance))
+        except ConvergenceError as error:
+            result.failures.append(Failure("special points", str(error)))
+        result.quantities |= _quantities(run, result.special_points, full.control)
+        for i, wanted in enumerate(requests.states):
+            progress("states", i, len(requests.states))
+            try:
+                result.states.append(_state(run, wanted, result.special_points, numerics.eigenvalues))
+            except ConvergenceError as error:
+                result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+
+def _require_loads(full: SurfaceParameters, requests: Requests) -> None:
+    """Loads within what the geometry has states for."""
+    low, high = ALLOWED.get((full.kind, full.load), (0.0, 100.0) if full.load == "gas" else (-1e6, 1e6))
+    asked = [("load_start", full.load_start), ("load_end", full.load_end)]
+    asked += [(r.name, r.value) for r in requests.states if r.name in CONTROL.values()]
+    for name, value in asked:
+        if not low <= value <= high:
+            raise InputError(f"surface: {name} = {value:g}: allowed with this geometry: {low:g} to {high:g}")
+    for r in requests.states:
+        if r.name in CONTROL.values() and r.name != full.control:
+            raise InputError(
+                f"surface: with load = {full.load!r} there is no {r.name}; the load is {full.control}"
+            )
+
+
+def _run(full: SurfaceParameters, comm: MPI.Intracomm) -> SurfaceRun:
+    """The discrete membrane, its walk begun at the load where a first guess is known to lead."""
+    own = {name: getattr(full, name) for name in ("M", "delta", "Af") if name in DEFAULTS[full.kind]}
+    gamma = full.gamma if full.load == "fluid" else 0.0
+    own |= {"c2": full.c2, "gamma": gamma, "rule": full.rule, "potential": full.potential}
+    body = Body(full.triangles(), **own, material=full.other_law)
+    run = SurfaceRun(SurfaceModel(comm, body), full.control, {"p": 0.0, "zw": 0.0})
+    run.at(WALK.get((full.kind, full.load), (full.load_start,))[0])
+    return run
+
+
+def _walk(run: SurfaceRun, loads: np.ndarray, result: Result, progress: Progress) -> list[Point]:
+    """States at the loads as far as they are reached."""
+    out = []
+    for i, load in enumerate(loads):
+        progress("equilibria", i, len(loads))
+        try:
+            out.append(run.at(float(load)))
+        except ConvergenceError as error:
+            result.failures.append(Failure(f"branch primary, from {run.control} = {load:g}", str(error)))
+            break
+    if not out:
+        raise ConvergenceError(result.failures[-1].reason)
+    return out
+
+
+def _branch(
+    run: SurfaceRun, reached: list[Point], numerics: SurfaceNumerics, result: Result, progress: Progress
+) -> None:
+    """Columns of every so many states; one whose eigenvalues are not found is left out and listed."""
+    rows, points = [], reached[:: numerics.shown]
+    for i, point in enumerate(points):
+        progress("eigenvalues", i, len(points))
+        try:
+            rows.append(run.columns(point, numerics.eigenvalues))
+        except ConvergenceError as error:
+            result.failures.append(Failure(f"eigenvalues at {run.control} = {point.load:g}", str(error)))
+    if rows:
+        columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        columns["n_negative"] = columns["n_negative"].astype(int)
+        columns["iterations"] = columns["iterations"].astype(int)
+        result.branches.append(Branch("primary", run.control, columns))
+
+
+def _quantities(run: SurfaceRun, found: list[SpecialPoint], control: str) -> dict[str, Quantity]:
+    given = run.model.body.triangles
+    out = {"triangles": Quantity(len(given.triangles)), "unknowns": Quantity(3 * len(given.points))}
+    if len(found) > 1 and found[0].values["direction"] > 0 > found[-1].values["direction"]:
+        for name, point in (("lower", found[0]), ("upper", found[-1])):
+            out[name] = Quantity(point.values[control], point.uncertainty[control])
+            out[f"n_{name}"] = Quantity(point.values["n"], 0.0)
+        out["gaps"] = Quantity(len(found) // 2 - 1)
+    return out
+
+
+def _state(run: SurfaceRun, wanted: StateRequest, found: list[SpecialPoint], count: int) -> State:
+    """A state at a load, or at the ``value``-th stability change, with its fields where they are wanted."""
+    load = wanted.value
+    if wanted.name == "stability_change":
+        if not wanted.value <= len(found):
+            raise ConvergenceError(f"this branch has {len(found)} stability changes")
+        load = found[int(wanted.value) - 1].values[run.control]
+    point = run.at(float(load))
+    values = run.columns(point, count)
+    quantities = {name: Quantity(float(value)) for name, value in values.items()}
+    shown = fields(run, point) if wanted.profile is not None else ()
+    return State({wanted.name: wanted.value}, wanted.branch, quantities, shown, wanted.crossing)
+
+
+registry.add(Surface())

@@ -1,0 +1,1 @@
+"""The pre-stretched tube of Paper 2."""

@@ -1,0 +1,114 @@
+"""Constrained inflation of the tube on a family of meshes: pieces, special points, failures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import ClassVar
+
+from mpi4py import MPI
+
+from weakforms.problems.problem import Progress
+from weakforms.problems.tube.contact import ContactData
+from weakforms.problems.tube.contact_phases import ContactRun
+from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
+from weakforms.results import SpecialPoint
+from weakforms.solvers.continuation.branch import SolutionCurve
+from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
+from weakforms.solvers.uncertainty.family import BranchFamily, special_point
+from weakforms.solvers.uncertainty.refinement import Slow
+
+FIRST_TERMS, MORE_TERMS = 14, 4
+"""Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
+
+SERIES = Slow(size=6e-8, order=2.0)
+"""What the series leaves out, which falls by little from mesh to mesh."""
+
+LET_GO = Slow(size=1e-7, order=2.0)
+"""The same with what quadrature leaves of the kink of a unilateral spring's force, inside a cell."""
+
+TRACES = ("line_force", "line_force_membrane")
+SECOND = ("traction_front", "traction_max", "f_t")
+"""Columns that hold first derivatives at the edge of the patch: their order is the degree at most; and second
+derivatives. The curvature there follows from the balance of forces at a vertex: one order below energies."""
+
+KINKED = (
+    dict.fromkeys(("rho", "lam2"), 3.0)
+    | dict.fromkeys(("lam1", "t1", "t2", "F_axial", "H", "f_k"), 2.0)
+    | {"f_t": 1.0, "eigenvalue_1": 1.0}
+)
+"""Highest orders where a unilateral spring lets go inside a cell: at a point of profiles whose third
+derivative jumps there, and of eigenvalues, whose stiffness jumps itself: quadrature errs at first order, by
+where the place lies in its cell."""
+
+NO_PATCH = {
+    name: 0.0
+    for name in (
+        "Z_front",
+        "contact_length",
+        "line_force",
+        "line_force_membrane",
+        "traction_front",
+        "traction_max",
+        "spring_max",
+    )
+}
+"""Columns of the free part, where there is no patch."""
+
+
+class LettingGo(BranchFamily):
+    """That of a tube with a unilateral spring, which lets go inside a cell."""
+
+    least: ClassVar[Mapping[str, float]] = {"eigenvalue_1": 1.0}
+
+
+def contact_family(
+    parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
+) -> PiecewiseFamily:
+    """The branch of a constrained tube: free and in contact, or deflating."""
+    free = 2 * numerics.degree
+    runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
+
+    def family(part: Callable[[ContactRun], SolutionCurve], slow: Slow | None) -> BranchFamily:
+        def make(level: int) -> SolutionCurve:
+            progress("branch", level, numerics.levels)
+            return part(runs[level])
+
+        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(SECOND, min(free, 2.0))
+        caps["kappa"] = free - 1
+        kind = BranchFamily
+        if runs[-1].data.unilateral:
+            kind, caps = LettingGo, caps | KINKED
+        return kind(make, numerics.levels, free, across=("p", "u_max"), caps=caps, slow=slow)
+
+    runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
+    if parameters.phase == "deflation":
+        slow = LET_GO if runs[-1].data.unilateral else SERIES
+        return PiecewiseFamily([Piece(family(lambda run: run.deflation, slow), {})])
+    history = SERIES if parameters.contact == "adhesive" else None
+    pieces = [
+        Piece(family(lambda run: run.free, None), NO_PATCH | {"kappa": float("nan")}),
+        Piece(family(lambda run: getattr(run, parameters.contact), history), {}),
+    ]
+
+    def onset() -> list[SpecialPoint]:
+        shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
+        same = [run.onset for run in runs]
+        return [special_point(same, shown, free, "primary", "p", {"t2_min": 2.0})]
+
+    return PiecewiseFamily(pieces, onset)
+
+
+def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm) -> ContactRun:
+    data = ContactData(
+        alpha=parameters.alpha,
+        delta1=parameters.delta1,
+        lf=parameters.lf,
+        k=parameters.k,
+        s=parameters.s,
+        cells=numerics.meshes[level] // 2,
+        degree=numerics.degree,
+        grading=numerics.grading,
+        material=parameters.material,
+        unilateral=parameters.phase == "deflation" and parameters.spring == "unilateral",
+    )
+    return ContactRun(comm, data, parameters.p_end, numerics.step, FIRST_TERMS + MORE_TERMS * level)

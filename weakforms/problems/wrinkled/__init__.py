@@ -1,0 +1,1 @@
+"""Wrinkled membranes of revolution, Papers 4 and 5."""

@@ -1,0 +1,293 @@
+"""A branch of wrinkled states: traced on a plain mesh, its states solved on meshes fitted to their zones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.wrinkled.events import Event, events
+from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.readings import EVENTS, Readings
+from weakforms.problems.wrinkled.state import Held, solver_of
+from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
+from weakforms.results import Branch, Failure, SpecialPoint, State
+from weakforms.solvers.continuation.branch import DIAGNOSTICS, FittedBranch, SolutionCurve, Solved
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.equilibrium import constraints as fixed
+from weakforms.solvers.support.provenance import quadrature_degree
+from weakforms.solvers.uncertainty.family import CRITICAL
+
+NEAR_TURN = 2
+"""Points around a limit load at which the volume is held in place of the load."""
+
+PAST_LIMIT = 0.8
+"""A branch ends past a limit load when the load has fallen to this share of it."""
+
+MARGIN = 0.1
+"""How much farther than its neighbours on the trace a limit load is looked for, over their distance."""
+
+PREDICTOR = 2e-2
+"""Distance of predictor and solution aimed at on the plain mesh: the tangent jumps where zones change."""
+
+
+class WrinkledBranch:
+    """States of a membrane over its load, from none to an end, on a family of meshes.
+
+    Args:
+        membrane: Solves for single states.
+        load_end: Load at which the branch ends.
+        volume_end: Volume, over the unloaded one, at which it ends if the load does not get there.
+        step: Largest arc-length step of the trace.
+        readings: What is read off its states; the wave numbers whose stability is judged.
+    """
+
+    name = "primary"
+
+    def __init__(
+        self, membrane: Membrane, load_end: float, volume_end: float, step: float, readings: Readings
+    ) -> None:
+        self.membrane, self.readings = membrane, readings
+        self.control = membrane.control
+        self._settings = (load_end, volume_end, step)
+        self._failures: list[Failure] = []
+        self.fronts: list[SpecialPoint] = []
+        """Fronts of the states asked for so far, on the way."""
+
+    # -- the trace on the plain mesh -----------------------------------------------------------
+
+    @cached_property
+    def trace(self) -> SolutionCurve:
+        """The branch on the finest plain mesh, by arc-length from the unloaded state."""
+        load_end, volume_end, step = self._settings
+        steps = StepControl(first=step / 8, largest=step, predictor_error=PREDICTOR)
+        continuation = Continuation(solver_of(self.membrane.plain_model, (self.control,)), control=steps)
+        start = self._start(continuation)
+        most = volume_end * start.monitors["V"]
+
+        peak = [start.state.loads[self.control]]
+
+        def stop(point: CurvePoint) -> bool:
+            load = point.state.loads[self.control]
+            peak[0] = max(peak[0], load)
+            return load > load_end or self._is_past_limit(load, peak[0]) or point.monitors["V"] > most
+
+        return SolutionCurve(continuation, self.control, start, stop)
+
+    def _is_past_limit(self, load: float, peak: float) -> bool:
+        """Whether the load has fallen so far from its largest that the branch ends."""
+        return load < PAST_LIMIT * peak
+
+    def _start(self, continuation: Continuation) -> CurvePoint:
+        """Where the trace begins: without load."""
+        state, _ = self.membrane.by_homotopy(0.0)
+        unloaded = fixed.Held(self.control, 0.0)
+        return continuation.start(state, unloaded, towards={self.control: 1.0})
+
+    @property
+    def failures(self) -> list[Failure]:
+        """What did not converge."""
+        stalled = self.trace.stalled
+        return [*([Failure(f"branch {self.name}", stalled)] if stalled else []), *self._failures]
+
+    # -- single states -------------------------------------------------------------------------
+
+    @property
+    def quadrature_degree(self) -> int:
+        """Of the residual, as it is solved."""
+        return quadrature_degree(self.membrane.plain_model.system.formulation.residual)
+
+    def near(self, name: str, value: float, crossing: int = 1) -> Solved:
+        """The state of the plain mesh at a value of a column.
+
+        Raises:
+            InputError: When the column does not take the value that often.
+        """
+        trace = self.trace
+        self.membrane.prepare()
+        return trace.at(name, value, crossing)
+
+    def _fitted(self, solved: Solved, name: str, fine_only: bool = False) -> list[Held]:
+        plain = self.membrane.plain(solved.state)
+        return self.membrane.fitted(plain, fixed.Held(name, solved.values[name]), fine_only)
+
+    # -- the branch ----------------------------------------------------------------------------
+
+    @cached_property
+    def _fine(self) -> list[tuple[int, Held]]:
+        """Fitted states at the points of the trace; one that fails is listed and left out."""
+        kept = []
+        for i, (solved, name) in enumerate(self._prescribed()):
+            try:
+                kept.append((i, self._fine_state(solved, name, kept[-1][1] if kept else None)))
+            except ConvergenceError as error:
+                self._failures.append(Failure(f"branch {self.name}, point {i}", str(error)))
+        if not kept:
+            raise ConvergenceError(f"branch {self.name}: no point could be solved for on fitted meshes")
+        return kept
+
+    def _fine_state(self, solved: Solved, name: str, before: Held | None) -> Held:
+        """A state on the finest mesh, from the plain mesh's or else from the one before it."""
+        try:
+            return self._fitted(solved, name, fine_only=True)[0]
+        except ConvergenceError:
+            if before is None:
+                raise
+            return self.membrane.fitted(before, fixed.Held(name, solved.values[name]), fine_only=True)[0]
+
+    def _prescribed(self) -> list[tuple[Solved, str]]:
+        """What is held at each point of the trace: its load, or past a limit load its volume."""
+        turns, out = self.trace.turns(), []
+        first = turns[0] if len(turns) else len(self.trace.points)
+        for i, point in enumerate(self.trace.points):
+            values = {self.control: point.state.loads[self.control], "V": point.monitors["V"]}
+            out.append((Solved(values, point.state), "V" if i >= first - NEAR_TURN else self.control))
+        return out
+
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All columns over the points of the trace, each number with its uncertainty if wanted."""
+        fine = [(i, self._all_columns(held) | self.readings.diagnostics(held)) for i, held in self._fine]
+        names = list(fine[0][1])
+        columns = {n: np.array([row[n] for _, row in fine]) for n in names}
+        if not with_uncertainty:
+            return Branch(self.name, self.control, columns)
+        shown, errors, kept = [n for n in names if n not in DIAGNOSTICS], [], []
+        for j, (i, held) in enumerate(self._fine):
+            try:
+                table = [self._all_columns(one) for one in self._levels(i, held)]
+            except ConvergenceError as error:
+                self._failures.append(Failure(f"branch {self.name}, point {i}", str(error)))
+                continue
+            errors.append([self.readings.estimate(n, [v[n] for v in table]).uncertainty for n in shown])
+            kept.append(j)
+        spread = dict(zip(shown, np.array(errors).T, strict=True))
+        columns = {n: values[kept] for n, values in columns.items()}
+        return Branch(self.name, self.control, columns, spread)
+
+    def _all_columns(self, held: Held) -> dict[str, float]:
+        return self.readings.without_fronts(held) | self.readings.eigenvalues(held)
+
+    def _levels(self, i: int, held: Held) -> list[Held]:
+        """A point of the branch on all meshes, its thinnest zone left out where a coarse one needs that."""
+        solved, name = self._prescribed()[i]
+        try:
+            return [*self.membrane.others(held, fixed.Held(name, solved.values[name])), held]
+        except ConvergenceError:
+            return self._fitted(solved, name)
+
+    # -- special points ------------------------------------------------------------------------
+
+    def special_points(self) -> list[SpecialPoint]:
+        """Limit loads, loads at which zones open or close and waves set in or vanish, in order."""
+        out = [(i, self._limit(i)[0]) for i in self.trace.turns().tolist()]
+        out += [(e.after, self._point(self._event_values(e), e.kind, ("state",))) for e in self._events]
+        for change in self.changes:
+            out.append((change.after, self._changed(change)))
+        return [point for _, point in sorted(out, key=lambda item: item[0])]
+
+    def _point(self, same: Sequence[dict[str, float]], kind: str, exact: Sequence[str] = ()) -> SpecialPoint:
+        return self.readings.point([Solved(values, None, kind) for values in same], self.name, exact)
+
+    def _changed(self, change: Change) -> SpecialPoint:
+        """A change of stability; where a zone's event stands for it, its distance adds to the bounds."""
+        read = self.readings.without_fronts
+        exact = {"n": float(change.n), "direction": change.direction}
+        point = self._point([read(held) | exact for held in change.levels], "stability_change", tuple(exact))
+        if change.beside is None:
+            return point
+        near, own = read(change.beside), read(change.levels[-1])
+        off = {name: abs(near[name] - own[name]) for name in near}
+        wider = {name: u + off.get(name, 0.0) for name, u in point.uncertainty.items()}
+        return replace(point, uncertainty=wider)
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """Where waves set in or vanish, for each wave number in turn."""
+        prescribed = self._prescribed()
+        points = [(i, prescribed[i][1], prescribed[i][0].values[prescribed[i][1]], h) for i, h in self._fine]
+        found = []
+        for n in self.readings.waves:
+            located = StabilityChanges(self.membrane, n, self.readings.beta, lambda: self._events)
+            found += located.between(points)
+            self._failures += located.failures
+        return found
+
+    @cached_property
+    def _events(self) -> list[Event]:
+        found, failures = events(self.membrane, self._fine)
+        self._failures.extend(failures)
+        return found
+
+    def _event_values(self, event: Event) -> list[dict[str, float]]:
+        return [
+            {
+                **self.readings.without_fronts(held),
+                "load": held.state.loads[self.control],
+                self.readings.abscissa: held.touched,
+                "state": event.state,
+            }
+            for held in event.levels
+        ]
+
+    def _limit(self, turn: int) -> tuple[SpecialPoint, list[Held]]:
+        """The limit load after a point of the trace, on every mesh."""
+        before, after = (self.trace.points[i].monitors["V"] for i in (turn, turn + 1))
+        margin = MARGIN * (after - before)
+        starts = self._fitted(self.near("V", before - margin), "V")
+        found = [self._limit_from(start, before - margin, after + margin) for start in starts]
+        return self._point([self.readings.without_fronts(held) for held in found], "limit_point"), found
+
+    def _limit_from(self, held: Held, low: float, high: float) -> Held:
+        """The limit load between two volumes by arc-length, the zones' fronts unknowns as the load is."""
+        model = held.model
+        held.put()
+        model.system.update_mass()
+        continuation = Continuation(
+            solver_of(model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
+        )
+        begin = continuation.start(held.state, fixed.Held("V", low), towards={"V": 1.0})
+        branch = FittedBranch(continuation, self.control, begin, lambda point: point.monitors["V"] > high)
+        limits = branch.special()
+        if len(limits) != 1:
+            raise ConvergenceError(
+                f"{len(limits)} limit loads between V = {low:.6g} and {high:.6g} on a fitted mesh"
+            )
+        state = limits[0].state
+        moved = [state.loads[name] for name in held.scalars[1:]]
+        count = len(held.zones.fronts)
+        surface = None if held.zones.surface is None else moved[count]
+        zones = replace(held.zones, fronts=tuple(moved[:count]), surface=surface)
+        return replace(held, state=state, zones=zones, record=begin.record)
+
+    # -- states --------------------------------------------------------------------------------
+
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
+        """A state with a column at exactly a value, its fronts, and its profile if wanted.
+
+        Raises:
+            InputError: When the branch has no such state.
+            ConvergenceError: When it is not solved on all meshes.
+        """
+        levels = self._special_state(name, value)
+        if levels is None:
+            levels = self._fitted(self.near(name, value, crossing), name)
+        quantities = self.readings.quantities(levels, CRITICAL if name == "limit_point" else 0.0)
+        self.fronts.extend(self.readings.fronts(levels, self.name))
+        fields = () if profile is None else self.readings.fields(levels, profile)
+        return State({name: value}, self.name, quantities, fields, crossing)
+
+    def _special_state(self, name: str, value: float) -> list[Held] | None:
+        if name == "limit_point":
+            found = [self._limit(i)[1] for i in self.trace.turns().tolist()]
+        elif name in EVENTS:
+            found = [list(event.levels) for event in self._events if event.kind == name]
+        elif name == "stability_change":
+            found = [list(change.levels) for change in sorted(self.changes, key=lambda c: c.after)]
+        else:
+            return None
+        if not 1 <= value <= len(found):
+            raise InputError(f"{name} = {value:g}: this branch has {len(found)} of them")
+        return found[int(value) - 1]

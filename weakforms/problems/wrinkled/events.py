@@ -1,0 +1,171 @@
+"""Loads at which zones of a wrinkled membrane open or close, solved for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.wrinkled.fields import Zones
+from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.state import Held, Touch
+from weakforms.results import Failure
+from weakforms.solvers.equilibrium import constraints as fixed
+
+HALVINGS = 24
+"""Times an interval of the load is halved until only one zone opens or closes in it."""
+
+LEAP = 0.1
+"""Distance, over the length, that a front moves between neighbours without a look at the states between."""
+
+SLACK = 1e-6
+"""Relative distance from its bracket at which an event is accepted: a new zone is seen when it has some
+width."""
+
+VERGE = 1e-9
+"""Deviation of ``gw`` from 1 at an end of the unloaded membrane that is none: a zone is there from the
+start."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """A zone that opens or closes at a load."""
+
+    kind: str
+    """``zone_opening`` or ``zone_closing``."""
+    state: float
+    """Of the zone: 1 taut, -1 wrinkled."""
+    after: int
+    """Point of the branch it comes after."""
+    levels: tuple[Held, ...]
+    """The state on every mesh, coarse to fine; ``touched`` is where the zone is."""
+
+
+def events(membrane: Membrane, points: Sequence[tuple[int, Held]]) -> tuple[list[Event], list[Failure]]:
+    """All events between neighbours of a branch, in order, and what could not be located."""
+    found: list[Event] = []
+    failures: list[Failure] = []
+    at_ends = points[0][1].sampled(np.array([0.0, membrane.length]))["gw"]
+    verge = np.abs(at_ends - 1) < VERGE
+    for (i, a), (_, b) in pairwise(points):
+        try:
+            found.extend(_between(membrane, a, b, i, verge, HALVINGS))
+        except ConvergenceError as error:
+            load = a.state.loads[membrane.control]
+            failures.append(Failure(f"zones that change after {membrane.control} = {load:.6g}", str(error)))
+    return found, failures
+
+
+def _fronts(held: Held) -> tuple[float, int]:
+    return held.zones.first, len(held.zones.fronts)
+
+
+def _between(
+    membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
+) -> list[Event]:
+    """Events between two states, by halving until one zone is all that differs."""
+    if _fronts(a) == _fronts(b):
+        if not halvings or not _leaps(a, b, membrane.length):
+            return []
+        return _in_halves(membrane, a, b, after, verge, halvings)
+    opening = len(b.zones.fronts) > len(a.zones.fronts)
+    absent, present = (a, b) if opening else (b, a)
+    zone = _extra_zone(absent.zones, present.zones, membrane.length)
+    if zone is not None:
+        if opening and ((zone[0] == 0 and verge[0]) or (zone[1] == membrane.length and verge[1])):
+            return []
+        try:
+            return _located(membrane, absent, present, zone, after, opening)
+        except ConvergenceError:
+            if not halvings:
+                raise
+    if not halvings:
+        return _at_both_ends(membrane, absent, present, after, opening)
+    return _in_halves(membrane, a, b, after, verge, halvings)
+
+
+def _leaps(a: Held, b: Held, length: float) -> bool:
+    """Whether a front is so far from where it was that it may be another: one zone opened, and one closed."""
+    return any(abs(x - y) > LEAP * length for x, y in zip(a.zones.fronts, b.zones.fronts, strict=True))
+
+
+def _in_halves(
+    membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
+) -> list[Event]:
+    """Events between two states, in one half of the load between them and then in the other."""
+    low, high = (held.state.loads[membrane.control] for held in (a, b))
+    middle = membrane.fitted(a, fixed.Held(membrane.control, (low + high) / 2))[-1]
+    return [
+        *_between(membrane, a, middle, after, verge, halvings - 1),
+        *_between(membrane, middle, b, after, verge, halvings - 1),
+    ]
+
+
+def _at_both_ends(membrane: Membrane, absent: Held, present: Held, after: int, opening: bool) -> list[Event]:
+    """Zones that open or close at both ends at once, as they do where the membrane is symmetric."""
+    fewer, more = absent.zones, present.zones
+    if len(more.fronts) != len(fewer.fronts) + 2 or more.first == fewer.first:
+        raise ConvergenceError("several zones change at once")
+    last = more.first * (-1) ** len(more.fronts)
+    ends = ((0.0, more.fronts[0], more.first), (more.fronts[-1], membrane.length, last))
+    return [e for zone in ends for e in _located(membrane, absent, present, zone, after, opening)]
+
+
+def _extra_zone(absent: Zones, present: Zones, length: float) -> tuple[float, float, float] | None:
+    """Ends and state of the one zone that ``present`` has and ``absent`` has not."""
+    fewer, more = len(absent.fronts), len(present.fronts)
+    edges = [0.0, *present.fronts, length]
+    if more == fewer + 1:
+        if absent.first != present.first:
+            return edges[0], edges[1], present.first
+        return edges[-2], edges[-1], -absent.first if fewer % 2 == 0 else absent.first
+    if more == fewer + 2 and absent.first == present.first:
+        # The zone whose removal leaves the other fronts nearest to where they are.
+        best = min(
+            range(1, more),
+            key=lambda k: (
+                sum(
+                    abs(x - y)
+                    for x, y in zip(
+                        [f for j, f in enumerate(present.fronts, 1) if j not in (k, k + 1)],
+                        absent.fronts,
+                        strict=True,
+                    )
+                )
+                + (edges[k + 1] - edges[k])
+            ),
+        )
+        state = present.first if best % 2 == 0 else -present.first
+        return edges[best], edges[best + 1], state
+    return None
+
+
+def _located(
+    membrane: Membrane,
+    absent: Held,
+    present: Held,
+    zone: tuple[float, float, float],
+    after: int,
+    opening: bool,
+) -> list[Event]:
+    """The event by ``gw = 1`` at an end, or ``gw = 1, gw' = 0`` inside, with the zone absent."""
+    low, high, state = zone
+    at_end = low == 0.0 or high == membrane.length
+    place = 0.0 if low == 0.0 else high if at_end else (low + high) / 2
+    levels, start = [], absent
+    for level in reversed(range(len(membrane.meshes))):
+        start = membrane.fit(level, start, start.zones, (), touch=Touch(place, at_end), same=bool(levels))
+        place = start.touched
+        levels.append(start)
+    load = levels[0].state.loads[membrane.control]
+    ends = sorted(held.state.loads[membrane.control] for held in (absent, present))
+    slack = SLACK * max(1.0, abs(ends[1]))
+    if not ends[0] - slack <= load <= ends[1] + slack or not 0 <= place <= membrane.length:
+        raise ConvergenceError(
+            f"a zone's event was found at {load:.12g}, outside [{ends[0]:.12g}, {ends[1]:.12g}]"
+        )
+    kind = "zone_opening" if opening else "zone_closing"
+    return [Event(kind, state, after, tuple(reversed(levels)))]

@@ -1,0 +1,199 @@
+"""States of a wrinkled membrane on meshes fitted to its zones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.wrinkled.fields import Zones, zones
+from weakforms.problems.wrinkled.model import BY_STATE, WrinkledModel
+from weakforms.problems.wrinkled.start import VERGE, VERGE_FITTED, PlainMembrane
+from weakforms.problems.wrinkled.state import (
+    AtBreak,
+    Held,
+    Layout,
+    Touch,
+    model_on,
+    solver_of,
+)
+from weakforms.solvers.equilibrium.newton import Constraint
+from weakforms.solvers.equilibrium.system import State
+
+THINNEST, SLIVER = 1e-8, 1e-6
+"""Zones thinner than this fraction of the length are left out; the second where round-off in a thin zone's
+block keeps Newton's method from converging. Nothing else feels them."""
+
+COARSE, PASSES = 1e-3, 2
+"""Zones thinner than this fraction of the length get no break points before the fronts are unknowns; and how
+often break points are put where the last solution shows fronts before that."""
+
+ATTEMPTS = 8
+"""Patterns of zones tried for one state."""
+
+FLAT = 1e-8
+"""Relative Newton step accepted where a minimum of ``gw`` is located: its place may be known no better, and
+what is asked for is not sensitive to it."""
+
+PLACE = 1e-7
+"""What that may leave in the place."""
+
+
+class Membrane(PlainMembrane):
+    """One membrane at given parameters; its states on a plain mesh and on fitted ones."""
+
+    def fitted(self, start: Held, constraint: Constraint, fine_only: bool = False) -> list[Held]:
+        """The state selected by a constraint on the control, on every mesh, coarse to fine, or on the finest.
+
+        Raises:
+            ConvergenceError: When no pattern of zones is found that the solution shows itself.
+        """
+        ways = [(THINNEST, True), (SLIVER, True)]
+        if start.layout is not None:  # fitted already: its own zones may do where a plain mesh does not
+            ways.append((THINNEST, False))
+        for thinnest, adapt in ways:
+            try:
+                fine = self._pattern(start, constraint, thinnest, adapt)
+                return [fine] if fine_only else [*self.others(fine, constraint), fine]
+            except ConvergenceError as error:
+                last = error
+        raise last
+
+    def others(self, fine: Held, constraint: Constraint) -> list[Held]:
+        """A state of the finest mesh on the coarser ones."""
+        coarser = range(len(self.meshes) - 1)
+        out = [self.fit(k, fine, fine.zones, (constraint,), same=True) for k in coarser]
+        for held in out if fine.slivers else ():
+            shown = zones(held.put(), held.state.loads, VERGE_FITTED, self.liquid)
+            own = fine.zones.left_out_of(shown)
+            nothing = tuple(0.0 if z < self.length / 2 else self.length for z in fine.slivers)
+            held.slivers = own if len(own) == len(fine.slivers) else nothing
+        return out
+
+    def _pattern(self, start: Held, constraint: Constraint, thinnest: float, adapt: bool) -> Held:
+        """Solve on the finest mesh with the zones the last solution shows until they are its own."""
+        held = self._adapted(start, constraint) if adapt else start
+        wanted, last = self._thick(held.zones, thinnest), "none tried"
+        for _ in range(ATTEMPTS):
+            try:
+                held = self.fit(len(self.meshes) - 1, held, wanted, (constraint,))
+            except ConvergenceError as error:
+                if not wanted.fronts:
+                    raise
+                last, wanted = str(error), wanted.without_thinnest(self.length)
+                continue
+            shown = zones(held.put(), held.state.loads, VERGE_FITTED, self.liquid)
+            found = self._thick(shown, thinnest)
+            if found.kind == held.zones.kind:
+                if self.near_fronts and found.fronts:
+                    held = self.fit(len(self.meshes) - 1, held, held.zones, (constraint,), graded=True)
+                held.slivers = found.left_out_of(shown)
+                return held
+            wanted = found
+        raise ConvergenceError(f"no pattern of zones is its own solution's ({last})")
+
+    def _adapted(self, start: Held, constraint: Constraint) -> Held:
+        """A plain state solved again, by state, with break points where the last solution shows fronts.
+
+        What a front inside a cell does to the solution is gone then, but for the front's own error.
+        """
+        held = start
+        for _ in range(PASSES):
+            layout = Layout.of(self._thick(held.zones, COARSE), self.length)
+            model = model_on(self.meshes[-1], len(layout.breaks) - 1)
+            guess = self._moved(held, model, layout.breaks)
+            unmarked = np.full(model.blocks, BY_STATE)
+            wet = unmarked if self.liquid else layout.wet
+            model.mark(unmarked, wet)
+            state, record = solver_of(model, (self.control,)).solve(guess, [constraint])
+            held = Held(model, state, held.zones, record, unmarked, wet, (self.control,))
+            held.zones = zones(held.put(), state.loads, VERGE, self.liquid)
+        return held
+
+    def _thick(self, found: Zones, share: float) -> Zones:
+        while found.fronts and np.diff([0.0, *found.fronts, self.length]).min() < share * self.length:
+            found = found.without_thinnest(self.length)
+        return found
+
+    def fit(
+        self,
+        level: int,
+        start: Held,
+        wanted: Zones,
+        constraints: Sequence[Constraint],
+        free: Sequence[str] | None = None,
+        touch: Touch | None = None,
+        same: bool = False,
+        graded: bool = False,
+    ) -> Held:
+        """Solve on one mesh with its break points at the fronts and at the surface.
+
+        Args:
+            level: Which mesh.
+            start: A state to interpolate from.
+            wanted: The zones.
+            constraints: One a free load, besides those that ``touch`` brings.
+            free: Unknown loads besides the break points; by default the control.
+            touch: A point where ``gw`` just touches 1, an equation more.
+            same: Keep the blocks of the state to start from: meshes of one state are to be nested.
+            graded: Make blocks short near fronts.
+
+        Raises:
+            ConvergenceError: When it does not converge, or break points pass each other.
+        """
+        extra = () if touch is None or touch.at_end else (touch.at,)
+        layout = Layout.of(wanted, self.length, extra, self.near_fronts if graded else ())
+        if same:
+            layout = replace(start.layout, breaks=start.model.breaks_of(start.state.loads))
+        model = model_on(self.meshes[level], len(layout.breaks) - 1)
+        guess = self._moved(start, model, layout.breaks)
+        guess.loads |= self.on_meshes[level]
+        model.mark(layout.taut, layout.wet)
+        nodes = [*layout.fronts, *([] if layout.surface is None else [layout.surface])]
+        own = [AtBreak(model, "gw", k) for k in layout.fronts]
+        if layout.surface is not None:
+            own.append(AtBreak(model, "z", layout.surface, minus="zw"))
+        if touch is not None:
+            node = int(np.argmin(np.abs(layout.breaks - touch.at)))
+            own.append(AtBreak(model, "gw", node))
+            if not touch.at_end:
+                own.append(AtBreak(model, "gw_slope", node, target=0.0))
+                nodes.append(node)
+        scalars = (*((self.control,) if free is None else free), *(f"b{k}" for k in nodes))
+        sharp = touch is None or touch.at_end
+        try:
+            tight = solver_of(model, scalars, 1e-10 if sharp else FLAT)
+            state, record = tight.solve(guess, [*constraints, *own])
+        except ConvergenceError:
+            if not (sharp and self.near_fronts and layout.fronts):
+                raise
+            # A front at which ``gw`` passes 1 at a flat angle, as where a zone has just opened.
+            state, record = solver_of(model, scalars, FLAT).solve(guess, [*constraints, *own])
+        breaks = model.breaks_of(state.loads)
+        if np.diff(breaks).min() <= 0:
+            raise ConvergenceError("fronts passed each other")
+        fronts = tuple(float(breaks[k]) for k in layout.fronts)
+        surface = None if layout.surface is None else float(breaks[layout.surface])
+        found = Zones(wanted.first, fronts, surface, wanted.wet)
+        touched = None if touch is None else float(breaks[node])
+        return Held(
+            model, state, found, record, layout.taut, layout.wet, scalars, tuple(own), touched, layout
+        )
+
+    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray) -> State:
+        """A state interpolated to another mesh."""
+        loads = {k: v for k, v in start.state.loads.items() if not (k[0] == "b" and k[1:].isdigit())}
+        loads |= {f"b{k}": float(breaks[k]) for k in range(1, model.blocks)}
+        loads["residual_stiffness"] = 0.0
+        own = model.space.tabulate_dof_coordinates()[: model.system.size // 2, 0]
+        comm = model.mesh.comm
+        everywhere = comm.allgather(own)
+        s = model.material(np.concatenate(everywhere), loads)
+        found = start.put().sampled(s, start.state.loads)
+        first = sum(len(part) for part in everywhere[: comm.rank])
+        mine = slice(first, first + len(own))
+        u = np.column_stack([found["u"][mine], found["w"][mine]]).ravel()
+        u[model.system.bc_dofs] = 0.0
+        return State(u, loads)

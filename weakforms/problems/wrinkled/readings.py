@@ -1,0 +1,241 @@
+"""What is read off states of a wrinkled membrane, and its uncertainty from the same state on other meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.wrinkled.fitted import PLACE, Membrane
+from weakforms.problems.wrinkled.model import WRINKLED
+from weakforms.problems.wrinkled.state import Held, solver_of
+from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
+from weakforms.results import Field, Quantity, SpecialPoint
+from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.uncertainty.family import special_point
+from weakforms.solvers.uncertainty.refinement import Estimate, estimate, estimate_in_norm
+
+ROUND_OFF = 1e-10
+"""Relative error that round-off may leave: of derivatives, and of fronts, on blocks of very different
+length."""
+
+EVENTS = ("zone_opening", "zone_closing")
+
+VALUES = ("V", "Pi", "N")
+
+LOWEST = 3
+"""Eigenvalues of each wave number that are shown."""
+
+POLE = ("z_pole", "lam_pole", "gw_max")
+"""Columns of a body with a pole that are values there: its ``gw`` is largest there."""
+
+
+@dataclass(frozen=True)
+class Readings:
+    """Readings of one membrane's states.
+
+    Args:
+        membrane: Whose.
+        cap: Highest order of convergence to reckon with.
+        waves: Wave numbers whose stability is judged.
+        abscissa: Name of the material coordinate.
+        beta: Bending stiffness that waves meet besides.
+    """
+
+    membrane: Membrane
+    cap: float
+    waves: tuple[int, ...] = ()
+    abscissa: str = "Z"
+    beta: float = 0.0
+
+    # -- one mesh ------------------------------------------------------------------------------
+
+    def columns(self, held: Held) -> dict[str, float]:
+        """Columns of a state, and its fronts."""
+        meridian = held.put()
+        monitors = held.model.system.monitors()
+        zones = held.all_zones(self.membrane.length)
+        fronts = {f"{self.abscissa}_front_{i}": z for i, z in enumerate(zones.fronts, 1)}
+        of_pole = {name: monitors[name] for name in ("z_pole", "lam_pole") if name in monitors}
+        if of_pole:
+            full = self.membrane.length if zones.wet else 0.0
+            of_pole[f"{self.abscissa}_level"] = full if zones.surface is None else zones.surface
+        return {
+            self.membrane.control: held.state.loads[self.membrane.control],
+            **{name: monitors[name] for name in VALUES},
+            "wrinkled_fraction": zones.share(WRINKLED, self.membrane.length),
+            "r_max": meridian.extreme("r", 1),
+            "gw_max": meridian.extreme("gw", 1),
+            "gw_min": meridian.extreme("gw", -1),
+            **of_pole,
+            **fronts,
+        }
+
+    def without_fronts(self, held: Held) -> dict[str, float]:
+        """Columns of a state only."""
+        found = self.columns(held)
+        return {name: value for name, value in found.items() if not self._is_front(name)}
+
+    def _is_front(self, name: str) -> bool:
+        return name.startswith(f"{self.abscissa}_front")
+
+    def eigenvalues(self, held: Held) -> dict[str, float]:
+        """The lowest eigenvalues of every wave number."""
+        out: dict[str, float] = {}
+        for n in self.waves:
+            found = waves_at(held).spectrum(n, LOWEST, self.beta).eigenvalues
+            out |= {f"Lambda_n{n}_{k}": value for k, value in enumerate(found[:LOWEST], 1)}
+        return out
+
+    def diagnostics(self, held: Held) -> dict[str, float]:
+        """Negative eigenvalues in the symmetric space, and how the solve ended."""
+        held.put()
+        factor = solver_of(held.model, held.scalars).factor
+        factor.update()
+        return {
+            "n_negative": factor.negative_count(),
+            "residual": held.record.norms[-1],
+            "iterations": held.record.iterations,
+        }
+
+    # -- all meshes ----------------------------------------------------------------------------
+
+    def order(self, name: str) -> float:
+        """Highest order of convergence to reckon with: of energies, or of stretches, which all else holds.
+
+        All else too where a radius follows from the stretches, and energies from that.
+        """
+        if self.membrane.on_meshes[-1]:
+            return self.cap / 2
+        energetic = name in (self.membrane.control, "load", "V", "Pi", "eigenvalue_1")
+        # Nodal values are as exact as energies; the level is a node at which one of them is known.
+        nodal = self.membrane.body.pole and name in (*POLE, f"{self.abscissa}_level")
+        return self.cap if energetic or nodal or name.startswith("Lambda") else self.cap / 2
+
+    def _resolved(self, name: str) -> bool:
+        """Fronts of a state, and what follows from them, where waves are judged: cells are graded there."""
+        return bool(self.waves) and (self._is_front(name) or name in ("wrinkled_fraction", "r_max", "gw_min"))
+
+    def estimate(self, name: str, values: list[float] | list[np.ndarray], resolved: bool = False) -> Estimate:
+        """Value and uncertainty from values on meshes, coarse to fine.
+
+        Where what is around a front is resolved, its place is as exact as energies, and never less than
+        stretches are.
+        """
+        order = self.order(name)
+        found = estimate(values, self.cap, order, order) if resolved else estimate(values, order)
+        left = ROUND_OFF * np.maximum(1.0, np.abs(found.value))
+        return replace(found, uncertainty=found.uncertainty + left)
+
+    def quantity(self, name: str, values: list[float]) -> Quantity:
+        """The same as results state it."""
+        found = self.estimate(name, values, self._resolved(name))
+        order = float(found.order)
+        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
+
+    def quantities(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
+        """All columns of a state, its spectra too.
+
+        Args:
+            levels: The state on every mesh.
+            critical: Magnitude below which an axisymmetric eigenvalue does not count as negative.
+
+        Raises:
+            ConvergenceError: When meshes disagree on fronts or on stability.
+        """
+        values = [self.columns(held) for held in levels]
+        if any(set(v) != set(values[-1]) for v in values):
+            raise ConvergenceError("the number of fronts depends on the mesh")
+        found = {n: self.quantity(n, [v[n] for v in values]) for n in values[-1]}
+        most = found["gw_max"]
+        left = self._sliver_error(levels[-1], most.value)
+        found["gw_max"] = replace(most, uncertainty=most.uncertainty + left)
+        found |= self._spectrum(levels, critical)
+        waves = [self.eigenvalues(held) for held in levels]
+        return found | {n: self.quantity(n, [v[n] for v in waves]) for n in waves[-1]}
+
+    def _sliver_error(self, held: Held, most: float) -> float:
+        """What thin zones leave in the largest ``gw``, which is reached in them.
+
+        In one without a block of its own the other state's law was used: ``gw - 1`` is right there to its
+        order only. In one with a block, positions known to round-off are differentiated over tiny cells.
+        """
+        if held.slivers:
+            return abs(most - 1)
+        thinnest = np.diff([0.0, *held.zones.fronts, self.membrane.length]).min()
+        return float(np.finfo(float).eps * held.model.cells / thinnest)
+
+    def _spectrum(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
+        """Lowest eigenvalue at fixed load and number of negative ones (below ``-critical``).
+
+        By SLEPc, and by inertia.
+        """
+        spectra = []
+        for held in levels:
+            held.put()
+            with held.model.system.weighed_here():
+                spectra.append(Stability(held.model.system).spectrum(held.state, shift=critical))
+        counts = {spectrum.n_negative for spectrum in spectra}
+        if len(counts) != 1:
+            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
+        lowest = self.quantity("eigenvalue_1", [spectrum.eigenvalues[0] for spectrum in spectra])
+        return {"n_negative": Quantity(counts.pop()), "eigenvalue_1": lowest}
+
+    def point(self, same: Sequence[Solved], branch: str, exact: Sequence[str] = ()) -> SpecialPoint:
+        """A special point from its columns on every mesh.
+
+        Args:
+            same: The point, coarse to fine.
+            branch: Its branch.
+            exact: Columns that say what it is and have no error.
+        """
+        shown = list(same[-1].values)
+        caps = {name: self.order(name) for name in shown}
+        if same[-1].kind in EVENTS:  # where stretches at one place have a value: all is of their order
+            caps = dict.fromkeys(shown, self.cap / 2)
+        point = special_point(same, shown, self.cap, branch, self.membrane.control, caps)
+        left = {n: ROUND_OFF * max(1.0, abs(v)) for n, v in point.values.items()}
+        if point.kind in EVENTS:
+            left[self.abscissa] += PLACE
+        spread = {n: u + left[n] for n, u in point.uncertainty.items()}
+        return replace(point, uncertainty=spread | dict.fromkeys(exact, 0.0))
+
+    def fronts(self, levels: Sequence[Held], branch: str) -> list[SpecialPoint]:
+        """Fronts of a state."""
+        values = [self.columns(held) for held in levels]
+        out, control = [], self.membrane.control
+        for name in filter(self._is_front, values[-1]):
+            rows = [{control: v[control], "V": v["V"], self.abscissa: v[name]} for v in values]
+            out.append(self.point([Solved(row, None, "front") for row in rows], branch))
+        return out
+
+    # -- fields --------------------------------------------------------------------------------
+
+    def fields(self, levels: Sequence[Held], points: np.ndarray) -> tuple[Field, ...]:
+        """The profile, and the lowest mode of every wave number but 0."""
+        shown = levels[-1].model.system.formulation.profile
+        profile = self._field("profile", [held.sampled(points) for held in levels], shown, points)
+        modes = (self._modes(n, levels, points) for n in self.waves if n)
+        return profile, *modes
+
+    def _modes(self, n: int, levels: Sequence[Held], points: np.ndarray) -> Field:
+        samples = []
+        for held in levels:
+            waves = waves_at(held)
+            samples.append(waves.sampled(waves.lowest_mode(n, self.beta), points, held.state.loads))
+        return self._field(f"mode_n{n}", samples, MODE, points)
+
+    def _field(
+        self, title: str, samples: list[dict[str, np.ndarray]], names: Sequence[str], points: np.ndarray
+    ) -> Field:
+        columns: dict[str, np.ndarray] = {self.abscissa: points}
+        uncertainty = {self.abscissa: 0.0}
+        for name in names:
+            columns[name] = samples[-1][name]
+            left = ROUND_OFF * max(1.0, float(np.abs(columns[name]).max()))
+            spread = estimate_in_norm([sample[name] for sample in samples], self.order(name))
+            uncertainty[name] = spread + left
+        return Field(title, columns, uncertainty)

@@ -1,0 +1,1 @@
+"""Flat and cylindrical sheets with the relaxed energy."""

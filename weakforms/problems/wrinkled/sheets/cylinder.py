@@ -1,0 +1,224 @@
+r"""Problem ``wrinkled_sheet``: the cylinder of Paper 4 as a two-dimensional membrane, without axisymmetry.
+
+The reference surface is the unrolled cylinder, ``X = Theta in [0, pi/2]`` between two planes of symmetry and
+``Y = Z in [0, L]``; the unknown is the position in space. The relaxed energy is that of
+:func:`weakforms.forms.wrinkling.surface_tension_field`, by the principal stretches of ``C``. It is a
+cross-check of the axisymmetric form with a few elements around: with many, the wrinkled membrane under
+pressure is unstable to waves around it (Paper 5).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import basix.ufl
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+from pydantic import Field
+from ufl.core.expr import Expr
+
+from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
+from weakforms.forms.wrinkling import surface_tension_field
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.problem import Numerics, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.quantity_problem import solve_twice
+from weakforms.problems.wrinkled.body import CYLINDER, SHARED
+from weakforms.problems.wrinkled.branch import WrinkledBranch
+from weakforms.problems.wrinkled.problem import (
+    ENERGY,
+    SCALES,
+    SOURCE,
+    WrinkledNumerics,
+    WrinkledParameters,
+    wrinkled_membrane,
+)
+from weakforms.problems.wrinkled.state import Held
+from weakforms.results import Result
+from weakforms.solvers.equilibrium.constraints import Held as Prescribed
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import Formulation, State, System
+
+QUARTER = np.pi / 2
+CAP = 4.0
+"""Highest order of convergence the uncertainties reckon with: both directions are refined together."""
+
+
+class SheetParameters(WrinkledParameters):
+    """The membrane and the load at which it is looked at."""
+
+    at_load: float = Field(4.5, gt=0, le=100, description="load: level zw, or pressure p with load = 'gas'")
+
+
+class SheetNumerics(Numerics):
+    """Meshes of a quarter of the membrane: along blocks between fronts, and around."""
+
+    degree: int = Field(4, ge=2, le=5, description="polynomial degree of the unknowns")
+    along: int = Field(4, ge=2, le=64, multiple_of=2, description="cells a block on the finest mesh")
+    around: int = Field(4, ge=2, le=16, multiple_of=2, description="cells on the quarter on the finest mesh")
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One mesh of a quarter of the membrane and the state it starts from."""
+
+    around: int
+    along: int
+    degree: int
+    start: Held
+    """Axisymmetric state at the load."""
+
+    def solve(self, comm: MPI.Intracomm) -> dict[str, float]:
+        """Equilibrium; volume, total potential, and how far it is from a surface of revolution."""
+        model = self.start.model
+        breaks = model.breaks_of(self.start.state.loads)
+        mesh = dmesh.create_rectangle(
+            comm,
+            [[0.0, 0.0], [QUARTER, float(model.blocks)]],
+            [self.around, model.blocks * self.along],
+            dmesh.CellType.quadrilateral,
+        )
+        block = np.minimum(np.floor(mesh.geometry.x[:, 1]).astype(int), model.blocks - 1)
+        mesh.geometry.x[:, 1] = breaks[block] + np.diff(breaks)[block] * (mesh.geometry.x[:, 1] - block)
+        element = basix.ufl.element("Lagrange", "quadrilateral", self.degree, shape=(3,))
+        space = fem.functionspace(mesh, element)
+        position = fem.Function(space, name="position")
+        places = space.tabulate_dof_coordinates()
+        position.x.array[:] = self._revolved(places, comm)
+        system = System(self._formulation(mesh, space, position))
+        state, _ = ExtendedNewton(system, max_iterations=40).solve(State(system.owned().copy(), {}))
+        values = system.monitors()
+        owned = places[: system.size // 3]
+        x, y, _ = state.u.reshape(-1, 3).T
+        twist = np.abs(x * np.sin(owned[:, 0]) - y * np.cos(owned[:, 0])).max(initial=0.0)
+        values["twist"] = float(comm.allreduce(twist, op=MPI.MAX))
+        return values
+
+    def _revolved(self, places: np.ndarray, comm: MPI.Intracomm) -> np.ndarray:
+        """The axisymmetric state at the mesh's points, on every rank its own."""
+        everywhere = comm.allgather(places[:, 1])
+        found = self.start.sampled(np.clip(np.concatenate(everywhere), 0.0, None))
+        first = sum(len(part) for part in everywhere[: comm.rank])
+        mine = slice(first, first + len(places))
+        r, z = found["r"][mine], found["z"][mine]
+        return np.column_stack([r * np.cos(places[:, 0]), r * np.sin(places[:, 0]), z]).ravel()
+
+    def _formulation(self, mesh: dmesh.Mesh, space: fem.FunctionSpace, position: fem.Function) -> Formulation:
+        names, loads = (*CYLINDER.parameters, *SHARED), self.start.state.loads
+        q = {name: fem.Constant(mesh, loads[name]) for name in names}
+        dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 4 * self.degree})
+        x, y, z = position
+        material = self.start.model.other_law
+        law = None if material is None else material.surface_law(mesh)
+        strain, volume, liquid = sheet_densities(mesh, position, q, law)
+        share = 2 / np.pi  # a quarter of the membrane, per 2 pi
+        potential = (strain - q["p"] * volume + liquid) * share * dx
+        trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+        return Formulation(
+            unknown=position,
+            residual=ufl.derivative(potential, position, test),
+            loads={},
+            bcs=self._conditions(mesh, space, position),
+            mass=ufl.inner(trial, test) * dx,
+            monitors={
+                "V": volume * share * dx,
+                "Pi": (strain - sheet_pressure(z, q) * volume) * share * dx,
+                "radius": ufl.sqrt(x**2 + y**2) * share * dx,
+            },
+        )
+
+    def _conditions(
+        self, mesh: dmesh.Mesh, space: fem.FunctionSpace, position: fem.Function
+    ) -> list[fem.DirichletBC]:
+        """Disks held where they are; the planes of symmetry ``y = 0`` and ``x = 0``."""
+        length = float(CYLINDER.length(self.start.state.loads))
+        mesh.topology.create_connectivity(1, 2)
+        ends = dmesh.locate_entities_boundary(
+            mesh, 1, lambda p: np.isclose(p[1], 0.0) | np.isclose(p[1], length)
+        )
+        held = fem.Function(space)
+        held.x.array[:] = position.x.array
+        out = [fem.dirichletbc(held, fem.locate_dofs_topological(space, 1, ends))]
+        for side, component in ((0.0, 1), (QUARTER, 0)):
+            edge = dmesh.locate_entities_boundary(mesh, 1, lambda p, side=side: np.isclose(p[0], side))
+            part = space.sub(component)
+            dofs = fem.locate_dofs_topological(part, 1, edge)
+            out.append(fem.dirichletbc(np.array(0.0), dofs, part))
+        return out
+
+
+def sheet_pressure(z: Expr, q: dict[str, fem.Constant]) -> Expr:
+    """``p + gamma max(zw - z, 0)``."""
+    return q["p"] + ufl.conditional(ufl.gt(q["zw"], z), q["gamma"] * (q["zw"] - z), 0.0)
+
+
+def sheet_densities(
+    mesh: dmesh.Mesh, position: Expr, q: dict[str, fem.Constant], law: SurfaceLaw | None = None
+) -> tuple[Expr, Expr, Expr]:
+    r"""Strain energy, volume and potential of the liquid per unit area of the unrolled cylinder.
+
+    .. math:: \eta W(C), \qquad \tfrac12 (x y_X - y x_X) z_Y - \tfrac12 (x y_Y - y x_Y) z_X, \qquad
+              -\Phi(z)\,(x_Y y_X - x_X y_Y)
+    """
+    along = ufl.SpatialCoordinate(mesh)[1]
+    gradient = ufl.grad(position)
+    c = gradient.T * gradient
+    energy = surface_tension_field(c, law or mooney_rivlin_surface(q["c2"]))
+    (x, y, z), (x_x, x_y), (y_x, y_y), (z_x, z_y) = (
+        position,
+        *((gradient[i, 0], gradient[i, 1]) for i in range(3)),
+    )
+    volume = ((x * y_x - y * x_x) * z_y - (x * y_y - y * x_y) * z_x) / 2
+    head = ufl.conditional(ufl.gt(q["zw"], z), q["gamma"] * (q["zw"] - z) ** 2 / 2, 0.0)
+    return CYLINDER.thickness(along, q) * energy, volume, -head * (x_y * y_x - x_x * y_y)
+
+
+class WrinkledSheet:
+    """The membrane of Paper 4 at one load by a form that knows no axis."""
+
+    name: ClassVar[str] = "wrinkled_sheet"
+    title: ClassVar[str] = "The cylindrical membrane of non-uniform thickness as a two-dimensional sheet"
+    paper: ClassVar[int] = 4
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = ENERGY
+    scales: ClassVar[dict[str, str]] = SCALES | {
+        "radius": "integral of the radius over the membrane over 2 pi Ao^2",
+        "twist": "largest distance of a material point from its own half-plane through the axis over Ao",
+    }
+    parameters = SheetParameters
+    numerics = SheetNumerics
+    columns = ()
+    special_points = ()
+    branches = ("primary",)
+    control: ClassVar[str] = "zw or p; the quantities are at the load `at_load`"
+
+    def check(self, parameters: SheetParameters, requests: Requests) -> None:
+        """Refuse states: the load ``at_load`` is the only one; and laws without a form in two dimensions."""
+        check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=True)
+
+    def solve(
+        self,
+        parameters: SheetParameters,
+        numerics: SheetNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Start from the axisymmetric state with its fronts, solve on two meshes."""
+        membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
+        branch = WrinkledBranch(membrane, parameters.at_load, parameters.volume_end, 0.5, 12)
+        plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)
+        (start,) = membrane.fitted(plain, Prescribed(membrane.control, parameters.at_load), fine_only=True)
+
+        def run(coarser: int) -> dict[str, float]:
+            cells = numerics.around // coarser, numerics.along // coarser
+            return Sheet(*cells, numerics.degree, start).solve(comm)
+
+        return solve_twice(self, parameters, numerics, comm, progress, run, CAP)
+
+
+registry.add(WrinkledSheet())

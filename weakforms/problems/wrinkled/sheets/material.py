@@ -1,0 +1,128 @@
+"""Problem ``wrinkled_material``: energy of a sheet at two stretches, and its derivatives (Paper 4)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import ClassVar, Literal
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+from pydantic import Field
+
+from weakforms.forms.materials import mooney_rivlin
+from weakforms.forms.wrinkling import Law, modified_gradient, tension_field
+from weakforms.problems.problem import (
+    Numerics,
+    Parameters,
+    Progress,
+    Requests,
+    check_requests,
+    registry,
+    silent,
+)
+from weakforms.problems.wrinkled.problem import SOURCE
+from weakforms.results import Quantity, Result
+from weakforms.solvers.support.provenance import provenance
+
+ROUND_OFF = 1e-14
+"""Relative uncertainty of an expression evaluated at a point."""
+
+FORMS: dict[str, Callable[[Law], Law]] = {
+    "relaxed": tension_field,
+    "modified_gradient": modified_gradient,
+    "standard": lambda law: law,
+}
+
+
+class MaterialParameters(Parameters):
+    """A sheet under two principal stretches."""
+
+    l1: float = Field(1.5, gt=0, le=10, description="principal stretch 1")
+    l2: float = Field(1.5, gt=0, le=10, description="principal stretch 2")
+    c2: float = Field(0.01, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    energy: Literal["relaxed", "modified_gradient", "standard"] = Field(
+        "relaxed", description="state table, modified deformation gradient, or no wrinkling"
+    )
+
+
+class MaterialNumerics(Numerics):
+    """Nothing is discretised."""
+
+
+class WrinkledMaterial:
+    """Energy, stresses and tangent of a sheet that may wrinkle."""
+
+    name: ClassVar[str] = "wrinkled_material"
+    title: ClassVar[str] = "Energy of a sheet that may wrinkle, at two stretches"
+    paper: ClassVar[int] = 4
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = (
+        "w(l1, l2) taut; w(l, l^(-1/2)) wrinkled with tension along l; 0 slack;  w = I1 - 3 + c2 (I2 - 3)"
+    )
+    scales: ClassVar[dict[str, str]] = {
+        "W": "energy per reference volume over C1",
+        "W1": "its derivative in l1 (and so on): nominal stress over C1",
+        "W11": "its second derivative in l1 (and so on) over C1",
+    }
+    parameters = MaterialParameters
+    numerics = MaterialNumerics
+    columns = ()
+    special_points = ()
+    branches = ("primary",)
+    control: ClassVar[str] = "none; the quantities are at l1, l2"
+
+    def check(self, parameters: MaterialParameters, requests: Requests) -> None:
+        """Refuse states: there is only the one given."""
+        check_requests(self, requests)
+
+    def solve(
+        self,
+        parameters: MaterialParameters,
+        numerics: MaterialNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """Evaluate the form's own expressions."""
+        begun = time.perf_counter()
+        progress("energy", 0, 1)
+        law = derivatives(lambda a, b: mooney_rivlin(a, b, parameters.c2), FORMS[parameters.energy])
+        found = law(parameters.l1, parameters.l2)
+        return Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics=numerics.model_dump(),
+            provenance=provenance(comm, time.perf_counter() - begun),
+            quantities={k: Quantity(v, ROUND_OFF * max(1.0, abs(v))) for k, v in found.items()},
+        )
+
+
+def derivatives(law: Law, form: Callable[[Law], Law]) -> Callable[[float, float], dict[str, float]]:
+    """Energy ``W``, stresses ``W1, W2`` and tangent ``W11, W12, W22`` by UFL, a function of two stretches.
+
+    Args:
+        law: Full energy of two principal stretches.
+        form: What makes of it an energy that allows for wrinkling.
+    """
+    mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
+    stretches = fem.Constant(mesh, np.ones(2))
+    l1, l2 = ufl.variable(stretches[0]), ufl.variable(stretches[1])
+    w = form(law)(l1, l2)
+    first = [ufl.diff(w, l1), ufl.diff(w, l2)]
+    second = [ufl.diff(first[0], l1), ufl.diff(first[0], l2), ufl.diff(first[1], l2)]
+    expression = fem.Expression(ufl.as_vector([w, *first, *second]), np.array([[0.5]]))
+
+    def at(a: float, b: float) -> dict[str, float]:
+        stretches.value[:] = a, b
+        values = expression.eval(mesh, np.array([0], dtype=np.int32)).ravel()
+        return dict(zip(("W", "W1", "W2", "W11", "W12", "W22"), values.tolist(), strict=True))
+
+    return at
+
+
+registry.add(WrinkledMaterial())

@@ -1,0 +1,220 @@
+"""States of a wrinkled membrane to begin with: on a plain mesh, and unloaded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+import numpy as np
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.wrinkled.body import Body
+from weakforms.problems.wrinkled.fields import Zones, zones
+from weakforms.problems.wrinkled.model import BY_STATE, DRY, TAUT, WRINKLED, WrinkledModel
+from weakforms.problems.wrinkled.state import BLOCKS, Held, Mesh, Touch, model_on, solver_of
+from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord
+from weakforms.solvers.equilibrium.system import State
+
+HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)
+"""Residual hoop stiffness of wrinkled zones on the way to none."""
+
+EXCHANGE = ((0.5, 0.0), (0.5, 0.5), (0.5, 1.0), *((p, 1.0) for p in (0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)))
+"""Gas pressure, and share of the liquid's weight, on the way from a gas to a liquid."""
+
+VERGE, VERGE_FITTED = 1e-7, 1e-10
+"""Deviation of ``gw`` from 1 that is none, on a plain mesh and on a fitted one."""
+
+WALK = 0.1
+"""Largest step of a parameter on the way from an easy membrane to the one wanted."""
+
+
+class PlainMembrane:
+    """One membrane at given parameters; its states on a plain mesh.
+
+    Args:
+        comm: Ranks.
+        body: Geometry and thickness.
+        values: Parameters: the body's, ``c2``, ``gamma``.
+        liquid: Whether ``zw`` is the load, or ``p``.
+        cells: Cells a block on each mesh, coarse to fine.
+        degree: Of the elements.
+        energy: See :class:`WrinkledModel`.
+        near_fronts: Distances from fronts at which blocks end besides, for short waves.
+        material: A law in the place of Mooney and Rivlin's.
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        body: Body,
+        values: Mapping[str, float],
+        liquid: bool,
+        cells: Sequence[int],
+        degree: int,
+        energy: str,
+        near_fronts: Sequence[float] = (),
+        material: Chosen | None = None,
+    ) -> None:
+        self.body, self.liquid, self.energy = body, liquid, energy
+        self.near_fronts = tuple(near_fronts)
+        self.values = {"gamma": 0.0, "c2": 0.0, "residual_stiffness": 0.0, "p": 0.0, "zw": 0.0, **values}
+        self.length = float(body.length(self.values))
+        self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy, material) for n in cells]
+        self.control = "zw" if liquid else "p"
+        self.on_meshes: list[dict[str, float]] = [{} for _ in cells]
+        """Parameters that are results themselves, as each mesh has them: what they err then shows in the
+        differences of meshes. Those of the finest stand in ``values`` too."""
+
+    # -- plain mesh ----------------------------------------------------------------------------
+
+    @property
+    def plain_model(self) -> WrinkledModel:
+        """The finest mesh with equal blocks; its state is put into it before anything is done with it."""
+        return model_on(self.meshes[-1], BLOCKS)
+
+    def prepare(self) -> State:
+        """Undisplaced state of the plain mesh, its model made ready for solves on it (models are shared)."""
+        model = self.plain_model
+        breaks = np.linspace(0.0, self.length, BLOCKS + 1)
+        model.mark(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
+        loads = {name: float(self.values[name]) for name in model.loads if name in self.values}
+        loads |= {f"b{k}": float(breaks[k]) for k in range(1, BLOCKS)}
+        model.system.set_loads(loads)
+        model.system.update_mass()
+        return State(np.zeros(model.system.size), loads)
+
+    def by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
+        """State of the plain mesh at a load, from the unloaded membrane wrinkled all over.
+
+        The hoop stiffness of wrinkled zones is left in place at first and taken away step by step. Without
+        that Newton's method finds nothing, or an equilibrium turned inside out.
+
+        Raises:
+            ConvergenceError: When a step does not converge, nor any from disks that are less wide.
+        """
+        try:
+            return self._by_homotopy(load)
+        except ConvergenceError:
+            if not self.values.get("Af", 0.0) > self._easy_radius:
+                raise
+        return self._widened(load)
+
+    @property
+    def _easy_radius(self) -> float:
+        """Of disks between which a cylinder in uniaxial tension is an equilibrium, or nearly."""
+        return self.values.get("delta", 1.0) ** -0.5
+
+    def _widened(self, load: float) -> tuple[State, SolveRecord]:
+        """The state of wide disks, from disks that leave the unloaded membrane its natural width."""
+        goal, low = self.values["Af"], self._easy_radius
+        steps = int(np.ceil((goal - low) / WALK))
+        try:
+            self.values["Af"] = low
+            state, record = self._by_homotopy(load)
+        finally:
+            self.values["Af"] = goal
+        solver = solver_of(self.plain_model, ())
+        for radius in np.linspace(low, goal, steps + 1)[1:]:
+            state.loads["Af"] = float(radius)
+            state, record = solver.solve(state)
+        return state, record
+
+    def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
+        folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
+        undisplaced = self.prepare()
+        state = self._moved(folded, self.plain_model, self.plain_model.breaks_of(undisplaced.loads))
+        self.prepare()
+        state.loads[self.control] = load
+        solver = solver_of(self.plain_model, ())
+        if self.energy == "standard":
+            return solver.solve(state)
+        if load == 0.0:
+            with suppress(ConvergenceError):  # on disks that are not too large this is the solution already
+                return solver.solve(state)
+        for eps in HOMOTOPY:
+            state.loads["residual_stiffness"] = eps
+            state, record = solver.solve(state)
+        return state, record
+
+    def by_gas(self, load: float) -> State:
+        """State of the plain mesh at a level, from the body's shape, which a gas keeps taut at first.
+
+        The liquid comes in its place step by step: without either there is nothing to hold the membrane.
+
+        Raises:
+            ConvergenceError: When a step does not converge.
+        """
+        state = self.prepare()
+        state.loads[self.control] = load
+        solver = solver_of(self.plain_model, ())
+        for gas, liquid in EXCHANGE:
+            state.loads |= {"p": gas, "gamma": liquid * self.values["gamma"]}
+            state, _ = solver.solve(state)
+        return state
+
+    def plain(self, state: State) -> Held:
+        """A state of the plain mesh with the zones it shows."""
+        model = self.plain_model
+        wet = np.full(BLOCKS, BY_STATE if self.liquid else DRY)
+        held = Held(model, state, Zones(TAUT, ()), None, np.full(BLOCKS, BY_STATE), wet)
+        held.zones = zones(held.put(), state.loads, VERGE, self.liquid)
+        return held
+
+    def unloaded(self, level: int, state: float) -> Held:
+        """The unloaded membrane on one mesh, taken for taut or for wrinkled all over.
+
+        Walks there from the parameters the body calls easy, in steps of at most :data:`WALK`.
+
+        Args:
+            level: Which mesh.
+            state: ``TAUT`` or ``WRINKLED``.
+
+        Raises:
+            ConvergenceError: When a step does not converge.
+        """
+        easy = dict(self.body.easy)
+        goal = {name: self.values[name] for name in easy}
+        far = max((abs(goal[name] - easy[name]) for name in easy), default=0.0)
+        steps = max(1, int(np.ceil(far / WALK)))
+        held = None
+        try:
+            for share in np.arange(0 if far else steps, steps + 1) / steps:
+                self.values |= {n: float(easy[n] + share * (goal[n] - easy[n])) for n in easy}
+                held = self.unloaded_from(level, state, held)
+        finally:
+            self.values |= goal
+        return held
+
+    def unloaded_from(self, level: int, state: float, start: Held | None) -> Held:
+        """The same from a state of neighbouring parameters, or from the undisplaced one."""
+        undisplaced = self.prepare()
+        begin = self.plain(undisplaced)
+        if start is not None:
+            begin = replace(start, state=State(start.state.u, start.state.loads | self._own(undisplaced)))
+        return self.fit(level, begin, Zones(state, ()), (), free=())
+
+    def _own(self, state: State) -> dict[str, float]:
+        return {name: value for name, value in state.loads.items() if name in self.values}
+
+    # -- what fitted meshes add ----------------------------------------------------------------
+
+    def fit(
+        self,
+        level: int,
+        start: Held,
+        wanted: Zones,
+        constraints: Sequence[Constraint],
+        free: Sequence[str] | None = None,
+        touch: Touch | None = None,
+        same: bool = False,
+        graded: bool = False,
+    ) -> Held:
+        """Solve on one mesh with its break points at the fronts and at the surface."""
+        raise NotImplementedError
+
+    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray) -> State:
+        """A state interpolated to another mesh."""
+        raise NotImplementedError

@@ -1,0 +1,85 @@
+"""Problem ``wrinkled_tube_threshold``: thickness ratio at which the unloaded cylinder of Paper 4 wrinkles."""
+
+from __future__ import annotations
+
+import time
+from typing import ClassVar
+
+from mpi4py import MPI
+from pydantic import Field
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.problem import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.wrinkled.critical import threshold
+from weakforms.problems.wrinkled.problem import ENERGY, SCALES, SOURCE, WrinkledNumerics, quantity
+from weakforms.results import Failure, Result
+from weakforms.solvers.support.provenance import provenance
+
+
+class ThresholdParameters(MaterialChoice):
+    """Unloaded membrane whose disks were attached before it was stretched."""
+
+    ratio: ClassVar[str] = "c2"
+
+    delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
+    c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
+    Af: float = Field(1.0, gt=0, le=3, description="radius of the disks; 1 is Case 2")
+    upper: bool = Field(False, description="the threshold above the uniform thickness, not that below it")
+
+
+class WrinkledTubeThreshold:
+    """Thickness ratio beyond which the unloaded membrane wrinkles."""
+
+    name: ClassVar[str] = "wrinkled_tube_threshold"
+    title: ClassVar[str] = "Thickness ratio at which the unloaded cylindrical membrane begins to wrinkle"
+    paper: ClassVar[int] = 4
+    source: ClassVar[str] = SOURCE
+    energy: ClassVar[str] = ENERGY
+    scales: ClassVar[dict[str, str]] = SCALES
+    parameters = ThresholdParameters
+    numerics = WrinkledNumerics
+    columns = ()
+    special_points = ()
+    branches = ("primary",)
+    control: ClassVar[str] = (
+        "none; the quantity M is the root of min gw = 1 at zero load, Z where it is reached"
+    )
+
+    def check(self, parameters: ThresholdParameters, requests: Requests) -> None:
+        """Refuse states: there is only the unloaded one."""
+        check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=False)
+
+    def solve(
+        self,
+        parameters: ThresholdParameters,
+        numerics: WrinkledNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """The threshold ``M`` and the place ``Z`` where the membrane wrinkles first."""
+        begun = time.perf_counter()
+        progress("threshold", 0, 1)
+        result = Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics={**numerics.model_dump(), "meshes": numerics.meshes},
+            provenance={},
+        )
+        try:
+            values = {name: getattr(parameters, name) for name in ("delta", "c2", "L", "Af")}
+            side = 1 if parameters.upper else -1
+            mesh = numerics.meshes, numerics.degree
+            found = threshold(comm, values, *mesh, side, parameters.other_law)
+            result.quantities |= {name: quantity(one) for name, one in zip("MZ", found, strict=True)}
+        except ConvergenceError as error:
+            result.failures.append(Failure("threshold", str(error)))
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+
+registry.add(WrinkledTubeThreshold())

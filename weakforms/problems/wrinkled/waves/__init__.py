@@ -1,0 +1,1 @@
+"""Waves around a wrinkled membrane, Paper 5."""

@@ -1,0 +1,207 @@
+r"""Waves around a wrinkled membrane: its second variation for any wave number, by differentiation.
+
+.. math:: K d = \Lambda M d, \qquad d^T K d = \frac2\pi\,\delta^2\Pi, \qquad
+          d^T M d = \int H R\,(u^2 + q^2 + w^2)\,\mathrm dS
+
+The membrane is unstable to ``n`` waves iff the lowest ``Lambda`` is negative. Eigenvalues are over ``g/Ao``
+of a membrane of density ``C1/(Ao g)`` (Patil, Nordmark & Eriksson 2016, Paper 5). Break points stay where
+they are under a perturbation.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+import basix.ufl
+import numpy as np
+import ufl
+from dolfinx import fem
+from ufl.core.expr import Expr
+
+from weakforms.forms import revolution
+from weakforms.forms.fluid import axisymmetric
+from weakforms.problems.wrinkled.fields import Meridian
+from weakforms.problems.wrinkled.model import LOWER, UPPER, WrinkledModel
+from weakforms.solvers.equilibrium.system import Formulation, State
+from weakforms.solvers.stability.modes import SecondVariation, judged
+from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
+
+if TYPE_CHECKING:
+    from weakforms.problems.wrinkled.state import Held
+
+MODE = ("meridional", "circumferential", "normal")
+"""Components of a mode: along the meridian, around the axis, outwards."""
+
+
+class Waves:
+    """Second variations of the state a model holds, and their spectra and modes.
+
+    Args:
+        model: Whose states; it holds the one that is judged.
+    """
+
+    def __init__(self, model: WrinkledModel) -> None:
+        self.model = model
+        element = basix.ufl.element("Lagrange", "interval", model.degree, shape=(3,))
+        self.space = fem.functionspace(model.mesh, element)
+        self.wave_number = fem.Constant(model.mesh, 0.0)
+        self.bending = fem.Constant(model.mesh, 0.0)
+        """``beta``: bending stiffness over ``H^3``, of the circumferential curvature alone."""
+        self._sheared = fem.Constant(model.mesh, 0.0)
+        self._variations: dict[bool, SecondVariation] = {}
+        e = model.expressions
+        self.base = axisymmetric(e["r"], e["z"], (e["r_s"], e["z_s"]))
+
+    # -- the operator --------------------------------------------------------------------------
+
+    def parts(self, d: Expr) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
+        """``(u, q, w)`` of the unknowns ``(u + q, q, w)`` or ``(u, q, w)``, and slopes in ``S``.
+
+        One wave at a pole shifts it sideways, ``u + q = 0``: a condition on the first unknown alone.
+        """
+        width = self.model.expressions["width"]
+        mixed = [ufl.as_vector([v[0] - self._sheared * v[1], v[1], v[2]]) for v in (d, d.dx(0) / width)]
+        return tuple(mixed[0]), tuple(mixed[1])
+
+    def energy(self, parts: tuple[Expr, ...], slopes: tuple[Expr, ...]) -> Expr:
+        """Energy of the displaced surface per ``S``, summed over the two angles."""
+        model, q = self.model, self.model.q
+        e = model.expressions
+        taut = self._taut()
+        wet = model.marked("wet", q["zw"] - e["z"])
+
+        radius = e["radius"]
+        total = 0.0
+        for at in revolution.around(self.base, parts, slopes, self.wave_number):
+            c = revolution.gradient_tensor(at, radius)
+            total += e["weight"] * revolution.strain_energy(c, taut, model.full)
+            total += revolution.gas_energy(at, q["p"])
+            total += revolution.liquid_energy(at, q["zw"], q["gamma"], wet)
+        curvature = revolution.hoop_bending(self.base, parts, slopes, self.wave_number)
+        thickness = model.body.thickness(e["S"], q)
+        return total + self.bending * thickness**3 * curvature**2 / (2 * radius**3)
+
+    def _taut(self) -> Expr:
+        if self.model.energy == "standard":
+            return ufl.gt(self.model.expressions["lam1"], 0.0)
+        return self.model.marked("taut", self.model.expressions["gw"] - 1)
+
+    def formulation(self, shifts_pole: bool) -> Formulation:
+        """First variation at the displaced state, mass and conditions; the pole may be shifted or not."""
+        model = self.model
+        width, weight = model.expressions["width"], model.expressions["weight"]
+        d, test, trial = fem.Function(self.space), ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
+        dx = ufl.Measure("dx", model.mesh, metadata={"quadrature_degree": 4 * model.degree})
+        residual = ufl.derivative(self.energy(*self.parts(d)) * width * dx, d, test)
+        own, others = (ufl.as_vector(list(self.parts(v)[0])) for v in (trial, test))
+        return Formulation(
+            unknown=d,
+            residual=residual,
+            loads=model.loads,
+            bcs=self._conditions(shifts_pole),
+            mass=ufl.inner(own, others) * weight * width * dx,
+            monitors={},
+        )
+
+    def _conditions(self, shifts_pole: bool) -> list[fem.DirichletBC]:
+        """No displacement at the edges; at a pole none either, but for one wave, which shifts it."""
+        out = []
+        for tag in (LOWER, UPPER):
+            moves = shifts_pole and tag == LOWER
+            for component in (0, 2) if moves else (0, 1, 2):
+                part = self.space.sub(component)
+                dofs = fem.locate_dofs_topological(part, 0, self.model.tags.find(tag))
+                out.append(fem.dirichletbc(np.array(0.0), dofs, part))
+        return out
+
+    def variation(self, n: float, beta: float = 0.0) -> SecondVariation:
+        """The operator for ``n`` waves; ``n`` may be any number but 0, whose waves are axisymmetric."""
+        shifts = self.model.body.pole and n == 1
+        self.wave_number.value, self.bending.value, self._sheared.value = n, beta, float(shifts)
+        if shifts not in self._variations:
+            self._variations[shifts] = SecondVariation(self.formulation(shifts), self.model.system)
+        return self._variations[shifts]
+
+    # -- what one asks -------------------------------------------------------------------------
+
+    def spectrum(self, n: float, count: int = 3, beta: float = 0.0) -> Spectrum:
+        """The lowest eigenvalues at the state held and how many are negative; ``n = 0`` without torsion.
+
+        Raises:
+            ConvergenceError: When SLEPc and the inertia disagree on the negative ones.
+        """
+        if n == 0:
+            system = self.model.system
+            with system.weighed_here():
+                return judged(Stability(system), system.state(), count)
+        return self.variation(n, beta).spectrum(count)
+
+    def negative_count(self, n: float, beta: float = 0.0) -> int:
+        """Negative eigenvalues at the state held, by inertia."""
+        return self.variation(n, beta).negative_count()
+
+    def stiffness(self, n: float, stiff: float) -> float:
+        r"""Bending stiffness at which the lowest eigenvalue is zero, given one at which all are positive.
+
+        The operator is linear in it, :math:`K(\beta) = K_0 + \beta K_1`: what is missing of the greater
+        stiffness is itself an eigenvalue, the lowest :math:`\nu` of :math:`K(\beta) x = \nu K_1 x`.
+
+        Raises:
+            ConvergenceError: When something is unstable at the greater stiffness as well.
+        """
+        without = self.variation(n, 0.0).tangent().copy()
+        variation = self.variation(n, stiff)
+        bending = variation.tangent().copy()
+        bending.axpy(-1.0, without)
+        bending.scale(1.0 / stiff)
+        try:
+            return stiff - variation.lowest_against(bending)
+        finally:
+            bending.destroy()
+            without.destroy()
+
+    def near_zero(self, n: float, beta: float = 0.0) -> float:
+        """The lowest eigenvalue where it is near zero: its sign is the inertia's."""
+        variation = self.variation(n, beta)
+        return variation.stability.nearest_by_index(State(np.zeros(variation.size), {}), 0)
+
+    def lowest_mode(self, n: float, beta: float = 0.0) -> Mode:
+        """The lowest eigenvalue and its mode."""
+        variation = self.variation(n, beta)
+        lowest = variation.spectrum(1).eigenvalues[0]
+        return variation.stability.mode_at(State(np.zeros(variation.size), {}), lowest)
+
+    @cached_property
+    def _mode(self) -> tuple[fem.Function, Meridian]:
+        """The mode that is sampled, and how."""
+        e, d = self.model.expressions, fem.Function(self.space)
+        u, q, w = self.parts(d)[0]
+        columns = {
+            "meridional": (u * e["r_s"] + w * e["z_s"]) / e["lam1"],
+            "circumferential": q,
+            "normal": (u * e["z_s"] - w * e["r_s"]) / e["lam1"],
+        }
+        return d, Meridian(self.model, columns)
+
+    def sampled(self, mode: Mode, s: np.ndarray, loads: dict[str, float]) -> dict[str, np.ndarray]:
+        """Components of a mode of unit length at material points, its largest normal one positive."""
+        function, meridian = self._mode
+        function.x.array[: len(mode.vector)] = mode.vector
+        function.x.scatter_forward()
+        outwards, inwards = (meridian.extreme("normal", sign) for sign in (1, -1))
+        sign = 1.0 if outwards >= -inwards else -1.0
+        found = meridian.sampled(s, loads)
+        return {name: sign * found[name] for name in MODE}
+
+
+@lru_cache(maxsize=32)
+def waves_of(model: WrinkledModel) -> Waves:
+    """The waves of a model; kept."""
+    return Waves(model)
+
+
+def waves_at(held: Held) -> Waves:
+    """The waves of a state, put into its model."""
+    held.put()
+    return waves_of(held.model)

@@ -1,0 +1,226 @@
+"""Problems ``wrinkled_linear`` and ``wrinkled_bending`` (Paper 5): waves around the cylinder at one level.
+
+Both solve for the axisymmetric state at a level and look at it over real wave numbers ``n``: the linearised
+theory of the paper's section 2.4, and what a small bending stiffness changes (beyond the paper).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+import numpy as np
+from mpi4py import MPI
+from pydantic import Field
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.problem import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.wrinkled.problem import (
+    SCALES,
+    WrinkledNumerics,
+    WrinkledParameters,
+    quantity,
+    wrinkled_membrane,
+)
+from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.waves.bands import Bands
+from weakforms.problems.wrinkled.waves.koiter import shell_eigenvalue
+from weakforms.problems.wrinkled.waves.numbers import MOST_WAVES
+from weakforms.problems.wrinkled.waves.trial import trial_form
+from weakforms.results import Failure, Quantity, Result
+from weakforms.solvers.equilibrium import constraints as fixed
+from weakforms.solvers.support.provenance import provenance
+from weakforms.solvers.uncertainty.refinement import estimate
+
+SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
+
+ROUND_OFF = 1e-10
+"""Relative error that round-off may leave."""
+
+PLACE = 1e-6
+"""Relative error that is left in the place of a flat maximum."""
+
+
+class LevelParameters(MaterialChoice):
+    """The cylinder of Paper 5 and a level."""
+
+    ratio: ClassVar[str] = "c2"
+
+    zw: float = Field(5.0, gt=0, le=30, description="level of the fluid")
+    M: float = Field(1.5, gt=0, lt=2, description="thickness at the lower end over its mean")
+    delta: float = Field(3.0, gt=1, le=6, description="axial pre-stretch")
+    c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
+    Af: float = Field(0.4362, gt=0, le=3, description="radius of the disks")
+    gamma: float | None = Field(None, gt=0, le=10, description="weight of the fluid; by default the paper's")
+
+
+class LinearParameters(LevelParameters):
+    """Besides, the trial function."""
+
+    f: int = Field(1, ge=1, le=2, description="trial function: 1 sin(pi S/S_level), 2 its square")
+
+
+class BendingParameters(LevelParameters):
+    """Besides, bending stiffness and a wave number."""
+
+    beta: float = Field(0.0, ge=0, le=1, description="bending stiffness over H^3 and C1 h Ao^2")
+    n: float = Field(10.0, gt=0, le=MOST_WAVES, description="wave number, any real one")
+
+
+class AtLevel:
+    """What both have in common: states on all meshes, and quantities with uncertainties."""
+
+    name: ClassVar[str]
+    paper: ClassVar[int] = 5
+    source: ClassVar[str] = SOURCE
+    numerics = WrinkledNumerics
+    columns = ()
+    special_points = ()
+    branches = ("primary",)
+    scales: ClassVar[dict[str, str]]
+
+    def check(self, parameters: Any, requests: Requests) -> None:
+        """Refuse states: there is only one; and laws without a form for waves."""
+        check_requests(self, requests)
+        require_foldable(self.name, parameters, waves=True)
+
+    def solve(
+        self,
+        parameters: Any,
+        numerics: WrinkledNumerics,
+        requests: Requests,
+        comm: MPI.Intracomm,
+        progress: Progress = silent,
+    ) -> Result:
+        """The state at the level on all meshes, and the quantities of each."""
+        begun = time.perf_counter()
+        result = Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics={**numerics.model_dump(), "meshes": numerics.meshes},
+            provenance={},
+        )
+        try:
+            progress("state", 0, 1)
+            levels = _states(parameters, numerics, comm)
+            progress("waves", 0, 1)
+            result.quantities |= self._quantities(levels, parameters, 2 * numerics.degree)
+        except ConvergenceError as error:
+            result.failures.append(Failure(f"zw = {parameters.zw:g}", str(error)))
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
+
+    def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
+        raise NotImplementedError
+
+
+def _states(parameters: LevelParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> list[Held]:
+    given = {name: getattr(parameters, name) for name in ("model", "M", "delta", "L", "Af", "gamma")}
+    given |= {"c2": parameters.c2} if parameters.other_law is None else dict(parameters.constants)
+    membrane = wrinkled_membrane(WrinkledParameters(**given, n=(1,)), numerics, comm)
+    state, _ = membrane.by_homotopy(parameters.zw)
+    return membrane.fitted(membrane.plain(state), fixed.Held("zw", parameters.zw))
+
+
+def _on_all(levels: list[Held], value: Callable[[Held], float], cap: float, left: float) -> Quantity:
+    """A number of the state from its values on all meshes."""
+    found = quantity(estimate([value(held) for held in levels], cap))
+    return Quantity(found.value, found.uncertainty + left * max(1.0, abs(found.value)), found.order)
+
+
+class WrinkledLinear(AtLevel):
+    """The linearised theory: a perturbation without meridional displacement."""
+
+    name: ClassVar[str] = "wrinkled_linear"
+    title: ClassVar[str] = "Linearised theory of waves around a wrinkled cylinder"
+    energy: ClassVar[str] = (
+        "Pi2/pi = A + n B along u = f z0', v = f, w = -f r0' (no meridional displacement), f = 0 above the "
+        "level; n_star = A/(-B)"
+    )
+    parameters = LinearParameters
+    control: ClassVar[str] = "none; the quantities are those of one level and trial function"
+    scales: ClassVar[dict[str, str]] = {
+        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw")},
+        "A": "part of Pi2/pi that does not depend on n, over C1 h Ao^2",
+        "B": "its rate in n",
+        "B_exact": "-int p r0 f^2 (r0'^2 + z0'^2) dS",
+        "curved": "second difference of Pi2/pi in n over its size: 0 when it is affine",
+        "n_star": "A/(-B)",
+        "n_critical": "real n at which the lowest eigenvalue is zero",
+        "n_true": "smallest whole n with a negative eigenvalue",
+    }
+
+    def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
+        trials = [trial_form(held, parameters.f) for held in levels]
+        names = ("A", "B", "B_exact", "n_star", "curved")
+        out = {}
+        for name in names:
+            found = quantity(estimate([trial[name] for trial in trials], cap))
+            left = ROUND_OFF * max(1.0, abs(found.value))
+            out[name] = Quantity(found.value, found.uncertainty + left, found.order)
+        whole = Bands(levels[-1]).first_whole(MOST_WAVES)
+        if whole is not None:
+            out["n_true"] = Quantity(float(whole), 0.0)
+            out["n_critical"] = _on_all(
+                levels, lambda held: Bands(held).zero(whole - 1.0, float(whole)), cap, ROUND_OFF
+            )
+        return out
+
+
+class WrinkledBending(AtLevel):
+    """A bending energy of the incremental circumferential curvature, which leaves the equilibrium alone."""
+
+    name: ClassVar[str] = "wrinkled_bending"
+    title: ClassVar[str] = "Waves around a wrinkled cylinder with a small bending stiffness"
+    energy: ClassVar[str] = "2 Pi2/pi of the membrane + int beta H^3 R k22^2 dS"
+    parameters = BendingParameters
+    control: ClassVar[str] = "none; the quantities are those of one level"
+    scales: ClassVar[dict[str, str]] = {
+        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw", "beta")},
+        "n": "wave number, real",
+        "Lambda_membrane": "lowest eigenvalue for n waves without bending stiffness",
+        "Lambda_B1": "the same with it",
+        "Lambda_B2": "the same with the whole bending energy of a shell, simply supported",
+        "n_minus": "lower end of the band of unstable n with that stiffness",
+        "n_plus": "its upper end: without bending stiffness there is none",
+        "beta_c": "smallest stiffness at which no real n is unstable",
+        "n_c": "the last unstable n: the wavelength is 2 pi r/n_c",
+    }
+
+    def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
+        n, beta = parameters.n, parameters.beta
+        out = {}
+        for name, stiffness in (("Lambda_membrane", 0.0), ("Lambda_B1", beta)):
+            out[name] = _on_all(levels, lambda h, b=stiffness: Bands(h, b).lowest(n), cap, ROUND_OFF)
+        if beta:
+            out["Lambda_B2"] = _on_all(levels, lambda h: shell_eigenvalue(h, n, beta), cap / 2, ROUND_OFF)
+        most = Bands(levels[-1]).most_stiffness(MOST_WAVES)
+        if most is not None:
+            peaks = [Bands(held).peak(most) for held in levels]
+            for name, values, left in zip(
+                ("n_c", "beta_c"), np.array(peaks).T.tolist(), (PLACE, 1e-14), strict=True
+            ):
+                found = quantity(estimate(values, cap))
+                # beta_c is small: its error is counted against itself.
+                spread = found.uncertainty if name == "n_c" else _relative(values, cap)
+                out[name] = Quantity(found.value, spread + left * max(1.0, found.value), found.order)
+        band = Bands(levels[-1], beta).band(MOST_WAVES) if beta else None
+        if band is not None:
+            for name, (low, high) in zip(("n_minus", "n_plus"), band, strict=True):
+                out[name] = _on_all(
+                    levels, lambda h, a=low, b=high: Bands(h, beta).zero(a, b), cap, ROUND_OFF
+                )
+        return out
+
+
+def _relative(values: list[float], cap: float) -> float:
+    """Uncertainty of a small positive number from its logarithm's."""
+    return float(values[-1] * (estimate([float(np.log(v)) for v in values], cap).uncertainty + ROUND_OFF))
+
+
+registry.add(WrinkledLinear())
+registry.add(WrinkledBending())

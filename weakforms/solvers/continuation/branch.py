@@ -1,0 +1,384 @@
+"""A solution curve on one mesh: traced, its special points located, any of its states solved for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import BarycentricInterpolator
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, hermite
+from weakforms.solvers.equilibrium.constraints import Fold, Held, MonitorPlane
+from weakforms.solvers.equilibrium.newton import Constraint
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.roots import root
+
+DIAGNOSTICS = ("n_negative", "residual", "iterations")
+"""Columns that describe the solve: they can be read, not prescribed."""
+
+
+BETWEEN = (0.25, 0.5, 0.75)
+"""Where between two points of a trace eigenvalues are looked at once more."""
+
+NODES = 8
+"""States from which a bifurcation point is interpolated."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A state solved for on a branch: its columns and its degrees of freedom."""
+
+    values: dict[str, float]
+    state: State
+    kind: str = ""
+    """Of the special point it is; empty for any other state."""
+
+
+class SolutionCurve:
+    """A one-dimensional set of solutions from a start to an end.
+
+    Args:
+        continuation: Follows the curve.
+        control: The load the curve is drawn over and turns in.
+        start: First point.
+        stop: True at the last point wanted.
+
+    Attributes:
+        points: The converged points in order.
+        stalled: Why the trace ended early; ``None`` if it did not.
+    """
+
+    def __init__(
+        self,
+        continuation: Continuation,
+        control: str,
+        start: CurvePoint,
+        stop: Callable[[CurvePoint], bool],
+    ) -> None:
+        self.continuation = continuation
+        self.solver, self.system = continuation.solver, continuation.system
+        self.control = control
+        self.loads = continuation.solver.scalars
+        self.points: list[CurvePoint] = []
+        self.stalled: str | None = None
+        try:
+            for point in continuation.trace(start, stop):
+                self.points.append(point)
+        except ConvergenceError as error:
+            self.stalled = str(error)
+
+    # -- columns -----------------------------------------------------------------------------
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """Every column over the points of the trace."""
+        points = self.points
+        out = {name: np.array([p.state.loads[name] for p in points]) for name in self.loads}
+        for name in points[0].monitors:
+            out[name] = np.array([p.monitors[name] for p in points])
+        out["n_negative"] = np.array([p.n_negative for p in points])
+        out["residual"] = np.array([p.record.norms[-1] for p in points])
+        out["iterations"] = np.array([p.record.iterations for p in points])
+        return out
+
+    @property
+    def shown(self) -> list[str]:
+        """Columns that results show, diagnostics apart."""
+        names = [*self.loads, *self.points[0].monitors]
+        return [name for name in names if name not in self.system.formulation.internal]
+
+    def _values(self, state: State) -> dict[str, float]:
+        """Columns of a state the system holds."""
+        return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
+
+    # -- states on demand --------------------------------------------------------------------
+
+    def at(self, name: str, value: float, crossing: int = 1) -> Solved:
+        """The state at which a column takes a value, at its ``crossing``-th crossing along the branch.
+
+        Raises:
+            InputError: When the column cannot be prescribed or never takes the value that often.
+            ConvergenceError: When the state was bracketed but not converged to.
+        """
+        hits = self.crossings(name, value)
+        if len(hits) < crossing:
+            column = self._over_points(name)
+            raise InputError(
+                f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
+                f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
+            )
+        i = int(hits[crossing - 1])
+        solved = self._solve(self._between(i, self._fraction(i, name, value)), Held(name, value))
+        self._require_within(i, solved, f"state at {name} = {value:g}")
+        return solved
+
+    def near(self, guess: State, name: str, value: float) -> Solved:
+        """The state at which a column takes a value, from a state near it, such as an end of the branch."""
+        return self._solve(guess, Held(name, value))
+
+    def _fraction(self, i: int, name: str, value: float) -> float:
+        """Where between two neighbours a column has a value; a load by its own cubic, next to a turn too."""
+        if name in self.loads:
+            return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
+        before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
+        return before / (before - after)
+
+    def crossings(self, name: str, value: float) -> np.ndarray:
+        """Indices of the points after which a column passes a value.
+
+        Raises:
+            InputError: When the column cannot be prescribed.
+        """
+        if name not in (*self.loads, *self.system.formulation.monitors):
+            known = ", ".join((*self.loads, *self.system.formulation.monitors))
+            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
+        distance = self._over_points(name) - value
+        # A point that has the value exactly counts with the interval before it.
+        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
+        return np.concatenate([[0], hits]) if distance[0] == 0 else hits
+
+    def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
+        """The state of this mesh that lies across the branch from a point of another mesh.
+
+        Args:
+            like: The other mesh's point.
+            rates: Direction of that branch in some columns; fixes the line across it.
+            near: Its arclength there as a fraction of this branch's.
+        """
+        target = sum(rate * self._column(like, name) for name, rate in rates.items())
+        places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
+        arclengths = np.array([p.arclength for p in self.points])
+        hits = np.flatnonzero((places[:-1] - target) * (places[1:] - target) <= 0)
+        middle = (arclengths[:-1] + arclengths[1:]) / 2
+        if not len(hits):
+            hits = np.array([int(np.argmin(np.abs(places[:-1] - target)))])
+        i = int(hits[np.argmin(np.abs(middle[hits] - near * arclengths[-1]))])
+        span = places[i + 1] - places[i]
+        guess = self._between(i, (target - places[i]) / span if span else 0.5)
+        return self._solve(guess, MonitorPlane(rates, target))
+
+    def _over_points(self, name: str) -> np.ndarray:
+        return np.array([self._column(point, name) for point in self.points])
+
+    def _column(self, point: CurvePoint, name: str) -> float:
+        return point.state.loads[name] if name in self.loads else point.monitors[name]
+
+    def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
+        state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
+        return Solved(self._values(state), state, kind)
+
+    def _between(self, i: int, fraction: float) -> State:
+        """Cubic interpolation between two neighbours of the trace."""
+        a, b = self.points[i], self.points[i + 1]
+        h, (v0, s0, v1, s1) = b.arclength - a.arclength, hermite(fraction)
+        u = v0 * a.state.u + s0 * h * a.tangent.u + v1 * b.state.u + s1 * h * b.tangent.u
+        loads = {
+            name: v0 * a.state.loads[name]
+            + v1 * b.state.loads[name]
+            + h * (s0 * a.tangent.loads[name] + s1 * b.tangent.loads[name])
+            for name in self.loads
+        }
+        return State(u, {**a.state.loads, **loads})
+
+    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+        """Refuse a solution that Newton's method found somewhere else than between its brackets."""
+        a, b = self.points[i], self.points[i + 1]
+        length = b.arclength - a.arclength
+        for end in (a, b):
+            gap = self.continuation.distance(solved.state, end.state)
+            if gap > 1.2 * length:
+                raise ConvergenceError(f"{what}: converged {gap:.2g} away from where it was bracketed")
+
+    def _root(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
+        """Where a function of the state is zero between two neighbours, over planes across the curve."""
+        tangent = self.points[i].tangent
+        last: list[Solved] = []
+
+        def value(fraction: float) -> float:
+            guess = self._between(i, fraction)
+            last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
+            return function(last[-1])
+
+        value(root(value, 0.0, 1.0, f"{kind} in {self.control}", xtol=1e-13, rtol=1e-13))
+        self._require_within(i, last[-1], f"{kind} in {self.control}")
+        return last[-1]
+
+    def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
+        """Rates of some columns along the branch at a point of the trace."""
+        self.system.set_state(point.state.u, point.state.loads)
+        return {name: self.continuation.rate(name, point.tangent) for name in names}
+
+    def end_at(self, name: str, value: float) -> None:
+        """Replace the last point by the one at which a column has a value, reached just before it.
+
+        Raises:
+            ConvergenceError: When the trace ended before it.
+        """
+        crossings = len(self.crossings(name, value))
+        if not crossings:
+            raise ConvergenceError(f"{name} = {value:g} is not reached: {self.stalled or 'the branch ends'}")
+        solved = self.at(name, value, crossings)
+        before, last = self.points[-2:]
+        length = self.continuation.distance(solved.state, before.state)
+        self.points[-1] = self.continuation.point(
+            solved.state, last.record, before.tangent, before.arclength + length
+        )
+
+    def extend_to(self, load: str, value: float) -> None:
+        """One more point at the end, at a value of a load that is near enough for a linear guess."""
+        last, continuation = self.points[-1], self.continuation
+        step = (value - last.state.loads[load]) / last.tangent.loads[load]
+        guess = continuation.predict(None, last, step)
+        state, record = self.solver.solve(guess, [*continuation.fixed, Held(load, value)])
+        length = continuation.distance(state, last.state)
+        self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
+
+    def require_nothing_between(self) -> None:
+        """Make sure that no special point hides between neighbours that look alike.
+
+        Raises:
+            ConvergenceError: Where eigenvalues change sign between two points and change it back.
+        """
+
+    def _require_same_between(self, counts: np.ndarray, count: Callable[[State], int], what: str) -> None:
+        """Compare the inertia of neighbours that agree with that of states interpolated between them.
+
+        Two eigenvalues that cross zero in opposite directions within a step, or one that crosses it and
+        returns, leave the count at the ends as it was. What is interpolated is near the branch, not on it: a
+        count that differs is believed once the state is solved for.
+        """
+        for i in np.flatnonzero(np.diff(counts) == 0).tolist():
+            for fraction in BETWEEN:
+                guess = self._between(i, fraction)
+                if count(guess) == counts[i]:
+                    continue
+                solved = self._solve(guess, self.continuation.plane(guess, self.points[i].tangent))
+                found = count(solved.state)
+                if found != counts[i]:
+                    raise ConvergenceError(
+                        f"{what} change sign between neighbours (after point {i}) and change it back, "
+                        f"{counts[i]} negative, {found} between: shorter steps are needed to tell them apart"
+                    )
+
+    def turns(self) -> np.ndarray:
+        """Indices of the points after which the control changes direction."""
+        rates = np.array([p.tangent.loads[self.control] for p in self.points])
+        return np.flatnonzero(rates[:-1] * rates[1:] < 0)
+
+    def _turn_guess(self, i: int) -> State:
+        ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
+        return self._between(i, ra / (ra - rb))
+
+
+class FittedBranch(SolutionCurve):
+    """Solutions with more unknown loads than the control, such as a front that the mesh follows."""
+
+    def special(self) -> list[Solved]:
+        """Limit points of the control: roots of its rate along the curve."""
+        return [self._root(int(i), self._control_rate(int(i)), "limit_point") for i in self.turns()]
+
+    def _control_rate(self, i: int) -> Callable[[Solved], float]:
+        along = self.points[i].tangent
+
+        def rate(_solved: Solved) -> float:
+            return self.continuation.direction_here(along).loads[self.control]
+
+        return rate
+
+
+class EquilibriumBranch(SolutionCurve):
+    """Solutions of ``R(U; λ) = 0`` in one load ``λ``."""
+
+    kind = "limit_point"
+
+    def special(self) -> list[Solved]:
+        """Limit points and bifurcation points in order.
+
+        Limit points are bracketed where ``dλ/ds`` changes sign, which must also be where the inertia
+        changes by one, and located by the extended system of :class:`Fold`. Where the inertia changes and
+        the load does not turn, another branch crosses.
+
+        Raises:
+            ConvergenceError: When slope and inertia disagree, or a point is not converged to.
+        """
+        counts = np.array([p.n_negative for p in self.points])
+        turns = self.turns().tolist()
+        changes = np.flatnonzero(np.diff(counts)).tolist()
+        if not set(turns) <= set(changes):
+            raise ConvergenceError(
+                f"folds by slope (after points {turns}) and by inertia (after points {changes}) disagree"
+            )
+        jumps = np.abs(np.diff(counts)[changes])
+        if np.any(jumps != 1):
+            raise ConvergenceError(
+                f"several eigenvalues change sign between neighbours (after points {changes}): "
+                "shorter steps are needed to tell them apart"
+            )
+        return [self._fold(i) if i in turns else self._bifurcation(i) for i in changes]
+
+    def require_nothing_between(self) -> None:
+        """As said there, of the eigenvalues of ``K``."""
+        factor = self.solver.factor
+
+        def count(state: State) -> int:
+            self.system.set_state(state.u, state.loads)
+            factor.update()
+            return factor.negative_count()
+
+        self._require_same_between(np.array([p.n_negative for p in self.points]), count, "eigenvalues")
+
+    def _fold(self, i: int) -> Solved:
+        a, b = self.points[i], self.points[i + 1]
+        border = self.system.mass_times(a.tangent.u + b.tangent.u)
+        solved = self._solve(self._turn_guess(i), Fold(self.control, border), "limit_point")
+        self._require_within(i, solved, f"limit point of {self.control}")
+        return solved
+
+    def _bifurcation(self, i: int) -> Solved:
+        """Where the eigenvalue that changes sign is zero, by interpolation from states to both sides.
+
+        At the point itself even the bordered matrix is singular (the null vector breaks the symmetry the
+        branch has), so nothing is solved there: eigenvalue, columns and state are smooth along the branch
+        and interpolated from :data:`NODES` states solved for at Chebyshev nodes.
+        """
+        stability, tangent = Stability(self.system), self.points[i].tangent
+        index = min(self.points[i].n_negative, self.points[i + 1].n_negative)
+        nodes = (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
+        solved, eigenvalues = [], []
+        for fraction in nodes:
+            guess = self._between(i, float(fraction))
+            solved.append(self._solve(guess, self.continuation.plane(guess, tangent)))
+            eigenvalues.append(stability.nearest_by_index(solved[-1].state, index))
+        along = BarycentricInterpolator(nodes, eigenvalues)
+        zero = root(lambda x: float(along(x)), 0.0, 1.0, "a change of stability", xtol=1e-14)
+
+        def at_root(values: list) -> np.ndarray:
+            return BarycentricInterpolator(nodes, np.array(values))(zero)
+
+        names = solved[0].values
+        loads = {k: float(at_root([s.state.loads[k] for s in solved])) for k in solved[0].state.loads}
+        return Solved(
+            {name: float(at_root([s.values[name] for s in solved])) for name in names},
+            State(at_root([s.state.u for s in solved]), loads),
+            "bifurcation_point",
+        )
+
+
+class FoldLine(SolutionCurve):
+    """Limit points in one load followed in a second one, the control."""
+
+    kind = "cusp_point"
+
+    def special(self) -> list[Solved]:
+        """Cusps in order: where the two folds that bound an unstable stretch merge.
+
+        Bracketed where the control turns; located as the root of the fold's curvature
+        (:meth:`Fold.curvature`) over planes across the line.
+        """
+        return [self._cusp(int(i)) for i in self.turns()]
+
+    def _cusp(self, i: int) -> Solved:
+        (fold,) = self.continuation.fixed
+        return self._root(i, lambda _: fold.curvature(self.solver), "cusp_point")

@@ -1,0 +1,114 @@
+"""A branch made of pieces that follow one another, such as free inflation and contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.results import Branch, Failure, Quantity, SpecialPoint, State
+from weakforms.solvers.uncertainty.family import KINDS, BranchFamily
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of a branch on all meshes, and columns it has a fixed value for (no front: no patch)."""
+
+    family: BranchFamily
+    fixed: Mapping[str, float]
+
+
+class PiecewiseFamily:
+    """Pieces read as one branch: columns joined, special points and crossings in order.
+
+    Args:
+        pieces: In the order in which the branch runs through them.
+        joints: Special points at which a piece ends and the next begins, one a joint.
+    """
+
+    def __init__(self, pieces: Sequence[Piece], joints: Callable[[], Sequence[SpecialPoint]] = tuple) -> None:
+        self.pieces, self._joints = list(pieces), joints
+        self.name = self.pieces[0].family.name
+
+    @property
+    def failures(self) -> list[Failure]:
+        """Of all pieces."""
+        return [failure for piece in self.pieces for failure in piece.family.failures]
+
+    @property
+    def quadrature_degree(self) -> int:
+        """The highest of the pieces."""
+        return max(piece.family.quadrature_degree for piece in self.pieces)
+
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All pieces as one branch; a column that a piece has no number for is left out."""
+        parts = []
+        for piece in self.pieces:
+            part = piece.family.branch(with_uncertainty)
+            columns, spread = dict(part.columns), dict(part.uncertainty)
+            for name, value in piece.fixed.items():
+                columns[name] = np.full(len(part), value)
+                if with_uncertainty:
+                    spread[name] = np.zeros(len(part))
+            parts.append(Branch(part.name, part.control, columns, spread))
+        names = [n for n in parts[-1].columns if all(n in part.columns for part in parts)]
+        known = [n for n in names if all(n in part.uncertainty for part in parts)]
+        return Branch(
+            self.name,
+            parts[-1].control,
+            {n: np.concatenate([part.columns[n] for part in parts]) for n in names},
+            {n: np.concatenate([part.uncertainty[n] for part in parts]) for n in known},
+        )
+
+    def special_points(self) -> list[SpecialPoint]:
+        """Of all pieces and joints, in order."""
+        joints = list(self._joints())
+        points: list[SpecialPoint] = []
+        for i, piece in enumerate(self.pieces):
+            points.extend(_point_with_fixed(p, piece.fixed) for p in piece.family.special_points())
+            points.extend(joints[i : i + 1])
+        return points
+
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
+        """As :meth:`BranchFamily.state`, over all pieces.
+
+        Raises:
+            InputError: When no piece has such a state.
+        """
+        left, ranges = crossing, []
+        for piece in self.pieces:
+            family = piece.family
+            if name in KINDS:
+                here = sum(point.kind == name for point in family.special_points())
+                if value <= here:
+                    return _with_fixed(family.state(name, value, 1, profile), piece.fixed, crossing)
+                value -= here
+                continue
+            if name in piece.fixed:
+                continue
+            columns = family.fine.columns()[name]
+            ranges += [columns.min(), columns.max()]
+            here = len(family.fine.crossings(name, value))
+            if left <= here:
+                return _with_fixed(family.state(name, value, left, profile), piece.fixed, crossing)
+            left -= here
+        where = f"; {name} ranges over [{min(ranges):.6g}, {max(ranges):.6g}]" if ranges else ""
+        raise InputError(f"{name} = {value:g} is not met {crossing} times on this branch{where}")
+
+
+def _with_fixed(state: State, fixed: Mapping[str, float], crossing: int) -> State:
+    """A piece's state with the columns it has fixed values for; one that has none there is left out."""
+    quantities = {name: value for name, value in state.quantities.items() if name not in fixed}
+    quantities |= {name: Quantity(value, 0.0) for name, value in fixed.items() if not np.isnan(value)}
+    return State(state.at, state.branch, quantities, state.fields, crossing)
+
+
+def _point_with_fixed(point: SpecialPoint, fixed: Mapping[str, float]) -> SpecialPoint:
+    """A piece's special point without the columns that it has fixed values for."""
+    values, spread, orders = (
+        {name: value for name, value in of.items() if name not in fixed}
+        for of in (point.values, point.uncertainty, point.orders)
+    )
+    return replace(point, values=values, uncertainty=spread, orders=orders)

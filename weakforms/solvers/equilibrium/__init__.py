@@ -1,0 +1,1 @@
+"""Systems of equations, their constraints, and Newton's method."""

@@ -1,0 +1,300 @@
+r"""PETSc SNES for an equilibrium with some scalar unknowns and as many scalar equations.
+
+.. math:: R(U; \lambda_1..\lambda_m) = 0, \qquad g_i(U; \lambda) = 0, \quad i = 1..m
+
+The scalars live in the last entries of SNES's vector (on the last rank, and broadcast from there at every
+evaluation, so every rank knows them); the linear systems are bordered ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from petsc4py import PETSc
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
+from weakforms.solvers.equilibrium.system import State, System
+
+_REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
+
+
+RESIDUAL_LIMIT = 1e-8
+"""Residual norm above which no state is accepted where forces are of order one, however small the last step;
+and the most by which a constraint may be missed."""
+
+OF_FORCES = 1e-15, 1e-10
+"""Least and largest value of that limit over the size of the forces (:meth:`System.force_size`): the first is
+some 25 times what round-off leaves, the second what a Newton step at the tolerance amounts to."""
+
+STOPPING = (
+    "relative Newton step 1e-10; residual norm below 1e-8, but not below 1e-15 nor above 1e-10 of the nodal "
+    "forces before they balance, |K| |U|"
+)
+"""What results say of it."""
+
+
+class Constraint(Protocol):
+    """One scalar equation ``g(U; λ) = 0``."""
+
+    def value(self, solver: ExtendedNewton) -> float:
+        """``g`` at the state the system holds."""
+
+    def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
+        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state the system holds."""
+
+
+@dataclass(frozen=True)
+class SolveRecord:
+    """How a solve ended."""
+
+    reason: str
+    iterations: int
+    factorizations: int
+    norms: tuple[float, ...]
+    """Residual norm of the whole system at each iteration."""
+
+
+def residual_limit(system: System) -> float:
+    """Residual norm above which the state that a system holds is none; its tangent is of a state close by."""
+    low, high = OF_FORCES
+    size = system.force_size()
+    return min(max(RESIDUAL_LIMIT, low * size), high * size)
+
+
+class ExtendedNewton:
+    """SNES over ``(U, λ)``; one object serves all solves of a system with the same scalars.
+
+    Args:
+        system: The discrete equilibrium equations.
+        scalars: Names of the loads that are unknowns; the others stay as the state has them.
+        stol: Newton step, relative to ``U``, at which a state counts as converged: the error left is the
+            step's square (with a kept factorisation, a small fraction of it). A threshold on the residual
+            would have to follow its round-off, which grows like ``cells^1.5``.
+        max_iterations: Newton iterations before a solve is given up.
+        line_search: PETSc's name: ``basic`` takes full steps, ``bt`` backtracks.
+        prefix: PETSc options prefix; ``-{prefix}snes_monitor`` and the like work.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        scalars: Sequence[str] = (),
+        stol: float = 1e-10,
+        max_iterations: int = 25,
+        line_search: str = "basic",
+        prefix: str = "weakforms_",
+    ) -> None:
+        self.system = system
+        self.scalars = tuple(scalars)
+        self.factor = Factorization(system, prefix + "factor_")
+        self.constraints: Sequence[Constraint] = ()
+        self.bordered: BorderedMatrix | None = None
+        self.left = np.inf
+        """Norm of the residual that the last solve ended with."""
+        self._callbacks = Deferred()
+        self._size = system.size
+        self._root = system.comm.size - 1
+        self._rooted = system.comm.rank == self._root
+        self._prefix = prefix
+        self._tolerances = {"stol": stol, "max_it": max_iterations}
+        self._line_search = line_search
+        self._renew()
+
+    def _renew(self) -> None:
+        extra = len(self.scalars) if self._rooted else 0
+        self._x = PETSc.Vec().createMPI((self._size + extra, None), comm=self.system.comm)
+        self._made: dict[bool, PETSc.SNES] = {}
+
+    def _snes(self, chord: bool) -> PETSc.SNES:
+        """That with a Jacobian each iteration or, for a chord, one at the first (made when first needed)."""
+        if chord not in self._made:
+            options = {"snes_linesearch_type": self._line_search}
+            if chord:  # petsc4py has no call for it
+                options["snes_lag_jacobian"] = self._tolerances["max_it"] + 1
+            self._made[chord] = self._make_snes(options)
+        return self._made[chord]
+
+    def _make_snes(self, defaults: dict[str, str | int]) -> PETSc.SNES:
+        snes = PETSc.SNES().create(self.system.comm)
+        snes.setOptionsPrefix(self._prefix)
+        snes.setFunction(self._residual, self._x.duplicate())
+        sizes = (self._x.getSizes(), self._x.getSizes())
+        shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
+        shell.setPythonContext(_BorderedOperator(self))
+        shell.setUp()
+        snes.setJacobian(self._jacobian, shell)
+        ksp = snes.getKSP()
+        ksp.setType("preonly")
+        ksp.getPC().setType("python")
+        ksp.getPC().setPythonContext(_BorderedSolve(self))
+        snes.setTolerances(rtol=0.0, atol=0.0, **self._tolerances)
+        snes.setConvergenceHistory(self._tolerances["max_it"] + 1, reset=True)
+        options = PETSc.Options()
+        missing = {self._prefix + name: value for name, value in defaults.items()}
+        missing = {key: value for key, value in missing.items() if not options.hasName(key)}
+        for key, value in missing.items():
+            options[key] = value
+        snes.setFromOptions()
+        for key in missing:
+            options.delValue(key)  # the option table is global: leave it as it was found
+        return snes
+
+    # -- the extended vector -----------------------------------------------------------------
+
+    def _split(self, x: PETSc.Vec) -> tuple[np.ndarray, list[float]]:
+        array = x.array_r
+        scalars = array[self._size :].tolist()
+        comm = self.system.comm
+        if comm.size > 1:
+            scalars = comm.bcast(scalars, root=self._root)
+        return array[: self._size], scalars
+
+    def _join(self, x: PETSc.Vec, u: np.ndarray, scalars: Sequence[float]) -> None:
+        array = x.array_w
+        array[: self._size] = u
+        if self._rooted:
+            array[self._size :] = scalars
+
+    # -- SNES callbacks ----------------------------------------------------------------------
+
+    def _put(self, x: PETSc.Vec) -> None:
+        u, scalars = self._split(x)
+        self.system.set_state(u, dict(zip(self.scalars, scalars, strict=True)))
+
+    def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
+        def work() -> None:
+            self._put(x)
+            values = [c.value(self) for c in self.constraints]
+            self._join(out, self.system.residual(), values)
+
+        self._callbacks.run(work, lambda: out.set(np.nan))
+
+    def _jacobian(self, _snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
+        def work() -> None:
+            self.bordered = None
+            self._put(x)
+            self.factor.update()
+            self.bordered = self.border(self.constraints)
+
+        self._callbacks.run(work, lambda: None)  # the linear solve that follows fails
+        mat.assemble()
+
+    def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
+        """Bordered tangent at the state the system holds, whose ``K`` is factorised already."""
+        columns = [self.system.load_derivative(name) for name in self.scalars]
+        gradients = [c.gradient(self) for c in constraints]
+        corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
+        rows = [self._free(row) for row, _ in gradients]
+        return BorderedMatrix(self.factor, columns, rows, corner.reshape(len(rows), len(columns)))
+
+    def _free(self, row: np.ndarray) -> np.ndarray:
+        row = row.copy()
+        row[self.system.bc_dofs] = 0.0
+        return row
+
+    # -- solving -----------------------------------------------------------------------------
+
+    def solve(
+        self, guess: State, constraints: Sequence[Constraint] = (), chord: bool = False
+    ) -> tuple[State, SolveRecord]:
+        """Solve from a guess; the system holds the converged state afterwards.
+
+        Args:
+            guess: Start; its loads that are not unknowns are kept.
+            constraints: One a scalar unknown.
+            chord: Keep the first factorisation for all iterations (after a good predictor that converges
+                as fast, at the price of one factorisation).
+
+        Raises:
+            ConvergenceError: On divergence, too many iterations or a number that is not finite.
+        """
+        if len(constraints) != len(self.scalars):
+            raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
+        system, before = self.system, self.factor.count
+        self.constraints = constraints
+        system.set_state(guess.u, guess.loads)
+        self._join(self._x, guess.u, [guess.loads[name] for name in self.scalars])
+        snes = self._snes(chord)
+        snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
+        try:
+            run_snes(snes, self._x, self._callbacks)
+        except ConvergenceError:
+            self._renew()  # what PETSc broke off keeps its vectors locked
+            raise
+        finally:
+            record = solve_record(snes, self.factor.count - before)
+            self.left = record.norms[-1] if record.norms else np.inf
+        if snes.getConvergedReason() <= 0 or not self._is_balanced(snes):
+            raise ConvergenceError(
+                f"SNES ended with {record.reason} after {record.iterations} iterations, "
+                f"residual {self.left:.1e}"
+            )
+        return system.state(), record
+
+    def _is_balanced(self, snes: PETSc.SNES) -> bool:
+        """Whether what SNES left of forces and constraints is within limits; the system holds its state."""
+        self._put(self._x)
+        forces, missed = self._split(snes.getFunction()[0])
+        within = self.system.dot(forces, forces) <= residual_limit(self.system) ** 2
+        return within and all(abs(value) < RESIDUAL_LIMIT for value in missed)
+
+
+class _BorderedOperator:
+    """The Jacobian of the whole system as SNES sees it (a backtracking line search multiplies with it)."""
+
+    def __init__(self, newton: ExtendedNewton) -> None:
+        self._newton = newton
+
+    def mult(self, _mat: PETSc.Mat, x: PETSc.Vec, out: PETSc.Vec) -> None:
+        """``out = J x``."""
+        newton = self._newton
+        newton._callbacks.run(
+            lambda: newton._join(out, *newton.bordered.multiply(*newton._split(x))), lambda: out.set(0.0)
+        )
+
+
+class _BorderedSolve:
+    """Preconditioner that is the solver: the bordered system of the current Newton step."""
+
+    def __init__(self, newton: ExtendedNewton) -> None:
+        self._newton = newton
+
+    def apply(self, pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
+        """``out = J⁻¹ rhs``."""
+        newton = self._newton
+
+        def spoil() -> None:
+            out.set(0.0)
+            pc.setFailedReason(PETSc.PC.FailedReason.SUBPC_ERROR)
+
+        newton._callbacks.run(lambda: newton._join(out, *newton.bordered.solve(*newton._split(rhs))), spoil)
+
+
+def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
+    """Solve, with the start in ``x``; whether it converged remains to be asked.
+
+    Raises:
+        ConvergenceError: When PETSc breaks off, or what it calls cannot be computed.
+    """
+    try:
+        try:
+            snes.solve(None, x)
+        finally:
+            callbacks.release()
+    except (ConvergenceError, PETSc.Error, ArithmeticError, np.linalg.LinAlgError) as error:
+        reason = snes.getConvergedReason()
+        raise ConvergenceError(f"SNES ended with {_REASONS.get(reason, reason)}: {error}") from error
+
+
+def solve_record(snes: PETSc.SNES, factorizations: int) -> SolveRecord:
+    """How the last solve ended; the number of factorisations is the caller's to count."""
+    reason = snes.getConvergedReason()
+    norms, _ = snes.getConvergenceHistory()
+    return SolveRecord(
+        _REASONS.get(reason, str(reason)), snes.getIterationNumber(), factorizations, tuple(norms.tolist())
+    )

@@ -1,0 +1,124 @@
+r"""Equilibrium within a linear subspace of the displacements, by SNES: :math:`P^T R(u_0 + P q) = 0`.
+
+Where a symmetry leaves the subspace as it is, its equilibria are equilibria of the whole system (principle of
+symmetric criticality), and no unstable direction outside it can attract Newton's method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from petsc4py import PETSc
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.equilibrium.newton import SolveRecord, run_snes, solve_record
+from weakforms.solvers.equilibrium.system import State, System
+
+
+class Subspace:
+    """A system on ``u = lift + P q``.
+
+    Args:
+        system: The discrete equilibrium equations.
+        basis: ``P``: rows of this rank's degrees of freedom, zero where they are held.
+        lift: ``u_0``, owned degrees of freedom: what is held, and zero for ``q = 0`` elsewhere.
+        stol: Newton step, relative to ``q``, at which a state counts as converged.
+        max_iterations: Newton iterations before a solve is given up.
+        line_search: PETSc's name.
+        prefix: PETSc options prefix.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        basis: PETSc.Mat,
+        lift: np.ndarray,
+        stol: float = 1e-11,
+        max_iterations: int = 30,
+        line_search: str = "bt",
+        prefix: str = "weakforms_subspace_",
+    ) -> None:
+        self.system, self.basis, self.lift = system, basis, lift
+        self._q, self._u = basis.createVecs()
+        self._callbacks = Deferred()
+        self._reduced = system.tangent().ptap(basis)
+        snes = PETSc.SNES().create(system.comm)
+        snes.setOptionsPrefix(prefix)
+        snes.setFunction(self._residual, self._q.duplicate())
+        snes.setJacobian(self._jacobian, self._reduced)
+        ksp = snes.getKSP()
+        ksp.setType("preonly")
+        self._direct(ksp.getPC())
+        snes.setTolerances(rtol=0.0, atol=0.0, stol=stol, max_it=max_iterations)
+        snes.setConvergenceHistory(max_iterations + 1, reset=True)
+        options, key = PETSc.Options(), f"{prefix}snes_linesearch_type"
+        given = options.hasName(key)
+        if not given:
+            options[key] = line_search
+        snes.setFromOptions()
+        if not given:
+            options.delValue(key)  # the option table is global: leave it as it was found
+        self._snes = snes
+
+    def _direct(self, pc: PETSc.PC) -> None:
+        pc.setType("lu")
+        if self.system.comm.size > 1:
+            pc.setFactorSolverType("mumps")
+
+    def _put(self, q: PETSc.Vec) -> None:
+        self.basis.mult(q, self._u)
+        self.system.set_state(self.lift + self._u.array_r, {})
+
+    def _residual(self, _snes: PETSc.SNES, q: PETSc.Vec, out: PETSc.Vec) -> None:
+        def work() -> None:
+            self._put(q)
+            self._u.array_w[:] = self.system.residual()
+            self.basis.multTranspose(self._u, out)
+
+        self._callbacks.run(work, lambda: out.set(np.nan))
+
+    def _jacobian(self, _snes: PETSc.SNES, q: PETSc.Vec, jacobian: PETSc.Mat, _p: PETSc.Mat) -> None:
+        def work() -> None:
+            self._put(q)
+            self.system.tangent().ptap(self.basis, result=jacobian)
+
+        self._callbacks.run(work, lambda: None)  # the residual that follows is spoilt
+
+    def nearest(self, u: np.ndarray) -> np.ndarray:
+        """Member of the subspace nearest to a vector of owned degrees of freedom (least squares)."""
+        gram, ksp = self.basis.transposeMatMult(self.basis), PETSc.KSP().create(self.system.comm)
+        ksp.setOperators(gram)
+        ksp.setType("preonly")
+        self._direct(ksp.getPC())
+        self._u.array_w[:] = u - self.lift
+        rhs = self._q.duplicate()
+        self.basis.multTranspose(self._u, rhs)
+        ksp.solve(rhs, self._q)
+        self.basis.mult(self._q, self._u)
+        return self.lift + self._u.array_r
+
+    def solve(self, guess: State, loads: Mapping[str, float] | None = None) -> tuple[State, SolveRecord]:
+        """Equilibrium in the subspace from a guess; the system holds it afterwards.
+
+        Args:
+            guess: Start; what lies outside the subspace is left out of it.
+            loads: Loads other than the guess's.
+
+        Raises:
+            ConvergenceError: On divergence or too many iterations.
+        """
+        self.system.set_loads(guess.loads | dict(loads or {}))
+        self.nearest(guess.u)
+        q = self._q.copy()
+        run_snes(self._snes, q, self._callbacks)
+        its = self._snes.getIterationNumber()
+        record = solve_record(self._snes, its)
+        if self._snes.getConvergedReason() <= 0:
+            last = record.norms[-1] if record.norms else np.nan
+            raise ConvergenceError(
+                f"SNES ended with {record.reason} in the subspace after {its} iterations, residual {last:.1e}"
+            )
+        self._put(q)
+        return self.system.state(), record

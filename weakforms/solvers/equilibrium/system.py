@@ -1,0 +1,389 @@
+"""Discrete equilibrium equations on one mesh: residual, tangent and what one monitors, assembled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import dolfinx.fem.petsc as fem_petsc
+import numpy as np
+import ufl
+from dolfinx import fem, la
+from mpi4py import MPI
+from petsc4py import PETSc
+from ufl.core.expr import Expr
+
+from weakforms.errors import InputError
+from weakforms.solvers.support.jit_cache import compile_together
+from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
+
+SMALL_DISPLACEMENT = 1e-3
+"""Displacements below it count as that much in :meth:`System.force_size`: lengths are of order one, strains
+are differences of them and carry their round-off."""
+
+
+@dataclass
+class State:
+    """Owned degrees of freedom of this rank and the scalar loads, the same on every rank."""
+
+    u: np.ndarray
+    loads: dict[str, float]
+
+    def copy(self) -> State:
+        """An independent copy."""
+        return State(self.u.copy(), dict(self.loads))
+
+
+@dataclass
+class Formulation:
+    """Weak form of an equilibrium problem, as a problem hands it to the solvers.
+
+    The second variation must be symmetric (the loads have a potential).
+    """
+
+    unknown: fem.Function
+    residual: ufl.Form
+    """First variation; linear in the test function."""
+    loads: Mapping[str, tuple[fem.Constant, Expr]]
+    """Scalars that may become unknowns: the constant, and the ``ufl.variable`` it enters through."""
+    bcs: list[fem.DirichletBC]
+    mass: ufl.Form
+    """Bilinear; norm of the continuation and right-hand side of the eigenproblem."""
+    monitors: Mapping[str, ufl.Form]
+    """Scalar functionals, the columns of a branch."""
+    profile: Mapping[str, Expr] = field(default_factory=dict)
+    """Expressions sampled along the body for fields."""
+    abscissa: str = "Z"
+    """Name of the material coordinate they are sampled over."""
+    derived: Mapping[str, Callable[[Mapping[str, float]], float]] = field(default_factory=dict)
+    """Columns computed from the functionals' values: to read, not to prescribe."""
+    maxima: Mapping[str, Expr] = field(default_factory=dict)
+    """Columns that are the largest value of an expression anywhere on the body."""
+    levels: Mapping[str, tuple[Expr, float]] = field(default_factory=dict)
+    """Columns that are the smallest ``coordinate`` at which an expression's magnitude reaches a level (the
+    largest one where it never does)."""
+    coordinate: Expr | None = None
+    """Material coordinate that ``levels`` are given in."""
+    internal: tuple[str, ...] = ()
+    """Functionals the solvers need and results do not show."""
+    locate: Callable[[np.ndarray, Mapping[str, float]], np.ndarray] | None = None
+    """Mesh coordinates of material points at given loads, where the mesh follows something that moves."""
+    tangent: ufl.Form | None = None
+    """Second variation; by default the derivative of ``residual``."""
+    aim: Callable[[str], None] | None = None
+    """Called with a load's name before a derivative in it is assembled. Loads that enter through one and the
+    same ``ufl.variable`` (points of a mesh that moves) share compiled derivatives; this tells them apart."""
+
+
+class System:
+    r"""``R(U; λ) = 0`` with symmetric tangent ``K``, assembled on the state it holds.
+
+    Vectors are numpy arrays of the degrees of freedom this rank owns; :meth:`dot` sums over ranks.
+    Rows of Dirichlet conditions hold the identity in ``K`` and zero in every derivative.
+    """
+
+    def __init__(self, formulation: Formulation) -> None:
+        self.formulation = formulation
+        self.unknown = formulation.unknown
+        space = self.unknown.function_space
+        self.comm: MPI.Intracomm = space.mesh.comm
+        self._alone = self.comm.size == 1
+        self.test, self.trial = ufl.TestFunction(space), ufl.TrialFunction(space)
+        self._phi, self._psi = fem.Function(space), fem.Function(space)
+        self._rate = fem.Constant(space.mesh, 0.0)
+        self._forms: dict[str, fem.Form] = {}
+        self._interpolant: Interpolant | None = None
+        self._peaks: dict[str, Peak] = {}
+        self._levels: FirstLevels | None = None
+        self._ufl = self._ufl_forms()
+        compile_together(self.comm, self._ufl.values())
+
+        self.size = self.unknown.x.petsc_vec.getLocalSize()
+        # Views of what the forms read and of what is assembled into: asking dolfinx for one takes 2 to 4 µs,
+        # and a point of a path would ask some thirty times.
+        self._owned = self.unknown.x.array[: self.size]
+        constants = {k: load for k, (load, _) in formulation.loads.items() if isinstance(load, fem.Constant)}
+        self._constants = {name: constant.value for name, constant in constants.items()}
+        self._sums = fem.Function(space).x
+        self._assembled = self._sums.array
+        arrays = np.zeros((2, self.size))
+        self._work = [(PETSc.Vec().createWithArray(array, comm=self.comm), array) for array in arrays]
+        # The number of owned ones that dof_indices gives counts ghosts where dofs are given in blocks.
+        owned = [dofs[dofs < self.size] for dofs, _count in (bc.dof_indices() for bc in formulation.bcs)]
+        self.bc_dofs = np.concatenate(owned) if owned else np.empty(0, dtype=np.int32)
+        fem_petsc.set_bc(self._sums.petsc_vec, formulation.bcs)
+        self._bc_values = self._assembled[self.bc_dofs]
+        self._fixed = len(self.bc_dofs)
+        self.matrix = fem_petsc.create_matrix(self._form("tangent"))
+        self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
+        self._mass_entries: PETSc.Mat | None = None
+        self.update_mass()
+
+    def _ufl_forms(self) -> dict[str, ufl.Form]:
+        given = self.formulation
+        tangent = given.tangent or ufl.derivative(given.residual, self.unknown, self.trial)
+        forms = {"residual": given.residual, "tangent": tangent, "mass": given.mass}
+        forms |= {f"monitor_{name}": form for name, form in given.monitors.items()}
+        return forms
+
+    def _form(self, name: str) -> fem.Form:
+        """Compile on first use; the compiler's cache makes that cheap for every further mesh."""
+        if name not in self._forms:
+            if name not in self._ufl:
+                self._ufl[name] = self._rate_form(name.removeprefix("d_"))
+            self._forms[name] = fem.form(self._ufl[name])
+        return self._forms[name]
+
+    def _rate_form(self, load: str) -> ufl.Form:
+        """``∂R/∂λ``; there are many loads, and few of these derivatives are ever asked for."""
+        return ufl.diff(self.formulation.residual, self.formulation.loads[load][1])
+
+    def _mass_matrix(self) -> PETSc.Mat:
+        """Mass matrix with *zero* Dirichlet rows: they must add no finite eigenvalue."""
+        if self._mass_entries is None:
+            self._mass_entries = fem_petsc.create_matrix(self._form("mass"))
+        self._mass_entries.zeroEntries()
+        fem_petsc.assemble_matrix(self._mass_entries, self._form("mass"), self.formulation.bcs, 0.0)
+        self._mass_entries.assemble()
+        return without_zeros(self._mass_entries)
+
+    @property
+    def mass(self) -> PETSc.Mat:
+        """Mass matrix: what arc length and the length of a mode are measured by."""
+        return self._mass
+
+    def update_mass(self) -> None:
+        """Assemble the mass matrix anew, where it depends on loads or on a mesh that has moved."""
+        self._mass = self._mass_matrix()
+
+    @contextmanager
+    def weighed_here(self) -> Iterator[None]:
+        """While it lasts, the mass matrix is that at the loads held, which may move the mesh.
+
+        Arc length is measured by the old one again afterwards: no path depends on what was asked before.
+        """
+        kept = self._mass
+        self.update_mass()
+        try:
+            yield
+        finally:
+            self._mass = kept
+
+    def shift(self, tau: float) -> None:
+        """``K + τ M`` in place of ``K``, until the next :meth:`tangent`."""
+        self.matrix.axpy(tau, self.mass, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+
+    def hold(self, dofs: np.ndarray, values: np.ndarray) -> None:
+        """Hold further degrees of freedom of this rank at values, in place of any held before.
+
+        For conditions that come and go (a contact history); those of the formulation stay.
+        """
+        self.bc_dofs = np.concatenate([self.bc_dofs[: self._fixed], dofs]).astype(np.int32)
+        self._bc_values = np.concatenate([self._bc_values[: self._fixed], values])
+        self.matrix.setOption(PETSc.Mat.Option.KEEP_NONZERO_PATTERN, True)
+
+    # -- the state ---------------------------------------------------------------------------
+
+    @property
+    def load_names(self) -> tuple[str, ...]:
+        """Names of the scalars that may become unknowns."""
+        return tuple(self.formulation.loads)
+
+    def set_state(self, u: np.ndarray, loads: Mapping[str, float]) -> None:
+        """Put a state into the forms."""
+        self._owned[:] = u
+        self.unknown.x.scatter_forward()
+        self.set_loads(loads)
+
+    def set_loads(self, loads: Mapping[str, float]) -> None:
+        """Put scalars into the forms."""
+        for name, value in loads.items():
+            if name in self._constants:
+                self._constants[name].fill(value)
+            else:  # a point of a mesh that moves
+                self.formulation.loads[name][0].value = value
+
+    def state(self) -> State:
+        """Copy of the state the forms hold."""
+        return State(self._owned.copy(), {name: self.load(name) for name in self.formulation.loads})
+
+    def owned(self) -> np.ndarray:
+        """View of the degrees of freedom of the state held that this rank owns."""
+        return self._owned
+
+    def load(self, name: str) -> float:
+        """One scalar of the state held."""
+        known = self._constants.get(name)
+        return float(self.formulation.loads[name][0].value) if known is None else known.item()
+
+    # -- assembly ----------------------------------------------------------------------------
+
+    def _vector(self, name: str) -> np.ndarray:
+        self._assembled.fill(0.0)
+        fem.assemble_vector(self._assembled, self._form(name))
+        self._sums.scatter_reverse(la.InsertMode.add)
+        out = self._assembled[: self.size].copy()
+        out[self.bc_dofs] = 0.0
+        return out
+
+    def residual(self) -> np.ndarray:
+        """``R(U; λ)``; on Dirichlet rows the distance from the prescribed value, which mends round-off."""
+        out = self._vector("residual")
+        out[self.bc_dofs] = self._owned[self.bc_dofs] - self._bc_values
+        return out
+
+    def load_derivative(self, name: str) -> np.ndarray:
+        """``∂R/∂λ`` for one scalar."""
+        return self._vector(f"d_{self._aim(name)}")
+
+    def _aim(self, name: str) -> str:
+        """Make derivatives in a load assemble as such; the load whose compiled forms it shares."""
+        if self.formulation.aim is None:
+            return name
+        self.formulation.aim(name)
+        variable = self.formulation.loads[name][1]
+        return next(other for other, (_, v) in self.formulation.loads.items() if v is variable)
+
+    def tangent(self) -> PETSc.Mat:
+        """``K = ∂R/∂U``, always the same matrix object."""
+        self.matrix.zeroEntries()
+        fem_petsc.assemble_matrix(self.matrix, self._form("tangent"), self.formulation.bcs)
+        self.matrix.assemble()
+        held = self.bc_dofs[self._fixed :]
+        if self.sum(len(held)):
+            self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0], diag=1.0)
+        return self.matrix
+
+    def monitors(self) -> dict[str, float]:
+        """All scalar functionals at the state held, one reduction for all."""
+        names = list(self.formulation.monitors)
+        local = np.array([fem.assemble_scalar(self._form(f"monitor_{n}")) for n in names])
+        values = (
+            dict(zip(names, self.sum(local).tolist(), strict=True)) | self._maxima() | self._first_levels()
+        )
+        return values | {name: f(values) for name, f in self.formulation.derived.items()}
+
+    def _maxima(self) -> dict[str, float]:
+        """Largest values of expressions interpolated with two degrees more, between nodes too."""
+        if not self.formulation.maxima:
+            return {}
+        if self._interpolant is None:
+            self._interpolant = Interpolant(self.unknown, self.formulation.maxima, raise_degree=2)
+            function = self._interpolant.function
+            self._peaks = {name: Peak(function, i) for i, name in enumerate(self.formulation.maxima)}
+        self._interpolant.update()
+        return {name: peak() for name, peak in self._peaks.items()}
+
+    def _first_levels(self) -> dict[str, float]:
+        """Where expressions first reach their levels, by their polynomials on each cell."""
+        given = self.formulation
+        if not given.levels:
+            return {}
+        if self._levels is None:
+            self._levels = FirstLevels(self.unknown, given.coordinate, given.levels)
+        return self._levels()
+
+    def monitor(self, name: str) -> float:
+        """One scalar functional."""
+        self._require_monitor(name)
+        return float(self.sum(fem.assemble_scalar(self._form(f"monitor_{name}"))))
+
+    def monitor_gradient(
+        self, name: str, loads: Iterable[str] | None = None
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Derivative of a functional in ``U`` and in each load, or in those named."""
+        self._require_monitor(name)
+        return self.scalar_gradient(f"monitor_{name}", self.formulation.monitors[name], loads)
+
+    def scalar_gradient(
+        self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Derivative of a scalar form, known by a key, in ``U`` and in each load, or in those named."""
+        gradient = f"gradient_{key}"
+        if gradient not in self._ufl:
+            self._ufl[gradient] = ufl.derivative(form, self.unknown, self.test)
+        return self._vector(gradient), self._scalar_derivatives(key, form, loads)
+
+    def _scalar_derivatives(
+        self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
+    ) -> dict[str, float]:
+        """``∂/∂λ`` of a scalar form for every load or those named (zero where it does not enter)."""
+        out = {}
+        for name in self.load_names if loads is None else loads:
+            derived = f"{key}_d_{self._aim(name)}"
+            if derived not in self._ufl:
+                variable = self.formulation.loads[name][1]
+                self._ufl[derived] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
+            empty = not self._ufl[derived].integrals()
+            out[name] = 0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))
+        return out
+
+    def third_variation(
+        self, phi: np.ndarray, psi: np.ndarray, load: str, rate: float
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        r"""Gradient of ``T = ψᵀ K φ + rate ψᵀ ∂R/∂λ`` in ``U`` and in each load, ``φ, ψ`` fixed."""
+        key, gradient = f"third_{load}", f"gradient_third_{load}"
+        if key not in self._ufl:
+            scalar = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._psi)
+            scalar += self._rate * ufl.action(self._rate_form(load), self._psi)
+            self._ufl[key] = scalar
+            self._ufl[gradient] = ufl.derivative(scalar, self.unknown, self.test)
+        self._rate.value = rate
+        for function, values in ((self._phi, phi), (self._psi, psi)):
+            function.x.array[: self.size] = values
+            function.x.scatter_forward()
+        return self._vector(gradient), self._scalar_derivatives(key, self._ufl[key])
+
+    def force_size(self) -> float:
+        r"""Size of the nodal forces before they balance, :math:`\| \sum_j |K_{ij}| \, |U_i| \|`.
+
+        With the tangent as it was last assembled. A residual that is all round-off is about ``4e-17`` of it,
+        on any mesh, under any load. Each rank needs its own rows alone.
+        """
+        starts, _columns, values = self.matrix.getValuesCSR()
+        rows = np.add.reduceat(np.append(np.abs(values), 0.0), starts[:-1]) * (np.diff(starts) > 0)
+        rows[self.bc_dofs] = 0.0
+        forces = rows * np.maximum(np.abs(self._owned), SMALL_DISPLACEMENT)
+        return float(np.sqrt(self.dot(forces, forces)))
+
+    # -- algebra over ranks ------------------------------------------------------------------
+
+    def sum(self, local: np.ndarray | float) -> np.ndarray | float:
+        """Sum over ranks."""
+        return local if self._alone else self.comm.allreduce(local, op=MPI.SUM)
+
+    def dot(self, a: np.ndarray, b: np.ndarray) -> float:
+        """Euclidean inner product over all ranks."""
+        local = float(a.dot(b))
+        return local if self._alone else self.comm.allreduce(local, op=MPI.SUM)
+
+    def mass_times(self, u: np.ndarray) -> np.ndarray:
+        """``M u``; with it the norm of a field does not depend on the mesh."""
+        return self.multiply(self.mass, u)
+
+    def multiply(self, matrix: PETSc.Mat, u: np.ndarray) -> np.ndarray:
+        """``matrix @ u`` for owned arrays."""
+        return self.act(matrix.mult, u)
+
+    def act(self, operation: Callable[[PETSc.Vec, PETSc.Vec], None], u: np.ndarray) -> np.ndarray:
+        """What an operation on PETSc vectors, such as a matrix's ``mult`` or ``solve``, makes of an array."""
+        (x, given), (y, found) = self._work
+        given[:] = u
+        operation(x, y)
+        return found.copy()
+
+    def _require_monitor(self, name: str) -> None:
+        if name not in self.formulation.monitors:
+            known = ", ".join(self.formulation.monitors)
+            raise InputError(f"cannot control {name!r}: the functionals of this problem are {known}")
+
+
+def without_zeros(matrix: PETSc.Mat) -> PETSc.Mat:
+    """A copy that stores no zeros: of a mass matrix of three components a third, and a third of a product."""
+    starts, columns, values = matrix.getValuesCSR()
+    kept = values != 0
+    starts = np.append(0, np.cumsum(kept))[starts].astype(starts.dtype)
+    parts = starts, columns[kept], values[kept]
+    return PETSc.Mat().createAIJ(matrix.getSizes(), csr=parts, comm=matrix.comm)

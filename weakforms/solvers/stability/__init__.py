@@ -1,0 +1,1 @@
+"""Inertia, eigenvalues and modes of the second variation."""

@@ -1,0 +1,284 @@
+"""Branches judged in families of modes: eigenvalue columns, and the zeros that are bifurcation points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Protocol
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.results import Quantity, SpecialPoint
+from weakforms.solvers.continuation.branch import FittedBranch, Solved
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
+from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.stability.modes import SecondVariation, Singular
+from weakforms.solvers.uncertainty.family import BranchFamily, special_point
+
+NARROWED = 6
+"""Halvings of a bracket before the extended system is solved in it."""
+
+
+class Modes(Protocol):
+    """What is watched along a branch, at the state that the system holds."""
+
+    wave_numbers: Sequence[int]
+    """Families whose zeros are bifurcation points."""
+
+    columns: Sequence[str]
+    """What :meth:`observe` returns."""
+
+    def variation(self, n: int) -> SecondVariation:
+        """The operator of a wave number; 0 is the branch's own symmetric space."""
+
+    def observe(self) -> dict[str, float]:
+        """Columns that are no functionals: eigenvalues, values at material points."""
+
+
+class ModalBranch(FittedBranch):
+    """A branch with columns that take a solve of their own, and with bifurcations into other symmetries.
+
+    Args:
+        continuation: Follows the curve.
+        control: The load it is drawn over.
+        start: First point.
+        stop: True at the last point wanted.
+        modes: What is watched along it.
+        hidden: Functionals that mean nothing on this branch.
+    """
+
+    def __init__(
+        self,
+        continuation: Continuation,
+        control: str,
+        start: CurvePoint,
+        stop: Callable[[CurvePoint], bool],
+        modes: Modes,
+        hidden: Sequence[str] = (),
+    ) -> None:
+        self.modes, self.hidden = modes, tuple(hidden)
+        self._observed: dict[int, tuple[CurvePoint, dict[str, float]]] = {}
+        self._limits: list[tuple[CurvePoint, Solved]] = []
+        super().__init__(continuation, control, start, stop)
+        self._insert_limits()
+
+    def _insert_limits(self) -> None:
+        """Locate the control's limit points and make them points of the trace.
+
+        Its columns then reach the control's largest and smallest values, and a state just below a maximum is
+        bracketed.
+        """
+        for i in reversed(self.turns().tolist()):
+            before, after = self.points[i : i + 2]
+            limit = self._root(i, self._control_rate(i), "limit_point")
+            plane = self.continuation.plane(limit.state, before.tangent)
+            state, record = self.solver.solve(limit.state, [*self.continuation.fixed, plane])
+            monitors = self.system.monitors()
+            tangent = self.continuation.direction_here(before.tangent)
+            s = before.arclength + self.continuation.distance(state, before.state)
+            # Its own zero makes the inertia a matter of round-off: the point counts as those before it.
+            point = CurvePoint(state, tangent, s, before.n_negative, record, monitors)
+            longer = s + self.continuation.distance(after.state, state) - after.arclength
+            for later in self.points[i + 1 :]:
+                later.arclength += longer
+            self.points.insert(i + 1, point)
+            self._limits.insert(0, (point, limit))
+
+    # -- columns -------------------------------------------------------------------------------
+
+    def observed(self, point: CurvePoint) -> dict[str, float]:
+        """Watched columns at a point of the trace, solved for once."""
+        if id(point) not in self._observed:
+            self.system.set_state(point.state.u, point.state.loads)
+            self._observed[id(point)] = point, self.modes.observe()
+        return self._observed[id(point)][1]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """Every column over the points of the trace, the watched ones among them."""
+        rows = [self.observed(point) for point in self.points]
+        return super().columns() | {n: np.array([row[n] for row in rows]) for n in self.modes.columns}
+
+    @property
+    def shown(self) -> list[str]:
+        """Columns that results show, diagnostics apart."""
+        own = [name for name in super().shown if name not in self.hidden]
+        return [*own, *self.modes.columns]
+
+    def complete(self, solved: Solved) -> Solved:
+        """With the watched columns."""
+        self.system.set_state(solved.state.u, solved.state.loads)
+        return replace(solved, values=solved.values | self.modes.observe())
+
+    # -- states --------------------------------------------------------------------------------
+
+    def at(self, name: str, value: float, crossing: int = 1) -> Solved:
+        """As for any branch; a watched column is brought to its value by root finding.
+
+        Raises:
+            InputError: When the column is unknown or never takes the value that often.
+            ConvergenceError: When the state was bracketed but not converged to.
+        """
+        if name not in self.modes.columns:
+            return self.complete(super().at(name, value, crossing))
+        hits = self.crossings(name, value)
+        if len(hits) < crossing:
+            raise InputError(
+                f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}"
+            )
+        found = self._root(
+            int(hits[crossing - 1]), lambda solved: self.complete(solved).values[name] - value, name
+        )
+        return self.complete(replace(found, kind=""))
+
+    def crossings(self, name: str, value: float) -> np.ndarray:
+        """Indices of the points after which a column passes a value.
+
+        Raises:
+            InputError: When there is no such column.
+        """
+        if name in self.hidden:
+            return np.empty(0, dtype=int)
+        if name not in self.modes.columns:
+            return super().crossings(name, value)
+        distance = np.array([self.observed(point)[name] for point in self.points]) - value
+        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
+        return np.concatenate([[0], hits]) if distance[0] == 0 else hits
+
+    def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
+        """As for any branch, with the watched columns."""
+        return self.complete(super().at_position(like, rates, near))
+
+    # -- special points ------------------------------------------------------------------------
+
+    def special(self) -> list[Solved]:
+        """Limit points of the control and zeros of every family of modes, in order along the branch."""
+        found = [(point.arclength, solved) for point, solved in self._limits]
+        for n in self.modes.wave_numbers:
+            counts = self._counts(n)
+            changes = np.flatnonzero(np.diff(counts))
+            if np.any(np.abs(np.diff(counts)[changes]) > 1):
+                raise ConvergenceError(
+                    f"several eigenvalues of n = {n} change sign between neighbours: shorter steps are needed"
+                )
+            for i in changes:
+                solved = self._bifurcation(int(i), n)
+                found.append((self._arclength(int(i), solved), solved))
+        return [self.complete(solved) for _, solved in sorted(found, key=lambda item: item[0])]
+
+    def require_nothing_between(self) -> None:
+        """As said there, of the eigenvalues of every family."""
+        for n in self.modes.wave_numbers:
+            counts = self._counts(n)
+            self._require_same_between(counts, partial(self._count_at, n=n), f"eigenvalues of n = {n}")
+
+    def _arclength(self, i: int, solved: Solved) -> float:
+        before = self.points[i]
+        return before.arclength + self.continuation.distance(solved.state, before.state)
+
+    def _counts(self, n: int) -> np.ndarray:
+        """Negative eigenvalues of a family at each point of the trace, by inertia."""
+        return np.array([self._count_at(point.state, n) for point in self.points])
+
+    def _bifurcation(self, i: int, n: int) -> Solved:
+        """The zero of a family's eigenvalue between two neighbours, by the extended system of Singular.
+
+        The bracket is narrowed by inertia, on interpolated states. The mode is taken from the side where the
+        eigenvalue is negative: there it is the highest of the negative ones, whatever soft modes the family
+        has besides.
+        """
+        low, high = 0.0, 1.0
+        before = self._count_at(self.points[i].state, n)
+        after = self._count_at(self.points[i + 1].state, n)
+        for _ in range(NARROWED):
+            middle = (low + high) / 2
+            if self._count_at(self._between(i, middle), n) == before:
+                low = middle
+            else:
+                high = middle
+        guess = self._between(i, high if after > before else low)
+        self.system.set_state(guess.u, guess.loads)
+        variation = self.modes.variation(n)
+        border = variation.mass_times(variation.highest_negative().vector)
+        solved = self._solve(guess, Singular(lambda: self.modes.variation(n), border), "bifurcation_point")
+        self._require_within(i, solved, f"bifurcation of n = {n}")
+        return replace(solved, values=solved.values | {"n": float(n)})
+
+    def null_vector(self, solved: Solved) -> np.ndarray:
+        """Mode of a bifurcation point, of unit length in the mass norm."""
+        self.system.set_state(solved.state.u, solved.state.loads)
+        return self.modes.variation(round(solved.values["n"])).nearest().vector
+
+    def _count_at(self, state: State, n: int) -> int:
+        self.system.set_state(state.u, state.loads)
+        return self.modes.variation(n).negative_count()
+
+
+class ModalFamily(BranchFamily):
+    """Such a branch on a family of meshes."""
+
+    fine: ModalBranch
+
+    def special_points(self) -> list[SpecialPoint]:
+        """As for any branch; bifurcation points carry their wave number ``n``."""
+        points = []
+        for same in self._special():
+            point = special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, self.caps)
+            if "n" in same[-1].values:
+                point.values["n"], point.uncertainty["n"] = same[-1].values["n"], 0.0
+            points.append(point)
+        return points
+
+    def _locate(self) -> list[tuple[Solved, ...]]:
+        located = super()._locate()
+        for same in located:
+            if len({solved.values.get("n") for solved in same}) > 1:
+                raise ConvergenceError("the order of the bifurcation points depends on the mesh")
+        return located
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """Negative eigenvalues in the symmetric space; at a special point its own zero does not count."""
+        counts = set()
+        for level, s in zip(self.levels, solved, strict=True):
+            level.system.set_state(s.state.u, s.state.loads)
+            spectrum = level.modes.variation(0).spectrum(2)
+            counts.add(sum(value < -critical for value in spectrum.eigenvalues))
+        if len(counts) != 1:
+            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
+        return {"n_negative": Quantity(counts.pop())}
+
+
+class SinglePoint(ModalBranch):
+    """A branch of one point: where another one begins."""
+
+    def __init__(
+        self,
+        continuation: Continuation,
+        control: str,
+        start: CurvePoint,
+        modes: Modes,
+        hidden: Sequence[str] = (),
+    ) -> None:
+        super().__init__(continuation, control, start, lambda _: True, modes, hidden)
+        del self.points[1:]
+        self.stalled = None
+
+    def at(self, name: str, value: float, crossing: int = 1) -> Solved:
+        """The point itself, when it has the value."""
+        if crossing > len(self.crossings(name, value)):
+            raise InputError(f"{name} = {value:g} is not met on this branch")
+        return self._itself()
+
+    def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
+        """The point itself."""
+        return self._itself()
+
+    def special(self) -> list[Solved]:
+        """None."""
+        return []
+
+    def _itself(self) -> Solved:
+        point = self.points[0]
+        self.system.set_state(point.state.u, point.state.loads)
+        return self.complete(Solved(self._values(point.state), point.state))

@@ -1,0 +1,157 @@
+"""Second variations in directions that an equilibrium's own unknowns do not hold (a broken symmetry).
+
+A state computed in a symmetric space may lose stability in a mode that breaks the symmetry. The first
+variation in the state *and* a displacement ``q`` of the wider space gives, differentiated in ``q`` at ``q =
+0``, the operator that decides: :class:`SecondVariation`. :class:`Singular` is the equation that it has a null
+vector.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from petsc4py import PETSc
+
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.system import Formulation, State, System
+from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
+
+CRITICAL = 1e-6
+"""Magnitude below which an eigenvalue whose sign is not certain is taken for a critical point's zero."""
+
+
+class SecondVariation(System):
+    """Operator ``K(U, λ)`` of a perturbation ``q``, at the state that the base system holds.
+
+    Args:
+        formulation: Its ``unknown`` is ``q``, which stays zero; its ``residual`` is the first variation at
+            the base's state displaced by ``q``; its ``loads`` are the base's. The mass may depend on the
+            loads.
+        base: The system whose states are judged.
+    """
+
+    def __init__(self, formulation: Formulation, base: System) -> None:
+        self.base = base
+        self._weighed: tuple[float, ...] | None = None
+        super().__init__(formulation)
+        self.factor = Factorization(self)
+        self.stability = Stability(self)
+        self.mode = fem.Function(self.unknown.function_space)
+        self._quadratic: ufl.Form | None = None
+
+    @property
+    def mass(self) -> PETSc.Mat:
+        """Mass matrix at the base's loads."""
+        loads = tuple(map(self.load, self.load_names))
+        if self._weighed != loads:
+            self._weighed = loads
+            self.update_mass()
+        return super().mass
+
+    def spectrum(self, count: int = 1) -> Spectrum:
+        """The lowest eigenvalues at the base's state and the inertia's count of negative ones.
+
+        Where one is zero to round-off (a critical point), it is not counted as negative.
+        """
+        return judged(self.stability, self._at_rest(), count)
+
+    def fixed(self, border: np.ndarray, compliance: float) -> Spectrum:
+        """The same for ``K + b bᵀ/c``: see :meth:`Stability.bordered`."""
+        try:
+            return self.stability.bordered(self._at_rest(), border, compliance)
+        except ConvergenceError:
+            return self.stability.bordered(self._at_rest(), border, compliance, shift=CRITICAL)
+
+    def nearest(self) -> Mode:
+        """The eigenvalue nearest to zero at the base's state, with its mode."""
+        return self.stability.modes(self._at_rest(), 1)[0]
+
+    def highest_negative(self) -> Mode:
+        """The negative eigenvalue nearest to zero at the base's state, with its mode.
+
+        Raises:
+            ConvergenceError: When none is found.
+        """
+        for count in (4, 16):
+            for mode in self.stability.modes(self._at_rest(), count):
+                if mode.eigenvalue < 0:
+                    return mode
+        raise ConvergenceError("stability: no negative eigenvalue is found near zero")
+
+    def negative_count(self) -> int:
+        """Negative eigenvalues at the base's state, by inertia."""
+        self.factor.update()
+        return self.factor.negative_count()
+
+    def lowest_against(self, other: PETSc.Mat) -> float:
+        """The lowest eigenvalue against another matrix: see :meth:`Stability.lowest_against`."""
+        return self.stability.lowest_against(self._at_rest(), other)
+
+    def _at_rest(self) -> State:
+        return State(np.zeros(self.size), {})
+
+    def quadratic_gradient(
+        self, phi: np.ndarray, loads: Iterable[str]
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Gradient of ``φᵀ K φ`` in the base's unknowns and the loads named, ``φ`` fixed."""
+        self.mode.x.array[: self.size] = phi
+        self.mode.x.scatter_forward()
+        if self._quadratic is None:
+            self._quadratic = ufl.action(ufl.action(self._ufl["tangent"], self.mode), self.mode)
+        return self.base.scalar_gradient(f"quadratic_{self.unknown.name}", self._quadratic, loads)
+
+
+def judged(stability: Stability, state: State, count: int) -> Spectrum:
+    """The lowest eigenvalues of a state and the inertia's count of negative ones.
+
+    Where one is zero to round-off (a critical point), it is not counted as negative.
+
+    Raises:
+        ConvergenceError: When SLEPc and the inertia disagree on the others.
+    """
+    try:
+        return stability.spectrum(state, count)
+    except ConvergenceError:
+        return stability.spectrum(state, count, shift=CRITICAL)
+
+
+@dataclass(frozen=True)
+class Singular:
+    r"""The condition ``g = 0`` that a second variation ``K`` is singular.
+
+    With a fixed vector ``c`` the bordered system
+
+    .. math:: \begin{pmatrix} K & c \\ c^T & 0 \end{pmatrix}
+              \begin{pmatrix} \varphi \\ g \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}
+
+    gives ``g``, which vanishes exactly where ``K φ = 0``, linearly with the eigenvalue; it follows the mode
+    that ``c`` selects, not a position in an ordered spectrum. By the symmetry of ``K``,
+    :math:`\mathrm{d}g = -\varphi^T \mathrm{d}K\, \varphi` (Govaerts 2000, chapter 3).
+    """
+
+    variation: Callable[[], SecondVariation]
+    """The operator; a call, because one object may serve several wave numbers."""
+    border: np.ndarray
+
+    def vectors(self) -> tuple[np.ndarray, float]:
+        """``(φ, g)`` at the base's state."""
+        factor = self.variation().factor
+        factor.update()
+        bordered = BorderedMatrix(factor, [self.border], [self.border], np.zeros((1, 1)))
+        phi, g = bordered.solve(np.zeros(len(self.border)), np.ones(1))
+        return phi, float(g[0])
+
+    def value(self, solver: ExtendedNewton) -> float:
+        """``g``."""
+        return self.vectors()[1]
+
+    def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
+        """From the derivative of ``φᵀ K φ``."""
+        row, loads = self.variation().quadratic_gradient(self.vectors()[0], solver.scalars)
+        return -row, {name: -value for name, value in loads.items()}

@@ -1,0 +1,216 @@
+"""Values of expressions at points of the body, the same on every rank."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import ufl
+from dolfinx import fem, geometry
+from dolfinx.mesh import Mesh
+from mpi4py import MPI
+from numpy.polynomial import Polynomial
+from ufl.core.expr import Expr
+
+from weakforms.solvers.support import compat
+from weakforms.solvers.support.roots import root
+
+
+class Interpolant:
+    """Expressions of an unknown as polynomials on each cell, discontinuous between cells.
+
+    Args:
+        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        expressions: Name and expression of each column.
+        raise_degree: How much the polynomials' degree exceeds the unknown's.
+    """
+
+    def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], raise_degree: int = 1) -> None:
+        space = unknown.function_space
+        degree = space.ufl_element().degree + raise_degree
+        target = compat.scalar_space(space, "Lagrange", degree, len(expressions))
+        self.function = fem.Function(target)
+        nodes = compat.interpolation_points(target.element)
+        self._expression = fem.Expression(ufl.as_vector(list(expressions.values())), nodes)
+        self._columns = len(expressions)
+        self._owned = target.dofmap.index_map.size_local
+
+    def update(self) -> None:
+        """Interpolate the expressions as they stand."""
+        self.function.interpolate(self._expression)
+
+    def values(self) -> np.ndarray:
+        """Values at the nodes of this rank's cells, shape ``(nodes, expressions)``."""
+        self.update()
+        return self.function.x.array.reshape(-1, self._columns)[: self._owned]
+
+
+class FirstLevels:
+    """Where along a one-dimensional body expressions first reach a level in magnitude.
+
+    Args:
+        unknown: The function the expressions depend on.
+        coordinate: Material coordinate.
+        levels: Expression and level of each name.
+    """
+
+    def __init__(
+        self, unknown: fem.Function, coordinate: Expr, levels: Mapping[str, tuple[Expr, float]]
+    ) -> None:
+        self._levels = {name: level for name, (_, level) in levels.items()}
+        columns = {"": coordinate, **{name: expression for name, (expression, _) in levels.items()}}
+        self._interpolant = Interpolant(unknown, columns)
+        space = unknown.function_space
+        self._comm = space.mesh.comm
+        self._cells = space.mesh.topology.index_map(1).size_local
+
+    def __call__(self) -> dict[str, float]:
+        """The smallest such coordinate; the body's end where a level is never reached."""
+        dofs = self._interpolant.function.function_space.dofmap.list[: self._cells]
+        nodes = self._interpolant.values()[dofs]
+        order = np.argsort(nodes[:, :, 0], axis=1)[:, :, None]
+        nodes = np.take_along_axis(nodes, order, axis=1)
+        local = [_first(nodes[:, :, 0], nodes[:, :, i], v) for i, v in enumerate(self._levels.values(), 1)]
+        end = nodes[:, :, 0].max(initial=-np.inf)
+        gathered = np.array(self._comm.allgather([*local, end]))
+        found = np.minimum(gathered[:, :-1].min(axis=0), gathered[:, -1].max())
+        return dict(zip(self._levels, found.tolist(), strict=True))
+
+
+def _first(x: np.ndarray, values: np.ndarray, level: float) -> float:
+    """Smallest ``x`` with ``|value| = level`` by the cells' polynomials; infinite if there is none.
+
+    Args:
+        x: Nodes, ascending in each row (a cell).
+        values: Values there.
+        level: Positive.
+    """
+    beyond = np.abs(values) >= level
+    if not beyond.any():
+        return np.inf
+    cell = min(np.flatnonzero(beyond.any(axis=1)), key=lambda c: x[c, beyond[c].argmax()])
+    node = int(beyond[cell].argmax())
+    if node == 0:
+        return float(x[cell, 0])
+    polynomial, sign = _through(x[cell], values[cell]), np.sign(values[cell, node])
+    ends = x[cell, node - 1], x[cell, node]
+    return root(lambda at: sign * polynomial(at) - level, *ends, f"|value| = {level:g}", xtol=1e-15)
+
+
+def _through(x: np.ndarray, values: np.ndarray) -> Callable[[float], float]:
+    """The polynomial through points, by barycentric weights: three times faster than scipy for one cell."""
+    apart = x[:, None] - x
+    np.fill_diagonal(apart, 1.0)
+    weights = 1 / np.prod(apart, axis=1)
+
+    def polynomial(at: float) -> float:
+        away = at - x
+        if not away.all():
+            return float(values[np.argmin(np.abs(away))])
+        terms = weights / away
+        return float(terms @ values / terms.sum())
+
+    return polynomial
+
+
+class Sampler:
+    """Evaluates expressions of an unknown at points of a mesh.
+
+    The expressions are interpolated element by element in polynomials of one degree more than the
+    unknown's, then evaluated: what that adds is smaller than the discretisation error of a derivative. A
+    point between two cells gets the mean of both sides, so that the ranks' order does not matter.
+
+    Args:
+        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        expressions: Name and expression of each column.
+        points: Coordinates, shape ``(n,)`` or, on a mesh of ``d`` coordinates, ``(n, d)``.
+    """
+
+    def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], points: np.ndarray) -> None:
+        self.names = tuple(expressions)
+        self._interpolant = Interpolant(unknown, expressions)
+        space = unknown.function_space
+        self._comm = space.mesh.comm
+        given = np.asarray(points, dtype=float).reshape(len(points), -1)
+        self._points = np.zeros((len(points), 3))
+        self._points[:, : given.shape[1]] = given
+        self._index, self._cells = self._locate(space.mesh)
+        count = np.bincount(self._index, minlength=len(points))
+        self._count = self._comm.allreduce(count, op=MPI.SUM)
+        if np.any(self._count == 0):
+            raise ValueError(f"sample point {points[np.argmin(self._count)]} lies outside the mesh")
+
+    def _locate(self, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+        """Every pair of a point and a cell of this rank that holds it."""
+        tree = geometry.bb_tree(mesh, mesh.topology.dim, padding=1e-10)
+        candidates = geometry.compute_collisions_points(tree, self._points)
+        cells = geometry.compute_colliding_cells(mesh, candidates, self._points)
+        owned = mesh.topology.index_map(mesh.topology.dim).size_local
+        pairs = [(i, c) for i in range(len(self._points)) for c in cells.links(i) if c < owned]
+        index, cell = np.array(pairs, dtype=np.int32).reshape(-1, 2).T
+        return index, cell
+
+    def __call__(self) -> dict[str, np.ndarray]:
+        """One array a column."""
+        self._interpolant.update()
+        values = np.zeros((len(self._points), len(self.names)))
+        if len(self._index):
+            found = self._interpolant.function.eval(self._points[self._index], self._cells)
+            np.add.at(values, self._index, found.reshape(len(self._index), -1))
+        values = self._comm.allreduce(values, op=MPI.SUM) / self._count[:, None]
+        return dict(zip(self.names, values.T, strict=True))
+
+
+class Probe:
+    """Expressions of an unknown at one point along a one-dimensional mesh, located anew at each call.
+
+    Args:
+        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        expressions: Name and expression of each column.
+    """
+
+    def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr]) -> None:
+        self.names = tuple(expressions)
+        self._interpolant = Interpolant(unknown, expressions)
+        self._mesh = unknown.function_space.mesh
+        self._tree = geometry.bb_tree(self._mesh, self._mesh.topology.dim, padding=1e-10)
+        self._owned = self._mesh.topology.index_map(self._mesh.topology.dim).size_local
+
+    def __call__(self, x: float) -> dict[str, float]:
+        """One number a column; between two cells the mean of both."""
+        point = np.array([[x, 0.0, 0.0]])
+        candidates = geometry.compute_collisions_points(self._tree, point)
+        found = geometry.compute_colliding_cells(self._mesh, candidates, point).links(0)
+        cells = found[found < self._owned].astype(np.int32)
+        self._interpolant.update()
+        total = np.zeros(len(self.names) + 1)
+        if len(cells):
+            values = self._interpolant.function.eval(np.repeat(point, len(cells), axis=0), cells)
+            total[:-1] = values.reshape(len(cells), -1).sum(axis=0)
+            total[-1] = len(cells)
+        total = self._mesh.comm.allreduce(total, op=MPI.SUM)
+        return dict(zip(self.names, (total[:-1] / total[-1]).tolist(), strict=True))
+
+
+class Peak:
+    """Largest value of one component of a function along a one-dimensional mesh, by its polynomials."""
+
+    def __init__(self, function: fem.Function, component: int) -> None:
+        space = function.function_space
+        self._function, self._block, self._component = function, space.dofmap.index_map_bs, component
+        self._comm = space.mesh.comm
+        self._cells = space.dofmap.list[: space.mesh.topology.index_map(1).size_local]
+        nodes = space.tabulate_dof_coordinates()[:, 0][self._cells]
+        middle, half = nodes.mean(axis=1, keepdims=True), np.ptp(nodes, axis=1, keepdims=True) / 2
+        self._at = (nodes - middle) / half
+
+    def __call__(self) -> float:
+        """The largest value; the cells that hold the largest nodal ones are searched."""
+        values = self._function.x.array[self._block * self._cells + self._component]
+        largest = float(values.max(initial=-np.inf))
+        for cell in np.argsort(values.max(axis=1, initial=-np.inf))[-3:]:
+            polynomial = Polynomial.fit(self._at[cell], values[cell], values.shape[1] - 1, domain=[-1, 1])
+            roots = polynomial.deriv().roots()
+            inside = roots[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) <= 1)].real
+            largest = max(largest, *polynomial(inside).tolist(), largest)
+        return self._comm.allreduce(largest, op=MPI.MAX)

@@ -1,0 +1,1 @@
+"""From results on several meshes to numbers with uncertainties."""

@@ -1,0 +1,333 @@
+"""The same branch on a family of meshes: numbers with their uncertainties."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import ClassVar
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.solvers.continuation.branch import DIAGNOSTICS, SolutionCurve, Solved
+from weakforms.solvers.stability.spectra import Spectrum, Stability
+from weakforms.solvers.support.provenance import quadrature_degree
+from weakforms.solvers.support.sampling import Sampler
+from weakforms.solvers.uncertainty.refinement import (
+    Estimate,
+    Slow,
+    doubt,
+    estimate,
+    estimate_in_norm,
+    order_in_mean,
+)
+
+KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
+"""Special points located on a curve; a state can be asked for at one."""
+
+CRITICAL = 1e-6
+"""Magnitude below which an eigenvalue at a special point is that point's own zero."""
+
+
+SAMPLED = 1.5
+"""Factor for columns of a profile: where its points lie in their cells makes differences large or small."""
+
+PLACES = 101
+"""Places of a meridian at which the order of convergence of its fields is observed."""
+
+
+class BranchFamily:
+    """A branch traced on meshes from coarse to fine.
+
+    Every number reported is the finest mesh's, with the uncertainty the others give it.
+
+    Args:
+        make: Builds the branch on the mesh of a level.
+        levels: Number of meshes, at least two.
+        cap: Highest order of convergence to reckon with ...
+        across: Columns that span the plane in which branches of two meshes are compared.
+        caps: ... and for some columns a lower one (one-sided traces of derivatives).
+        points_of: Columns that are a column of the profile at a point which moves through the cells.
+        slow: A part of all errors that falls slower.
+        name: Name of the branch.
+    """
+
+    judges_points = True
+    """Whether a state without a profile, a mere point of a curve, is judged for stability too."""
+
+    located_by: ClassVar[Mapping[str, str]] = {}
+    """Kinds of special points found where a column has an extremum, as which all other columns err there."""
+
+    least: ClassVar[Mapping[str, float]] = {}
+    """Orders that quantities have at least; a lower one observed is accident."""
+
+    def __init__(
+        self,
+        make: Callable[[int], SolutionCurve],
+        levels: int,
+        cap: float,
+        across: tuple[str, ...],
+        name: str = "primary",
+        caps: Mapping[str, float] | None = None,
+        points_of: Mapping[str, str] | None = None,
+        slow: Slow | None = None,
+    ) -> None:
+        self.caps = dict(caps or {})
+        self.points_of = dict(points_of or {})
+        self.slow = slow
+        self.levels = [make(level) for level in range(levels)]
+        self.fine = self.levels[-1]
+        self.cap, self.across, self.name = cap, across, name
+        self.failures: list[Failure] = []
+        self._located: list[tuple[Solved, ...]] | None = None
+        self._samplers: dict[tuple[int, bytes], Sampler] = {}
+        stalled = [level.stalled for level in self.levels if level.stalled]
+        if stalled:
+            self.failures.append(Failure(f"branch {name}", stalled[-1]))
+
+    @property
+    def quadrature_degree(self) -> int:
+        """Of the residual, as it is solved."""
+        return quadrature_degree(self.fine.system.formulation.residual)
+
+    # -- the branch itself -------------------------------------------------------------------
+
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All columns, each number with its uncertainty if wanted.
+
+        A point the coarser meshes cannot be brought across from is left out and listed as a failure.
+        """
+        fine = self.fine
+        columns = {n: v for n, v in fine.columns().items() if n in (*fine.shown, *DIAGNOSTICS)}
+        if not with_uncertainty:
+            return Branch(self.name, fine.control, columns)
+        names = fine.shown
+        total = fine.points[-1].arclength or 1.0
+        kept, errors, missed = [], [], []
+        for i, point in enumerate(fine.points):
+            rates = fine.direction(point, self.across)
+            try:
+                others = [
+                    level.at_position(point, rates, point.arclength / total).values
+                    for level in self.levels[:-1]
+                ]
+            except ConvergenceError as error:
+                missed.append((i, str(error)))
+                continue
+            own = {name: columns[name][i] for name in names}
+            errors.append([[values[n] for n in names] for values in [*others, own]])
+            kept.append(i)
+        if missed:
+            places = f"points {missed[0][0]} to {missed[-1][0]}, {len(missed)} of them left out"
+            self.failures.append(Failure(f"branch {self.name}, {places}", missed[0][1]))
+        if not kept:
+            raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
+        table = np.array(errors)  # (points, levels, columns)
+        caps = np.array([self._cap(name, *self.across) for name in names])
+        found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow)
+        wide = _widen(found.uncertainty)
+        return Branch(
+            self.name,
+            fine.control,
+            {name: values[kept] for name, values in columns.items()},
+            {name: wide[:, j] for j, name in enumerate(names)},
+        )
+
+    # -- points ------------------------------------------------------------------------------
+
+    def special_points(self) -> list[SpecialPoint]:
+        """Special points located on every mesh, which must agree on their kinds and order.
+
+        Raises:
+            ConvergenceError: When it does.
+        """
+        points = []
+        for same in self._special():
+            held = self.located_by.get(same[-1].kind, "")
+            caps = {name: self._cap(name, held) for name in self.fine.shown}
+            about = self.fine.shown, self.cap, self.name, self.fine.control, caps
+            points.append(special_point(same, *about, self.slow))
+        return points
+
+    def _special(self) -> list[tuple[Solved, ...]]:
+        """Each special point on all meshes; located once."""
+        if self._located is None:
+            self._located = self._locate()
+        return self._located
+
+    def _locate(self) -> list[tuple[Solved, ...]]:
+        self.levels[0].require_nothing_between()  # the coarsest is cheap, and what it misses all do
+        found = [level.special() for level in self.levels]
+        kinds = [[solved.kind for solved in item] for item in found]
+        if any(item != kinds[-1] for item in kinds):
+            counts = [dict(Counter(item)) for item in kinds]
+            raise ConvergenceError(f"special points depend on the mesh, coarse to fine: {counts}")
+        return list(zip(*found, strict=True))
+
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
+        """A state with a column at exactly a value, and its profile if points for it are given.
+
+        With the kind of the curve's special points for a name, the state at the ``value``-th of them.
+
+        Raises:
+            InputError: When the branch has no such state.
+        """
+        special = name in KINDS
+        if special:
+            points = [same for same in self._special() if same[-1].kind == name]
+            if not 1 <= value <= len(points):
+                raise InputError(f"{name} = {value:g}: this branch has {len(points)} of them")
+            solved = points[int(value) - 1]
+        else:
+            solved = self._at(name, value, crossing)
+        orders = self._orders_in_mean(solved)
+        held = self.located_by.get(name, "") if special else name
+        quantities = self._columns(solved, held, orders)
+        if profile is not None or self.judges_points:
+            quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
+        quantities = self._doubted(quantities, orders)
+        fields = () if profile is None else (self._profile(solved, profile),)
+        return State({name: value}, self.name, quantities, fields, crossing)
+
+    def _columns(
+        self, solved: Sequence[Solved], held: str, orders: Mapping[str, float]
+    ) -> dict[str, Quantity]:
+        """The finest mesh's columns with their uncertainties; what errs in the one ``held`` does in all."""
+        return {
+            name: self._quantity(
+                [s.values[name] for s in solved], name, held, orders.get(self.points_of.get(name, ""), 0.0)
+            )
+            for name in self.fine.shown
+        }
+
+    def _doubted(self, quantities: dict[str, Quantity], orders: Mapping[str, float]) -> dict[str, Quantity]:
+        """The same, with wider uncertainties where the coarse meshes do not resolve the state's fields."""
+        element = self.fine.system.unknown.function_space.ufl_element()
+        wider = doubt(orders.values(), element.embedded_superdegree + 1)
+        return {
+            name: replace(q, uncertainty=wider * q.uncertainty) if q.uncertainty else q
+            for name, q in quantities.items()
+        }
+
+    def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
+        """The state on every mesh, coarse to fine."""
+        return [level.at(name, value, crossing) for level in self.levels]
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia.
+
+        At a special point the critical eigenvalue is zero to round-off and does not count as negative.
+        """
+        spectra = [_spectrum(level, s, critical) for level, s in zip(self.levels, solved, strict=True)]
+        counts = {spectrum.n_negative for spectrum in spectra}
+        if len(counts) != 1:
+            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
+        return {
+            "n_negative": Quantity(counts.pop()),
+            "eigenvalue_1": self._quantity([s.eigenvalues[0] for s in spectra], "eigenvalue_1"),
+        }
+
+    def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
+        samples = []
+        for k, (level, s) in enumerate(zip(self.levels, solved, strict=True)):
+            locate = level.system.formulation.locate
+            places = points if locate is None else locate(points, s.state.loads)
+            samples.append(self._sample(k, s, places))
+        abscissa = self.fine.system.formulation.abscissa
+        columns: dict[str, np.ndarray] = {abscissa: points}
+        uncertainty = {abscissa: 0.0}
+        order = min(self.cap, self.cap / 2 + 1)  # anywhere in a cell: the degree and one
+        for name in samples[-1]:
+            cap = min(order, self.caps.get(name, order))
+            columns[name] = samples[-1][name]
+            uncertainty[name] = SAMPLED * estimate_in_norm(
+                [sample[name] for sample in samples], cap, slow=self.slow
+            )
+        return Field("profile", columns, uncertainty)
+
+    def _orders_in_mean(self, solved: Sequence[Solved]) -> dict[str, float]:
+        """Orders of the profile's columns over the whole of a meridian, whatever points are asked for."""
+        mesh = self.fine.system.unknown.function_space.mesh
+        if mesh.topology.dim > 1 or len(solved) < 3:
+            return {}
+        ends = mesh.comm.allgather((mesh.geometry.x[:, 0].min(), mesh.geometry.x[:, 0].max()))
+        places = np.linspace(np.min(ends), np.max(ends), PLACES)
+        samples = [self._sample(k, s, places) for k, s in enumerate(solved)]
+        return {name: order_in_mean([sample[name] for sample in samples]) for name in samples[-1]}
+
+    def _sample(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
+        """Columns of the profile at places on one mesh."""
+        system = self.levels[k].system
+        system.set_state(solved.state.u, solved.state.loads)
+        return self._sampler(k, places)()
+
+    def _sampler(self, k: int, points: np.ndarray) -> Sampler:
+        """Sampler on one mesh, kept: locating points costs more than evaluating there."""
+        key = (k, points.tobytes())
+        if key not in self._samplers:
+            formulation = self.levels[k].system.formulation
+            self._samplers[key] = Sampler(formulation.unknown, formulation.profile, points)
+        return self._samplers[key]
+
+    # -- estimates ---------------------------------------------------------------------------
+
+    def _cap(self, *names: str) -> float:
+        """Highest order to reckon with in a number that errs as each of some columns does."""
+        return min(self.caps.get(name, self.cap) for name in names)
+
+    def _quantity(
+        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0
+    ) -> Quantity:
+        """A number with its uncertainty.
+
+        One at a point that lies now here, now there in its cell has differences of any size, whose order is
+        accident: that of the field ``in_mean`` counts where it is higher.
+        """
+        cap = self._cap(name, held)
+        found = estimate(values, cap, least=self.least.get(name, 0.0), slow=self.slow)
+        spread = float(found.uncertainty)
+        if in_mean:
+            spread = min(spread, SAMPLED * float(estimate(values, cap, None, in_mean, self.slow).uncertainty))
+        order = float(found.order)
+        return Quantity(float(found.value), spread, order if order > 0 else None)
+
+
+def special_point(
+    same: Sequence[Solved],
+    shown: Sequence[str],
+    cap: float,
+    branch: str,
+    control: str,
+    caps: Mapping[str, float] | None = None,
+    slow: Slow | None = None,
+) -> SpecialPoint:
+    """A special point located on several meshes, coarse to fine, with its uncertainties."""
+    lower = caps or {}
+    values = {k: estimate([s.values[k] for s in same], lower.get(k, cap), slow=slow) for k in shown}
+    return SpecialPoint(
+        same[-1].kind,
+        branch,
+        control,
+        {k: float(v.value) for k, v in values.items()},
+        {k: float(v.uncertainty) for k, v in values.items()},
+        orders=_orders(values),
+    )
+
+
+def _orders(values: dict[str, Estimate]) -> dict[str, float]:
+    return {k: float(v.order) for k, v in values.items() if v.order > 0}
+
+
+def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:
+    """The lowest eigenvalues of a state against its own mass: fronts, and the mesh with them, have moved."""
+    level.system.set_state(solved.state.u, solved.state.loads)
+    with level.system.weighed_here():
+        return Stability(level.system).spectrum(solved.state, shift=max(critical, level.continuation.shift))
+
+
+def _widen(uncertainty: np.ndarray) -> np.ndarray:
+    """Largest of each point and its neighbours: a difference that passes through zero is no accuracy."""
+    padded = np.pad(uncertainty, ((1, 1), (0, 0)), mode="edge")
+    return np.maximum.reduce([padded[:-2], padded[1:-1], padded[2:]])

@@ -1,0 +1,134 @@
+"""Sets of parameters over the whole of what a problem allows; its ranges are found, not listed."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.forms.materials import MATERIALS
+from weakforms.problems.material_choice import MOONEY_RIVLIN, MaterialChoice
+from weakforms.problems.problem import Problem, Requests, validated
+
+WIDE, DECADES = 10.0, 3
+"""A range whose ends are further apart than that factor is drawn logarithmically; over so many decades below
+its upper end where it begins at zero, which itself is drawn once in ten where it is allowed."""
+
+FREE = 1e6
+"""A constant of a law with a range wider than this is over a stress that is free to choose: it is drawn
+within a factor of ten of its default."""
+
+MANY = 4
+"""Of more choices than these, such as the laws, every second draw takes the default."""
+
+ATTEMPTS = 400
+"""Draws, at most, for one set that the problem admits."""
+
+MESHES: Mapping[str, Mapping[str, Any]] = {
+    "fluid_tube": {"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 4},
+    "surface": {"scan": 10},
+}
+"""Numerics other than the default, where the default takes minutes."""
+
+HELD: Mapping[str, Mapping[str, Any]] = {
+    "surface": {"meridional": 30, "circumferential": 12, "size": 0.25},
+}
+"""Parameters that are a mesh: held at what can be afforded."""
+
+
+def sets(problem: Problem, seed: int, count: int) -> tuple[list[dict[str, Any]], dict[str, int]]:
+    """The first ``count`` sets of a seed that a problem admits, the same however many are wanted.
+
+    Returns:
+        The sets, and how many draws each message refused: parameters that contradict one another.
+
+    Raises:
+        InputError: When next to nothing is admitted.
+    """
+    found: list[dict[str, Any]] = []
+    refused: dict[str, int] = {}
+    draws = drawn(problem, seed)
+    for _ in range(ATTEMPTS * count):
+        if len(found) == count:
+            return found, refused
+        given = next(draws)
+        try:
+            problem.check(validated(problem.parameters, given, problem.name), Requests())
+        except InputError as error:
+            refused[str(error)] = refused.get(str(error), 0) + 1
+        else:
+            found.append(given)
+    raise InputError(f"audit: {problem.name} admits fewer than one in {ATTEMPTS} of the sets drawn")
+
+
+def drawn(problem: Problem, seed: int) -> Iterator[dict[str, Any]]:
+    """Sets of parameters without end: each in its own range, whatever they are together."""
+    rng = np.random.default_rng([seed, zlib.crc32(problem.name.encode())])
+    described = problem.parameters.model_json_schema()["properties"]
+    held = HELD.get(problem.name, {})
+    while True:
+        values = {name: _value(entry, rng) for name, entry in described.items() if name not in held}
+        given = {name: value for name, value in values.items() if value is not None}
+        if issubclass(problem.parameters, MaterialChoice):
+            given = _with_law(given, problem.parameters.ratio, rng)
+        yield {**given, **held}
+
+
+def _with_law(given: dict[str, Any], ratio: str, rng: np.random.Generator) -> dict[str, Any]:
+    """With constants of the law drawn; ``C2/C1`` stands among the parameters where it is one of them."""
+    law = MATERIALS[given["model"]]
+    if law.name == MOONEY_RIVLIN and ratio:
+        return given
+    rest = {name: value for name, value in given.items() if name != ratio}
+    return rest | {name: _constant(c, rng) for name, c in law.constants.items()}
+
+
+def _constant(constant: Any, rng: np.random.Generator) -> float:
+    factor = 10.0 ** rng.uniform(-1, 1)
+    if constant.high - constant.low > FREE:
+        return _rounded(min(max(constant.default * factor, constant.low), constant.high))
+    return _number(constant.low, constant.high, not constant.open_low, rng)
+
+
+def _value(entry: Mapping[str, Any], rng: np.random.Generator) -> Any:
+    """A value for one property of a JSON schema; none where it says too little, or where none is drawn."""
+    if "anyOf" in entry:
+        return _value(entry["anyOf"][rng.integers(len(entry["anyOf"]))], rng)
+    if entry.get("type") == "array":
+        found = [_value(entry.get("items", {}), rng) for _ in range(rng.integers(3))]
+        return ",".join(map(str, found)) if found and None not in found else None
+    choices = [False, True] if entry.get("type") == "boolean" else entry.get("enum") or entry.get("examples")
+    if choices or "const" in entry:
+        choices = choices or [entry["const"]]
+        default = len(choices) > MANY and rng.random() < 0.5
+        return entry["default"] if default else choices[rng.integers(len(choices))]
+    return _within(entry, rng)
+
+
+def _within(entry: Mapping[str, Any], rng: np.random.Generator) -> float | None:
+    """A number in a range with two ends; none where it has not."""
+    low = entry.get("minimum", entry.get("exclusiveMinimum"))
+    high = entry.get("maximum", entry.get("exclusiveMaximum"))
+    if entry.get("type") not in ("number", "integer") or low is None or high is None:
+        return None
+    number = _number(low, high, "minimum" in entry, rng)
+    return round(number) if entry["type"] == "integer" else number
+
+
+def _number(low: float, high: float, with_low: bool, rng: np.random.Generator) -> float:
+    share = rng.random()
+    if low == 0 and high > WIDE:
+        if with_low and share < 0.1:
+            return 0.0
+        low = high / 10**DECADES
+    if low > 0 and high > WIDE * low:
+        return _rounded(low * (high / low) ** share)
+    return _rounded(low + share * (high - low))
+
+
+def _rounded(value: float) -> float:
+    """Four digits, which a command line shows."""
+    return float(f"{value:.4g}")

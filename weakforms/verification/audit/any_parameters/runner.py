@@ -1,0 +1,153 @@
+"""Solves the sets of an audit, each by the command line in a process of its own, and says what came of it."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import asdict
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from weakforms.errors import InputError
+from weakforms.problems import registry
+from weakforms.results.io import dumps, load_json, require_writable, write_atomically
+from weakforms.verification.audit.any_parameters.draw import MESHES, sets
+from weakforms.verification.audit.any_parameters.outcome import NAME, AuditRun, Draw, words
+from weakforms.verification.audit.faults.scratch import tree_digest
+from weakforms.verification.run.machine import environment
+
+Report = Callable[[int, int, str], None]
+"""Progress: sets done, sets in all, what became of the last."""
+
+SHOWN = 3
+"""Lines of a complaint that are kept."""
+
+
+def run_audit(
+    problems: list[str],
+    count: int,
+    seed: int,
+    limit: float,
+    out: Path,
+    resume: bool = False,
+    report: Report = lambda *_: None,
+) -> AuditRun:
+    """Draw and solve, and write ``audit.json`` into the output folder.
+
+    Args:
+        problems: Their names.
+        count: Sets a problem.
+        seed: Of the draws.
+        limit: Seconds after which a solve is ended.
+        out: Output folder; every outcome is stored below it at once.
+        resume: Take over what is stored for the same source, set and limit.
+        report: Told about the progress.
+
+    Raises:
+        InputError: For an unknown problem or a folder that cannot be written, before anything is solved.
+    """
+    begun, started = time.perf_counter(), datetime.now(UTC).isoformat(timespec="seconds")
+    drawn = {name: sets(registry.get(name), seed, count) for name in problems}
+    store = out / "audit"
+    require_writable(store)
+    tree = tree_digest()
+    run = AuditRun(seed, count, limit, started, 0.0, tree, environment())
+    run.contradictions = {name: refused for name, (_, refused) in drawn.items() if refused}
+    todo = [(name, k, given) for name, (found, _) in drawn.items() for k, given in enumerate(found, 1)]
+    for name, k, given in todo:
+        meshes = dict(MESHES.get(name, {}))
+        call = words(name, given, meshes)
+        key = hashlib.sha256(f"{tree} {limit} {call!r}".encode()).hexdigest()[:16]
+        file = store / f"{name}-{seed}-{k}.json"
+        draw = _stored(file, key) if resume else None
+        if draw is None:
+            status, messages, seconds = solved(call, limit)
+            draw = Draw(name, k, given, meshes, status, messages, seconds)
+            write_atomically(file, dumps({"key": key, "draw": asdict(draw)}))
+        run.draws.append(draw)
+        report(len(run.draws), len(todo), f"{name} {k} of {count}: {draw.status}, {draw.seconds:.0f} s")
+    run.seconds = round(time.perf_counter() - begun, 3)
+    write_atomically(out / NAME, dumps(run.to_json()))
+    return run
+
+
+def solved(call: list[str], limit: float) -> tuple[str, tuple[str, ...], float]:
+    """Solve by the command line in a process that is ended at the limit: status, messages, seconds."""
+    begun = time.perf_counter()
+    with tempfile.TemporaryDirectory(prefix="weakforms-audit-") as folder:
+        file = Path(folder) / "result.json"
+        code, complaint = _process([sys.executable, "-m", "weakforms", *call, "--out", str(file)], limit)
+        seconds = round(time.perf_counter() - begun, 2)
+        return *classified(code, complaint, _read(file), limit), seconds
+
+
+def classified(
+    code: int | None, complaint: str, result: dict[str, Any], limit: float
+) -> tuple[str, tuple[str, ...]]:
+    """What became of a solve, and what it said.
+
+    Args:
+        code: Exit status of its process; ``None`` when it was ended at the limit.
+        complaint: Its standard error.
+        result: The result it left; empty when there is none.
+        limit: Seconds it was given.
+    """
+    said = [line.removeprefix("weakforms: ") for line in complaint.splitlines() if line.strip()]
+    last = tuple(said[-SHOWN:])
+    if code is None:
+        return "too slow", (f"it did not end within {limit:g} s",)
+    failures = tuple(f"{item['what']}: {item['reason']}" for item in result.get("failures", []))
+    if code == 0 and result and not failures:
+        return "answered", ()
+    if code == 3 and failures:
+        return "in part", failures
+    if code in (2, 3) and not result:
+        return {2: "refused", 3: "not converged"}[code], last
+    return "broke down", (f"exit status {code}", *last)
+
+
+def _process(call: list[str], limit: float) -> tuple[int | None, str]:
+    """Exit status and standard error of a process; no status when it was ended at the limit."""
+    surroundings = os.environ | {"OMP_NUM_THREADS": "1"}
+    child = subprocess.Popen(
+        call,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        env=surroundings,
+        start_new_session=True,
+        text=True,
+        errors="replace",
+    )
+    try:
+        complaint = child.communicate(timeout=limit)[1]
+        return child.returncode, complaint
+    except subprocess.TimeoutExpired:
+        return None, ""
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(child.pid, signal.SIGKILL)  # and what it started
+        child.wait()
+
+
+def _read(file: Path) -> dict[str, Any]:
+    """A stored object; empty where there is none or it was cut short."""
+    try:
+        return load_json(file, "stored outcome")
+    except InputError:
+        return {}
+
+
+def _stored(file: Path, key: str) -> Draw | None:
+    data = _read(file)
+    if data.get("key") != key:
+        return None
+    return Draw(**{**data["draw"], "messages": tuple(data["draw"]["messages"])})

@@ -1,0 +1,88 @@
+"""The benchmark of the triangulated tube: a refinement with time and memory by stage."""
+
+from __future__ import annotations
+
+import resource
+import time
+from collections.abc import Callable
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+ROWS, COLUMNS = 40, 96
+"""Quadrilaterals along and around on the first mesh; each further one has twice as many, by turns."""
+
+LEVELS = (0.5, 3.0, 4.0)
+"""Loads walked over; the last is looked at."""
+
+
+def run_surface_bench(
+    unknowns: int, progress: Callable[[str, int, int], None] = lambda *_: None
+) -> dict[str, Any]:
+    """Meshes of the tube up to a number of unknowns: equilibrium, inertia and eigenvalues at ``zw = 4``.
+
+    Args:
+        unknowns: Degrees of freedom up to which meshes are refined.
+        progress: Called with the stage, how many meshes are done, and how many there are.
+
+    Returns:
+        A row for each mesh: its size, seconds by stage, peak memory so far over all ranks, and the numbers.
+    """
+    from mpi4py import MPI
+
+    from weakforms.problems.triangles.branch import SurfaceRun
+    from weakforms.problems.triangles.meshes import tube
+    from weakforms.problems.triangles.model import Body, SurfaceModel
+    from weakforms.problems.wrinkled.problem import PAPER_GAMMA
+    from weakforms.solvers.support.provenance import versions
+
+    comm, meshes = MPI.COMM_WORLD, [(ROWS, COLUMNS)]
+    while 3 * (meshes[-1][0] + 1) * meshes[-1][1] < unknowns / 2:
+        rows, columns = meshes[-1]
+        meshes.append((2 * rows, columns) if len(meshes) % 2 else (rows, 2 * columns))
+    table = []
+    for i, (rows, columns) in enumerate(meshes):
+        progress(f"{rows} x {columns}", i, len(meshes))
+        row: dict[str, Any] = {"mesh": f"{rows} x {columns}", "unknowns": 3 * (rows + 1) * columns}
+        begun = time.perf_counter()
+
+        def lap(stage: str, row: dict[str, Any] = row) -> None:
+            nonlocal begun
+            comm.Barrier()
+            row[stage] = time.perf_counter() - begun
+            begun = time.perf_counter()
+
+        body = Body(tube(8.0, rows, columns), M=1.5, delta=3.0, Af=0.4362, c2=0.01, gamma=PAPER_GAMMA)
+        run = SurfaceRun(SurfaceModel(comm, body), "zw", {"p": 0.0, "zw": 0.0})
+        lap("set_up_s")
+        for level in LEVELS:
+            run.at(level)
+        lap("states_s")
+        point = run.at(LEVELS[-1])
+        run.stability.factor.update()
+        point.n_negative = run.stability.factor.negative_count()
+        lap("inertia_s")
+        values = run.columns(point, 1)
+        lap("lowest_s")
+        row |= {name: values[name] for name in ("n_negative", "Lambda_1", "V", "residual")}
+        row["peak_mib"] = comm.allreduce(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) / 1024
+        table.append(row)
+    return {"ranks": comm.size, "zw": LEVELS[-1], "rows": table, "versions": versions()}
+
+
+def print_surface_bench(table: dict[str, Any], console: Console) -> None:
+    """The refinement for people."""
+    title = f"Tube on flat triangles, zw = {table['zw']:g}, {table['ranks']} rank(s); seconds, MiB"
+    names = {"mesh": "mesh", "unknowns": "unknowns", "set_up_s": "set up", "states_s": "states"}
+    names |= {"inertia_s": "inertia", "lowest_s": "lowest", "peak_mib": "memory", "n_negative": "negative"}
+    names |= {"Lambda_1": "Lambda_1"}
+    digits = {"Lambda_1": 6, "peak_mib": 4}
+    shown = Table(title=title, box=None, padding=(0, 1, 0, 0))
+    for heading in names.values():
+        shown.add_column(heading, no_wrap=True)
+    for row in table["rows"]:
+        shown.add_row(
+            *(f"{v:.{digits.get(n, 3)}g}" if isinstance(v := row[n], float) else str(v) for n in names)
+        )
+    console.print(shown)

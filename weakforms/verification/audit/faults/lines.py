@@ -1,0 +1,289 @@
+"""Which lines of the source a case or a test runs, recorded once, and who sees a line.
+
+``weakforms faults --measure`` runs every test file and every case in a process of its own, which notes the
+lines that each test function runs (``sys.monitoring``: no slower than without) and how long it takes. Where
+nothing was measured, the imports say who may see a file: the nearest first.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import re
+import sys
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import zip_longest
+from pathlib import Path
+from types import CodeType
+from typing import Any
+
+from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.results.io import dumps, load_json, write_atomically
+from weakforms.verification.audit.faults.children import Children
+from weakforms.verification.cases.discovery import find_cases
+from weakforms.verification.cases.references import ROOT
+
+FOLDERS = ("weakforms", "reference_data")
+"""Where the lines are that are noted."""
+
+UNSEEN = ("tests/mpi/", "tests/unit/test_faults", "tests/cases/test_cases")
+"""Tests that show nothing here: processes of their own, the machinery itself, the cases once more."""
+
+REGISTRY = "reference_data/solvers/registry.py"
+REGISTERED = re.compile(r"reference_data/solvers/(paper\d|\w+_tables)\w*\.py")
+"""What finds the modules of tables, and their names: it imports them without naming them."""
+
+UNKNOWN = 10.0
+"""Seconds that a case or a test is taken to need before it was measured."""
+
+LONGEST = 3600.0
+"""Seconds after which the measurement of one file is ended."""
+
+Lines = dict[str, list[int]]
+"""Numbers of the lines run, by file relative to the tree."""
+
+
+def require_monitoring() -> None:
+    """Make sure that lines can be noted here.
+
+    Raises:
+        EnvironmentLackError: When this Python is too old for it.
+    """
+    if sys.version_info < (3, 12):
+        raise EnvironmentLackError("--measure needs Python 3.12 or later: ./run brings its own")
+
+
+class Monitor:
+    """Notes the lines that are run, from one :meth:`taken` to the next."""
+
+    def __init__(self, root: Path) -> None:
+        self._seen: dict[str, set[int]] = defaultdict(set)
+        self._roots = tuple(f"{root / folder}/" for folder in FOLDERS)
+        self._cut = len(f"{root}/")
+        monitoring = sys.monitoring
+        monitoring.use_tool_id(monitoring.COVERAGE_ID, "weakforms faults")
+        monitoring.register_callback(monitoring.COVERAGE_ID, monitoring.events.LINE, self._line)
+        monitoring.set_events(monitoring.COVERAGE_ID, monitoring.events.LINE)
+
+    def _line(self, code: CodeType, line: int) -> Any:
+        if code.co_filename.startswith(self._roots):
+            self._seen[code.co_filename[self._cut :]].add(line)
+        return sys.monitoring.DISABLE  # until the next one is asked for: each line is noted once
+
+    def taken(self) -> Lines:
+        """The lines run since the last call."""
+        seen, self._seen = self._seen, defaultdict(set)
+        sys.monitoring.restart_events()
+        return {name: sorted(lines) for name, lines in sorted(seen.items())}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What one test file or one case was seen to run."""
+
+    unit: str
+    passed: bool
+    seconds: dict[str, float]
+    """By case or test function."""
+    lines: dict[str, Lines]
+    """By case or test function; under the empty name what importing and shared fixtures run."""
+    digests: dict[str, str]
+    """Of the files as they were, its own among them."""
+
+    def sees(self, text: str, file: str, line: int, root: Path) -> bool:
+        """Whether a test function ran a line; of a file that changed since, any line of it."""
+        lines = self.lines.get(text, {}).get(file)
+        if lines is None:
+            return False
+        return line in lines or self.digests.get(file) != digest(root / file)
+
+
+@cache
+def digest(path: Path) -> str:
+    """Digest of a file; empty where there is none."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()[:12] if path.is_file() else ""
+
+
+def units(root: Path = ROOT) -> list[str]:
+    """Test files and cases that can be measured, cases last: they take longest."""
+    tests = sorted(path.relative_to(root).as_posix() for path in (root / "tests").rglob("test_*.py"))
+    cases = sorted(found.id for found in find_cases())
+    return [*(name for name in tests if not name.startswith(UNSEEN)), *cases]
+
+
+def measure(wanted: list[str], out: Path, resume: bool, report: Callable[[float, float, str], None]) -> int:
+    """Run units and note their lines below ``out``; the number of those that do not pass."""
+    children, failing = Children(), 0
+    known = {found.unit: found for found in measured(out)} if resume else {}
+    try:
+        for k, unit in enumerate(wanted):
+            report(k, len(wanted), unit)
+            found = known.get(unit)
+            if found is None or found.digests.get(_file(unit)) != digest(ROOT / _file(unit)):
+                found = _measured(unit, children, out)
+            failing += not found.passed
+    except BaseException:
+        children.end()
+        raise
+    return failing
+
+
+def _measured(unit: str, children: Children, out: Path) -> Measured:
+    folder = _store(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    answers, failure = children.run(ROOT, [unit], LONGEST, lines=folder)
+    lines = answers[0].lines if answers else {}
+    files = {_file(unit), *(name for seen in lines.values() for name in seen)}
+    passed = bool(answers) and answers[0].status == "passed" and not failure
+    times = answers[0].times if answers else {}
+    found = Measured(unit, passed, times, lines, {name: digest(ROOT / name) for name in sorted(files)})
+    write_atomically(folder / f"{unit.replace('/', '-')}.json", dumps(vars(found)))
+    return found
+
+
+def _store(out: Path) -> Path:
+    return out / "faults" / "lines"
+
+
+def _file(unit: str) -> str:
+    return unit if unit.startswith("tests/") else f"cases/{unit.replace('.', '/')}.py"
+
+
+def measured(out: Path) -> list[Measured]:
+    """What was measured into a folder; what cannot be read counts as not measured."""
+    found = []
+    for path in sorted(_store(out).glob("*.json")):
+        try:
+            found.append(Measured(**load_json(path, "measured lines")))
+        except (InputError, TypeError):
+            continue
+    return found
+
+
+class Watchers:
+    """Who sees a line: measured ones that run it, then those beside them, then those that import its file.
+
+    A test that finds a solution in a fixture or a cache does not run the lines that made it, so the other
+    tests of a file that runs the line follow.
+
+    Args:
+        out: Folder with what was measured.
+        root: The tree.
+    """
+
+    def __init__(self, out: Path, root: Path = ROOT) -> None:
+        self._root, self._measured = root, measured(out)
+
+    @cached_property
+    def _near(self) -> Imports:
+        return Imports(self._root)
+
+    def of(self, file: str, line: int) -> list[tuple[str, float]]:
+        """Cases and test functions with the seconds they take, in the order in which they are to be run."""
+        direct: dict[str, float] = {}
+        beside: dict[str, float] = {}
+        near: set[str] = set()
+        for found in self._measured:
+            seeing = {text for text in found.seconds if found.sees(text, file, line, self._root)}
+            direct |= {text: found.seconds[text] for text in seeing}
+            if seeing or found.sees("", file, line, self._root):
+                beside |= {text: seconds for text, seconds in found.seconds.items() if text not in seeing}
+                near |= {text for text in beside if file in found.lines.get(text, {})}
+        known = {found.unit for found in self._measured}
+        guessed = [(text, UNKNOWN) for text in self._near.watching(file, known)]
+        return [*_fastest(direct, near), *_fastest(beside, near), *guessed]
+
+
+def _fastest(seconds: dict[str, float], near: set[str]) -> list[tuple[str, float]]:
+    """The fastest first, before them those that run other lines of the file."""
+    return sorted(seconds.items(), key=lambda item: (item[0] not in near, item[1], item[0]))
+
+
+class Imports:
+    """Who may see a file, by what imports what: the way there is short where a test is about it."""
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+        folders = ("weakforms", "reference_data", "cases", "tests")
+        paths = [path for folder in folders for path in sorted((root / folder).rglob("*.py"))]
+        self._files = {path.relative_to(root).as_posix(): path for path in paths}
+        self._used_by: dict[str, set[str]] = defaultdict(set)
+        for name, path in self._files.items():
+            for module in _imported(path, name):
+                self._used_by[module].add(name)
+            if REGISTERED.fullmatch(name):
+                self._used_by[name].add(REGISTRY)
+
+    def watching(self, file: str, known: set[str]) -> Iterator[str]:
+        """Test functions and cases that reach a file by imports, the nearest first.
+
+        Args:
+            file: Relative to the tree.
+            known: Units that were measured: they are not guessed at.
+        """
+        reach = self._reach(file)
+        near = sorted((self._rank(name, far, file), name) for name, far in reach.items())
+        tests = [functions(self._root / name, name) for _, name in near if _is_test(name, known)]
+        cases = [[_case(name)] for _, name in near if name.startswith("cases/")]
+        cases = [case for case in cases if case[0] not in known and _quick(case[0])]
+        for pair in zip_longest(tests, cases, fillvalue=[]):
+            for texts in pair:
+                yield from texts
+
+    def _rank(self, name: str, far: int, file: str) -> tuple[int, int]:
+        """First those named as the file is, or as it begins; cases by what they say; then the way there."""
+        words = Path(file).stem.split("_")
+        beginnings = ["_".join(words[:k]) for k in range(len(words), 0, -1)]
+        place = name if name.startswith("tests/") else self._files[name].read_text("utf-8")
+        return next((k for k, word in enumerate(beginnings) if word in place), len(words)), far
+
+    def _reach(self, file: str) -> dict[str, int]:
+        """Files that import it, with the length of the shortest way."""
+        far, edge = {file: 0}, [file]
+        for name in edge:  # grows as it goes
+            for user in sorted(self._used_by[name] - far.keys()):
+                far[user] = far[name] + 1
+                edge.append(user)
+        return far
+
+
+def _imported(path: Path, name: str) -> Iterable[str]:
+    """Files that a file imports, as far as its text says."""
+    package = name.split("/")[:-1]
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            modules = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else []
+            start = ".".join([*base, *([node.module] if node.module else [])])
+            modules = [start, *(f"{start}.{alias.name}" for alias in node.names)]
+        else:
+            continue
+        for module in modules:
+            yield module.replace(".", "/") + ".py"
+            yield module.replace(".", "/") + "/__init__.py"
+
+
+def functions(path: Path, name: str) -> list[str]:
+    """Test functions of a file but the slow ones, as pytest names them."""
+    tree = ast.parse(path.read_text("utf-8"))
+    if any("mark.slow" in ast.unparse(node) for node in tree.body if isinstance(node, ast.Assign)):
+        return []
+    tests = [n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name.startswith("test_")]
+    kept = [n for n in tests if not any("mark.slow" in ast.unparse(d) for d in n.decorator_list)]
+    return [f"{name}::{node.name}" for node in kept]
+
+
+def _case(name: str) -> str:
+    return ".".join(Path(name).with_suffix("").parts[1:])
+
+
+def _is_test(name: str, known: set[str]) -> bool:
+    return name.startswith("tests/") and name not in known and not name.startswith(UNSEEN)
+
+
+def _quick(case: str) -> bool:
+    return any(found.id == case and found.case.quick for found in find_cases())

@@ -1,0 +1,1 @@
+"""What is verified: cases, their specifications and their reference tables."""

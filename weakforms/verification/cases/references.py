@@ -1,0 +1,165 @@
+"""Reference tables: read, held against their checksums, and never written from here."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import tomllib
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.verification.judging.numbers import Number
+
+ROOT = Path(__file__).resolve().parents[3]
+"""The folder that holds ``weakforms``, ``cases`` and ``reference_data`` side by side."""
+
+KINDS = ("exact", "independent", "printed", "other-code")
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A table of numbers from somewhere else, with what is known of their accuracy."""
+
+    name: str
+    kind: str
+    source: str
+    method: str
+    abscissa: str | None
+    columns: dict[str, np.ndarray]
+    uncertainty: dict[str, float]
+    parameters: dict[str, Any]
+    meridian: float | None = None
+    """``Theta`` of all rows, where they are those of one meridian of a table over a surface."""
+
+    def __len__(self) -> int:
+        return len(next(iter(self.columns.values())))
+
+    def number(self, name: str) -> Number:
+        """A column with its uncertainty."""
+        return Number(self.columns[name], self.uncertainty[name])
+
+    @property
+    def ordinates(self) -> list[str]:
+        """Columns other than the abscissa."""
+        return [name for name in self.columns if name != self.abscissa]
+
+
+def part(name: str, root: Path = ROOT) -> Path:
+    """A folder of the tree; installed, without a tree, it lies inside the package under a name of its own."""
+    inside = Path(__file__).resolve().parents[2] / f"_{name}"
+    return inside if root == ROOT and inside.is_dir() else root / name
+
+
+def folder_of(paper: int | str) -> str:
+    """Folder of a paper's cases and tables; a group that belongs to no paper is its own."""
+    return f"paper{paper}" if isinstance(paper, int) else paper
+
+
+@cache
+def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
+    """The table ``reference_data/paperN/NAME``; of a table over a surface ``NAME@DEGREES`` is one meridian.
+
+    Raises:
+        InputError: When it is missing, incomplete, altered (by its checksum) or no table.
+    """
+    whole, separator, degrees = name.partition("@")
+    if separator:
+        return _meridian(load(paper, whole, root), name, degrees)
+    folder = part("reference_data", root) / folder_of(paper)
+    facts = _facts(folder / f"{name}.toml")
+    path = folder / f"{name}.csv"
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"reference table {path.name}: {error.strerror}") from error
+    if hashlib.sha256(raw).hexdigest() != facts.get("sha256"):
+        raise InputError(
+            f"reference table {path} is truncated or altered: its checksum is not the one in {name}.toml; "
+            f"restore it, or regenerate it: {facts.get('regenerate', 'python -m reference_data.solvers')}"
+        )
+    columns = _columns(path.name, raw)
+    kind, abscissa = facts.get("type"), facts.get("abscissa")
+    if kind not in KINDS:
+        raise InputError(f"reference table {name}.toml: type = {kind!r}; allowed are {', '.join(KINDS)}")
+    if abscissa is not None and abscissa not in columns:
+        raise InputError(f"reference table {name}: abscissa {abscissa!r} is none of {', '.join(columns)}")
+    if not isinstance(facts.get("parameters", {}), dict):
+        raise InputError(f"reference table {name}.toml: parameters must be a table of names and values")
+    return Reference(
+        name=name,
+        kind=kind,
+        source=str(facts.get("source", "")),
+        method=str(facts.get("method", "")),
+        abscissa=abscissa,
+        columns=columns,
+        uncertainty={column: _uncertainty(name, facts, column) for column in columns},
+        parameters=dict(facts.get("parameters", {})),
+    )
+
+
+def _meridian(table: Reference, name: str, degrees: str) -> Reference:
+    """The rows of a table at one ``Theta``, without that column."""
+    try:
+        theta = math.radians(float(degrees))
+    except ValueError:
+        raise InputError(f"reference table {name}: {degrees!r} is no number of degrees") from None
+    if "Theta" not in table.columns:
+        raise InputError(f"reference table {table.name} has no column Theta, and so no {name}")
+    rows = np.isclose(table.columns["Theta"], theta, rtol=0, atol=1e-9)
+    if not rows.any():
+        raise InputError(f"reference table {table.name} has no rows at Theta = {theta:g}")
+    columns = {k: values[rows] for k, values in table.columns.items() if k != "Theta"}
+    return replace(table, name=name, columns=columns, meridian=theta)
+
+
+def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:
+    try:
+        value = facts["columns"][column]["uncertainty"]
+    except (KeyError, TypeError):
+        value = None
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
+        raise InputError(
+            f"reference table {name}.toml: uncertainty of {column} = {value!r}; a number from 0 is wanted"
+        )
+    return float(value)
+
+
+def load_curve(paper: int | str, name: str) -> Reference:
+    """A table whose abscissa rises, or falls, from row to row.
+
+    Raises:
+        InputError: As :func:`load`, and when it is no such table.
+    """
+    table = load(paper, name)
+    steps = np.diff(table.columns[table.abscissa]) if table.abscissa else np.zeros(1)
+    if not (np.all(steps > 0) or np.all(steps < 0)):
+        raise InputError(f"reference table {name} is no curve: its abscissa must rise, or fall, all along")
+    return table
+
+
+def _facts(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise InputError(f"reference table {path.name}: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, nested without end
+        raise InputError(f"reference table {path.name} is not TOML: {error}") from error
+
+
+def _columns(name: str, raw: bytes) -> dict[str, np.ndarray]:
+    try:
+        lines = raw.decode("ascii").splitlines()
+        header = lines[0].split(",") if lines else []
+        rows = np.array([[float(cell) for cell in line.split(",")] for line in lines[1:]])
+    except ValueError as error:  # ragged rows and what is not ASCII are ValueErrors too
+        raise InputError(f"reference table {name}: {error}") from error
+    if rows.ndim != 2 or rows.shape[1] != len(set(header)) or not np.all(np.isfinite(rows)):
+        raise InputError(
+            f"reference table {name}: rows of finite numbers under the header {header} are wanted"
+        )
+    return dict(zip(header, rows.T, strict=True))

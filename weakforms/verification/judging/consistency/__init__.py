@@ -1,0 +1,1 @@
+"""A solution held against itself: traces, marks and identities between columns."""

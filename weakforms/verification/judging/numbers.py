@@ -1,0 +1,126 @@
+"""A number with its uncertainty, alone or in arrays, and how uncertainties pass through arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from weakforms.results import Quantity, SpecialPoint
+
+
+@dataclass(frozen=True, eq=False)
+class Number:
+    r"""Values with absolute uncertainties of the same shape.
+
+    Arithmetic propagates them to first order as independent,
+    :math:`u^2 = \sum (\partial f/\partial x_i)^2 u_i^2`; plain numbers are exact. They are not compared with
+    ``<`` or ``==``: :mod:`weakforms.verification.judging.decide` does that, with their uncertainties.
+    """
+
+    value: Any
+    uncertainty: Any
+    __array_ufunc__ = None  # an array beside a number leaves the arithmetic to it
+
+    def __post_init__(self) -> None:
+        value = np.asarray(self.value, dtype=float)
+        spread = np.broadcast_to(np.asarray(self.uncertainty, dtype=float), value.shape)
+        # A negative uncertainty is none at all.
+        object.__setattr__(self, "value", value)
+        object.__setattr__(self, "uncertainty", np.where(spread >= 0, spread, np.nan))
+
+    def __bool__(self) -> bool:
+        raise TypeError("a number with an uncertainty is neither true nor false; ask weakforms.decide")
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __getitem__(self, index: Any) -> Number:
+        return Number(self.value[index], self.uncertainty[index])
+
+    def __neg__(self) -> Number:
+        return Number(-self.value, self.uncertainty)
+
+    def __abs__(self) -> Number:
+        return Number(np.abs(self.value), self.uncertainty)
+
+    def __add__(self, other: Any) -> Number:
+        other = number(other)
+        return Number(self.value + other.value, np.hypot(self.uncertainty, other.uncertainty))
+
+    def __sub__(self, other: Any) -> Number:
+        return self + -number(other)
+
+    def __mul__(self, other: Any) -> Number:
+        other = number(other)
+        spread = np.hypot(self.uncertainty * other.value, other.uncertainty * self.value)
+        return Number(self.value * other.value, spread)
+
+    def __truediv__(self, other: Any) -> Number:
+        return self * number(other) ** -1
+
+    def __pow__(self, exponent: float) -> Number:
+        with np.errstate(all="ignore"):
+            value, rate = self.value**exponent, exponent * self.value ** (exponent - 1)
+            # What may be zero has no reciprocal, whatever the first order says.
+            known = (exponent > 0) | (np.abs(self.value) > self.uncertainty)
+            return Number(value, np.where(known, np.abs(rate) * self.uncertainty, np.nan))
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: Any) -> Number:
+        return number(other) - self
+
+    def __rtruediv__(self, other: Any) -> Number:
+        return number(other) / self
+
+    def log(self) -> Number:
+        """Natural logarithm; of what may be zero or less, not a number."""
+        with np.errstate(all="ignore"):
+            known = self.value > self.uncertainty
+            return Number(np.log(self.value), np.where(known, self.uncertainty / np.abs(self.value), np.nan))
+
+    def diff(self) -> Number:
+        """Steps from entry to entry."""
+        return self[1:] - self[:-1]
+
+    def largest(self) -> Number:
+        """The largest entry, as uncertain as the most uncertain one."""
+        return Number(np.max(self.value), np.max(self.uncertainty))
+
+    def smallest(self) -> Number:
+        """The smallest entry, as uncertain as the most uncertain one."""
+        return Number(np.min(self.value), np.max(self.uncertainty))
+
+
+def number(of: Any) -> Number:
+    """Anything as a number: a quantity, or what is exact.
+
+    A quantity without an uncertainty is a count or exact; it has that of its rounding.
+    """
+    if isinstance(of, Number):
+        return of
+    if isinstance(of, Quantity):
+        rounding = np.finfo(float).eps * abs(of.value)
+        return Number(of.value, rounding if of.uncertainty is None else of.uncertainty)
+    return Number(of, 0.0)
+
+
+def of_point(point: SpecialPoint, name: str) -> Number:
+    """One number of a special point."""
+    return Number(point.values[name], point.uncertainty[name])
+
+
+def stack(items: Iterable[Any]) -> Number:
+    """Several numbers as one array, a row an item; of numbers alone or arrays of one length."""
+    items = [number(item) for item in items]
+    return Number([item.value for item in items], [item.uncertainty for item in items])
+
+
+def join(items: Iterable[Any]) -> Number:
+    """Several numbers and arrays end to end."""
+    items = [number(item) for item in items]
+    ends = [np.concatenate([np.atleast_1d(getattr(i, k)) for i in items]) for k in ("value", "uncertainty")]
+    return Number(*ends)

@@ -1,0 +1,70 @@
+"""The same cases run elsewhere, on more ranks or on another release, as the report shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from weakforms.errors import InputError
+from weakforms.results.io import dumps, load_json, write_atomically
+from weakforms.verification.audit.same import CaseRow, Run, rows
+
+NAME = "elsewhere.json"
+SCHEMA = "weakforms.elsewhere/1"
+TOLD = ("dolfinx", "ufl", "petsc", "slepc", "python", "system", "ranks")
+"""Facts of an environment that tell two runs apart."""
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """Another run, and how far its numbers are from this one's."""
+
+    environment: dict[str, str]
+    """In what it differs from this one's."""
+    rows: tuple[CaseRow, ...]
+
+
+_MANY = TypeAdapter(tuple[Elsewhere, ...])
+
+
+def elsewhere(own: Path, other: Path) -> Elsewhere:
+    """Compare the stored solutions of two output folders of ``verify``, case by case.
+
+    Raises:
+        InputError: When one of them has no report, what is stored is damaged, or they share no case.
+    """
+    first, second = Run(own), Run(other)
+    found = tuple(row for row in rows(first, second) if row.case in second.specs)
+    if not found:
+        raise InputError(f"{other}: has no case that {own} has")
+    facts = {name: second.environment[name] for name in TOLD if name in second.environment}
+    return Elsewhere({k: v for k, v in facts.items() if first.environment.get(k) != v}, found)
+
+
+def write_elsewhere(runs: Iterable[Elsewhere], folder: Path) -> None:
+    """Put comparisons beside a report.
+
+    Raises:
+        InputError: When the folder cannot be written.
+    """
+    data = {"schema": SCHEMA, "runs": [asdict(run) for run in runs]}
+    write_atomically(Path(folder) / NAME, dumps(data))
+
+
+def load_elsewhere(folder: Path) -> tuple[Elsewhere, ...]:
+    """Comparisons that lie beside a report; none where there is no such file.
+
+    Raises:
+        InputError: When it is damaged.
+    """
+    path = Path(folder) / NAME
+    if not path.exists():
+        return ()
+    data = load_json(path, "comparison with other runs")
+    try:
+        return _MANY.validate_python(data.get("runs"))
+    except ValidationError as error:
+        raise InputError(f"{path}: {error.errors()[0]['msg']}; rebuild it with report --other") from error

@@ -1,0 +1,389 @@
+"""The pages of the report: an overview, one page a group of cases, and all of it as one for printing.
+
+A group is what stands before the dot in a case's id: a paper, or a folder of cases such as ``materials``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from itertools import chain, count
+from operator import call
+from statistics import quantiles
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
+from markupsafe import Markup
+
+from weakforms.verification.audit.any_parameters.outcome import STATUSES, Audited
+from weakforms.verification.audit.faults.outcome import FaultOutcome, Seeded
+from weakforms.verification.judging.consistency import exempt
+from weakforms.verification.judging.outcome import (
+    CaseOutcome,
+    Convergence,
+    RunOutcome,
+    SurfaceOutcome,
+    Verdict,
+)
+from weakforms.verification.report import summary
+from weakforms.verification.report.elsewhere import Elsewhere
+from weakforms.verification.report.figures import LOOK, TEMPLATES, convergence_figure, panel_figure
+from weakforms.verification.report.junit import clean
+from weakforms.verification.report.surface_figures import surface_figure
+from weakforms.verification.run.workers import workers
+
+FOLDED = 30
+"""More passed checks than this in one case stand folded under their summary."""
+RESERVED = (
+    "top",
+    "main",
+    "summary",
+    "how-well",
+    "differs",
+    "cases",
+    "broken",
+    "reading",
+    "environment",
+    "faults",
+    "elsewhere",
+    "audit",
+    "exempt",
+)
+"""Identifiers that the templates use themselves."""
+GROUPS = {
+    "paper1": (
+        "Paper 1",
+        "Contact mechanics of a circular membrane inflated against a deformable substrate",
+        "Patil, DasGupta & Eriksson, International Journal of Solids and Structures 67–68 (2015) 250–262",
+    ),
+    "paper2": (
+        "Paper 2",
+        "Free and constrained inflation of a pre-stretched cylindrical membrane",
+        "Patil, Nordmark & Eriksson, Proceedings of the Royal Society A 470 (2014) 20140282",
+    ),
+    "paper3": (
+        "Paper 3",
+        "Instability investigation on fluid-loaded pre-stretched cylindrical membranes",
+        "Patil, Nordmark & Eriksson, Proceedings of the Royal Society A 471 (2015) 20150016",
+    ),
+    "paper4": (
+        "Paper 4",
+        "Wrinkling of cylindrical membranes with non-uniform thickness",
+        "Patil, Nordmark & Eriksson, European Journal of Mechanics A/Solids 54 (2015) 1–10",
+    ),
+    "paper5": (
+        "Paper 5",
+        "Instabilities of wrinkled membranes with pressure loadings",
+        "Patil, Nordmark & Eriksson, Journal of the Mechanics and Physics of Solids 94 (2016) 298–315",
+    ),
+    "materials": ("Materials", "Material laws and what they must satisfy", ""),
+    "closed_form": ("Closed forms", "Problems with exact solutions", ""),
+}
+"""Short name, title and source of the groups there are; any other is called by its folder."""
+
+
+def render(
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    jobs: int = 1,
+    audited: Audited | None = None,
+) -> dict[str, str]:
+    """Every page of the report.
+
+    Args:
+        run: What ``verify`` left.
+        seeded: What became of seeded faults, where the catalogue was run.
+        others: Runs of the same cases on other ranks or releases.
+        jobs: Processes that draw, side by side.
+        audited: What became of parameters drawn over all ranges, where an audit was made.
+
+    Returns:
+        HTML by file name; the first page is ``index.html``. No page loads anything.
+    """
+    facts = _facts(run, seeded, others, jobs, audited)
+    pages = {
+        group["page"]: template("group.html").render(facts, group=group, here=group["page"])
+        for group in facts["groups"]
+    }
+    for name in ("faults.html", "audit.html"):
+        pages[name] = template(name).render(facts, here=name)
+    return pages | {"index.html": template("index.html").render(facts, here="index.html")}
+
+
+def render_whole(
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    audited: Audited | None = None,
+) -> str:
+    """All pages as one, for printing: every link stays within it."""
+    return template("whole.html").render(_facts(run, seeded, others, audited=audited), here=None)
+
+
+def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
+    """The surfaces of a run, each with the file beside the pages that holds it for ParaView."""
+    taken: set[str] = set()
+    return [
+        (f"shapes/{_unused(_file(f'{case.id}-{surface.name}'), taken)}.vtu", surface)
+        for case in run.cases
+        for surface in case.surfaces
+    ]
+
+
+def template(name: str) -> Template:
+    """A page's template, with the filters that numbers and TeX are shown by."""
+    return _environment().get_template(name)
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=lambda value: clean(value) if type(value) is str else value,
+    )
+    filters: dict[str, Callable[..., Any]] = {
+        name: getattr(summary, name)
+        for name in ("scientific", "signed", "fraction", "ratio", "duration", "order", "plural", "worst")
+    }
+    environment.filters |= filters | {
+        "tex": lambda text: Markup(summary.html_tex(text)),
+        "plain_tex": summary.plain_tex,
+        "value": summary.with_uncertainty,
+        "flat": lambda value: list(_flat(value)),
+        "label": lambda status: summary.LABELS.get(status, status),
+        "when": lambda text: re.sub(r"^(\d{4}-\d\d-\d\d)T(\d\d:\d\d).*$", r"\1, \2 UTC", text),
+    }
+    return environment
+
+
+# -- what the templates show ---------------------------------------------------------------------
+
+
+def _facts(
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    jobs: int = 1,
+    audited: Audited | None = None,
+) -> dict[str, Any]:
+    """Everything a template may name, made from the run and what lies beside it alone."""
+    taken = set(RESERVED)
+    shapes = {id(surface): name for name, surface in shape_files(run)}
+    views = [_case_view(case, taken, shapes) for case in run.cases]
+    _draw([shown for view in views for shown in (*view["figures"], *view["histories"])], jobs)
+    groups = _groups(views)
+    checks = [(view, row) for view in views for row in view["rows"]]
+    verdicts = [row["verdict"] for _, row in checks]
+    places = {id(row["verdict"]): (view, row) for view, row in checks}
+    tops = {name: getattr(summary, name)(verdicts) for name in ("worst", "sharpest", "bluntest")}
+    return {
+        "run": run,
+        "status": summary.run_status(run),
+        "headline": summary.headline(run),
+        "verdicts": verdicts,
+        "total": len(verdicts),
+        "passed": sum(verdict.passed for verdict in verdicts),
+        "cases": views,
+        "ordered": sorted(views, key=lambda view: summary.ORDER.get(view["status"], 0)),
+        "broken": [view for view in views if view["failing"] or view["case"].errors],
+        "marks": {name: places[id(top)] for name, top in tops.items() if top is not None},
+        "spread": _spread(verdicts),
+        "loose": [a for a in summary.accuracies(run) if a.ratio > summary.LOOSE],
+        "groups": groups,
+        "ledger": summary.ledger_counts(run.cases),
+        "differing": _differing(views),
+        "seeded": seeded or Seeded(),
+        "others": others,
+        "audited": audited or Audited(),
+        "audit_statuses": STATUSES,
+        "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
+        "mutants": _areas(seeded.random.faults if seeded and seeded.random else (), "subject"),
+        "look": LOOK,
+        "exempt": {
+            "not judged": exempt.EXEMPT,
+            "judged by sign": exempt.EXEMPT_SIZE,
+            "not judged in every solution": exempt.KNOWN,
+            "a problem without identities": exempt.UNSTATED,
+        },
+    }
+
+
+def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The cases by what stands before the dot in their ids, each group with its page."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for view in views:
+        found.setdefault(view["case"].id.partition(".")[0], []).append(view)
+    taken = {"index", "faults", "audit"}
+    out = []
+    for key, members in found.items():
+        name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))
+        stem = _unused(_file(key), taken)
+        cases = [view["case"] for view in members]
+        rows = [row["verdict"] for view in members for row in view["rows"]]
+        group = {
+            "page": f"{stem}.html",
+            "anchor": f"group-{stem}",
+            "name": name,
+            "title": title,
+            "source": source,
+            "views": members,
+            "verdicts": rows,
+            "passed": sum(verdict.passed for verdict in rows),
+            "status": min((v["status"] for v in members), key=lambda status: summary.ORDER.get(status, 0)),
+            "figures": sum(len(view["figures"]) for view in members),
+            "ledger": summary.ledger_counts(cases),
+        }
+        for view in members:
+            view["group"] = group
+        out.append(group)
+    return out
+
+
+def _areas(faults: Iterable[FaultOutcome], by: str = "area") -> dict[str, list[FaultOutcome]]:
+    """Faults by what they are faults of."""
+    found: dict[str, list[FaultOutcome]] = {}
+    for fault in faults:
+        found.setdefault(getattr(fault, by), []).append(fault)
+    return found
+
+
+def _spread(verdicts: Iterable[Verdict]) -> dict[str, Any] | None:
+    """How sharp the bounds are as a whole: median, nine in ten, and how many are numerical."""
+    bounds = sorted(v.bound for v in verdicts if v.passed and v.bound)
+    if len(bounds) < 10:
+        return None
+    tenths = quantiles(bounds, n=10, method="inclusive")
+    return {"count": len(bounds), "median": tenths[4], "ninety": tenths[8]}
+
+
+def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str, Any], Any]]]:
+    """What disagrees with the thesis: printed numbers that are not reproduced, statements that do not hold.
+
+    And what cannot be decided, for lack of data in the thesis.
+    """
+    views = list(views)
+    entries = [(view, entry) for view in views for entry in view["case"].printed]
+    claims = [(view, row) for view in views for row in view["rows"]]
+    return {
+        "numbers": [pair for pair in entries if pair[1].status in ("misprint", "cut off", "grid of a scan")],
+        "statements": [pair for pair in claims if pair[1]["verdict"].differs and pair[1]["verdict"].passed],
+        "lost": [pair for pair in entries if summary.LABELS.get(pair[1].status) == summary.LOST],
+    }
+
+
+def _draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
+    """Pictures in place of what is to be called for them."""
+    calls = [entry["svg"] for entry in shown]
+    if jobs == 1:
+        drawn = map(call, calls)
+    else:
+        with workers(jobs) as pool:
+            drawn = list(pool.map(call, calls, chunksize=4))
+    for entry, picture in zip(shown, drawn, strict=True):
+        entry["svg"] = Markup(picture)
+
+
+def _case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> dict[str, Any]:
+    """What the template shows of one case: figures to be drawn, checks sorted, anchors made."""
+    anchor = _anchor(case.id, taken)
+    rows = [
+        {
+            "verdict": verdict,
+            "anchor": _anchor(f"{anchor}:{verdict.check}", taken),
+            "numbers": _numbers(verdict),
+        }
+        for verdict in case.verdicts
+    ]
+    passing = [row for row in rows if row["verdict"].passed]
+    histories = []
+    for records in _by_quantity(case.convergence):
+        drawing = partial(convergence_figure, records, _anchor("f", taken))
+        histories.append({"records": records, "svg": drawing})
+    return {
+        "case": case,
+        "anchor": anchor,
+        "status": summary.case_status(case),
+        "rows": rows,
+        "failing": [row for row in rows if not row["verdict"].passed],
+        "passing": passing,
+        "folded": len(passing) > FOLDED,
+        "figures": _figures(case, anchor, taken, shapes),
+        "histories": histories,
+        "shared": _shared([solution.get("provenance") or {} for solution in case.solutions]),
+    }
+
+
+def _figures(
+    case: CaseOutcome, anchor: str, taken: set[str], shapes: Mapping[int, str]
+) -> list[dict[str, Any]]:
+    """The pictures of a case: its panels, then its surfaces with the file ParaView reads."""
+    figures = []
+    for panel in case.panels:
+        ident = _anchor(f"{anchor}:panel-{panel.name}", taken)
+        drawing = partial(panel_figure, panel, _anchor("f", taken), case.verdicts)
+        figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": None})
+    for surface in case.surfaces:
+        ident = _anchor(f"{anchor}:surface-{surface.name}", taken)
+        picture = partial(surface_figure, surface, _anchor("f", taken))
+        figures.append({"panel": surface, "anchor": ident, "svg": picture, "shape": shapes[id(surface)]})
+    return figures
+
+
+def _numbers(verdict: Verdict) -> dict[str, str]:
+    """Error, bound and asked accuracy with as many digits as it takes to tell them apart."""
+    values = {name: getattr(verdict, name) for name in ("error", "bound", "asked")}
+    known = [value for value in values.values() if value is not None]
+    for digits in range(2, 7):
+        texts = {name: summary.scientific(value, digits) for name, value in values.items()}
+        if len({texts[n] for n, v in values.items() if v is not None}) == len(set(known)):
+            break
+    return texts
+
+
+def _by_quantity(records: Iterable[Convergence]) -> list[list[Convergence]]:
+    groups: dict[str, list[Convergence]] = {}
+    for record in records:
+        groups.setdefault(record.quantity, []).append(record)
+    return list(groups.values())
+
+
+def _shared(records: list[Mapping[str, Any]]) -> dict[str, Any]:
+    """The entries that all of several mappings have in common."""
+    first = records[0] if len(records) > 1 else {}
+    return {k: v for k, v in first.items() if all(other.get(k) == v for other in records)}
+
+
+def _flat(value: Any, prefix: str = "") -> Iterable[tuple[str, str]]:
+    """Names and values of nested mappings, one pair a leaf."""
+    if isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _flat(item, f"{prefix}.{key}" if prefix else str(key))
+    elif isinstance(value, float):
+        yield prefix, f"{value:.12g}"
+    elif isinstance(value, (list, tuple)):
+        yield prefix, ", ".join(f"{i:.12g}" if isinstance(i, float) else str(i) for i in value)
+    else:
+        yield prefix, "–" if value is None else str(value)
+
+
+def _file(text: str) -> str:
+    """The text as part of a file name, of which systems take 255 characters."""
+    return re.sub(r"[^A-Za-z0-9_.-]+", "-", text).strip("-.").replace(".", "_")[:100] or "item"
+
+
+def _anchor(text: str, taken: set[str]) -> str:
+    """An identifier made of the text that nothing else has."""
+    stem = re.sub(r"[^\w.:-]+", "-", clean(text), flags=re.ASCII).strip("-") or "item"
+    return _unused(stem, taken)
+
+
+def _unused(stem: str, taken: set[str]) -> str:
+    """The stem, with a number after it where it is taken."""
+    name = next(n for n in chain([stem], (f"{stem}-{k}" for k in count(2))) if n not in taken)
+    taken.add(name)
+    return name

@@ -1,0 +1,176 @@
+"""The report of a ``RunOutcome``, from it alone: pages, ``report.json``, ``junit.xml``, shapes for ParaView.
+
+No page has scripts, fonts or anything else from elsewhere, and all of it is drawn from what
+``report.json`` holds, so that rebuilding it later gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.results.io import MAX_REPORT_BYTES, load_json
+from weakforms.verification.audit.any_parameters.outcome import Audited
+from weakforms.verification.audit.faults.outcome import Seeded
+from weakforms.verification.judging.outcome import SCHEMA, RunOutcome
+from weakforms.verification.report.elsewhere import NAME as ELSEWHERE
+from weakforms.verification.report.elsewhere import Elsewhere, load_elsewhere
+from weakforms.verification.report.junit import junit_xml
+from weakforms.verification.report.pages import render, shape_files
+from weakforms.verification.report.vtu import vtu
+
+OURS = '<meta name="generator" content="weakforms">'
+"""What tells a page of an earlier report from somebody else's file."""
+_LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "residual_bound")
+
+
+def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int = 1) -> Path:
+    """Write the files of the report, each complete or not at all, ``index.html`` last.
+
+    A ``faults.json`` in the folder gives the page of seeded faults its table, an ``audit.json`` that of the
+    audit, an ``elsewhere.json`` the first page that of other runs, until the cases are run anew.
+
+    Args:
+        run: What ``verify`` left.
+        folder: Where to; made when missing. Pages and shapes of an earlier report go.
+        stored: Whether the run was read from a file: then nothing is written before all of it is drawn.
+        jobs: Processes that draw, side by side.
+
+    Returns:
+        The path of ``index.html``.
+
+    Raises:
+        InputError: When the folder cannot be written, or what is stored cannot be drawn.
+    """
+    data = _plain(run.to_json())
+    run = _decoded(data)
+    numbers = {
+        "report.json": json.dumps(data, indent=1, allow_nan=False) + "\n",
+        "junit.xml": junit_xml(run),
+    }
+    folder = Path(folder)
+    beside = Seeded.beside(folder), load_elsewhere(folder) if stored else (), Audited.beside(folder)
+    drawn = _redrawn(run, *beside, jobs) if stored else {}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if not stored:
+            (folder / ELSEWHERE).unlink(missing_ok=True)  # it compares the numbers of an earlier run
+        _write(folder, numbers)  # before anything is drawn: `report` can draw it later
+        drawn = drawn or _drawn(run, *beside, jobs)
+        _write(folder, drawn)
+        _sweep(folder, set(drawn))
+    except OSError as error:
+        raise InputError(f"cannot write the report to {folder}: {error.strerror}") from error
+    return folder / "index.html"
+
+
+def _drawn(
+    run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
+) -> dict[str, str]:
+    """Shapes and pages by name, ``index.html`` last."""
+    shapes = {name: vtu(surface) for name, surface in shape_files(run)}
+    return shapes | render(run, seeded, others, jobs, audited)
+
+
+def _redrawn(
+    run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
+) -> dict[str, str]:
+    """The same of a stored run, the numbers of which may be anybody's."""
+    try:
+        return _drawn(run, seeded, others, audited, jobs)
+    except EnvironmentLackError:
+        raise
+    except Exception as error:
+        raise InputError(f"what is stored cannot be drawn: {type(error).__name__}: {error}") from error
+
+
+def _write(folder: Path, texts: Mapping[str, str]) -> None:
+    """Write files, each under its name only when complete."""
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        _replace(folder / name, text)
+
+
+def _sweep(folder: Path, kept: set[str]) -> None:
+    """Remove what an earlier report had and this one does not: pages, shapes, its print."""
+    for path in folder.glob("*.html"):
+        if path.name not in kept and path.is_file() and OURS in path.read_text("utf-8", "replace")[:2000]:
+            path.unlink(missing_ok=True)
+    for path in (folder / "shapes").glob("*.vtu"):
+        if f"shapes/{path.name}" not in kept:
+            path.unlink(missing_ok=True)
+    (folder / "report.pdf").unlink(missing_ok=True)
+
+
+def load_run(folder: Path) -> RunOutcome:
+    """The run that ``report.json`` in a folder holds.
+
+    Args:
+        folder: A folder :func:`write_report` wrote to, or the JSON file itself.
+
+    Returns:
+        The run; numbers that were not finite come back as NaN in columns and ``None`` elsewhere.
+
+    Raises:
+        InputError: When the file is missing, cut short, not JSON, or of another schema.
+    """
+    path = Path(folder)
+    path = path / "report.json" if path.suffix != ".json" else path
+    data = load_json(path, "report", MAX_REPORT_BYTES)
+    schema = data.get("schema")
+    if schema != SCHEMA:
+        raise InputError(f"{path}: schema is {schema!r}, expected {SCHEMA!r}")
+    try:
+        return _decoded(data)
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        reason = f"{type(error).__name__}: {error}"
+        if isinstance(error, ValidationError):
+            first = error.errors()[0]
+            reason = f"{'.'.join(map(str, first['loc']))}: {first['msg']}"
+        raise InputError(f"{path}: not a {SCHEMA} document: {reason}") from error
+
+
+def _decoded(data: dict[str, Any]) -> RunOutcome:
+    """The run of a JSON object, with every type checked and ``null`` in a column read as NaN."""
+    data = copy.deepcopy(data)
+    for case in data["cases"]:
+        columns = [(curve, key) for p in case["panels"] for curve in p["curves"] for key in _LISTS]
+        columns += [(record, "errors") for record in case["convergence"]]
+        for record, key in columns:
+            record[key] = [math.nan if value is None else value for value in record[key]]
+    TypeAdapter(RunOutcome).validate_python(data)
+    return RunOutcome.from_json(data)
+
+
+def _plain(value: Any) -> Any:
+    """The value as strict JSON has it: no NumPy, no paths, and ``null`` for what is not finite."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value if value is None or isinstance(value, (str, int)) else str(value)
+
+
+def _replace(path: Path, text: str) -> None:
+    """Write a file under its final name only when it is complete."""
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with partial.open("w", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)

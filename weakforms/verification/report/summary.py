@@ -1,0 +1,365 @@
+"""The run in words and numbers for people: tallies, worst checks, and the terminal's table."""
+
+from __future__ import annotations
+
+import html
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from weakforms.terminal import plain
+from weakforms.verification.judging.outcome import (
+    CaseOutcome,
+    Convergence,
+    CurveOutcome,
+    PanelOutcome,
+    RunOutcome,
+    Verdict,
+)
+from weakforms.verification.report.junit import clean
+
+NARROW = 90
+"""Below this many columns the terminal table drops what the report has anyway."""
+STYLES = {"passed": "green", "failed": "bold red", "error": "bold yellow"}
+ORDER = {"error": 0, "failed": 1, "passed": 2}
+LOST = "not recoverable"
+LABELS = {
+    "misprint": "misprint proven",
+    "grid of a scan": "on a scan's grid",
+    "input, not judged": "not judged",
+    "input, decoded": "input recovered",
+    "input, not decoded": LOST,
+    "input, placed": "state found",
+    "input, not placed": "state not found",
+    LOST: LOST,
+}
+"""What people read of the status of a printed number; any other is its own label."""
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """The accuracy that a case asks of a column, and the one that it delivers."""
+
+    case: str
+    column: str
+    asked: float
+    delivered: float
+
+    @property
+    def ratio(self) -> float:
+        """Asked over delivered."""
+        return self.asked / self.delivered
+
+
+def case_status(case: CaseOutcome) -> str:
+    """The status of a case; a failed check counts even where the case claims to have passed."""
+    if case.status == "passed" and not all(verdict.passed for verdict in case.verdicts):
+        return "failed"
+    return case.status
+
+
+def run_status(run: RunOutcome) -> str:
+    """The worst status among the cases; ``passed`` needs at least one check."""
+    kinds = {case_status(case) for case in run.cases}
+    if not any(case.verdicts for case in run.cases) and not kinds & {"failed", "error"}:
+        return "empty"
+    return next((kind for kind in ("error", "failed") if kind in kinds), "passed")
+
+
+def verdicts_of(run: RunOutcome) -> list[tuple[CaseOutcome, Verdict]]:
+    """Every check of the run with its case."""
+    return [(case, verdict) for case in run.cases for verdict in case.verdicts]
+
+
+def headline(run: RunOutcome) -> str:
+    """The verdict on the whole run in one short sentence."""
+    checks = verdicts_of(run)
+    failed = sum(not verdict.passed for _, verdict in checks)
+    stuck = sum(case_status(case) == "error" for case in run.cases)
+    parts = []
+    if stuck:
+        parts.append(f"{plural(stuck, 'case')} could not be solved")
+    if failed:
+        parts.append(f"{failed} of {plural(len(checks), 'check')} failed")
+    elif run_status(run) == "failed":
+        parts.append("a case failed without a failed check")
+    if parts:
+        return "; ".join(parts)
+    if not run.cases:
+        return "no case was run"
+    if not checks:
+        return "no check was made"
+    return "the only check holds" if len(checks) == 1 else f"all {len(checks)} checks hold"
+
+
+def ratio(verdict: Verdict) -> float | None:
+    """Error over bound, infinite where the error is; ``None`` for a check without a bound."""
+    if verdict.bound is None:
+        return None
+    if verdict.error is None:
+        return math.inf
+    if verdict.bound == 0:
+        return 0.0 if verdict.error == 0 else math.inf
+    return verdict.error / verdict.bound
+
+
+def worst(verdicts: Iterable[Verdict]) -> Verdict | None:
+    """The numerical check with the largest error in units of its bound."""
+    judged = [verdict for verdict in verdicts if ratio(verdict) is not None]
+    return max(judged, key=lambda verdict: _rank(ratio(verdict)), default=None)
+
+
+def sharpest(verdicts: Iterable[Verdict]) -> Verdict | None:
+    """The numerical check that holds within the smallest bound (exact statements aside)."""
+    judged = [verdict for verdict in verdicts if verdict.passed and (verdict.bound or 0) > 0]
+    return min(judged, key=lambda verdict: verdict.bound, default=None)
+
+
+def bluntest(verdicts: Iterable[Verdict]) -> Verdict | None:
+    """The numerical check whose bound comes closest to the asked accuracy, or exceeds it most."""
+    judged = [verdict for verdict in verdicts if verdict.bound is not None and verdict.asked]
+    return max(judged, key=lambda verdict: _rank(verdict.bound / verdict.asked), default=None)
+
+
+LOOSE = 100
+"""An accuracy asked of more than this many times the bound delivered says little of what is known."""
+
+
+def accuracies(run: RunOutcome) -> list[Accuracy]:
+    """What every case asks of a column, beside the widest bound that it delivers of it; the loosest first."""
+    widest: dict[tuple[str, str, float], float] = {}
+    for case, verdict in verdicts_of(run):
+        bound = verdict.bound if verdict.widest is None else verdict.widest
+        if verdict.passed and verdict.asked and bound:
+            key = (case.id, verdict.check.rpartition(":")[2], verdict.asked)
+            widest[key] = max(widest.get(key, 0.0), bound)
+    found = [Accuracy(*key, bound) for key, bound in widest.items()]
+    return sorted(found, key=lambda accuracy: -accuracy.ratio)
+
+
+def of_curve(curve: CurveOutcome, verdicts: Iterable[Verdict]) -> list[Verdict]:
+    """The checks that hold this curve against its reference table."""
+    name = curve.reference_name
+    return [v for v in verdicts if name and (v.reference == name or v.check.split(":")[0] == name)]
+
+
+def plain_tex(text: str) -> str:
+    r"""TeX between dollars as plain Unicode: ``$\delta_1 = 1$`` becomes ``δ1 = 1``."""
+    return re.sub(r"\$([^$]*)\$", lambda hit: re.sub(r"[{}^_]", "", _symbols(hit[1])), clean(text))
+
+
+def html_tex(text: str) -> str:
+    """Any text as safe HTML; TeX between dollars becomes italics, Greek, sub- and superscripts."""
+    parts = re.split(r"\$([^$]*)\$", clean(text))
+    parts[::2] = [html.escape(part) for part in parts[::2]]
+    for index in range(1, len(parts), 2):
+        math_part = html.escape(_symbols(parts[index]), quote=False)
+        math_part = re.sub(r"(?<![A-Za-zα-ω])([A-Za-zα-ω])(?![A-Za-z;])", r"<i>\1</i>", math_part)
+        for sign, tag in (("_", "sub"), ("\\^", "sup")):
+            pattern = sign + r"(?:\{([^{}]*)\}|(<i>.</i>|[^<\s]))"
+            math_part = re.sub(pattern, lambda hit, tag=tag: f"<{tag}>{hit[1] or hit[2]}</{tag}>", math_part)
+        parts[index] = re.sub("[{}]", "", math_part)
+    return "".join(parts)
+
+
+def _symbols(tex: str) -> str:
+    tex = re.sub(r"\\[,;: ]|~", "\u2009", re.sub(r"\\(mathrm|text|mathit|left|right)\b", "", tex))
+    tex = tex.replace("\\sqrt", "√")
+    named = re.sub(r"\\([A-Za-z]+)", lambda hit: html.unescape(f"&{hit[1]};").strip("&;"), tex)
+    return named.replace("\\", "")
+
+
+def describe(panel: PanelOutcome, verdicts: Iterable[Verdict] = ()) -> str:
+    """A panel in words, for those who do not see it."""
+    x, y = panel.x_range, panel.y_range
+    parts = [f"{panel.y} from {y[0]:g} to {y[1]:g} against {panel.x} from {x[0]:g} to {x[1]:g}"]
+    names = [plain_tex(curve.label or curve.name) for curve in panel.curves]
+    parts.append(f"{plural(len(names), 'curve')}: {'; '.join(names)}" if names else "No curves")
+    if any(any(curve.unstable) for curve in panel.curves):
+        parts.append(f"{panel.dashed.capitalize()} parts are dashed")
+    if panel.markers:
+        parts.append("Marked: " + "; ".join(plain_tex(m.label or m.kind) for m in panel.markers))
+    checks = list(verdicts)
+    top = worst(v for curve in panel.curves for v in of_curve(curve, checks))
+    if top:
+        place = f" at {plain_tex(top.where)}" if top.where else ""
+        sizes = f"error {scientific(top.error)}, bound {scientific(top.bound)}"
+        parts.append(f"Worst check: {sizes}{place}")
+    return ". ".join(parts) + "."
+
+
+def describe_histories(records: Sequence[Convergence]) -> str:
+    """Refinement histories in words."""
+    return " ".join(
+        f"P{r.degree}: error {scientific(r.errors[-1] if r.errors else None)} on the finest mesh, "
+        f"observed order {order(r.observed_order)}, expected {order(r.expected_order)}."
+        for r in records
+    )
+
+
+def order(value: float | None) -> str:
+    """An order of convergence: ``3.98``, or a dash."""
+    return "–" if value is None or not math.isfinite(value) else f"{value:.2f}"
+
+
+def plural(count: int, noun: str) -> str:
+    """``1 check``, ``2 checks``."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def scientific(value: float | None, digits: int = 2) -> str:
+    """A relative error for people: ``3.2e-10``; an exact zero is ``0``."""
+    if value is None or math.isnan(value):
+        return "–"
+    if math.isinf(value):
+        return "∞" if value > 0 else "-∞"
+    return "0" if value == 0 else f"{value:.{digits - 1}e}"
+
+
+def signed(value: float | None) -> str:
+    """A relative error with its sign: ``+3.2e-10``."""
+    text = scientific(value)
+    return f"+{text}" if value is not None and value > 0 else text
+
+
+def fraction(value: float | None) -> str:
+    """A ratio to one for people: three decimals at most, large ones rounded."""
+    if value is None or math.isnan(value):
+        return "–"
+    if math.isinf(value):
+        return "∞"
+    if 0 < value < 0.0005 or 1 < value < 1.0005:
+        return "<0.001" if value < 1 else ">1.000"
+    return f"{value:.3f}" if value < 10 else f"{value:.3g}"
+
+
+def with_uncertainty(value: float | None, uncertainty: float | None) -> str:
+    """A value with the digits that its uncertainty justifies: ``1.16299 ± 2e-05``."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if not uncertainty or not math.isfinite(uncertainty):
+        return f"{value:.12g}"
+    places = -math.floor(math.log10(abs(uncertainty)))
+    if abs(uncertainty) * 10.0**places < 2:
+        places += 1
+    if places > 15 or abs(value) >= 1e9:
+        return f"{value:.12g} ± {uncertainty:.0e}"
+    return f"{round(value, places):.{max(places, 0)}f} ± {uncertainty:.0e}"
+
+
+def duration(seconds: float) -> str:
+    """``0.43 s``, ``12 s``, ``3 min 05 s``, ``2 h 10 min``."""
+    if not math.isfinite(seconds):
+        return "–"
+    if seconds < 59.95:
+        return f"{seconds:.2f} s" if seconds < 9.995 else f"{seconds:.1f} s"
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s"
+
+
+def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
+    """How many printed numbers have which status, the good news first."""
+    known = (
+        "reproduced",
+        "state found",
+        "input recovered",
+        "cut off",
+        "on a scan's grid",
+        "misprint proven",
+        LOST,
+    )
+    counts = Counter(LABELS.get(entry.status, entry.status) for case in cases for entry in case.printed)
+    names = [*known, *sorted(set(counts) - set(known))]
+    return {name: counts[name] for name in names if counts[name]}
+
+
+def case_line(case: CaseOutcome, done: int, total: int) -> str:
+    """A case just judged, for a log: ``3 of 92 cases: paper2.fig03 passed, 53 checks, 12.0 s of solving``."""
+    checks, failed = len(case.verdicts), sum(not v.passed for v in case.verdicts)
+    held = f"{failed} of {plural(checks, 'check')} failed" if failed else plural(checks, "check")
+    return (
+        f"{done} of {plural(total, 'case')}: {case.id} {case_status(case)}, {held}, {duration(case.seconds)}"
+    )
+
+
+def print_summary(run: RunOutcome, console: Console) -> None:
+    """Print the run to a terminal: a row per case, what failed and why, and one last line.
+
+    Args:
+        run: What ``verify`` left.
+        console: Where to; its width, encoding and ``NO_COLOR`` are respected.
+    """
+    console.print(_table(run, narrow=console.width < NARROW))
+    for case in run.cases:
+        _print_problems(case, console)
+    ledger = ", ".join(f"{count} {name}" for name, count in ledger_counts(run.cases).items())
+    if ledger:
+        console.print(Text(f"Printed numbers: {_said(ledger)}"))
+    status = run_status(run)
+    last = Text(f"{status.upper() if status != 'empty' else 'NOTHING JUDGED'}: ")
+    last.stylize(STYLES.get(status, "bold"))
+    last.append(f"{headline(run)} in {plural(len(run.cases), 'case')}, {duration(run.seconds)}", "")
+    console.print(last)
+
+
+def _table(run: RunOutcome, narrow: bool) -> Table:
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, header_style="bold")
+    table.add_column("Case", overflow="fold")
+    table.add_column("Verdict", no_wrap=True)
+    table.add_column("Checks", justify="right", no_wrap=True)
+    table.add_column("Err/bound" if narrow else "Error / bound", justify="right", no_wrap=True)
+    if not narrow:
+        table.add_column("Worst check", overflow="fold")
+        table.add_column("Time", justify="right", no_wrap=True)
+    for case in run.cases:
+        status = case_status(case)
+        top = worst(case.verdicts)
+        cells = [
+            Text(_said(case.id)),
+            Text(status, STYLES.get(status, "")),
+            Text(f"{sum(v.passed for v in case.verdicts)}/{len(case.verdicts)}"),
+            Text(fraction(ratio(top)) if top else "–"),
+        ]
+        if not narrow:
+            place = f" at {top.where}" if top and top.where else ""
+            cells += [
+                Text(_said(top.check + place) if top else "–"),
+                Text(duration(case.seconds)),
+            ]
+        table.add_row(*cells)
+    return table
+
+
+def _print_problems(case: CaseOutcome, console: Console) -> None:
+    for message in case.errors:
+        console.print(Text(f"error   {_said(case.id)}", STYLES["error"]))
+        console.print(Padding(Text(_said(message)), (0, 0, 0, 8)))
+    for verdict in case.verdicts:
+        if verdict.passed:
+            continue
+        line = Text("failed  ", STYLES["failed"])
+        line.append(f"{_said(case.id)}:{_said(verdict.check)}", "not red")
+        numbers = [f"{n} {scientific(getattr(verdict, n))}" for n in ("error", "bound", "asked")]
+        where = [f"at {_said(plain_tex(verdict.where))}"] if verdict.where else []
+        judged = ", ".join(numbers * (verdict.bound is not None) + where)
+        texts = [judged, _said(plain_tex(verdict.statement)), _said(plain_tex(verdict.detail))]
+        console.print(line)
+        console.print(Padding(Text("\n".join(filter(None, texts))), (0, 0, 0, 8)))
+
+
+def _rank(value: float | None) -> float:
+    return math.inf if value is None or math.isnan(value) else value
+
+
+def _said(text: str) -> str:
+    """The text for a terminal, which control characters would be commands to; its lines stay."""
+    return "\n".join(plain(line) for line in clean(text).split("\n"))

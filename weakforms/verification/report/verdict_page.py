@@ -1,0 +1,41 @@
+"""The verdict on somebody else's curve as files: JSON, a page with its pictures, each picture by itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from markupsafe import Markup
+
+from weakforms.results.io import dumps, require_writable, write_atomically
+from weakforms.verification.crosscheck.compare import Verdicts
+from weakforms.verification.report.figures import LOOK, panel_figure
+from weakforms.verification.report.pages import template
+
+
+def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
+    """Write ``verdicts.json``, ``COLUMN.svg`` for every column judged, and ``index.html`` with all of it.
+
+    Args:
+        verdicts: What :func:`weakforms.compare` returned.
+        folder: Where to; made when missing.
+
+    Returns:
+        The path of ``index.html``.
+
+    Raises:
+        InputError: When the folder cannot be written to.
+    """
+    require_writable(folder)
+    of = {verdict.column: verdict for verdict in verdicts.verdicts}
+    pictures = {
+        picture.name: panel_figure(picture, f"verdict-{picture.name}", (of[picture.name],))
+        for picture in verdicts.pictures
+    }
+    for name, svg in pictures.items():
+        write_atomically(folder / f"{name}.svg", f'<?xml version="1.0" encoding="UTF-8"?>\n{svg}\n')
+    write_atomically(folder / "verdicts.json", dumps(verdicts.to_json()))
+    page = template("verdicts.html").render(
+        verdicts=verdicts, pictures={name: Markup(svg) for name, svg in pictures.items()}, look=LOOK
+    )
+    write_atomically(folder / "index.html", page)
+    return folder / "index.html"

@@ -1,0 +1,1 @@
+"""Runs of the suite: solve, store, judge."""

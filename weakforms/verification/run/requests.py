@@ -1,0 +1,190 @@
+"""Requests of other programs: one JSON file a request, answered by a file of the same name.
+
+A request asks for a solution (``problem``) or for a verdict on a curve (``case``); both are described by
+``request.schema.json``. What comes back is a result, verdicts, or an error with its exit status.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+
+from weakforms.errors import InputError, WeakformsError
+from weakforms.results.io import dumps, first_error, load_json, require_writable, write_atomically
+from weakforms.verification.crosscheck.rows import EXIT_STATUS, FAILED, PASSED
+
+SCHEMA = "weakforms.request/1"
+ERROR_SCHEMA = "weakforms.error/1"
+OUTPUT = "results"
+"""Folder inside the requests' own that answers go to, where no other is named."""
+
+
+@cache
+def schema(name: str) -> dict[str, Any]:
+    """A JSON Schema of this package: ``request``, ``verdicts`` or ``error``."""
+    text = resources.files("weakforms.verification").joinpath(f"{name}.schema.json").read_text("utf-8")
+    return json.loads(text)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What became of one request."""
+
+    name: str
+    status: int
+    """Exit status the same request has on the command line."""
+    message: str = ""
+
+
+def read_request(path: Path) -> dict[str, Any]:
+    """A request from a file.
+
+    Raises:
+        InputError: When it is no JSON, or does not fit the schema.
+    """
+    data = load_json(path, "request")
+    validator = jsonschema.Draft202012Validator(schema("request"))
+    try:
+        error = first_error(validator, data)
+    except RecursionError:
+        raise InputError(f"request {path}: nested too deeply") from None
+    if error is not None:
+        place = "/".join(map(str, error.absolute_path)) or "top level"
+        message = error.message[:200]
+        if error.validator == "oneOf" and not error.absolute_path:
+            message = "it wants either a problem, or a case and a curve"
+        raise InputError(f"request {path}: at {place}: {message}")
+    return data
+
+
+def answer(data: Mapping[str, Any], folder: Path, progress: Any = None) -> tuple[int, dict[str, Any]]:
+    """Exit status and JSON answer of one request.
+
+    Args:
+        data: A request that fits the schema.
+        folder: What names of curve files are relative to; they may not lead out of it.
+        progress: Callback of a solve.
+
+    Raises:
+        WeakformsError: For bad input, or a solve that left nothing.
+    """
+    if "case" in data:
+        from weakforms.verification.crosscheck.compare import compare
+
+        curve = data["curve"]
+        verdicts = compare(
+            data["case"],
+            curve if isinstance(curve, dict) else _inside(folder, curve),
+            data.get("name"),
+            data.get("accuracy"),
+            data.get("map"),
+            data.get("constants"),
+            data.get("columns"),
+            data.get("branch"),
+        )
+        return verdicts.exit_status, verdicts.to_json()
+    from weakforms import api
+
+    solve = api.prepare(
+        data["problem"],
+        data.get("parameters", {}),
+        data.get("numerics", {}),
+        data.get("at", {}),
+        data.get("crossing", 1),
+        data.get("branch", "primary"),
+    )
+    result = solve(progress)
+    return (3 if result.failures else 0), result.to_json()
+
+
+def _inside(folder: Path, name: str) -> Path:
+    try:
+        path = (folder / name).resolve()
+        inside = path.is_relative_to(folder.resolve())
+        regular = path.is_file()
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL in it, a loop of links
+        raise InputError(f"curve {name!r} is no file: {error}") from None
+    if not inside:
+        raise InputError(f"curve {name!r} lies outside of the folder of the request")
+    if not regular:  # of a pipe nobody knows whether anything will ever come
+        raise InputError(f"curve {name!r} is no file in the folder of the request")
+    return path
+
+
+def run_batch(
+    folder: Path,
+    out: Path | None = None,
+    resume: bool = False,
+    writes: bool = True,
+    report: Callable[[str, int, int], None] = lambda *_: None,
+) -> list[Answer]:
+    """Answer every ``*.json`` in a folder, each by a file of the same name in the output folder.
+
+    A request that fails is answered by an error object; the others go on.
+
+    Args:
+        folder: With the requests, and the curves they name.
+        out: For the answers; by default ``results`` inside it.
+        resume: Leave what was answered before (newer than its request) as it is.
+        writes: Whether this process writes (rank 0 of several).
+        report: Progress: what, done, of how many.
+
+    Raises:
+        InputError: When there is no request, or the output folder cannot be written to.
+    """
+    folder = Path(folder)
+    if out is None and (folder / OUTPUT).is_symlink():  # the folder may be somebody else's
+        raise InputError(f"{folder / OUTPUT} is a link; name the folder for the answers with --out")
+    out = folder / OUTPUT if out is None else Path(out)
+    try:
+        requests = sorted(path for path in folder.iterdir() if path.suffix == ".json" and path.is_file())
+    except OSError as error:
+        raise InputError(f"cannot read folder {folder}: {error.strerror}") from error
+    if not requests:
+        raise InputError(f"folder {folder} holds no request: no file that ends in .json")
+    if out.resolve() == folder.resolve():
+        raise InputError(f"answers have the names of their requests: {out} must be another folder")
+    require_writable(out)
+    answers = []
+    for done, path in enumerate(requests):
+        report(path.name, done, len(requests))
+        target = out / path.name
+        kept = _kept(path, target) if resume else None
+        answers.append(kept or _answered(path, target, writes))
+    report("done", len(requests), len(requests))
+    return answers
+
+
+def _answered(path: Path, target: Path, writes: bool) -> Answer:
+    try:
+        status, data = answer(read_request(path), path.parent)
+        message = {0: "", 1: "out of bounds", 3: "not all converged", 5: "not judged"}[status]
+    except WeakformsError as error:
+        status, message = error.exit_status, str(error)
+        data = {"schema": ERROR_SCHEMA, "exit_status": status, "message": message}
+    if writes:
+        write_atomically(target, dumps(data), follow=False)
+    return Answer(path.stem, status, message)
+
+
+def _kept(path: Path, target: Path) -> Answer | None:
+    """An earlier answer that is complete and younger than its request; errors are tried again."""
+    try:
+        if target.stat().st_mtime < path.stat().st_mtime:
+            return None
+        data = load_json(target, "answer")
+    except (OSError, InputError):
+        return None
+    if data.get("schema") == "weakforms.verdicts/1":
+        status = data.get("status") or (PASSED if data["passed"] else FAILED)
+        return Answer(path.stem, EXIT_STATUS[str(status)], "kept") if str(status) in EXIT_STATUS else None
+    if data.get("schema") == "weakforms.result/1" and not data["failures"]:
+        return Answer(path.stem, 0, "kept")
+    return None
