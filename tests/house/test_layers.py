@@ -161,6 +161,26 @@ def test_no_modules_import_each_other_in_a_circle():
     assert left == {}
 
 
+PAGES = [
+    "README.md",
+    "CONTRIBUTING.md",
+    *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("docs/*.md")),
+]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_page_names_files_that_exist(page):
+    """A file or folder of the tree, written with its path; ``paperN`` and ``*`` stand for any."""
+    text = (ROOT / page).read_text("utf-8")
+    named = re.findall(r"(?<![\w/.])((?:weakforms|cases|reference_data|tests|docs)/[\w/.*-]*[\w*/])", text)
+    lost = {
+        path
+        for path in named
+        if not any(ROOT.glob(path.strip("/").replace("paperN", "paper[0-9]"))) and "NAME" not in path
+    }
+    assert lost == set()
+
+
 def test_only_compat_looks_at_versions():
     looking = {
         p.relative_to(ROOT / "weakforms").as_posix()
