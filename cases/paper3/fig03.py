@@ -29,7 +29,7 @@ STIFF, CROSSED, SOFT = At("zw", 4.0), At("zw", 7.5), At("zw", 8.1, crossing=2)
 CROSSINGS = reference(3, "crossings")
 ACCURACY = 1e-7
 """Relative, of a level at which two curves cross."""
-STEP = 1e-3
+STEP = 1e-2
 AROUND = tuple(At("zw", 6.0 + s * STEP) for s in (-1, 0, 1))
 
 

@@ -148,9 +148,7 @@ def eigenvalues(solutions: Solutions) -> Finding:
 def tense(solutions: Solutions) -> Finding:
     """Smallest principal resultants of the states judged."""
     return decide.all_of(
-        decide.positive(
-            f"L = {k[0]}, delta = {k[1]}", solutions.number(TUBES[k], judged(k), "T_min"), decide.LEAST_CLEAR
-        )
+        decide.positive(f"L = {k[0]}, delta = {k[1]}", solutions.number(TUBES[k], judged(k), "T_min"))
         for k in JUDGED
     )
 

@@ -50,7 +50,9 @@ def profiles(result: Result) -> Iterator[tuple[State, Field]]:
     at = [(name, {p["column"]: p["value"]}) for name, record in drawn.items() for p in record["points"]]
     for state in result.states:
         for field in state.fields:
-            if (state.branch, state.at) in at and field.name == "profile":
+            # Bent states have fields over a surface, for which nothing is stated here.
+            meridian = field.name == "profile" and "Theta" not in field.columns
+            if (state.branch, state.at) in at and meridian:
                 yield state, field
 
 

@@ -119,12 +119,14 @@ def _bend(_: Result, state: State, profile: Field) -> quadrature.Estimated | Non
     radii, heights = (quadrature.beyond(x, profile.columns[n], place, 2) for n in ("rho", "eta"))
     if place <= 0 or radii is None or heights is None:
         return None
-    return quadrature.spread(
+    value, doubt = quadrature.spread(
         [
             (z1 * r2 - r1 * z2) / np.hypot(r1, z1) ** 3
             for (_, r1, r2), (_, z1, z2) in zip(radii, heights, strict=True)
         ]
     )
+    noise = profile.uncertainty["rho"] + profile.uncertainty["eta"]
+    return value, doubt + quadrature.gain(x, place, 2) * noise / np.hypot(radii[0][1], heights[0][1]) ** 2
 
 
 def _balance(_: Result, state: State, profile: Field) -> quadrature.Estimated | None:
@@ -150,6 +152,11 @@ def _hoop(result: Result, state: State, c: Columns) -> np.ndarray:
 
 def _displacement(_: Result, __: State, profile: Field) -> quadrature.Estimated:
     return float(profile.columns["rho"][0]) - 1, profile.uncertainty["rho"]
+
+
+def _directions(result: Result) -> int:
+    """Directions in which a test piece is pulled by the same force."""
+    return 2 if result.parameters["loading"] == "equibiaxial" else 1
 
 
 def _gamma(result: Result) -> float:
@@ -282,7 +289,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         stable(),
     ),
     "homogeneous": (
-        work("T", lambda _, c: -c["lam"]),
+        work("T", lambda result, c: -_directions(result) * c["lam"]),
         equal("lam1", "the stretch along the piece", lambda c: c["lam"]),
         read("lam1", "the profile's stretch", end("lam1", 0)),
         read("lam2", "the profile's stretch", end("lam2", 0)),

@@ -57,6 +57,16 @@ def beyond(
     return [[float(fit.deriv(m)(place)) for m in range(derivatives + 1)] for fit in fits]
 
 
+def gain(x: np.ndarray, place: float, derivative: int) -> float:
+    """Most that an error of one in each point changes what :func:`beyond` finds for a derivative."""
+    outside = x[x > place][:BEYOND]
+    found = (
+        np.polynomial.Polynomial.fit(outside, unit, DEGREES[0]).deriv(derivative)(place)
+        for unit in np.eye(len(outside))
+    )
+    return float(np.sum(np.abs(list(found))))
+
+
 def spread(found: Sequence[float]) -> Estimated:
     """The first of the numbers that degrees give, and how far they are apart."""
     return float(found[0]), SAFETY * float(np.max(np.abs(np.diff(found))))

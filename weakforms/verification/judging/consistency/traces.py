@@ -1,4 +1,4 @@
-"""Is the trace that a user takes away right: its own points against states, and against their neighbours.
+"""Is the trace that a user takes away right: its own points against states, and against tables.
 
 Curves are compared at states solved for at the rows of a table; the points of the trace itself come from the
 continuation. They are held against
@@ -6,7 +6,6 @@ continuation. They are held against
 - states solved for at some of them, drawn at random (:mod:`weakforms.results.drawing`), in every column, by
   the rule of all comparisons: |difference| <= 2 sqrt(u_trace^2 + u_state^2), and that bound sharper than
   :data:`SHARP`;
-- the polynomial through their neighbours, which do not know of them: a point that is off by itself shows;
 - the tables of the case, interpolated, where those are dense enough to tell an error of one percent.
 """
 
@@ -23,7 +22,6 @@ from weakforms.verification.cases.references import Reference
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.crosscheck.rows import interpolated
 from weakforms.verification.judging.bounds import Comparison, compare
-from weakforms.verification.judging.consistency.smoothness import SIDE, Windows
 from weakforms.verification.judging.curves import asked_of, reference_of
 from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.run.solutions import Solutions
@@ -40,8 +38,10 @@ DRAWN = 2
 SHARP = 1e-3
 """Bound, relative to the size of the column, that must be sharper: a tenth of an error of one percent."""
 
-BLUNT, BLUNT_TO = ("traction_max", "traction_front"), 0.1
-"""Columns known less sharply, and to what: peaks of traction at the edge of a patch that lets go."""
+BLUNT = ("traction_max", "traction_front", "X_iso")
+"""Columns that some states know less sharply: peaks of traction at the edge of a patch that lets go, and the
+point where two nearly equal stretches cross. There they are not judged, unless off by more than their wide
+bound."""
 
 ZERO = 10.0
 """Size taken for a column that is zero all along: its bound is sharper than 1e-2 in its own unit."""
@@ -58,11 +58,8 @@ SAFETY = 3.0
 LEAST_ROWS = 9
 """Rows of a table that is interpolated."""
 
-NOTICED = 8.0
-"""Times that error a point may be off: a jump of one point moves its neighbours' errors by a tenth of it."""
-
 KINKS = ("contact_onset", "zone_opening", "zone_closing", "cusp_point")
-"""Special points at which columns are not smooth, nor is a window across one."""
+"""Special points at which columns are not smooth."""
 
 
 def is_judged(spec: Spec) -> bool:
@@ -74,15 +71,15 @@ def is_judged(spec: Spec) -> bool:
 
 def names(spec: Spec) -> list[str]:
     """What the verdicts on the traces of a solution will be called."""
-    return [f"trace:{spec}", f"smooth:{spec}"] if is_judged(spec) else []
+    return [f"trace:{spec}"] if is_judged(spec) else []
 
 
 def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
-    """Two verdicts on all traces of a solution."""
+    """One verdict on all traces of a solution."""
     if not is_judged(spec):
         return []
     result = solutions.result(spec)
-    found = list(_against_states(result))
+    found = [*_against_states(result), *_counts(result)]
     counts = [_missing(result, branch) for branch in result.branches]
     states = worst(
         f"trace:{spec}",
@@ -92,13 +89,7 @@ def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
     )
     if missing := [text for text in counts if text]:
         states.passed, states.detail = False, "; ".join([*missing, states.detail])
-    smooth = worst(
-        f"smooth:{spec}",
-        f"every point of the trace of {spec} lies on the polynomial through its neighbours",
-        list(_against_neighbours(result)),
-        "the trace without the point",
-    )
-    return [states, smooth]
+    return [states]
 
 
 Found = tuple[str, str, Comparison]
@@ -180,9 +171,8 @@ def _at_point(branch: Branch, name: str, values: np.ndarray, i: int, state: Stat
     other = quantity.uncertainty or 0.0
     bound = 2 * float(np.hypot(own, other))
     size = size_of(values, bound)
-    if name in BLUNT and bound < BLUNT_TO * size:
-        size = max(size, bound / SHARP)
-    return compare(values[i], own, quantity.value, other, size)
+    found = compare(values[i], own, quantity.value, other, size)
+    return None if name in BLUNT and found.bound > SHARP and found.passed(np.inf) else found
 
 
 def size_of(values: np.ndarray, bound: float) -> float:
@@ -273,33 +263,16 @@ def _with_spread(branch: Branch, name: str, over: str, here: np.ndarray) -> tupl
     return y[here], spread[here]
 
 
-# -- neighbours ----------------------------------------------------------------------------------------------
+# -- counts and kinks ----------------------------------------------------------------------------------------
 
 
-def _against_neighbours(result: Result) -> Iterator[Found]:
+def _counts(result: Result) -> Iterator[Found]:
+    """Numbers of negative eigenvalues are whole, and not negative, at every point."""
     for branch in result.branches:
-        columns = {n: v for n, v in _columns(branch).items() if not n.startswith("n_negative")}
-        whole = {n: v for n, v in _columns(branch).items() if n.startswith("n_negative")}
-        for name, counts in whole.items():
-            off = float(np.max(np.abs(counts - np.round(counts)) + np.maximum(-counts, 0.0), initial=0.0))
-            yield f"{name} ({branch.name})", "a count", compare(off, 0.0, 0.0, 0.0, 1.0)
-        windows = Windows(columns, kinks(result, branch))
-        for name, values in columns.items():
-            yield from _off_neighbours(branch, name, values, windows)
-
-
-def _off_neighbours(branch: Branch, name: str, values: np.ndarray, windows: Windows) -> Iterator[Found]:
-    error, doubt, gain = windows.errors(name)
-    spread = np.asarray(branch.uncertainty.get(name, np.full(len(values), np.nan)), float)
-    padded = np.pad(np.nan_to_num(doubt), SIDE)
-    near = np.max([padded[k : k + len(doubt)] for k in range(2 * SIDE + 1)], axis=0)
-    bound = NOTICED * near + 2 * spread * gain
-    size = size_of(values, float(np.nanmedian(2 * spread)) if np.isfinite(spread).any() else 0.0)
-    judged = np.flatnonzero(np.isfinite(error) & (bound <= SHARP * size))
-    if len(judged):
-        i = judged[int(np.argmax(error[judged] / np.maximum(bound[judged], np.finfo(float).tiny)))]
-        found = compare(error[i], bound[i] / 2, 0.0, 0.0, size)
-        yield f"{name} ({branch.name})", f"point {i} of {len(judged)} that can be judged", found
+        for name, counts in _columns(branch).items():
+            if name.startswith("n_negative"):
+                off = np.max(np.abs(counts - np.round(counts)) + np.maximum(-counts, 0.0), initial=0.0)
+                yield f"{name} ({branch.name})", "a count", compare(float(off), 0.0, 0.0, 0.0, 1.0)
 
 
 def kinks(result: Result, branch: Branch) -> list[int]:
