@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.disk.phases import DiskRun
+from weakforms.results import Quantity
 from weakforms.results import State as StateRecord
 from weakforms.solvers.continuation.branch import FittedBranch, Solved
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -58,6 +59,12 @@ class PeelingBranch(FittedBranch):
         rates = np.array([self._release_rate(p) for p in self.points])
         out["n_negative"] = out["n_negative"] + (rates < 0)
         return out
+
+    def peels(self, state: State) -> bool:
+        """Whether ``G`` falls as the patch grows: the front among the freedoms adds a negative eigenvalue."""
+        near = min(self.points, key=lambda p: abs(p.state.loads["front"] - state.loads["front"]))
+        self.system.set_state(state.u, state.loads)
+        return -self.continuation.rate("G", self.continuation.direction_here(near.tangent)) < 0
 
     @property
     def shown(self) -> list[str]:
@@ -138,6 +145,19 @@ class PeelingFamily(BranchFamily):
     """A peeling curve on all meshes; asked for the state at its pressure, it gives the pull-off point."""
 
     located_by: ClassVar[Mapping[str, str]] = {"pull_off": "G"}
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """As of any branch, with the front among the freedoms that ``n_negative`` counts.
+
+        At pull-off, where the front's own curvature is zero, it does not count as negative.
+        """
+        found = super()._diagnostics(solved, critical)
+        if critical:
+            return found
+        peels = {level.peels(s.state) for level, s in zip(self.levels, solved, strict=True)}
+        if len(peels) != 1:
+            raise ConvergenceError("stability against peeling depends on the mesh: refine it")
+        return found | {"n_negative": Quantity(found["n_negative"].value + peels.pop())}
 
     def state(
         self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None

@@ -186,7 +186,8 @@ SMALLEST_RESULTANT = "the smallest resultant is that of the profile"
 IDENTITIES: dict[str, tuple[Identity, ...]] = {
     "circular": (
         _over(work("p", lambda _, c: -c["V"]), _conserves),
-        stable(),
+        # In peeling the front is among the freedoms counted, and the eigenvalues are those at a held front.
+        _over(stable(), lambda given: given.get("phase") != "peeling"),
         field("lam2", "lam2 = rho beta/X", lambda r, _, c: c["rho"] * r.parameters["beta"] / c["X"]),
         read("t0", "height of the pole", end("eta", 0)),
         read("lam_pole", "stretch of the pole", end("lam1", 0)),

@@ -15,6 +15,9 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(6)
 SAFETY = 3.0
 """Factor of a difference between two degrees, as between two meshes whose order is not known."""
 
+PLACES = 401
+"""Places between two neighbours at which an extreme is looked for."""
+
 BEYOND, DEGREES = 12, (10, 9, 8)
 """Points beyond a place from which one goes back to it, and the degrees of the polynomials through them."""
 
@@ -108,13 +111,15 @@ def _by_interval(weight: BSpline, of: BSpline, edges: np.ndarray) -> np.ndarray:
 
 
 def extreme(x: np.ndarray, y: np.ndarray, pick: Callable[[np.ndarray], int]) -> Estimated:
-    """Largest or smallest value, by a parabola through the three points about that of the points."""
+    """Largest or smallest value, by the splines between the neighbours of the point that has it."""
     i = int(pick(y))
     if not 0 < i < len(y) - 1:
         return float(y[i]), 0.0
-    a, b, c = np.polyfit(x[i - 1 : i + 2] - x[i], y[i - 1 : i + 2], 2)
-    top = float(c - b**2 / (4 * a)) if a else float(y[i])
-    return top, abs(top - float(y[i]))
+    about = np.linspace(x[i - 1], x[i + 1], PLACES)
+    values, others = (spline(about) for spline in splines(x, y))
+    fine, coarse = float(values[pick(values)]), float(others[pick(others)])
+    between = float(np.max(np.abs(np.diff(values, 2))))  # more than the top rises above the places looked at
+    return fine, SAFETY * abs(fine - coarse) + between
 
 
 def lengths(edges: list[float], inside: Callable[[float], bool]) -> float:

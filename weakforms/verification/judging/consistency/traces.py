@@ -55,6 +55,14 @@ ENDS = 2
 SAFETY = 3.0
 """Factor of what interpolating a table may add: that is told for smooth columns, and these have kinks."""
 
+RESOLVED = SHARP / 20
+"""Error of a table's interpolation, as two splines show it, below which the table counts as dense. Where they
+show more, they are no longer near enough to the curve for their difference to be an error bound."""
+
+EXTREMES = ("gw_min", "gw_max", "t_min", "t2_min", "T_min", "z_min", "r_max", "spring_max", "traction_max")
+"""Columns that have a kink wherever their place on the body jumps or reaches an end, which a spline through a
+table does not know: they are held against states only."""
+
 LEAST_ROWS = 9
 """Rows of a table that is interpolated."""
 
@@ -215,12 +223,12 @@ def table_names(table: Reference | None, columns: Iterable[str]) -> list[str]:
 def _dense(table: Reference, name: str) -> np.ndarray:
     """Rows, in rising order of the abscissa, after which the table interpolates a column sharply."""
     rows, values = np.sort(table.columns[table.abscissa]), table.columns[name]
-    if len(rows) < LEAST_ROWS:
+    if len(rows) < LEAST_ROWS or name in EXTREMES:
         return np.array([], int)
     _, slack = interpolated(table.columns[table.abscissa], values, (rows[:-1] + rows[1:]) / 2)
     known = 2 * np.hypot(SAFETY * slack, table.uncertainty[name])
     known[:ENDS] = known[-ENDS:] = np.inf
-    return np.flatnonzero(known <= SHARP / 2 * np.max(np.abs(values)))
+    return np.flatnonzero(known <= RESOLVED * np.max(np.abs(values)))
 
 
 def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -> list[Verdict]:
