@@ -38,10 +38,13 @@ DRAWN = 2
 SHARP = 1e-3
 """Bound, relative to the size of the column, that must be sharper: a tenth of an error of one percent."""
 
-BLUNT = ("traction_max", "traction_front", "X_iso")
-"""Columns that some states know less sharply: peaks of traction at the edge of a patch that lets go, and the
-point where two nearly equal stretches cross. There they are not judged, unless off by more than their wide
-bound."""
+BLUNT = ("traction_max", "traction_front", "kappa", "X_iso")
+"""Columns that some states know less sharply: tractions and curvature at the edge of a patch that lets go, and
+the point where two nearly equal stretches cross. There they are not judged, unless off by more than their
+wide bound."""
+
+SOLVED = 1e-10
+"""To what the two solves stop: the relative step of Newton's method, and the eigensolver's tolerance."""
 
 ZERO = 10.0
 """Size taken for a column that is zero all along: its bound is sharper than 1e-2 in its own unit."""
@@ -177,8 +180,8 @@ def _at_point(branch: Branch, name: str, values: np.ndarray, i: int, state: Stat
     spread = branch.uncertainty.get(name)
     own = 0.0 if quantity.uncertainty is None else float("nan") if spread is None else float(spread[i])
     other = quantity.uncertainty or 0.0
-    bound = 2 * float(np.hypot(own, other))
-    size = size_of(values, bound)
+    size = size_of(values, 2 * float(np.hypot(own, other)))
+    own = float(np.hypot(own, SOLVED * size))
     found = compare(values[i], own, quantity.value, other, size)
     return None if name in BLUNT and found.bound > SHARP and found.passed(np.inf) else found
 
