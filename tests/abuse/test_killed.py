@@ -110,7 +110,8 @@ def test_killed_at_many_moments(tree, tmp_path, undisturbed, seed, jobs):
 
 SLOWLY = """
 from weakforms.results import io
-from weakforms.verification import report, runner
+from weakforms.verification.report import report
+from weakforms.verification.run import runner
 import os, time
 def halfway(path, text, *_):
     path = os.fspath(path)

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import os
 import subprocess
 import sys
@@ -177,7 +178,7 @@ def test_python_gives_what_the_command_gives(weakforms):
 
 def test_what_converged_is_kept_and_the_rest_is_named(weakforms, tmp_path, monkeypatch):
     monkeypatch.setattr(StepControl, "max_points", 8)
-    monkeypatch.setattr(StepControl.__init__, "__defaults__", (0.05, 0.1, 1e-7, 2e-3, 0.85, 8))
+    monkeypatch.setattr(StepControl.__init__, "__defaults__", (0.05, 0.1, 1e-7, 2e-3, 0.85, 0.1, 8, math.inf))
     called = weakforms(*TUBE, *COARSE, "--out", tmp_path / "r.json")
     assert called.status == 3
     assert "did not end within 8 points" in called.err
@@ -263,7 +264,7 @@ def test_verdicts_as_json(weakforms, written):
 
 
 def test_our_own_result_passes_as_a_curve(weakforms, result):
-    called = weakforms("compare", CASE, result, "--curve", CURVE, "--json")
+    called = weakforms("compare", CASE, result, "--curve", CURVE, "--accuracy", "1e-6", "--json")
     data = json.loads(called.out)
     assert (called.status, len(data["verdicts"])) == (0, 4)
     # Near p = 0 the table is too coarse for rows between its own: said, not passed over.

@@ -19,7 +19,7 @@ from weakforms.verification.cases.specs import tube
 from weakforms.verification.run import runner
 from weakforms.verification.run.effort import Effort
 
-PAGES = {"faults.html", "index.html", "junit.xml", "paper2.html", "report.json"}
+PAGES = {"audit.html", "faults.html", "index.html", "junit.xml", "paper2.html", "report.json"}
 
 TINY = '''"""Two short branches."""
 from weakforms import At, Axis, Case, Claim, Curve, Panel, tube
@@ -222,7 +222,7 @@ def starter(tree):
     path.parent.mkdir(parents=True)
     path.write_text(MANY)
     code = (
-        "import sys; from pathlib import Path; from weakforms.verification import discovery\n"
+        "import sys; from pathlib import Path; from weakforms.verification.cases import discovery\n"
         f"find = discovery.find_cases; discovery.find_cases = lambda: find(Path({str(tree)!r}))\n"
         "sys.argv[0] = 'weakforms'; from weakforms.cli import main; main()"
     )

@@ -312,7 +312,8 @@ def test_without_a_fault_the_same_checks_hold(tmp_path):
     found = FoundCase("paper4.sentinel", 4, Path(__file__), SENTINEL, "")
     (outcome,) = verify([found], tmp_path, "full", "").cases
     assert outcome.status == "passed"
-    assert len(outcome.verdicts) == 3
+    of_every_case = ("trace", "identities", "marks")
+    assert len([v for v in outcome.verdicts if v.check.partition(":")[0] not in of_every_case]) == 3
 
 
 @pytest.mark.parametrize("shift", [4e-15, -4e-15])

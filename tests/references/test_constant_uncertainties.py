@@ -85,8 +85,8 @@ def found_in(text: str, modules: dict[str, set[str]]) -> set[str]:
     own, aliases, kept = set(constants(tree)), {}, {}
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom):
-            own |= modules.get((node.module or "").rpartition(".")[2], set()) & {a.name for a in node.names}
-            aliases |= {a.asname or a.name: a.name for a in node.names}
+            own |= modules.get(node.module or "", set()) & {a.name for a in node.names}
+            aliases |= {a.asname or a.name: f"{node.module}.{a.name}" for a in node.names}
     for node in tree.body:
         for name in constants(ast.Module([node], [])):
             kept |= {id(n): name for n in ast.walk(node)}
@@ -104,19 +104,21 @@ def found_in(text: str, modules: dict[str, set[str]]) -> set[str]:
 
 def all_found() -> dict[tuple[str, str], str]:
     """(file, name or number) of every constant that ends in an uncertainty."""
-    texts = {p: p.read_text() for folder in FOLDERS for p in sorted((ROOT / folder).glob("*.py"))}
-    modules = {p.stem: set(constants(ast.parse(text))) for p, text in texts.items()}
+    paths = sorted(p for folder in FOLDERS for p in (ROOT / folder).rglob("*.py"))
+    texts = {p: p.read_text() for p in paths}
+    dotted = {p: ".".join(p.relative_to(ROOT).with_suffix("").parts) for p in paths}
+    modules = {dotted[p]: set(constants(ast.parse(text))) for p, text in texts.items()}
     return {
-        (p.stem, name): str(p.relative_to(ROOT))
+        (re.sub(r"^(reference_data/solvers|weakforms)/", "", p.relative_to(ROOT).as_posix()), name): str(p)
         for p, text in texts.items()
         for name in found_in(text, modules)
     }
 
 
 def listed() -> set[tuple[str, str]]:
-    """(file, name or number) of every row of the table of constants."""
+    """(file, name or number) of every row of the table of constants; files as within their side."""
     text = PAGE.read_text()
-    rows = re.findall(r"^\| `([a-z0-9_]+)\.py` \| ([^|]+) \|", text, re.MULTILINE)
+    rows = re.findall(r"^\| `([a-z0-9_/]+\.py)` \| ([^|]+) \|", text, re.MULTILINE)
     named = [(stem, name) for stem, names in rows for name in re.findall(r"`([^`]+)`", names)]
     return {(stem, f"{float(name):g}" if name[0].isdigit() else name) for stem, name in named}
 
@@ -124,10 +126,10 @@ def listed() -> set[tuple[str, str]]:
 def ratios() -> dict[str, float]:
     """Largest difference of two methods over what both allow together, by module of tables."""
     modules = {}
-    for info in pkgutil.iter_modules(solvers.__path__):
-        if re.match(r"paper\d|(materials|closed_form)_tables", info.name):
-            module = importlib.import_module(f"{solvers.__name__}.{info.name}")
-            modules |= dict.fromkeys(module.TABLES, info.name)
+    for info in pkgutil.walk_packages(solvers.__path__, f"{solvers.__name__}."):
+        if info.name.rpartition(".")[2].startswith("tables") and ".core." not in info.name:
+            module = importlib.import_module(info.name)
+            modules |= dict.fromkeys(module.TABLES, "/".join(info.name.split(".")[2:]))
     out: dict[str, float] = {}
     for path in (ROOT / "reference_data").glob("*/*.toml"):
         for column in tomllib.loads(path.read_text())["columns"].values():

@@ -228,7 +228,9 @@ def test_the_first_branch_of_a_result_is_the_curve(tmp_path):
     other = {name: [2.0 * value for value in values] for name, values in COLUMNS.items()}
     branches = [Branch("primary", "p", COLUMNS).to_json(), Branch("secondary", "p", other).to_json()]
     (tmp_path / "c.json").write_text(json.dumps(full().to_json() | {"branches": branches}))
-    assert {key: values.tolist() for key, values in read_curve(tmp_path / "c.json").items()} == COLUMNS
+    assert {
+        key: values.tolist() for key, values in read_curve(tmp_path / "c.json").columns.items()
+    } == COLUMNS
 
 
 def test_validation_does_not_change_what_it_sees():

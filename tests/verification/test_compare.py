@@ -176,7 +176,10 @@ def test_an_abscissa_off_by_rounding_loses_no_row(units, falling):
     verdicts = verdict_on(PIECE, curve)
     assert verdicts.passed
     assert (verdicts.rows, verdicts.ignored_rows, verdicts.partial) == (29, 0, False)
-    assert verdicts.verdicts[0].bound == pytest.approx(1e-8, rel=0.1)
+    (verdict,) = verdicts.verdicts
+    assert (
+        verdict.bound < 10 * verdict.asked
+    )  # the rounding times the slope, and nothing of the interpolation
 
 
 def test_the_rows_that_linspace_gives_are_all_judged():

@@ -154,7 +154,7 @@ def test_lines_are_noted_once_and_kept(tmp_path, monkeypatch):
     assert (found.unit, found.passed) == (BOUNDS, True)
     test = f"{BOUNDS}::test_two_numbers"
     source = (ROOT / "weakforms/verification/judging/bounds.py").read_text().split("\n")
-    line = next(k for k, text in enumerate(source, 1) if "bound = 2.0 * np.hypot" in text)
+    line = next(k for k, text in enumerate(source, 1) if "bound = FACTOR * np.hypot" in text)
     assert found.sees(test, "weakforms/verification/judging/bounds.py", line, ROOT)
     comment = next(k for k, text in enumerate(source, 1) if text.startswith('"""'))
     assert not found.sees(test, "weakforms/verification/judging/bounds.py", comment, ROOT)

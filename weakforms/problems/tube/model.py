@@ -185,7 +185,8 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
     system = solver.system
     state = system.state()
     if delta1 >= TAUT:
-        if not np.isfinite(system.monitor("Pi")):
+        forces = system.residual()
+        if not np.isfinite(system.dot(forces, forces)):
             raise InputError(
                 f"delta1 = {delta1:g} alone stretches the membrane beyond what its law allows; lower delta1 "
                 "(delta1_end of tube_fold), or raise the constant that limits stretches (jm, or links)"

@@ -29,12 +29,15 @@ from weakforms.verification.cases.references import ROOT
 FOLDERS = ("weakforms", "reference_data")
 """Where the lines are that are noted."""
 
-UNSEEN = ("tests/mpi/", "tests/unit/test_faults", "tests/cases/test_cases")
+UNSEEN = ("tests/mpi/", "tests/verification/test_faults", "tests/cases/test_cases")
 """Tests that show nothing here: processes of their own, the machinery itself, the cases once more."""
 
 REGISTRY = "reference_data/solvers/registry.py"
-REGISTERED = re.compile(r"reference_data/solvers/(paper\d|\w+_tables)\w*\.py")
+REGISTERED = re.compile(r"reference_data/solvers/\w+/tables\w*\.py")
 """What finds the modules of tables, and their names: it imports them without naming them."""
+
+PROBLEMS = "weakforms/problems/__init__.py"
+"""What imports every module beside it in the same way."""
 
 UNKNOWN = 10.0
 """Seconds that a case or a test is taken to need before it was measured."""
@@ -216,6 +219,8 @@ class Imports:
                 self._used_by[module].add(name)
             if REGISTERED.fullmatch(name):
                 self._used_by[name].add(REGISTRY)
+            if name.startswith("weakforms/problems/") and name != PROBLEMS:
+                self._used_by[name].add(PROBLEMS)
 
     def watching(self, file: str, known: set[str]) -> Iterator[str]:
         """Test functions and cases that reach a file by imports, the nearest first.

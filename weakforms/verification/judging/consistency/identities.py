@@ -89,9 +89,10 @@ def slope(of: str, over: str, column: str) -> Identity:
             fine, coarse = (spline(x, 1) for spline in quadrature.splines(x, y))
             none = np.full(len(x), np.nan)
             size = max(float(np.abs(d).max()), 1e-6)
+            # Two splines are close by accident at one point, hardly at several that follow.
+            doubt = maximum_filter1d(quadrature.SAFETY * np.abs(fine - coarse), 5)
             for i in range(2, len(x) - 2):
-                own, doubt = branch.uncertainty.get(column, none)[i], abs(fine[i] - coarse[i])
-                found = compare(d[i], own, fine[i], quadrature.SAFETY * doubt, size)
+                found = compare(d[i], branch.uncertainty.get(column, none)[i], fine[i], doubt[i], size)
                 yield f"{column} ({branch.name})", f"{over} = {x[i]:.6g}", found
 
     return Identity(column, f"{column} is the derivative of {of} over {over}", look)

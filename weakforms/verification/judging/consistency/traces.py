@@ -39,8 +39,8 @@ SHARP = 1e-3
 """Bound, relative to the size of the column, that must be sharper: a tenth of an error of one percent."""
 
 BLUNT = ("traction_max", "traction_front", "kappa", "X_iso")
-"""Columns that some states know less sharply: tractions and curvature at the edge of a patch that lets go, and
-the point where two nearly equal stretches cross. There they are not judged, unless off by more than their
+"""Columns that some states know less sharply: tractions and curvature at the edge of a patch that lets go,
+and the point where two nearly equal stretches cross. There they are not judged, unless off by more than their
 wide bound."""
 
 SOLVED = 1e-10
