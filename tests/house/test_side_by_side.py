@@ -68,7 +68,7 @@ def start(tmp_path):
 def test_a_case_and_a_file_stay_in_one_worker(start):
     files = {"cases/test_cases.py": CASES, "test_one.py": FILE, "test_two.py": FILE}
     run = start(files, "-n", "2", "-rP", "tests")
-    said, _ = run.communicate(timeout=60)
+    said, _ = run.communicate(timeout=180)
     assert run.returncode == 0, said
     ran = set(re.findall(r"^ran (\S+) (\d+)$", said, re.M))
     assert sorted(name for name, _ in ran) == ["paper1.a", "paper2.b", "test_one", "test_two"]
@@ -77,7 +77,7 @@ def test_a_case_and_a_file_stay_in_one_worker(start):
 
 def test_a_crash_of_a_worker_is_said_and_the_rest_goes_on(start):
     run = start({"test_crash.py": CRASH, "test_one.py": FILE}, "-n", "2", "tests")
-    said, _ = run.communicate(timeout=60)
+    said, _ = run.communicate(timeout=180)
     assert run.returncode == 1, said
     assert "crashed while running 'tests/test_crash.py::test_crash'" in said
     assert "Segmentation fault" in said
@@ -91,7 +91,7 @@ def test_an_interrupt_is_said_and_ends_every_worker(start, tmp_path):
         time.sleep(0.05)
     time.sleep(1.2)
     run.send_signal(signal.SIGINT)
-    said, _ = run.communicate(timeout=60)  # the pipe closes when the last of them is gone
+    said, _ = run.communicate(timeout=180)  # the pipe closes when the last of them is gone
     assert run.returncode == 2, said
     assert "KeyboardInterrupt" in said
     assert "2 of 3 tests done; now tests/test_wait.py::test_wait" in said
@@ -100,6 +100,6 @@ def test_an_interrupt_is_said_and_ends_every_worker(start, tmp_path):
 @pytest.mark.parametrize(("word", "workers"), [("tests", True), ("tests/test_one.py", False)])
 def test_one_file_needs_no_worker(start, word, workers):
     run = start({"test_one.py": FILE, "test_two.py": FILE}, "-n", "auto", word)
-    said, _ = run.communicate(timeout=60)
+    said, _ = run.communicate(timeout=180)
     assert run.returncode == 0, said
     assert bool(re.search(r"^\d+ workers? \[", said, re.M)) == workers

@@ -25,7 +25,7 @@ from weakforms.verification.cases import gallery
 from weakforms.verification.cases.catalogue import describe
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import ROOT
-from weakforms.verification.report.figures import LOOK, TEMPLATES
+from weakforms.verification.report.look import LOOK, TEMPLATES
 from weakforms.verification.report.summary import html_tex
 
 VARIATIONS = (

@@ -5,14 +5,12 @@ Text is drawn as paths, the same everywhere; colours are CSS variables falling b
 
 from __future__ import annotations
 
-import json
 import math
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from io import StringIO
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import matplotlib.style
@@ -26,18 +24,16 @@ from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
 
 from weakforms.verification.judging.outcome import Convergence, CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.report.junit import clean, inline_svg
+from weakforms.verification.report.look import HEIGHT, LEFT, LOOK, RIGHT, WIDTH
 from weakforms.verification.report.summary import describe, describe_histories, of_curve, plain_tex
 
-TEMPLATES = Path(__file__).parent / "templates"
-LOOK = json.loads((TEMPLATES / "figures.json").read_text("utf-8"))
-"""Colours for light and dark pages (the style sheet takes them from here too), markers, style."""
 INK, MUTED = LOOK["light"]["ink"], LOOK["light"]["muted"]
 POINTS, MARKERS = LOOK["points"], LOOK["markers"]
 PALETTE = [colour for name, colour in LOOK["light"].items() if name[1:].isdigit()]
 KINDS = list(zip(PALETTE * len(MARKERS), MARKERS * len(PALETTE), strict=True))
 """A colour and a marker a curve, so that nothing rests on colour alone."""
-WIDTH, NARROW, LEFT, RIGHT, FOOT = 4.9, 4.2, 0.68, 0.16, 0.5
-"""Inches: small enough that the text stays readable at the width of a phone."""
+NARROW, FOOT = 4.2, 0.5
+"""Width of a narrower figure, and room below axes, in inches."""
 SHOWN = 22
 """Reference markers drawn a curve; it is compared at every row of its table all the same."""
 SIDES = ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
@@ -58,8 +54,8 @@ def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = 
     residuals = any(len(curve.residual) for curve in panel.curves)
     lower = 1.97 if residuals else 0.0
     with drawing(ident):
-        figure, keyed = _with_legend(_panel_keys(panel), WIDTH, 3.2 + FOOT, lower)
-        place = (lower + keyed + FOOT, 3.2)
+        figure, keyed = _with_legend(_panel_keys(panel), WIDTH, HEIGHT + FOOT, lower)
+        place = (lower + keyed + FOOT, HEIGHT)
         axes = _axes(figure, *place, as_math(panel.x_label), as_math(panel.y_label))
         for limits, setter in ((panel.x_range, axes.set_xlim), (panel.y_range, axes.set_ylim)):
             if all(map(math.isfinite, limits)) and limits[0] != limits[1]:

@@ -28,8 +28,9 @@ from weakforms.verification.judging.outcome import (
 )
 from weakforms.verification.report import summary
 from weakforms.verification.report.elsewhere import Elsewhere
-from weakforms.verification.report.figures import LOOK, TEMPLATES, convergence_figure, panel_figure
+from weakforms.verification.report.figures import convergence_figure, panel_figure
 from weakforms.verification.report.junit import clean
+from weakforms.verification.report.look import LOOK, TEMPLATES
 from weakforms.verification.report.surface_figures import surface_figure
 from weakforms.verification.run.workers import workers
 

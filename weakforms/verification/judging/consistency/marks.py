@@ -7,10 +7,7 @@ import numpy as np
 from weakforms.verification.cases.case import Case, Panel
 from weakforms.verification.judging.curves import reference_of
 from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome, Verdict
-from weakforms.verification.report.figures import LEFT, LOOK, RIGHT, WIDTH
-
-HEIGHT = 3.2
-"""Of a panel's axes, inches; see :func:`weakforms.verification.report.figures.panel_figure`."""
+from weakforms.verification.report.look import HEIGHT, LEFT, LOOK, RIGHT, WIDTH
 
 MARK = LOOK["style"]["lines.markersize"]
 """Size of a mark, points."""
