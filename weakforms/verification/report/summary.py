@@ -146,9 +146,10 @@ def accuracies(run: RunOutcome) -> list[Accuracy]:
 
 
 def of_curve(curve: CurveOutcome, verdicts: Iterable[Verdict]) -> list[Verdict]:
-    """The checks that hold this curve against its reference table."""
+    """The checks that hold this curve against its reference table, at the table's own rows."""
     name = curve.reference_name
-    return [v for v in verdicts if name and (v.reference == name or v.check.split(":")[0] == name)]
+    at_rows = (v for v in verdicts if v.kind != "trace")
+    return [v for v in at_rows if name and (v.reference == name or v.check.split(":")[0] == name)]
 
 
 def plain_tex(text: str) -> str:
