@@ -91,7 +91,9 @@ def at_front(front: str, field: str, kink: bool = True) -> Reading:
         x = next(iter(profile.columns.values()))
         place = state.quantities[front].value if front in state.quantities else 0.0
         column = profile.columns[field]
-        found = quadrature.beyond(x, column, place, either=not kink) if place > 0 else None
+        # At an end there is none: a liquid that stands above the whole membrane has no level on it.
+        inside = x[0] < place < x[-1]
+        found = quadrature.beyond(x, column, place, either=not kink) if inside else None
         return None if found is None else quadrature.spread([value for (value,) in found])
 
     return reading
@@ -150,7 +152,12 @@ def rate(load: str, reading: Reading, weight: Callable[[Result], float]) -> Iden
             if part is None or not (np.all(np.diff(x[part]) > 0) or np.all(np.diff(x[part]) < 0)):
                 continue
             order = np.argsort(x[part])
-            slope, doubt = quadrature.value_at(x[part][order], pi[part][order], x[i], 1)
+            along = x[part][order]
+            slopes = [spline(along, 1) for spline in quadrature.splines(along, pi[part][order])]
+            k = int(np.searchsorted(along, x[i]))
+            # Two splines are close by accident at one point, hardly at several that follow.
+            doubt = quadrature.SAFETY * np.max(np.abs(slopes[0] - slopes[1])[max(k - 2, 0) : k + 3])
+            slope = slopes[0][k]
             volume, spread = reading(result, state, profile)
             scale = -weight(result)
             size = abs(scale) * max(abs(volume), SMALL)

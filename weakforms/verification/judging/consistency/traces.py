@@ -62,6 +62,10 @@ RESOLVED = SHARP / 20
 """Error of a table's interpolation, as two splines show it, below which the table counts as dense. Where they
 show more, they are no longer near enough to the curve for their difference to be an error bound."""
 
+DENSE = 0.5
+"""Part of a table's intervals that must be resolved for a column to be interpolated at all: the few that are
+in a coarse table may lie between two points of a trace, and may look resolved by accident."""
+
 EXTREMES = ("gw_min", "gw_max", "t_min", "t2_min", "T_min", "z_min", "r_max", "spring_max", "traction_max")
 """Columns that have a kink wherever their place on the body jumps or reaches an end, which a spline through a
 table does not know: they are held against states only."""
@@ -224,14 +228,18 @@ def table_names(table: Reference | None, columns: Iterable[str]) -> list[str]:
 
 
 def _dense(table: Reference, name: str) -> np.ndarray:
-    """Rows, in rising order of the abscissa, after which the table interpolates a column sharply."""
+    """Rows, in rising order of the abscissa, after which the table interpolates a column sharply.
+
+    None where fewer than the part :data:`DENSE` of them does.
+    """
     rows, values = np.sort(table.columns[table.abscissa]), table.columns[name]
     if len(rows) < LEAST_ROWS or name in EXTREMES:
         return np.array([], int)
     _, slack = interpolated(table.columns[table.abscissa], values, (rows[:-1] + rows[1:]) / 2)
     known = 2 * np.hypot(SAFETY * slack, table.uncertainty[name])
     known[:ENDS] = known[-ENDS:] = np.inf
-    return np.flatnonzero(known <= RESOLVED * np.max(np.abs(values)))
+    resolved = np.flatnonzero(known <= RESOLVED * np.max(np.abs(values)))
+    return resolved if len(resolved) >= DENSE * len(known) else resolved[:0]
 
 
 def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -> list[Verdict]:
