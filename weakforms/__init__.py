@@ -8,29 +8,8 @@ from weakforms.errors import (
     WeakformsError,
 )
 from weakforms.scaling import dimensional, nondimensional
-from weakforms.verification.cases.case import (
-    Axis,
-    Case,
-    Claim,
-    Constant,
-    Count,
-    Curve,
-    CutOff,
-    Dashed,
-    Line,
-    Misprint,
-    OnGrid,
-    Order,
-    Panel,
-    Path,
-    Points,
-    Printed,
-    PrintedExact,
-    PrintedInput,
-    PrintedState,
-    States,
-    Surface,
-)
+from weakforms.verification.cases.case import Case
+from weakforms.verification.cases.panels import Axis, Dashed, Line, Panel, Path, Surface
 from weakforms.verification.cases.references import load as reference
 from weakforms.verification.cases.specs import (
     At,
@@ -59,6 +38,12 @@ from weakforms.verification.cases.specs import (
 )
 from weakforms.verification.crosscheck.compare import compare
 from weakforms.verification.judging import continuity, decide
+from weakforms.verification.judging.checks.curve import Curve
+from weakforms.verification.judging.checks.order import Order
+from weakforms.verification.judging.checks.points import Count, Points, States
+from weakforms.verification.judging.checks.printed import Printed, PrintedExact, PrintedInput, PrintedState
+from weakforms.verification.judging.checks.readings import CutOff, Misprint, OnGrid
+from weakforms.verification.judging.checks.statements import Claim, Constant
 from weakforms.verification.judging.decide import Finding
 from weakforms.verification.run.solutions import Solutions
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from shared_run import SharedRun
 
+from weakforms import Case, Claim
 from weakforms.errors import ConvergenceError
-from weakforms.verification.cases.case import Case, Claim
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.specs import At, tube
 from weakforms.verification.run import runner

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from weakforms.verification.judging.bounds import compare
-from weakforms.verification.judging.ledger import rounds_to
+from weakforms.verification.judging.checks.readings import rounds_to
 
 NAN, INF = float("nan"), float("inf")
 

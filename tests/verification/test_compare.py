@@ -16,7 +16,6 @@ from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.crosscheck.columns import require_same_parameters
 from weakforms.verification.crosscheck.compare import tables_of
 from weakforms.verification.crosscheck.rows import FLOOR, interpolated, judge_column, met, scale_of
-from weakforms.verification.judging.curves import asked_of
 from weakforms.verification.run.requests import schema
 
 FREE = ("paper1.free", "free_alpha_0.1_beta_2")
@@ -339,7 +338,7 @@ def tables():
     for found in find_cases():
         for name in tables_of(found):
             curves = [c for p in found.case.panels for c in p.curves if c.reference == name]
-            yield found, name, {k: v for c in curves for k, v in asked_of(c, found.case).items()}
+            yield found, name, {k: v for c in curves for k, v in c.asked.items()}
 
 
 ALL = list(tables())

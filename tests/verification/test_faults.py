@@ -40,7 +40,6 @@ from weakforms.verification.audit.faults.probe import narrowed
 from weakforms.verification.audit.faults.runner import run_faults
 from weakforms.verification.cases.discovery import find_cases, get_case
 from weakforms.verification.cases.references import ROOT
-from weakforms.verification.judging.judge import names
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.pages import render, render_whole
 
@@ -91,8 +90,8 @@ def test_a_part_of_a_case_keeps_the_names_of_its_checks():
     whole, part = get_case("closed_form.sphere"), narrowed(get_case("closed_form.sphere"), "limits_gent")
     assert not part.case.surfaces
     assert 0 < len(part.case.checks) < len(whole.case.checks)
-    assert {n for c in part.case.checks for n in names(c, part.paper)} < {
-        n for c in whole.case.checks for n in names(c, whole.paper)
+    assert {n for c in part.case.checks for n in c.names(part.paper)} < {
+        n for c in whole.case.checks for n in c.names(whole.paper)
     }
 
 

@@ -118,7 +118,7 @@ def test_all_of_the_source_is_drawn_from_but_what_judges():
     drawn_from = {p.relative_to(ROOT).as_posix() for group in GROUPS for p in sources(group)}
     assert {"weakforms/forms/fluid.py", "weakforms/scaling.py", "weakforms/api.py"} < drawn_from
     assert {
-        "weakforms/verification/judging/judge.py",
+        "weakforms/verification/judging/checks/points.py",
         "reference_data/solvers/paper2/differences/equations.py",
     } < drawn_from
     assert not any(name.startswith(WITHOUT) for name in drawn_from)

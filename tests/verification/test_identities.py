@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from weakforms import circular, hemisphere, homogeneous, infinite_tube, sphere, tube
-from weakforms.verification.judging.consistency import identities, quadrature
+from weakforms.verification.judging.consistency import quadrature
+from weakforms.verification.judging.consistency.identities import Identities
 from weakforms.verification.judging.consistency.identity_table import IDENTITIES
 from weakforms.verification.judging.consistency.traces import TRACED
 from weakforms.verification.run.runner import solve_spec
@@ -33,7 +34,7 @@ def solved():
 
 
 def verdict(name, result):
-    (found,) = identities.judge(SPECS[name], Solutions({SPECS[name]: result}))
+    (found,) = Identities(SPECS[name]).judge(0, Solutions({SPECS[name]: result}))
     return found
 
 
@@ -41,7 +42,7 @@ def verdict(name, result):
 def test_identities_hold(solved, name):
     found = verdict(name, solved[name])
     assert found.passed, found
-    assert found.check in identities.names(SPECS[name])
+    assert found.check in Identities(SPECS[name]).names(0)
 
 
 @pytest.mark.parametrize("factor", [1.01, -1.0])
@@ -70,7 +71,8 @@ def test_a_sign_of_the_lowest_eigenvalue_fails(solved):
 
 def test_every_problem_with_traces_has_identities():
     assert set(IDENTITIES) == TRACED
-    assert identities.names(hemisphere().on(degree=2)) == identities.names(homogeneous().on(levels=2)) == []
+    assert Identities(hemisphere().on(degree=2)).names(0) == []
+    assert Identities(homogeneous().on(levels=2)).names(0) == []
 
 
 def test_numbers_of_points_carry_what_they_are_off():

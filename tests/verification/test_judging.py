@@ -14,12 +14,8 @@ from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.cases.specs import At
 from weakforms.verification.crosscheck.rows import judge_column
-from weakforms.verification.judging import (
-    curves,
-    decide,
-    ledger,  # noqa: F401  (registers its checks)
-)
-from weakforms.verification.judging.judge import judge
+from weakforms.verification.judging import decide
+from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.run.runner import verify
 
 SPEC = tube(alpha=0.1)
@@ -47,7 +43,7 @@ class Solutions:
 
 
 def verdicts_of(check, paper=2, **known):
-    return judge(check, paper, Solutions(**known))[0]
+    return [item for item in check.judge(paper, Solutions(**known)) if isinstance(item, Verdict)]
 
 
 @pytest.mark.parametrize(("found", "passes"), [(0, False), (1, True), (2, False)])
@@ -139,9 +135,9 @@ def test_a_case_that_judges_nothing_fails(tmp_path):
 
 def test_a_table_for_other_parameters_is_refused():
     right = Curve(tube(alpha=0.1, delta1=1.1), "", reference="fig03a_delta1_1.1")
-    assert curves.reference_of(2, right).name == right.reference
+    assert right.table(2).name == right.reference
     with pytest.raises(InputError, match=r"is for delta1 = 1\.1, the case compares delta1 = 1\.3"):
-        curves.reference_of(2, Curve(tube(alpha=0.1, delta1=1.3), "", reference="fig03a_delta1_1.1"))
+        Curve(tube(alpha=0.1, delta1=1.3), "", reference="fig03a_delta1_1.1").table(2)
 
 
 def test_a_meridian_is_read_at_its_angle():

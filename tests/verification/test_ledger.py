@@ -8,8 +8,6 @@ import pytest
 from weakforms import CutOff, Misprint, OnGrid, Printed, PrintedExact, PrintedInput, PrintedState, tube
 from weakforms.results import Quantity
 from weakforms.verification.cases.specs import At
-from weakforms.verification.judging import ledger  # noqa: F401  (registers its checks)
-from weakforms.verification.judging.judge import judge
 
 SPEC, AT = tube(alpha=0.1), At("p", 1.5)
 HOSTILE = [(nan, 1e-9), (42.0, 1e-9), (1e9, 1e-9), (inf, 0.0), (nan, nan)]
@@ -19,7 +17,7 @@ WRONG = Misprint("0.5569", "the digits are swapped")
 
 def entry_of(check, **known):
     """Verdict and entry of a check on the solutions given."""
-    (verdict,), (entry,), _ = judge(check, 2, SimpleNamespace(**known))
+    verdict, entry = check.judge(2, SimpleNamespace(**known))
     return verdict.passed, entry.status
 
 

@@ -7,8 +7,8 @@ from weakforms import Curve, tube
 from weakforms.results import Branch, Quantity, Result, State
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.judging.consistency import marks
-from weakforms.verification.judging.curves import _with_states
 from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome
+from weakforms.verification.judging.panels import _with_states
 from weakforms.verification.run.solutions import Solutions
 
 

@@ -173,7 +173,11 @@ def test_columns_the_case_does_not_ask_for_need_an_accuracy(monkeypatch):
     from weakforms.verification.crosscheck import compare as module
 
     found = get_case("paper2.fig03")
-    found = replace(found, case=replace(found.case, asked={"p": 1e-7}))
+    panels = [
+        replace(panel, curves=tuple(replace(c, asked={"p": 1e-7}) for c in panel.curves))
+        for panel in found.case.panels
+    ]
+    found = replace(found, case=replace(found.case, panels=tuple(panels)))
     monkeypatch.setattr(module, "get_case", lambda _: found)
     with pytest.raises(InputError, match="that are judged: p"):
         compare("paper2.fig03", curve, "fig03a_delta1_1")

@@ -9,10 +9,11 @@ from weakforms import tube
 from weakforms.results import Branch, Quantity, Result, State
 from weakforms.results.drawing import draw, seed_of
 from weakforms.verification.cases.references import Reference
-from weakforms.verification.judging.consistency import traces
+from weakforms.verification.judging.consistency import table_traces, traces
 from weakforms.verification.run.solutions import Solutions
 
 SPEC = tube(alpha=0.1)
+TRACE = traces.Trace(SPEC)
 U = np.linspace(0.0, 5.0, 120) ** 1.1
 COLUMNS = {"u_max": U, "p": 2 * np.tanh(U) - 0.1 * U, "V": 1 + U + U**2}
 
@@ -37,12 +38,12 @@ def stored(**changed: np.ndarray) -> Solutions:
 
 
 def verdicts(solutions: Solutions) -> dict[str, bool]:
-    return {v.check.partition(":")[0]: v.passed for v in traces.judge(SPEC, solutions)}
+    return {v.check.partition(":")[0]: v.passed for v in TRACE.judge(2, solutions)}
 
 
 def test_a_trace_that_is_its_states_passes():
     assert verdicts(stored()) == {"trace": True}
-    assert [v.check for v in traces.judge(SPEC, stored())] == traces.names(SPEC)
+    assert [v.check for v in TRACE.judge(2, stored())] == TRACE.names(2)
 
 
 @pytest.mark.parametrize("name", COLUMNS)
@@ -78,10 +79,10 @@ def test_a_trace_is_held_against_a_table(factor):
     columns = {"u_max": rows, "p": 2 * np.tanh(rows) - 0.1 * rows}
     table = Reference("t", "exact", "", "", "u_max", columns, dict.fromkeys(columns, 1e-9), {})
     called = {"u_max": "u_max", "p": "p"}
-    (verdict,) = traces.against_table(stored().branch(SPEC), table, called)
+    (verdict,) = table_traces.against_table(stored().branch(SPEC), table, called)
     assert verdict.passed
     off = stored(p=factor * COLUMNS["p"]).branch(SPEC)
-    assert not traces.against_table(off, table, called)[0].passed
+    assert not table_traces.against_table(off, table, called)[0].passed
 
 
 def test_points_are_drawn_where_columns_speak_and_can_be_prescribed():
@@ -104,10 +105,11 @@ def test_the_whole_of_it_on_a_solved_tube():
 
     spec = tube(alpha=0.1, delta1=1.1, u_end=1.0)
     result = solve_spec(spec, [])
-    judged = traces.judge(spec, Solutions({spec: result}))
+    judged = list(traces.Trace(spec).judge(2, Solutions({spec: result})))
     assert [v.passed for v in judged] == [True], judged
     result.branches[0].columns["p"] *= 1.01
-    assert not traces.judge(spec, Solutions({spec: result}))[0].passed
+    (judged,) = traces.Trace(spec).judge(2, Solutions({spec: result}))
+    assert not judged.passed
 
 
 def test_problems_with_traces_are_those_that_trace_paths():

@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from weakforms.results import Branch, Field, Quantity, Result
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.specs import Spec
-from weakforms.verification.judging import curves
-from weakforms.verification.judging.consistency import identities, traces
+from weakforms.verification.judging.checks.check import Check
 from weakforms.verification.judging.consistency.exempt import EXEMPT, EXEMPT_SIZE
-from weakforms.verification.judging.judge import judge, wants
+from weakforms.verification.judging.consistency.identities import Identities
+from weakforms.verification.judging.consistency.traces import Trace
 from weakforms.verification.judging.outcome import Verdict
-from weakforms.verification.run.runner import case_wants
+from weakforms.verification.run.runner import case_wants, checks_of
 from weakforms.verification.run.solutions import Solutions
 
 FACTORS = (1.01, -1.0)
@@ -88,18 +89,17 @@ def falsified(result: Result, name: str, factor: float) -> Result | None:
 
 
 def judgings(cases: Iterable[FoundCase], spec: Spec) -> Iterator[Judging]:
-    """All that judges a solution: of its own first, then what each case says of it."""
-    yield lambda solutions: traces.judge(spec, solutions)
-    yield lambda solutions: identities.judge(spec, solutions)
+    """All that judges a solution: what must hold for it alone first, then what each case says of it."""
+    yield from (partial(_verdicts, of(spec), 0) for of in (Trace, Identities))
     for found in cases:
-        for panel in found.case.panels:
-            for curve in (c for c in panel.curves if c.of == spec):
-                about = found.paper, curve, found.case
-                yield lambda solutions, about=about: traces.judge_curve(*about, solutions)
-                yield lambda solutions, about=about: curves.judge_curve(*about, solutions)[0]
-        for check in found.case.checks:
-            if any(wanted == spec for wanted, _ in wants(check, found.paper)):
-                yield lambda solutions, check=check, paper=found.paper: judge(check, paper, solutions)[0]
+        for check in checks_of(found):
+            own = isinstance(check, Trace | Identities)
+            if not own and any(wanted == spec for wanted, _ in check.wants(found.paper)):
+                yield partial(_verdicts, check, found.paper)
+
+
+def _verdicts(check: Check, paper: int | str, solutions: Solutions) -> list[Verdict]:
+    return [item for item in check.judge(paper, solutions) if isinstance(item, Verdict)]
 
 
 def audit(

@@ -11,8 +11,8 @@ import numpy as np
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results import CurveFile, read_curve
 from weakforms.scaling import nondimensional
-from weakforms.verification.cases.case import Curve
 from weakforms.verification.cases.references import Reference
+from weakforms.verification.judging.checks.curve import Curve
 
 CurveLike = str | Path | Mapping[str, Sequence[float]]
 """A CSV or JSON file, or columns by name."""

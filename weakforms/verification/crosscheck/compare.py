@@ -13,8 +13,8 @@ import numpy as np
 from weakforms.errors import InputError
 from weakforms.results import CurveFile
 from weakforms.verification.cases import references
-from weakforms.verification.cases.case import Curve, Panel
 from weakforms.verification.cases.discovery import FoundCase, find_cases, get_case
+from weakforms.verification.cases.panels import Panel
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.crosscheck.columns import CurveLike, our_columns, read, require_same_parameters
 from weakforms.verification.crosscheck.pictures import picture
@@ -31,7 +31,7 @@ from weakforms.verification.crosscheck.rows import (
     tolerance,
 )
 from weakforms.verification.crosscheck.units import abscissa_hint, forgotten
-from weakforms.verification.judging.curves import asked_of
+from weakforms.verification.judging.checks.curve import Curve
 from weakforms.verification.judging.outcome import PanelOutcome
 
 SCHEMA = "weakforms.verdicts/1"
@@ -216,7 +216,7 @@ def _asked_by(found: FoundCase, curves: Sequence[Curve]) -> dict[str, float]:
     """Accuracy that a case asks of the columns of a table, wherever it draws it; the sharpest."""
     asked: dict[str, float] = {}
     for curve in curves:
-        for name, value in asked_of(curve, found.case).items():
+        for name, value in curve.asked.items():
             asked[name] = min(value, asked.get(name, value))
     return asked
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from weakforms.verification.cases.case import LABELS, Panel
+from weakforms.verification.cases.panels import LABELS, Panel
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.crosscheck.rows import JudgedColumn
 from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from weakforms.results import Field
-from weakforms.verification.cases.case import Surface
+from weakforms.verification.cases.panels import Surface
 from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.judging.outcome import SurfaceOutcome
 from weakforms.verification.run.solutions import Solutions

@@ -17,21 +17,16 @@ from weakforms.errors import InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
 from weakforms.results.io import dumps, require_writable, sole_use
 from weakforms.terminal import WorkProgress
+from weakforms.verification.cases.case import Case
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.specs import At, Spec
-from weakforms.verification.judging import (
-    curves,
-    ledger,  # noqa: F401  (registers its checks)
-    surfaces,
-)
-from weakforms.verification.judging.consistency import (
-    identities,
-    marks,
-    traces,
-)
-from weakforms.verification.judging.curves import curve_wants, draw_panel, judge_curve
-from weakforms.verification.judging.judge import judge, names, wants
-from weakforms.verification.judging.outcome import CaseOutcome, RunOutcome, Verdict
+from weakforms.verification.judging import surfaces
+from weakforms.verification.judging.checks.check import Check, Judged
+from weakforms.verification.judging.consistency import marks, traces
+from weakforms.verification.judging.consistency.identities import Identities
+from weakforms.verification.judging.consistency.table_traces import TableTrace
+from weakforms.verification.judging.outcome import CaseOutcome, Convergence, RunOutcome, Verdict
+from weakforms.verification.judging.panels import draw_panel, path_wants
 from weakforms.verification.report.summary import case_line, plural
 from weakforms.verification.run.effort import Effort
 from weakforms.verification.run.machine import environment
@@ -69,29 +64,29 @@ class Plan:
 
 def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
     """All solutions and states of one case."""
-    out = []
-    for panel in found.case.panels:
-        for curve in panel.curves:
-            out.extend(curve_wants(found.paper, curve))
-        for path in panel.paths:
-            out.extend(curves.path_wants(path))
-    for surface in found.case.surfaces:
-        out.extend(surfaces.surface_wants(surface))
-    for check in found.case.checks:
-        out.extend(wants(check, found.paper))
-    return out
+    case = found.case
+    out = [want for check in _written(case) for want in check.wants(found.paper)]
+    out += [want for panel in case.panels for path in panel.paths for want in path_wants(path)]
+    return out + [want for surface in case.surfaces for want in surfaces.surface_wants(surface)]
+
+
+def checks_of(found: FoundCase) -> list[Check]:
+    """All that judges a case: what its file says, then what must hold for every solution."""
+    drawn = [TableTrace(curve) for panel in found.case.panels for curve in panel.curves]
+    specs = dict.fromkeys(spec for spec, _ in case_wants(found))
+    return [*_written(found.case), *drawn, *(of(spec) for spec in specs for of in (traces.Trace, Identities))]
+
+
+def _written(case: Case) -> list[Check]:
+    """The checks in the case's file."""
+    return [*(curve for panel in case.panels for curve in panel.curves), *case.checks]
 
 
 def check_ids(found: FoundCase) -> list[str]:
     """What the verdicts of a case will be called, known before anything is solved."""
-    case = found.case
-    drawn = [n for p in case.panels for c in p.curves for n in curves.names(found.paper, c, case)]
-    stated = [n for check in case.checks for n in names(check, found.paper)]
-    specs = dict.fromkeys(spec for spec, _ in case_wants(found))
-    columns = [n for spec in specs for n in (*traces.names(spec), *identities.names(spec))]
-    tables = [n for p in case.panels for c in p.curves for n in traces.names_of_curve(found.paper, c, case)]
-    pictures = marks.names(found.paper, case)
-    return list(dict.fromkeys([*drawn, *stated, *columns, *tables, *pictures]))
+    stated = [name for check in checks_of(found) for name in check.names(found.paper)]
+    pictures = [name for panel in found.case.panels for name in marks.names(found.paper, panel)]
+    return list(dict.fromkeys([*stated, *pictures]))
 
 
 def _merge(ats: list[At]) -> list[At]:
@@ -275,31 +270,16 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
     for spec in plan.by_case[found.id]:
         if spec in solver.failures:
             outcome.errors.append(f"{spec}: {solver.failures[spec]}")
+    for check in checks_of(found):
+        with _missed(outcome, check.names(found.paper), check.verdict_kind):
+            _add(outcome, check.judge(found.paper, solutions))
     for panel in found.case.panels:
-        comparisons = {}
-        for curve in panel.curves:
-            with _missed(outcome, curves.names(found.paper, curve, found.case), "curve"):
-                verdicts, comparisons[id(curve)] = judge_curve(found.paper, curve, found.case, solutions)
-                _add(outcome, verdicts)
-            with _missed(outcome, traces.names_of_curve(found.paper, curve, found.case), "trace"):
-                _add(outcome, traces.judge_curve(found.paper, curve, found.case, solutions))
         with _missed(outcome, [f"panel {panel.name}"], "curve"):
-            outcome.panels.append(draw_panel(found.paper, panel, solutions, comparisons))
+            outcome.panels.append(draw_panel(found.paper, panel, solutions))
             _add(outcome, marks.judge(outcome.panels[-1]))
     for surface in found.case.surfaces:
         with _missed(outcome, [f"surface {surface.name}"], "field"):
             outcome.surfaces.append(surfaces.draw_surface(surface, solutions))
-    for check in found.case.checks:
-        with _missed(outcome, names(check, found.paper), type(check).__name__.lower()):
-            verdicts, printed, histories = judge(check, found.paper, solutions)
-            _add(outcome, verdicts)
-            outcome.printed.extend(printed)
-            outcome.convergence.extend(histories)
-    for spec in plan.by_case[found.id]:
-        with _missed(outcome, traces.names(spec), "trace"):
-            _add(outcome, traces.judge(spec, solutions))
-        with _missed(outcome, identities.names(spec), "identities"):
-            _add(outcome, identities.judge(spec, solutions))
     outcome.status = _status(outcome)
     outcome.seconds = (
         time.perf_counter() - begun + sum(s["provenance"].get("wall_s", 0.0) for s in outcome.solutions)
@@ -307,10 +287,16 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
     return outcome
 
 
-def _add(outcome: CaseOutcome, verdicts: Iterable[Verdict]) -> None:
-    """Two panels may draw different columns of one table: it is judged once."""
+def _add(outcome: CaseOutcome, left: Judged) -> None:
+    """Put what a check leaves where it belongs; two panels may draw one table, which is judged once."""
     judged = {verdict.check for verdict in outcome.verdicts}
-    outcome.verdicts.extend(v for v in verdicts if v.check not in judged)
+    for item in list(left):  # all of it or nothing: a check that breaks down half-way is missed as a whole
+        if isinstance(item, Convergence):
+            outcome.convergence.append(item)
+        elif not isinstance(item, Verdict):
+            outcome.printed.append(item)
+        elif item.check not in judged:
+            outcome.verdicts.append(item)
 
 
 @contextmanager

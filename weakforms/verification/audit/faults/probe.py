@@ -21,19 +21,14 @@ from typing import Any
 from weakforms.errors import ConvergenceError, WeakformsError
 from weakforms.verification.audit.faults.catalogue import Expectation
 from weakforms.verification.audit.faults.lines import Lines, Monitor
-from weakforms.verification.cases.case import Case, Check, Count
+from weakforms.verification.cases.case import Case
 from weakforms.verification.cases.discovery import FoundCase
+from weakforms.verification.judging.checks.check import Check
+from weakforms.verification.judging.checks.points import Count
 
 
 def narrowed(found: FoundCase, part: str) -> FoundCase:
     """The case with those curves and checks only that give a verdict whose name contains a text."""
-    from weakforms.verification.judging import (
-        curves,
-        ledger,  # noqa: F401  (registers its checks)
-    )
-    from weakforms.verification.judging.judge import names
-    from weakforms.verification.run import runner  # noqa: F401  (registers its checks)
-
     if not part:
         return found
     case: Case = found.case
@@ -44,9 +39,9 @@ def narrowed(found: FoundCase, part: str) -> FoundCase:
     panels = [
         replace(panel, paths=(), curves=tuple(kept))
         for panel in case.panels
-        if (kept := [c for c in panel.curves if wanted(curves.names(found.paper, c, case))])
+        if (kept := [c for c in panel.curves if wanted(c.names(found.paper))])
     ]
-    checks = [_fewer(check, part) for check in case.checks if wanted(names(check, found.paper))]
+    checks = [_fewer(check, part) for check in case.checks if wanted(check.names(found.paper))]
     return replace(found, case=replace(case, panels=tuple(panels), checks=tuple(checks), surfaces=()))
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
@@ -18,6 +18,7 @@ from scipy.ndimage import maximum_filter1d
 from weakforms.results import Branch, Result
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.bounds import Comparison, compare
+from weakforms.verification.judging.checks.check import Check, Wanted
 from weakforms.verification.judging.consistency import quadrature
 from weakforms.verification.judging.consistency.traces import is_judged, kinks, worst
 from weakforms.verification.judging.outcome import Verdict
@@ -171,30 +172,42 @@ def stated(spec: Spec) -> list[Identity]:
     return [identity for identity in IDENTITIES.get(spec.problem, ()) if identity.over(given)]
 
 
-def names(spec: Spec) -> list[str]:
-    """What the verdicts on a solution's identities will be called: all in one."""
-    return [f"identities:{spec}"] if stated(spec) else []
+@dataclass(frozen=True)
+class Identities(Check):
+    """All that must hold between the columns of one solution."""
 
+    of: Spec
 
-def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
-    """One verdict on all identities of a solution; the numbers are the worst one's."""
-    identities = stated(spec)
-    if not identities:
-        return []
-    result = solutions.result(spec)
-    found = [
-        (f"{identity.name}: {what}", place, comparison)
-        for identity in identities
-        for what, place, comparison in identity.look(result)
-    ]
-    statement = f"columns of {spec} agree with one another: " + "; ".join(i.statement for i in identities)
-    # Samples and splines do not resolve every state sharply. What they do not resolve is not judged, and is
-    # counted, unless it is beyond even its wide bound.
-    judged = [item for item in found if _sharp(item[2]) or not item[2].passed(np.inf)]
-    verdict = worst(f"identities:{spec}", statement, judged, "identities", SHARP)
-    if len(judged) < len(found):
-        verdict.detail += f"; {len(found) - len(judged)} of {len(found)} are not resolved sharply: not judged"
-    return [verdict]
+    verdict_kind: ClassVar[str] = "trace"
+
+    def wants(self, paper: int | str) -> list[Wanted]:
+        """The solution."""
+        return [(self.of, None)]
+
+    def names(self, paper: int | str) -> list[str]:
+        """One for all identities; none where none is stated."""
+        return [f"identities:{self.of}"] if stated(self.of) else []
+
+    def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
+        """Each identity holds; the numbers of the verdict are the worst one's."""
+        identities = stated(self.of)
+        if not identities:
+            return
+        result = solutions.result(self.of)
+        found = [
+            (f"{identity.name}: {what}", place, comparison)
+            for identity in identities
+            for what, place, comparison in identity.look(result)
+        ]
+        said = f"columns of {self.of} agree with one another: " + "; ".join(i.statement for i in identities)
+        # Samples and splines do not resolve every state sharply. What they do not resolve is not judged, and
+        # is counted, unless it is beyond even its wide bound.
+        judged = [item for item in found if _sharp(item[2]) or not item[2].passed(np.inf)]
+        verdict = worst(f"identities:{self.of}", said, judged, "identities", SHARP)
+        if len(judged) < len(found):
+            unresolved = len(found) - len(judged)
+            verdict.detail += f"; {unresolved} of {len(found)} are not resolved sharply: not judged"
+        yield verdict
 
 
 def _sharp(comparison: Comparison) -> bool:

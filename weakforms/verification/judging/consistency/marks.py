@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from weakforms.verification.cases.case import Case, Panel
-from weakforms.verification.judging.curves import reference_of
+from weakforms.verification.cases.panels import Panel
 from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.report.look import HEIGHT, LEFT, LOOK, RIGHT, WIDTH
 
@@ -13,14 +12,14 @@ MARK = LOOK["style"]["lines.markersize"]
 """Size of a mark, points."""
 
 
-def names(paper: int | str, case: Case) -> list[str]:
-    """What the verdicts on a case's panels will be called: of those that show marks of a reference."""
-    return [f"marks:{panel.name}" for panel in case.panels if _has_marks(paper, panel)]
+def names(paper: int | str, panel: Panel) -> list[str]:
+    """What the verdict on a panel will be called; none where it shows no marks of a reference."""
+    return [f"marks:{panel.name}"] if _has_marks(paper, panel) else []
 
 
 def _has_marks(paper: int | str, panel: Panel) -> bool:
     for curve in panel.curves:
-        table = reference_of(paper, curve)
+        table = curve.table(paper)
         y = curve.y or panel.y.name
         if table is not None and panel.x.name in table.columns and y in table.columns:
             return True

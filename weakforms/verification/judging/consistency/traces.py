@@ -1,28 +1,24 @@
-"""Is the trace that a user takes away right: its own points against states, and against tables.
+"""Is the trace that a user takes away right: its own points against states solved for there.
 
 Curves are compared at states solved for at the rows of a table; the points of the trace itself come from the
-continuation. They are held against
-
-- states solved for at some of them, drawn at random (:mod:`weakforms.results.drawing`), in every column, by
-  the rule of all comparisons: |difference| <= 2 sqrt(u_trace^2 + u_state^2), and that bound sharper than
-  :data:`SHARP`;
-- the tables of the case, interpolated, where those are dense enough to tell an error of one percent.
+continuation. They are held against states solved for at some of them, drawn at random
+(:mod:`weakforms.results.drawing`), in every column, by the rule of all comparisons:
+|difference| <= 2 sqrt(u_trace^2 + u_state^2), and that bound sharper than :data:`SHARP`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from weakforms.results import Branch, Result, State
 from weakforms.results.drawing import DESCRIBE
-from weakforms.verification.cases.case import Case, Curve
-from weakforms.verification.cases.references import Reference
 from weakforms.verification.cases.specs import Spec
-from weakforms.verification.crosscheck.rows import interpolated
 from weakforms.verification.judging.bounds import Comparison, compare
-from weakforms.verification.judging.curves import asked_of, reference_of
+from weakforms.verification.judging.checks.check import Check, Wanted
 from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.run.solutions import Solutions
 
@@ -52,27 +48,6 @@ ZERO = 10.0
 SMALL = 0.02
 """Smallest size a column is taken to have: what is zero but for its discretisation is no larger."""
 
-ENDS = 2
-"""Intervals at either end of a table in which its interpolation is not relied on."""
-
-SAFETY = 3.0
-"""Factor of what interpolating a table may add: that is told for smooth columns, and these have kinks."""
-
-RESOLVED = SHARP / 20
-"""Error of a table's interpolation, as two splines show it, below which the table counts as dense. Where they
-show more, they are no longer near enough to the curve for their difference to be an error bound."""
-
-DENSE = 0.5
-"""Part of a table's intervals that must be resolved for a column to be interpolated at all: the few that are
-in a coarse table may lie between two points of a trace, and may look resolved by accident."""
-
-EXTREMES = ("gw_min", "gw_max", "t_min", "t2_min", "T_min", "z_min", "r_max", "spring_max", "traction_max")
-"""Columns that have a kink wherever their place on the body jumps or reaches an end, which a spline through a
-table does not know: they are held against states only."""
-
-LEAST_ROWS = 9
-"""Rows of a table that is interpolated."""
-
 KINKS = ("contact_onset", "zone_opening", "zone_closing", "cusp_point")
 """Special points at which columns are not smooth."""
 
@@ -84,27 +59,36 @@ def is_judged(spec: Spec) -> bool:
     return spec.problem in TRACED and not study
 
 
-def names(spec: Spec) -> list[str]:
-    """What the verdicts on the traces of a solution will be called."""
-    return [f"trace:{spec}"] if is_judged(spec) else []
+@dataclass(frozen=True)
+class Trace(Check):
+    """Points of all traces of a solution, drawn at random, are the states solved for there."""
 
+    of: Spec
 
-def judge(spec: Spec, solutions: Solutions) -> list[Verdict]:
-    """One verdict on all traces of a solution."""
-    if not is_judged(spec):
-        return []
-    result = solutions.result(spec)
-    found = [*_against_states(result), *_counts(result)]
-    counts = [_missing(result, branch) for branch in result.branches]
-    states = worst(
-        f"trace:{spec}",
-        f"points of the trace of {spec}, drawn at random, are the states solved for there, in every column",
-        found,
-        "states solved for",
-    )
-    if missing := [text for text in counts if text]:
-        states.passed, states.detail = False, "; ".join([*missing, states.detail])
-    return [states]
+    verdict_kind: ClassVar[str] = "trace"
+
+    def wants(self, paper: int | str) -> list[Wanted]:
+        """The solution; it has the states drawn."""
+        return [(self.of, None)]
+
+    def names(self, paper: int | str) -> list[str]:
+        """One for all traces; none where :func:`is_judged` says so."""
+        return [f"trace:{self.of}"] if is_judged(self.of) else []
+
+    def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
+        """Every column of every point drawn agrees with its state, and no drawn point is without one."""
+        if not is_judged(self.of):
+            return
+        result = solutions.result(self.of)
+        said = (
+            f"points of the trace of {self.of}, drawn at random, are the states solved for there, "
+            "in every column"
+        )
+        found = [*_against_states(result), *_counts(result)]
+        verdict = worst(f"trace:{self.of}", said, found, "states solved for")
+        if missing := [text for branch in result.branches if (text := _missing(result, branch))]:
+            verdict.passed, verdict.detail = False, "; ".join([*missing, verdict.detail])
+        yield verdict
 
 
 Found = tuple[str, str, Comparison]
@@ -194,92 +178,6 @@ def size_of(values: np.ndarray, bound: float) -> float:
     """Size of a column, or :data:`ZERO` for one that is zero all along, to what its bound tells."""
     size = float(np.nanmax(np.abs(values), initial=0.0))
     return max(size, SMALL) if size > 4 * bound else ZERO
-
-
-# -- tables --------------------------------------------------------------------------------------------------
-
-
-def names_of_curve(paper: int | str, curve: Curve, case: Case) -> list[str]:
-    """What the verdict on the trace that a curve is drawn from will be called."""
-    table = None if curve.at is not None or not is_judged(curve.of) else reference_of(paper, curve)
-    return table_names(table, [] if table is None else _judged(table, curve, case))
-
-
-def judge_curve(paper: int | str, curve: Curve, case: Case, solutions: Solutions) -> list[Verdict]:
-    """Verdict on the trace that a curve is drawn from, against the curve's table."""
-    if not names_of_curve(paper, curve, case):
-        return []
-    table = reference_of(paper, curve)
-    names = [table.abscissa, *_judged(table, curve, case)]
-    called = {name: curve.columns.get(name, name) for name in names}
-    return against_table(solutions.branch(curve.of, curve.branch), table, called)
-
-
-def _judged(table: Reference, curve: Curve, case: Case) -> list[str]:
-    """Columns that a trace has, too: fronts of zones belong to states."""
-    return [name for name in table.ordinates if name in asked_of(curve, case) and "_front_" not in name]
-
-
-def table_names(table: Reference | None, columns: Iterable[str]) -> list[str]:
-    """What the verdict on a trace against a table will be called; none where the table is too coarse."""
-    if table is None or not any(len(_dense(table, name)) for name in columns):
-        return []
-    return [f"trace:{table.name}"]
-
-
-def _dense(table: Reference, name: str) -> np.ndarray:
-    """Rows, in rising order of the abscissa, after which the table interpolates a column sharply.
-
-    None where fewer than the part :data:`DENSE` of them does.
-    """
-    rows, values = np.sort(table.columns[table.abscissa]), table.columns[name]
-    if len(rows) < LEAST_ROWS or name in EXTREMES:
-        return np.array([], int)
-    _, slack = interpolated(table.columns[table.abscissa], values, (rows[:-1] + rows[1:]) / 2)
-    known = 2 * np.hypot(SAFETY * slack, table.uncertainty[name])
-    known[:ENDS] = known[-ENDS:] = np.inf
-    resolved = np.flatnonzero(known <= RESOLVED * np.max(np.abs(values)))
-    return resolved if len(resolved) >= DENSE * len(known) else resolved[:0]
-
-
-def against_table(branch: Branch, table: Reference, called: Mapping[str, str]) -> list[Verdict]:
-    """Verdict on points of a trace where a table is dense and the abscissa is met for the first time.
-
-    Args:
-        branch: The trace.
-        table: Over one of its columns.
-        called: The trace's column for each of the table's that are judged, and for its abscissa.
-    """
-    judged = [name for name in table.ordinates if name in called]
-    if not table_names(table, judged):
-        return []
-    rows = np.sort(table.columns[table.abscissa])
-    along = np.asarray(branch.columns[called[table.abscissa]], float)
-    highest, lowest = np.maximum.accumulate(along), np.minimum.accumulate(along)
-    first = np.r_[True, (along[1:] > highest[:-1]) | (along[1:] < lowest[:-1])]
-    inside = first & (along >= rows[0]) & (along < rows[-1])
-    interval = np.where(inside, np.searchsorted(rows, along, "right") - 1, -1)
-    found = []
-    for name in judged:
-        here = np.flatnonzero(np.isin(interval, _dense(table, name)))
-        expected, slack = interpolated(table.columns[table.abscissa], table.columns[name], along[here])
-        values, own = _with_spread(branch, called[name], called[table.abscissa], here)
-        known = np.hypot(SAFETY * slack, table.uncertainty[name])
-        size = float(np.max(np.abs(table.columns[name])))
-        for i, *numbers in zip(here, values, own, expected, known, strict=True):
-            place = f"{table.abscissa} = {along[i]:.6g}"
-            found.append((f"{name} ({branch.name})", place, compare(*numbers, size or 1.0)))
-    statement = f"points of the trace between the rows of the table, over {table.abscissa}"
-    return [worst(f"trace:{table.name}", statement, found, table.name)]
-
-
-def _with_spread(branch: Branch, name: str, over: str, here: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A column at some points, and its uncertainty at a fixed value of the column it is looked at over."""
-    y, x = np.asarray(branch.columns[name], float), np.asarray(branch.columns[over], float)
-    none = np.full(len(y), np.nan)
-    slope = np.gradient(y, x, edge_order=1)
-    spread = np.hypot(branch.uncertainty.get(name, none), slope * branch.uncertainty.get(over, none))
-    return y[here], spread[here]
 
 
 # -- counts and kinks ----------------------------------------------------------------------------------------

@@ -1,0 +1,173 @@
+"""Panels as the report draws them: branches, profiles, the ways of material points, special points."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.results import SpecialPoint
+from weakforms.verification.cases.panels import LABELS, Panel, Path
+from weakforms.verification.cases.references import Reference
+from weakforms.verification.cases.specs import At
+from weakforms.verification.judging.checks.check import Wanted
+from weakforms.verification.judging.checks.curve import Curve
+from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome, PathOutcome
+from weakforms.verification.run.solutions import Solutions
+
+
+def path_wants(path: Path) -> list[Wanted]:
+    """States along a path, sampled at its material points."""
+    return [(path.of, _on_path(path, at)) for at in path.over]
+
+
+def _on_path(path: Path, at: At) -> At:
+    return At(at.name, at.value, at.crossing, path.points, at.branch)
+
+
+def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOutcome:
+    """The panel as the report draws it; a curve that could not be solved is missing from it."""
+    outcome = PanelOutcome(
+        name=panel.name,
+        title=panel.title,
+        x=panel.x.name,
+        y=panel.y.name,
+        x_label=panel.x.tex,
+        y_label=panel.y.tex,
+        x_range=(panel.x.low, panel.x.high),
+        y_range=(panel.y.low, panel.y.high),
+        level=panel.level,
+        note=panel.note,
+    )
+    if panel.lines:
+        outcome.drawn = "exact"
+    outcome.curves = [CurveOutcome(line.label, line.label, [*line.x], [*line.y]) for line in panel.lines]
+    if panel.dashed is not None:
+        outcome.full, outcome.dashed = panel.dashed.full, panel.dashed.dashed
+    for curve in panel.curves:
+        try:
+            drawn = _draw(paper, panel, curve, solutions)
+            marks = _markers(panel, curve, solutions)
+        except ConvergenceError:
+            continue  # judged, and reported as an error, where the curve is compared
+        outcome.curves.append(drawn)
+        outcome.markers.extend(marks)
+    with suppress(ConvergenceError):  # so is a state that a path goes through
+        outcome.paths = _draw_paths(panel, solutions)
+    return outcome
+
+
+def _draw_paths(panel: Panel, solutions: Solutions) -> list[PathOutcome]:
+    """Every material point's way through the states that could be solved."""
+    out = []
+    for path in panel.paths:
+        samples = [
+            [solutions.sampled(path.of, _on_path(path, at), name)[0] for name in (panel.x.name, panel.y.name)]
+            for at in path.over
+        ]
+        for i, point in enumerate(path.points):
+            x, y = ([float(sample[axis][i]) for sample in samples] for axis in (0, 1))
+            out.append(PathOutcome(point, x, y))
+    return out
+
+
+def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) -> CurveOutcome:
+    x, y = panel.x.name, curve.y or panel.y.name
+    table = curve.table(paper)
+    own = curve.columns.get(y, y)
+    if curve.at is not None:
+        columns = solutions.profile(curve.of, curve.shown_at(table)).columns
+        rule = panel.dashed
+        unstable = [] if rule is None else (columns[rule.column] < rule.below).tolist()
+    else:
+        columns = _with_states(curve, table, solutions, (x, own))
+        unstable = [bool(n) for n in columns["n_negative"]]
+    xs, ys = columns[x], columns[own]
+    if panel.mirrored:
+        xs, ys = mirror(panel, x, xs), mirror(panel, y, ys)
+    outcome = CurveOutcome(
+        name=curve.reference or str(curve.of),
+        label=curve.label,
+        x=xs.tolist(),
+        y=ys.tolist(),
+        unstable=unstable if not panel.mirrored else [],
+    )
+    if table is not None and x in table.columns and y in table.columns:
+        rx, ry = table.columns[x], table.columns[y]
+        if panel.mirrored:
+            rx, ry = mirror(panel, x, rx), mirror(panel, y, ry)
+        outcome.reference_name, outcome.reference_kind = table.name, table.kind
+        outcome.reference_x, outcome.reference_y = rx.tolist(), ry.tolist()
+    comparisons = {}
+    with suppress(ConvergenceError):  # judged, and reported, where the curve is compared
+        comparisons = curve.comparisons(paper, solutions)
+    worst = comparisons.get(y) or next(iter(comparisons.values()), None)
+    if table is not None and worst is not None:
+        outcome.residual_abscissa = LABELS.get(table.abscissa, table.abscissa)
+        outcome.residual_x = table.columns[table.abscissa].tolist()
+        outcome.residual = worst.error.tolist()
+        outcome.residual_bound = worst.bound.tolist()
+    return outcome
+
+
+def _with_states(
+    curve: Curve, table: Reference | None, solutions: Solutions, names: tuple[str, ...]
+) -> dict[str, np.ndarray]:
+    """Columns of a branch to be drawn, and of the states solved for at the table's rows in between.
+
+    A branch traced in long steps would be drawn as a polygon beside its own states.
+    """
+    branch = solutions.branch(curve.of, curve.branch).columns
+    columns = {name: np.asarray(branch[name], float) for name in (*names, "n_negative")}
+    along = None if table is None else branch.get(table.abscissa)
+    if along is None:
+        return columns
+    after, values = [], []
+    for row in table.columns[table.abscissa]:
+        try:
+            state = solutions.state(curve.of, curve.row_at(table, float(row))).quantities
+        except ConvergenceError:  # judged, and reported, where the curve is compared
+            continue
+        i = _passed(along, float(row))
+        if i is not None and all(name in state for name in names):
+            at_state = {name: state[name].value if name in state else columns[name][i] for name in columns}
+            after.append((i, (row - along[i]) * np.sign(along[i + 1] - along[i])))
+            values.append(at_state)
+    order = sorted(range(len(after)), key=after.__getitem__)
+    places = [after[k][0] + 1 for k in order]
+    return {name: np.insert(v, places, [values[k][name] for k in order]) for name, v in columns.items()}
+
+
+def _passed(along: np.ndarray, value: float) -> int | None:
+    """The point of a branch after which a column first passes a value; ``None`` where it never does."""
+    distance = np.asarray(along, float) - value
+    hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0) | (distance[:-1] == 0))
+    return int(hits[0]) if len(hits) else None
+
+
+def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
+    """A half profile from the mid-plane outwards, drawn from end to end as the paper does.
+
+    Axial coordinates are odd about the mid-plane and shifted to start at 0; all else is even.
+    """
+    if name in ("Z", "eta"):
+        axis = panel.x if panel.x.name == name else panel.y
+        middle = (axis.low + axis.high) / 2
+        return np.concatenate([middle - values[::-1], middle + values[1:]])
+    return np.concatenate([values[::-1], values[1:]])
+
+
+def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
+    kinds = (panel.markers,) if isinstance(panel.markers, str) else panel.markers
+    points = [p for kind in filter(None, kinds) for p in solutions.points(curve.of, kind)]
+    return [
+        Marker(point.kind, _called(point), point.values[panel.x.name], point.values[panel.y.name])
+        for point in points
+        if point.branch == curve.branch
+    ]
+
+
+def _called(point: SpecialPoint) -> str:
+    """What a marker's label says; the legend tells the kinds apart."""
+    return f"n = {point.values['n']:g}" if "n" in point.values else point.kind.replace("_", " ")
