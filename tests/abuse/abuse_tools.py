@@ -184,6 +184,6 @@ def verify(tree: Path, out: Path, *words: object, before: str = "", **more: obje
     only = (
         "from pathlib import Path; from weakforms.verification.cases import discovery\n"
         f"find = discovery.find_cases; discovery.find_cases = lambda: find(Path({str(tree)!r}))\n"
-        "from weakforms.verification.run import runner; runner.source_digest = lambda: 'as it was'\n"
+        "from weakforms.verification.run import solving; solving.source_digest = lambda: 'as it was'\n"
     )
     return start("verify", "--out", out, *words, before=only + before, **more)

@@ -8,7 +8,9 @@ import pytest
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.outcome import CaseOutcome
-from weakforms.verification.run.runner import Plan, Solver, judge_case, solution_key
+from weakforms.verification.run.plan import Plan
+from weakforms.verification.run.runner import judge_case
+from weakforms.verification.run.solving import Solver, solution_key
 
 
 class SharedRun:

@@ -14,7 +14,7 @@ from weakforms.errors import InputError
 from weakforms.verification.cases.discovery import FoundCase, find_cases
 from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.report.summary import scientific
-from weakforms.verification.run.runner import check_ids
+from weakforms.verification.run.plan import check_ids
 
 CASES = find_cases()
 UNSOUND: dict[str, str] = {}

@@ -12,7 +12,7 @@ from weakforms import Case, Claim
 from weakforms.errors import ConvergenceError
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.specs import At, tube
-from weakforms.verification.run import runner
+from weakforms.verification.run import solving
 
 SPECS = [tube(delta1=d, u_end=0.3).on(cells=16, levels=2) for d in (1.5, 2)]
 
@@ -32,8 +32,8 @@ CASES = [case("one", SPECS[:1]), case("both", SPECS)]
 @pytest.fixture
 def solved(monkeypatch):
     """What is solved in this process, as it is asked for."""
-    right, seen = runner.solve_spec, []
-    monkeypatch.setattr(runner, "solve_spec", lambda spec, at: seen.append(spec) or right(spec, at))
+    right, seen = solving.solve_spec, []
+    monkeypatch.setattr(solving, "solve_spec", lambda spec, at: seen.append(spec) or right(spec, at))
     return seen
 
 
@@ -51,7 +51,7 @@ def test_what_does_not_converge_is_told_by_every_case_that_needs_it(tmp_path, mo
     def fails(*_):
         raise ConvergenceError("stalled at p = 0.1")
 
-    monkeypatch.setattr(runner, "solve_spec", fails)
+    monkeypatch.setattr(solving, "solve_spec", fails)
     shared = SharedRun(CASES, tmp_path / "run")
     for name in ("paper2.one", "paper2.both"):
         assert shared.outcome(name).status == "error"
@@ -59,7 +59,7 @@ def test_what_does_not_converge_is_told_by_every_case_that_needs_it(tmp_path, mo
 
 
 def test_while_another_process_solves_this_one_solves_what_is_needed_later(tmp_path, monkeypatch):
-    shared, seen, right = SharedRun(CASES, tmp_path / "run"), [], runner.solve_spec
+    shared, seen, right = SharedRun(CASES, tmp_path / "run"), [], solving.solve_spec
     other = shared.path(SPECS[0], "lock").open("a")
     fcntl.flock(other, fcntl.LOCK_EX)
 
@@ -68,13 +68,13 @@ def test_while_another_process_solves_this_one_solves_what_is_needed_later(tmp_p
         other.close()
         return right(spec, at)
 
-    monkeypatch.setattr(runner, "solve_spec", solve)
+    monkeypatch.setattr(solving, "solve_spec", solve)
     assert shared.outcome("paper2.one").status == "passed"
     assert seen == SPECS[::-1]
 
 
 def end_while_solving(folder: Path) -> None:
-    runner.solve_spec = lambda *_: os._exit(1)
+    solving.solve_spec = lambda *_: os._exit(1)
     SharedRun(CASES, folder).outcome("paper2.one")
 
 

@@ -16,7 +16,7 @@ from weakforms import api, terminal
 from weakforms.errors import ConvergenceError
 from weakforms.verification.cases import catalogue, discovery
 from weakforms.verification.cases.specs import tube
-from weakforms.verification.run import runner
+from weakforms.verification.run import runner, solving
 from weakforms.verification.run.effort import Effort
 
 PAGES = {"audit.html", "faults.html", "index.html", "junit.xml", "paper2.html", "report.json"}
@@ -61,14 +61,14 @@ def tiny(tmp_path, monkeypatch):
 
 @pytest.fixture
 def solved(monkeypatch):
-    """Specs that the runner solves in this process."""
-    seen, right = [], runner.solve_spec
+    """Specs that are solved in this process."""
+    seen, right = [], solving.solve_spec
 
     def counted(spec: object, states: list) -> object:
         seen.append(str(spec))
         return right(spec, states)
 
-    monkeypatch.setattr(runner, "solve_spec", counted)
+    monkeypatch.setattr(solving, "solve_spec", counted)
     return seen
 
 
@@ -174,14 +174,14 @@ def test_a_case_that_does_not_hold(weakforms, tiny, tmp_path, old, new, status, 
 
 
 def test_a_solve_that_fails_leaves_the_others(weakforms, tiny, tmp_path, monkeypatch):
-    right = runner.solve_spec
+    right = solving.solve_spec
 
     def first_fails(spec: object, states: list) -> object:
         if dict(spec.parameters)["delta1"] == 1.5:
             raise ConvergenceError("stalled at p = 0.1")
         return right(spec, states)
 
-    monkeypatch.setattr(runner, "solve_spec", first_fails)
+    monkeypatch.setattr(solving, "solve_spec", first_fails)
     called = weakforms("verify", "--out", tmp_path / "out")
     assert called.status == 3
     assert "stalled at p = 0.1" in called.out
@@ -191,7 +191,7 @@ def test_a_solve_that_fails_leaves_the_others(weakforms, tiny, tmp_path, monkeyp
 
 
 def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "_task", die)
+    monkeypatch.setattr(solving, "_task", die)
     called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
     assert (called.status, len(called.complaints)) == (4, 1)
     assert "a process at work died" in called.complaints[0]

@@ -10,7 +10,8 @@ from weakforms.verification.audit.columns import audit, columns_of, falsified
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.judging.consistency.exempt import EXEMPT, EXEMPT_SIZE, KNOWN
 from weakforms.verification.judging.consistency.identities import Identities
-from weakforms.verification.run.runner import Plan, Solver, solution_key, solve_spec
+from weakforms.verification.run.plan import Plan
+from weakforms.verification.run.solving import Solver, solution_key, solve_spec
 
 SPECS = [tube(alpha=0.1, delta1=1.1, u_end=1.0), infinite_tube(model="mooney_rivlin")]
 

@@ -11,14 +11,8 @@ from weakforms.errors import InputError
 from weakforms.solvers.support import provenance
 from weakforms.verification.cases import discovery
 from weakforms.verification.cases.discovery import Expression, find_cases, get_case, select
-from weakforms.verification.run.runner import (
-    SOLVING,
-    Plan,
-    case_wants,
-    check_ids,
-    solution_key,
-    source_digest,
-)
+from weakforms.verification.run.plan import Plan, case_wants, check_ids
+from weakforms.verification.run.solving import SOLVING, solution_key, source_digest
 
 FILE = '"""A case."""\nfrom weakforms import Case\nCASE = Case(title="t", source="s", tags=("Slow",))\n'
 
@@ -117,7 +111,7 @@ def test_solution_keys_tell_requests_and_code_apart(monkeypatch):
     }
     assert len(keys) == 16
     assert solution_key(one, [at]) == solution_key(tube(alpha=0.1), [At("p", 1.0)])
-    monkeypatch.setattr("weakforms.verification.run.runner.source_digest", lambda: "other code")
+    monkeypatch.setattr("weakforms.verification.run.solving.source_digest", lambda: "other code")
     assert solution_key(one, [at]) not in keys
 
 

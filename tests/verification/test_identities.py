@@ -10,8 +10,8 @@ from weakforms.verification.judging.consistency import quadrature
 from weakforms.verification.judging.consistency.identities import Identities
 from weakforms.verification.judging.consistency.identity_table import IDENTITIES
 from weakforms.verification.judging.consistency.traces import TRACED
-from weakforms.verification.run.runner import solve_spec
 from weakforms.verification.run.solutions import Solutions
+from weakforms.verification.run.solving import solve_spec
 
 SPECS = {
     "tube": tube(alpha=0.1, delta1=1.1, u_end=1.0),

@@ -101,7 +101,7 @@ def test_points_are_drawn_where_columns_speak_and_can_be_prescribed():
 
 def test_the_whole_of_it_on_a_solved_tube():
     """What the runner asks of a solve is what the verdicts need; 1 % in one column fails."""
-    from weakforms.verification.run.runner import solve_spec
+    from weakforms.verification.run.solving import solve_spec
 
     spec = tube(alpha=0.1, delta1=1.1, u_end=1.0)
     result = solve_spec(spec, [])

@@ -12,7 +12,8 @@ from weakforms.verification.cases.gallery import SHOWN, Shown
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome
 from weakforms.verification.report.figures import panel_figure
-from weakforms.verification.run.runner import Plan, Solver
+from weakforms.verification.run.plan import Plan
+from weakforms.verification.run.solving import Solver
 
 MARGIN = 0.05
 """Of an axis's length, left free at either end."""

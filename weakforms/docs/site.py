@@ -162,7 +162,7 @@ def _title(path: Path) -> str:
 @cache
 def _problems_of_cases() -> dict[str, set[str]]:
     """Which problems each case solves; none for a case whose tables cannot be read."""
-    from weakforms.verification.run.runner import case_wants
+    from weakforms.verification.run.plan import case_wants
 
     out = {}
     for found in find_cases():

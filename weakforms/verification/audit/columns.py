@@ -20,7 +20,7 @@ from weakforms.verification.judging.consistency.exempt import EXEMPT, EXEMPT_SIZ
 from weakforms.verification.judging.consistency.identities import Identities
 from weakforms.verification.judging.consistency.traces import Trace
 from weakforms.verification.judging.outcome import Verdict
-from weakforms.verification.run.runner import case_wants, checks_of
+from weakforms.verification.run.plan import case_wants, checks_of
 from weakforms.verification.run.solutions import Solutions
 
 FACTORS = (1.01, -1.0)

@@ -1,0 +1,85 @@
+"""What a set of cases needs: its checks, and every solution with its states, each once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from weakforms.verification.cases.case import Case
+from weakforms.verification.cases.discovery import FoundCase
+from weakforms.verification.cases.specs import At, Spec
+from weakforms.verification.judging import surfaces
+from weakforms.verification.judging.checks.check import Check
+from weakforms.verification.judging.consistency import marks
+from weakforms.verification.judging.consistency.identities import Identities
+from weakforms.verification.judging.consistency.table_traces import TableTrace
+from weakforms.verification.judging.consistency.traces import Trace
+from weakforms.verification.judging.panels import path_wants
+
+
+@dataclass
+class Plan:
+    """Every solution a set of cases needs, each once, with all the states wanted of it."""
+
+    states: dict[Spec, list[At]]
+    by_case: dict[str, list[Spec]]
+
+    @classmethod
+    def of(cls, cases: Iterable[FoundCase]) -> Plan:
+        """Collect what the cases want; reference tables are read and checked here, before any solve.
+
+        The slow cases come first: side by side, no solution of minutes is left to be waited for alone.
+        """
+        states: dict[Spec, list[At]] = {}
+        by_case: dict[str, list[Spec]] = {}
+        for found in sorted(cases, key=lambda found: not found.case.slow):
+            check_ids(found)
+            needed = []
+            for spec, at in case_wants(found):
+                listed = states.setdefault(spec, [])
+                if at is not None and at not in listed:
+                    listed.append(at)
+                if spec not in needed:
+                    needed.append(spec)
+            by_case[found.id] = needed
+        return cls({spec: _merge(ats) for spec, ats in states.items()}, by_case)
+
+
+def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
+    """All solutions and states of one case."""
+    case = found.case
+    out = [want for check in _written(case) for want in check.wants(found.paper)]
+    out += [want for panel in case.panels for path in panel.paths for want in path_wants(path)]
+    return out + [want for surface in case.surfaces for want in surfaces.surface_wants(surface)]
+
+
+def checks_of(found: FoundCase) -> list[Check]:
+    """All that judges a case: what its file says, then what must hold for every solution."""
+    drawn = [TableTrace(curve) for panel in found.case.panels for curve in panel.curves]
+    specs = dict.fromkeys(spec for spec, _ in case_wants(found))
+    return [*_written(found.case), *drawn, *(of(spec) for spec in specs for of in (Trace, Identities))]
+
+
+def _written(case: Case) -> list[Check]:
+    """The checks in the case's file."""
+    return [*(curve for panel in case.panels for curve in panel.curves), *case.checks]
+
+
+def check_ids(found: FoundCase) -> list[str]:
+    """What the verdicts of a case will be called, known before anything is solved."""
+    stated = [name for check in checks_of(found) for name in check.names(found.paper)]
+    pictures = [name for panel in found.case.panels for name in marks.names(found.paper, panel)]
+    return list(dict.fromkeys([*stated, *pictures]))
+
+
+def _merge(ats: list[At]) -> list[At]:
+    """One request a state, sampled at the union of the points wanted of it."""
+    merged: dict[tuple[str, float, int, str], tuple[float, ...] | None] = {}
+    for at in ats:
+        key = (at.name, at.value, at.crossing, at.branch)
+        points = merged.get(key)
+        if at.profile is not None:
+            # An empty tuple asks for the problem's own points: they are added wherever a picture is drawn.
+            points = tuple(sorted({*(points or ()), *at.profile}))
+        merged[key] = points
+    return [At(*key[:3], profile=points, branch=key[3]) for key, points in merged.items()]
