@@ -74,7 +74,7 @@ def inside(solutions: Solutions) -> Finding:
 def within_real(solutions: Solutions) -> Finding:
     """Levels of the first and last change over the whole n tried, and those over all real n."""
     table, found = reference(5, "bending_window"), []
-    windows = [found for n in WAVES if (found := window(solutions, STIFF, n))]
+    windows = list(filter(None, (window(solutions, STIFF, n) for n in WAVES)))
     for end, direction in ((0, 1), (1, -1)):
         (row,) = (table.columns["direction"] == direction).nonzero()[0]
         levels = decide.stack(w[end] for w in windows)

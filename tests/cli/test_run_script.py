@@ -327,6 +327,15 @@ def test_exit_status_is_that_of_the_verb(machine, engine, status):
     assert machine.run("exit", str(status)).returncode == status
 
 
+def test_an_output_folder_is_made_on_this_side(machine, tmp_path):
+    """What is written into a folder that only the container has is lost with it."""
+    machine.put("docker", status_of_run(0))
+    (tmp_path / "there").mkdir()
+    assert machine.run("verify", f"--out={tmp_path}/there/new/deep").returncode == 0
+    (call,) = machine.calls("docker", "run")
+    assert f"{tmp_path}/there:{tmp_path}/there" in values(call, "-v")
+
+
 def test_folders_user_and_environment(machine, tmp_path):
     machine.put("docker", status_of_run(0))
     machine.environment |= {"NO_COLOR": "1", "WEAKFORMS_TRACE": "yes", "SECRET": "mine"}

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from weakforms import tube
-from weakforms.results import Branch, Quantity, Result, State
-from weakforms.results.drawing import draw, seed_of
+from weakforms.results import Branch, Quantity, Result, SpecialPoint, State
+from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.judging.consistency import table_traces, traces
 from weakforms.verification.run.solutions import Solutions
@@ -97,6 +97,17 @@ def test_points_are_drawn_where_columns_speak_and_can_be_prescribed():
         # Past the limit point p has each of its values twice: u_max tells the points apart.
         assert all(point.column == "u_max" for point in points if p[point.index] > 1.0 and point.index > 10)
     assert seed_of("a") != seed_of("b")
+
+
+def test_no_point_is_drawn_where_the_count_of_negative_eigenvalues_jumps():
+    p, u = np.array([0.0, 1.0, 1.5, 1.2, 0.5]), np.linspace(0, 1, 5)
+    branch = Branch("primary", "p", {"p": p, "u_max": u})
+    turn = SpecialPoint("limit_point", "primary", "p", {"p": 1.5, "u_max": 0.5 + 1e-9}, {})
+    between = SpecialPoint("bifurcation_point", "primary", "p", {"p": 1.4, "u_max": 0.6}, {})
+    elsewhere = SpecialPoint("limit_point", "other", "p", {"p": 1.0, "u_max": 0.25}, {})
+    known = critical(branch, [turn, between, elsewhere])
+    assert known == {2}
+    assert {point.index for point in draw(branch, ["u_max"], 1, known)} == {1, 3}
 
 
 def test_the_whole_of_it_on_a_solved_tube():

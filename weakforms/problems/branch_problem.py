@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, sample_points, silent
 from weakforms.results import Branch, Failure, Result, SpecialPoint, State
-from weakforms.results.drawing import draw, seed_of
+from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.solvers.continuation.branch import DIAGNOSTICS
 from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.support.provenance import provenance
@@ -158,7 +158,8 @@ class PathProblem:
         barred = (*DIAGNOSTICS, *self.derived)
         columns = [column for column in self.columns if column not in barred]
         record = {"seed": seed, "points": [], "left_out": []}
-        for drawn in draw(result.branch(name), columns, seed):
+        branch = result.branch(name)
+        for drawn in draw(branch, columns, seed, critical(branch, result.special_points)):
             if len(record["points"]) == count or len(record["left_out"]) > count:
                 break
             profile = default_points if not record["points"] else None

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from weakforms.results.model import Branch
+from weakforms.results.model import Branch, SpecialPoint
 
 DESCRIBE = ("residual", "iterations")
 """Columns that describe how a point was solved for, not what it is."""
@@ -28,7 +28,34 @@ def seed_of(text: str) -> int:
     return zlib.crc32(text.encode())
 
 
-def draw(branch: Branch, columns: Sequence[str], seed: int) -> Iterator[Drawn]:
+AT = 1e-6
+"""Relative to the range of each column, how near a point of a trace is to a special point that is meant."""
+
+
+def nearest(branch: Branch, point: SpecialPoint) -> tuple[int, float]:
+    """Index of the point of a branch nearest to a special point, and their distance in the worst column.
+
+    The distance is relative to the range of each column; infinite where they share no column.
+    """
+    apart = [
+        np.abs(values - point.values[name]) / (np.ptp(values) or 1.0)
+        for name, values in branch.columns.items()
+        if name in point.values and name not in DESCRIBE and np.isfinite(values).all()
+    ]
+    if not apart:
+        return 0, float("inf")
+    worst = np.max(apart, axis=0)
+    i = int(np.argmin(worst))
+    return i, float(worst[i])
+
+
+def critical(branch: Branch, points: Sequence[SpecialPoint]) -> set[int]:
+    """Points of a branch at special points, where the number of negative eigenvalues jumps."""
+    found = [nearest(branch, point) for point in points if point.branch == branch.name]
+    return {i for i, distance in found if distance <= AT}
+
+
+def draw(branch: Branch, columns: Sequence[str], seed: int, without: Container[int] = ()) -> Iterator[Drawn]:
     """Inner points of a branch in random order, each with the first column that can be prescribed there.
 
     A column will do that has all values of the points before on one side of its value, and all values of
@@ -38,9 +65,10 @@ def draw(branch: Branch, columns: Sequence[str], seed: int) -> Iterator[Drawn]:
         branch: The trace.
         columns: Columns that can be prescribed, the best first.
         seed: Of the random order.
+        without: Points that are not drawn.
     """
     inner = np.arange(1, len(branch) - 1)
-    left = np.random.default_rng(seed).permutation(inner).tolist()
+    left = np.random.default_rng(seed).permutation([i for i in inner if i not in without]).tolist()
     silent = {name for name in branch.columns if name not in DESCRIBE}
     while left:
         # One at which most columns have something to say that have not had: of contact, of a front.

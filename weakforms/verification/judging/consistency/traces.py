@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.results import Branch, Result, State
-from weakforms.results.drawing import DESCRIBE
+from weakforms.results.drawing import DESCRIBE, nearest
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.bounds import Comparison, compare
 from weakforms.verification.judging.checks.check import Check, Wanted
@@ -194,14 +194,5 @@ def _counts(result: Result) -> Iterator[Found]:
 
 def kinks(result: Result, branch: Branch) -> list[int]:
     """Points of a trace next to special points at which columns are not smooth."""
-    columns, found = _columns(branch), []
-    for point in result.special_points:
-        if point.kind in KINKS and point.branch == branch.name:
-            apart = [
-                np.abs(columns[name] - value) / (np.ptp(columns[name]) or 1.0)
-                for name, value in point.values.items()
-                if name in columns and np.isfinite(columns[name]).all()
-            ]
-            if apart:
-                found.append(int(np.argmin(np.max(apart, axis=0))))
-    return found
+    points = [p for p in result.special_points if p.kind in KINKS and p.branch == branch.name]
+    return [i for i, distance in (nearest(branch, point) for point in points) if np.isfinite(distance)]
