@@ -99,6 +99,22 @@ def at_front(front: str, field: str, kink: bool = True) -> Reading:
     return reading
 
 
+def one_at(fronts: str, column: str) -> Identity:
+    """A column of the profile is one at every front of a state."""
+
+    def look(result: Result) -> Iterator[Found]:
+        for state, profile in profiles(result):
+            x = next(iter(profile.columns.values()))
+            for name in (n for n in state.quantities if n.startswith(fronts)):
+                found, place = at_front(name, column)(result, state, profile), state.quantities[name].value
+                if found is not None:
+                    value, doubt = found
+                    spread = doubt + profile.uncertainty[column] * quadrature.gain(x, place, 0)
+                    yield f"{name} ({state.branch})", f"{place:.6g}", compare(value, spread, 1.0, 0.0, 1.0)
+
+    return Identity(f"one_at_{fronts}", f"{column} = 1 at every front", look)
+
+
 def zone(fronts: str) -> Reading:
     """Part of the body between fronts where the wrinkling function is below one."""
 

@@ -26,6 +26,7 @@ from weakforms.verification.judging.consistency.identity_profiles import (
     extreme,
     field,
     middle,
+    one_at,
     rate,
     read,
     wetted,
@@ -242,6 +243,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         field("gw", "gw = lam2 sqrt(lam1)", lambda _, __, c: c["lam2"] * np.sqrt(c["lam1"])),
         field("lam2", "lam2 = r/sin t", lambda _, __, c: c["r"] / np.sin(c["t"])),
         derived("lam1", "lam1 is the slope of the profile", np.hypot, "r", "z"),
+        one_at("t_front", "gw"),
         _over(field("tension", "tension is that of the law at the stretches", _sphere_tension), _of_paper),
     ),
     "wrinkled_tube": (
@@ -258,6 +260,8 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         field("lam2", "lam2 = r over the undeformed radius", lambda _, __, c: c["r"]),
         _over(field("axial", "axial = N cos(phi) - P r^2/2", _axial), lambda given: "load_end" not in given),
         derived("lam1", "lam1 is the slope of the profile", np.hypot, "r", "z"),
+        derived("slope", "slope is dr/dz of the profile", np.divide, "r", "z"),
+        one_at("Z_front", "gw"),
     ),
     "fluid_tube": (
         work("zw", lambda result, c: -result.parameters["gamma"] * c["V"]),
