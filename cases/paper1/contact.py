@@ -81,7 +81,7 @@ CASE = Case(
             reference="disk_contact_onset",
             base=circular(contact="frictionless", p_end=6.0),
             parameters=("alpha", "beta", "l"),
-            asked={"p": 1e-8, "lam_pole": 1e-8},
+            asked={"p": 1e-9, "lam_pole": 5e-10},
         ),
         Claim(
             "no_release",
@@ -105,12 +105,12 @@ CASE = Case(
     asked={
         "p": 1e-6,
         "t0": 1e-6,
-        "lam_pole": 1e-6,
+        "lam_pole": 1e-9,
         "rho_contact": 1e-6,
-        "X_contact": 1e-6,
+        "X_contact": 2e-8,
         "lam1_contact": 1e-5,
         "lam1_contact_outer": 1e-5,
-        "sigma_pole": 1e-5,
+        "sigma_pole": 1e-6,
         "V": 1e-6,
     },
 )

@@ -106,6 +106,6 @@ CASE = Case(
             )
         ),
     ),
-    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4, "sigma": 1e-4},
+    asked={"rho": 1e-9, "eta": 2e-9, "lam1": 1e-6, "lam2": 1e-9, "t1": 2e-6, "t2": 5e-7, "sigma": 1e-8},
     quick=True,
 )

@@ -170,5 +170,5 @@ CASE = Case(
             inflexion,
         ),
     ),
-    asked={"rho": 1e-6, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 1e-4, "sigma": 1e-4},
+    asked={"rho": 1e-7, "eta": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "t1": 1e-4, "t2": 5e-6, "sigma": 5e-7},
 )

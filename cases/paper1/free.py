@@ -101,7 +101,7 @@ CASE = Case(
             reference="free_limit_points",
             base=circular(t_end=3.1),
             parameters=("alpha", "beta"),
-            asked={"p": 1e-8, "t0": 1e-8, "lam_pole": 1e-8},
+            asked={"p": 5e-10, "t0": 5e-10, "lam_pole": 1e-9},
         ),
         Claim(
             "isotropic_rest",
@@ -128,5 +128,5 @@ CASE = Case(
             cubic_start,
         ),
     ),
-    asked={"p": 1e-8, "lam_pole": 1e-8, "V": 1e-8, "lam1_rim": 1e-6},
+    asked={"p": 5e-10, "lam_pole": 1e-9, "V": 1e-9, "lam1_rim": 1e-6},
 )

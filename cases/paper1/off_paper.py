@@ -90,7 +90,7 @@ CASE = Case(
             reference="pull_off",
             base=peeling(data, p, end).of,
             parameters=("p",),
-            asked={"rho_contact": 1e-4, "G": 1e-5},
+            asked={"rho_contact": 1e-6, "G": 1e-5},
             where={**{key: data[key] for key in ("alpha", "beta", "k", "l")}, "p": p},
         )
         for data, p, end in PEELING
@@ -98,13 +98,13 @@ CASE = Case(
     asked={
         "p": 1e-6,
         "t0": 1e-6,
-        "lam_pole": 1e-6,
+        "lam_pole": 1e-8,
         "rho_contact": 1e-6,
         "X_contact": 1e-6,
         "lam1_contact": 1e-5,
         "lam1_contact_outer": 1e-5,
         "sigma_pole": 1e-5,
-        "sigma_contact": 1e-5,
+        "sigma_contact": 1e-7,
         "V": 1e-6,
         "G": 1e-5,
     },

@@ -54,5 +54,5 @@ CASE = Case(
             "lock both stretches",
         ),
     ),
-    asked={"p": 1e-6, "t0": 1e-6, "rho_contact": 1e-6, "lam1_contact": 1e-5, "sigma_pole": 1e-5, "V": 1e-6},
+    asked={"p": 1e-7, "t0": 5e-8, "rho_contact": 1e-6, "lam1_contact": 1e-6, "sigma_pole": 1e-7, "V": 1e-6},
 )

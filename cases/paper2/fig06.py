@@ -164,6 +164,6 @@ CASE = Case(
         "line_force_membrane": 5e-5,
         "traction_front": 1e-3,
         "traction_max": 1e-3,
-        "spring_max": 2e-5,
+        "spring_max": 1e-6,
     },
 )

@@ -61,6 +61,6 @@ CASE = Case(
         "t1_mid": 1e-6,
         "line_force": 1e-3,
         "line_force_membrane": 1e-3,
-        "spring_max": 1e-4,
+        "spring_max": 5e-6,
     },
 )

@@ -6,7 +6,7 @@ the order changes, one state is both; it is solved for with the pre-stretch one 
 
 from weakforms import Case, Points, fluid_tube_coincidence
 
-ASKED = {"delta": 1e-7, "zw": 1e-7, "V": 1e-7, "r_mid": 1e-7}
+ASKED = {"delta": 1e-9, "zw": 5e-10, "V": 1e-9, "r_mid": 1e-9}
 RANGES = {8: (3, 5), 24: (1.1, 1.5)}
 
 CASE = Case(

@@ -12,7 +12,7 @@ DENSITIES = {
 }
 EVERY = (*TUBES.values(), *DENSITIES.values())
 LIMIT, FIRST = At("limit_point", 1.0), At("bifurcation_point", 1.0)
-ASKED = {"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
+ASKED = {"zw": 5e-10, "V": 1e-9, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
 
 
 def signs(solutions: Solutions) -> Finding:
@@ -83,7 +83,7 @@ CASE = Case(
             fluid_tube(gamma=0.116),
             ("L", "delta"),
             At("zw", 0.0),
-            {"r_mid": 1e-7, "Pi": 1e-7, "T1_ring": 1e-5, "T2_ring": 1e-5, "T1_mid": 1e-5},
+            {"r_mid": 1e-7, "Pi": 1e-7, "T1_ring": 1e-6, "T2_ring": 1e-6, "T1_mid": 5e-9},
         ),
         Claim(
             "signs",

@@ -136,10 +136,10 @@ CASE = Case(
         ),
     ),
     asked={
-        "zw": 1e-7,
-        "r_mid": 1e-7,
+        "zw": 5e-10,
+        "r_mid": 5e-9,
         "r_max": 1e-7,
-        "Pi": 1e-7,
+        "Pi": 5e-10,
         "T1_ring": 1e-5,
         "T2_ring": 1e-5,
         "T1_mid": 1e-5,

@@ -166,5 +166,5 @@ CASE = Case(
             stable_in_volume,
         ),
     ),
-    asked={"zw": 1e-7},
+    asked={"zw": 5e-10},
 )

@@ -74,5 +74,5 @@ CASE = Case(
             density_fills,
         ),
     ),
-    asked={"zw": 1e-7, "r_mid": 1e-7},
+    asked={"zw": 5e-10, "r_mid": 5e-9},
 )

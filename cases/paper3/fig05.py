@@ -128,5 +128,5 @@ CASE = Case(
             low_and_constant,
         ),
     ),
-    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "T1": 1e-5, "T2": 1e-5},
+    asked={"r": 5e-9, "z": 1e-9, "lam1": 5e-7, "lam2": 5e-9, "T1": 2e-7, "T2": 5e-7},
 )

@@ -108,5 +108,5 @@ CASE = Case(
             source="figure 7(b), after the limit point",
         ),
     ),
-    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-5, "lam2": 1e-6, "T1": 1e-5, "T2": 1e-5},
+    asked={"r": 2e-9, "z": 5e-10, "lam1": 1e-7, "lam2": 2e-9, "T1": 5e-8, "T2": 1e-7},
 )

@@ -80,6 +80,6 @@ CASE = Case(
             rises_again,
         ),
     ),
-    asked={"zw": 1e-7, "r_mid": 1e-7, "Pi": 1e-7},
+    asked={"zw": 1e-9, "r_mid": 5e-9, "Pi": 1e-9},
     slow=True,
 )

@@ -6,7 +6,7 @@ The same as in ``critical`` for every tube; small enough for the quick profile.
 from weakforms import Case, Claim, Finding, Points, Solutions, decide, fluid_tube
 
 TUBE = fluid_tube(L=8, delta=2, gamma=0.116)
-ASKED = {"zw": 1e-7, "V": 1e-7, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
+ASKED = {"zw": 5e-10, "V": 5e-10, "r_mid": 2e-9, "r_max": 1e-8, "Pi": 2e-9}
 HERE = {"L": 8.0, "delta": 2.0, "gamma": 0.116}
 
 

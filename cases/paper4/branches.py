@@ -97,7 +97,7 @@ CASE = Case(
                 reference=f"limit_loads_{load}",
                 base=LIMITS[load],
                 parameters=PARAMETERS,
-                asked={PAPER[load][0]: 1e-5, "V": 1e-5, "r_max": 1e-5},
+                asked={PAPER[load][0]: 1e-5, "V": 1e-7, "r_max": 5e-8},
             )
             for load in LIMITS
         ),
@@ -115,11 +115,11 @@ CASE = Case(
         ),
     ),
     asked={
-        "V": 1e-6,
-        "r_max": 1e-6,
-        "N": 1e-6,
+        "V": 5e-9,
+        "r_max": 5e-9,
+        "N": 5e-9,
         "gw_max": 1e-6,
-        "gw_min": 1e-6,
-        "wrinkled_fraction": 1e-5,
+        "gw_min": 5e-9,
+        "wrinkled_fraction": 1e-7,
     },
 )

@@ -32,5 +32,5 @@ CASE = Case(
         for name, M in (("a", 0.5), ("b", 1.5))
         for delta in TABLES
     ),
-    asked={"r": 1e-6, "z": 1e-6},
+    asked={"r": 5e-9, "z": 5e-9},
 )

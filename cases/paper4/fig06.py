@@ -205,5 +205,5 @@ CASE = Case(
             "does at every pressure, the radius itself only from p = 0.42 on",
         ),
     ),
-    asked={"r": 1e-6, "z": 1e-6},
+    asked={"r": 5e-9, "z": 5e-9},
 )

@@ -93,10 +93,10 @@ CASE = Case(
                 base=base,
                 parameters=("M", "delta"),
                 where={"fluid": fluid},
-                asked={"load": 1e-5, "Z": 1e-5},
+                asked={"load": 1e-5, "Z": 5e-7},
             )
             for fluid, base in ((0.0, wrinkled_tube(load="gas", Af=1)), (1.0, wrinkled_tube(Af=1)))
         ),
     ),
-    asked={"r": 1e-6, "z": 1e-6, "lam1": 1e-6, "lam2": 1e-6, "gw": 1e-6, "tension": 1e-6},
+    asked={"r": 5e-9, "z": 5e-9, "lam1": 5e-9, "lam2": 5e-9, "gw": 5e-9, "tension": 5e-9},
 )

@@ -65,6 +65,6 @@ CASE = Case(
     asked={
         **dict.fromkeys(("r", "z", "lam1", "lam2", "gw", "tension"), 1e-6),
         **dict.fromkeys(("V", "r_max", "N", "gw_max", "gw_min"), 1e-6),
-        "wrinkled_fraction": 1e-5,
+        "wrinkled_fraction": 2e-8,
     },
 )

@@ -44,7 +44,7 @@ CASE = Case(
             reference="thresholds",
             base=wrinkled_tube_threshold(),
             parameters=("delta", "c2", "L", "upper"),
-            asked={"M": 1e-5, "Z": 1e-5},
+            asked={"M": 5e-8, "Z": 1e-6},
         ),
         *(
             Printed(

@@ -123,5 +123,5 @@ CASE = Case(
             for kind in ("zone_opening", "zone_closing")
         ),
     ),
-    asked={"Z_front_1": 1e-5, "Z_front_2": 1e-5, "Z_front_3": 1e-5},
+    asked={"Z_front_1": 1e-8, "Z_front_2": 1e-8, "Z_front_3": 5e-9},
 )

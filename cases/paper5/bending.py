@@ -161,14 +161,14 @@ CASE = Case(
             reference="bending_bands",
             base=wrinkled_bending(beta=PAPER),
             parameters=("zw",),
-            asked={"n_minus": 1e-6, "n_plus": 1e-6},
+            asked={"n_minus": 1e-7, "n_plus": 2e-8},
         ),
         Points(
             "quantity",
             reference="bending_models",
             base=wrinkled_bending(),
             parameters=("n", "zw", "beta"),
-            asked={"Lambda_membrane": 1e-5, "Lambda_B1": 1e-5, "Lambda_B2": 1e-5},
+            asked={"Lambda_membrane": 1e-5, "Lambda_B1": 5e-8, "Lambda_B2": 1e-5},
         ),
         Claim(
             "inside",

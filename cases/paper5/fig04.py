@@ -127,6 +127,6 @@ CASE = Case(
             source="section 3.1",
         ),
     ),
-    asked={"gw": 1e-6},
+    asked={"gw": 5e-9},
     quick=True,
 )

@@ -146,13 +146,13 @@ CASE = Case(
             reference="hemisphere_limit",
             base=BOWL,
             parameters=(),
-            asked={"zw": 1e-7, "z_pole": 1e-6, "V": 1e-6},
+            asked={"zw": 5e-9, "z_pole": 1e-6, "V": 1e-6},
         ),
     ),
     asked={
-        "gw": 1e-6,
+        "gw": 5e-8,
         **dict.fromkeys(("z_pole", "lam_pole", "V", "t_level", "zw"), 1e-6),
         "t_front_1": 1e-6,
-        "t_front_2": 1e-6,
+        "t_front_2": 5e-9,
     },
 )

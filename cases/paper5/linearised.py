@@ -90,7 +90,7 @@ CASE = Case(
             reference="linearised",
             base=wrinkled_linear(),
             parameters=("zw", "f"),
-            asked={"A": 1e-6, "B": 1e-6, "n_star": 1e-6},
+            asked={"A": 5e-9, "B": 1e-6, "n_star": 1e-8},
         ),
         Claim(
             "affine",
