@@ -57,7 +57,7 @@ def parametrised(solutions: Solutions) -> Finding:
     found = solutions.numbers(DISK, [At("lam_pole", pole) for pole in POLES], "p")
     exact = np.array([pressure(pole) for pole in POLES])
     halved = np.array([pressure(pole, START / 2) for pole in POLES])
-    return decide.agree("p at the pole's stretch", found, decide.Number(exact, np.abs(exact - halved)), 1e-7)
+    return decide.agree("p at the pole's stretch", found, decide.Number(exact, np.abs(exact - halved)), 2e-9)
 
 
 def anchors(solutions: Solutions) -> Finding:

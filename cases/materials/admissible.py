@@ -89,7 +89,7 @@ def kirchhoff_gives_way(solutions: Solutions) -> Finding:
     found = solutions.points(PRESSED, "limit_point")
     return decide.all_of(
         decide.same("limit points", len(found), 1),
-        decide.agree("its stretch", solutions.point(PRESSED, "limit_point", "lam"), 3**-0.5, 1e-9),
+        decide.agree("its stretch", solutions.point(PRESSED, "limit_point", "lam"), 3**-0.5, 5e-10),
     )
 
 

@@ -24,7 +24,7 @@ KINDS = {"limit_point": 0, "bifurcation_point": 1}
 def zeros(solutions: Solutions) -> Finding:
     """At the limit point the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
     return decide.all_of(
-        decide.zero(f"{model} {name}", solutions.number(spec, at, name), 1e-6)
+        decide.zero(f"{model} {name}", solutions.number(spec, at, name), 5e-10)
         for model, spec in TUBES.items()
         for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1"))
     )
@@ -50,7 +50,7 @@ def same_law(solutions: Solutions) -> Finding:
     """The neo-Hookean law written in the invariants, against the paper's own form."""
     return decide.all_of(
         decide.agree(
-            f"{kind} {name}", *(solutions.point(spec, kind, name) for spec in (SAME, NEO_HOOKEAN)), 1e-7
+            f"{kind} {name}", *(solutions.point(spec, kind, name) for spec in (SAME, NEO_HOOKEAN)), 5e-10
         )
         for kind in KINDS
         for name in ("zw", "V")
@@ -127,6 +127,6 @@ CASE = Case(
         "T2_ring": 5e-8,
         "T1_mid": 1e-05,
         "T2_mid": 1e-6,
-        **dict.fromkeys(EIGENVALUES, 5e-8),
+        **dict.fromkeys(EIGENVALUES, 2e-9),
     },
 )

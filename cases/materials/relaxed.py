@@ -57,7 +57,7 @@ def widths(solutions: Solutions) -> Finding:
     found = []
     for model in MODELS:
         across, lam = (solutions.numbers(PIECES[model], PULLED, name) for name in ("lam_across", "lam"))
-        found.append(decide.agree(model, across * lam**0.5, np.ones(len(PULLED)), 1e-9))
+        found.append(decide.agree(model, across * lam**0.5, np.ones(len(PULLED)), 5e-10))
     return decide.all_of(found)
 
 

@@ -25,7 +25,7 @@ def stable_before(solutions: Solutions) -> Finding:
 def integrals(solutions: Solutions) -> Finding:
     """Axial force and Hamiltonian along the meridian of each law at u_max = 2."""
     return decide.all_of(
-        decide.constant(f"{model} {name}", solutions.column(spec, LATER, name), 1e-4)
+        decide.constant(f"{model} {name}", solutions.column(spec, LATER, name), 2e-5)
         for model, spec in FINE.items()
         for name in ("F_axial", "H")
     )
@@ -34,7 +34,7 @@ def integrals(solutions: Solutions) -> Finding:
 def contact_balance(solutions: Solutions) -> Finding:
     """Frictionless contact leaves the axial force constant, patch or not."""
     return decide.all_of(
-        decide.constant("F_axial", solutions.column(CONTACT, DEEP, "F_axial"), 1e-4),
+        decide.constant("F_axial", solutions.column(CONTACT, DEEP, "F_axial"), 5e-6),
         decide.positive("contact length", solutions.number(CONTACT, DEEP, "contact_length")),
     )
 

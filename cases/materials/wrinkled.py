@@ -29,7 +29,7 @@ def axial(solutions: Solutions) -> Finding:
     """Axial force along the meridian at p = 0.25: taut, wrinkled and taut again."""
     found = []
     for model, spec in INFLATED.items():
-        found.append(decide.constant(f"{model}, axial", solutions.column(spec, DEEP, "axial"), 1e-6))
+        found.append(decide.constant(f"{model}, axial", solutions.column(spec, DEEP, "axial"), 5e-9))
         found.append(decide.between("wrinkled", solutions.number(spec, DEEP, "wrinkled_fraction"), 0, 1))
     return decide.all_of(found)
 

@@ -24,7 +24,7 @@ def label(s: tuple[float, float]) -> str:
 
 def no_release(solutions: Solutions) -> Finding:
     """G along adhesive inflation, beside the 1 that peeling reaches."""
-    return decide.all_of(decide.zero("G", solutions.along(spec, "G"), 1e-8) for spec in STICK.values())
+    return decide.all_of(decide.zero("G", solutions.along(spec, "G"), 1e-9) for spec in STICK.values())
 
 
 def contact_later(solutions: Solutions) -> Finding:

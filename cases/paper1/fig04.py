@@ -80,7 +80,7 @@ def pole_frozen(solutions: Solutions) -> Finding:
             f"lam_pole, beta = {beta}",
             solutions.numbers(STICK[beta], [At("p", p) for p in pressures], "lam_pole"),
             solutions.point(STICK[beta], "contact_onset", "lam_pole"),
-            1e-6,
+            5e-7,
         )
         for beta, pressures in LATE.items()
     )

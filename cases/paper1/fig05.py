@@ -41,7 +41,7 @@ def rigid(solutions: Solutions) -> Finding:
             for at in ats
         ]
         found += [
-            decide.agree(f"p = {p}", row, rows[0], 1e-4)
+            decide.agree(f"p = {p}", row, rows[0], 2e-7)
             for p, row in zip(pressures[1:], rows[1:], strict=True)
         ]
     return decide.all_of(found)

@@ -22,7 +22,7 @@ SIDES = ("lam1_contact", "lam1_contact_outer")
 def no_jump(solutions: Solutions) -> Finding:
     """lam1 on both sides of the edge of a growing patch."""
     return decide.all_of(
-        decide.agree(f"lam1 at p = {p}", *(solutions.number(STICK, At("p", p), n) for n in SIDES), 1e-5)
+        decide.agree(f"lam1 at p = {p}", *(solutions.number(STICK, At("p", p), n) for n in SIDES), 1e-7)
         for p in (2.83, 3.26, 3.47)
     )
 

@@ -29,7 +29,7 @@ def compressive_in_inflation(solutions: Solutions) -> Finding:
             inside = solutions.profile(of, at).columns["X"] < solutions.value(of, at, "X_contact")
             found.append(decide.negative(f"sigma, p = {p}", solutions.column(of, at, "sigma")[inside]))
             edge, pole = (solutions.number(of, at, name) for name in ("sigma_contact", "sigma_pole"))
-            found.append(decide.zero("sigma at the edge", edge, 1e-6, abs(pole)))
+            found.append(decide.zero("sigma at the edge", edge, 5e-10, abs(pole)))
     return decide.all_of(found)
 
 

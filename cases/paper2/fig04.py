@@ -79,7 +79,7 @@ CASE = Case(
             flat_middle,
         ),
         *(
-            Constant(column, FINE, at, 1e-8, statement)
+            Constant(column, FINE, at, 1e-9, statement)
             for at in (At("p", 1.5, profile=()), At("u_max", 3.0, profile=()))
             for column, statement in (
                 ("F_axial", "the axial resultant F is constant along the membrane"),

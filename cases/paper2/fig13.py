@@ -29,7 +29,7 @@ DOES_NOT = decide.Stated(
 def starts_at_zero(solutions: Solutions) -> Finding:
     """f_l(3) within its uncertainty of zero, beside its value at p = 0."""
     return decide.all_of(
-        decide.zero(f"f_l of {s}", solutions.number(BONDED[s], At("p", 3.0), "line_force"), 1e-3)
+        decide.zero(f"f_l of {s}", solutions.number(BONDED[s], At("p", 3.0), "line_force"), 2e-5)
         for s in SETS
     )
 

@@ -75,7 +75,7 @@ def halves_agree(solutions: Solutions) -> Finding:
             decide.agree(
                 f"p at limit point {i + 1}",
                 *(solutions.point(s, "limit_point", "p", i) for s in (FULL, HALF)),
-                1e-8,
+                5e-10,
             )
             for i in range(2)
         ),

@@ -42,7 +42,7 @@ def signs(solutions: Solutions) -> Finding:
 def limit_is_a_zero(solutions: Solutions) -> Finding:
     """At the maximum of zw the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
     return decide.all_of(
-        decide.zero(name, solutions.number(tube, at, name), 1e-6)
+        decide.zero(name, solutions.number(tube, at, name), 5e-10)
         for tube in EVERY
         for at, name in ((LIMIT, "Lambda_n0"), (FIRST, "Lambda_n1"))
     )

@@ -93,7 +93,7 @@ def turns_down(solutions: Solutions) -> Finding:
 def where_it_turns(solutions: Solutions) -> Finding:
     """r_mid and V at the reference's turning point, and the vertex of a parabola through states around it."""
     found = [
-        decide.agree(name, solutions.number(TUBES[8, 2], TOP[1], name), TURN.number(name)[0], 1e-5)
+        decide.agree(name, solutions.number(TUBES[8, 2], TOP[1], name), TURN.number(name)[0], 2e-6)
         for name in ("V", "r_mid")
     ]
     r = solutions.numbers(TUBES[8, 2], TOP, "r_mid")
@@ -158,7 +158,7 @@ def turn_is_a_zero(solutions: Solutions) -> Finding:
     found = []
     for tube, at in STATES:
         turn, other = (solutions.number(tube, at, f"Lambda_{n}") for n in ("rotation", "breaking"))
-        found.append(decide.zero("turn", turn, 2e-4, abs(other)))
+        found.append(decide.zero("turn", turn, 2e-6, abs(other)))
     return decide.all_of(found)
 
 
@@ -170,7 +170,7 @@ def starts_at_the_bifurcation(solutions: Solutions) -> Finding:
         one = next(p for p in points if p.branch == "primary" and p.values["n"] == 1)
         two = next(p for p in points if p.branch == "secondary")
         found += [
-            decide.agree(n, decide.of_point(one, n), decide.of_point(two, n), 1e-5)
+            decide.agree(n, decide.of_point(one, n), decide.of_point(two, n), 5e-7)
             for n in ("zw", "V", "r_mid")
         ]
     return decide.all_of(found)

@@ -97,7 +97,7 @@ CASE = Case(
                 reference=f"limit_loads_{load}",
                 base=LIMITS[load],
                 parameters=PARAMETERS,
-                asked={PAPER[load][0]: 1e-5, "V": 1e-7, "r_max": 5e-8},
+                asked={PAPER[load][0]: 1e-8, "V": 1e-7, "r_max": 5e-8},
             )
             for load in LIMITS
         ),

@@ -56,21 +56,21 @@ def tension_constant(solutions: Solutions) -> Finding:
         inside = wrinkled(solutions.column(spec, at, "gw"))
         zones = np.split(np.arange(len(inside)), np.flatnonzero(np.diff(inside)) + 1)
         found.append(decide.every("there are wrinkled rows", [bool(inside.any())]))
-        found += [decide.constant("N", tension[zone], 1e-6) for zone in zones if inside[zone[0]]]
+        found += [decide.constant("N", tension[zone], 5e-9) for zone in zones if inside[zone[0]]]
     return decide.all_of(found)
 
 
 def cones(solutions: Solutions) -> Finding:
     """Spread of dr/dz over the dry wrinkled part: Af = 0.4 at zw = 4.5 above the surface."""
     dry = solutions.profile(ALL_WRINKLED, LOW).columns["z"] > LOW.value
-    return decide.constant("dr/dz", solutions.column(ALL_WRINKLED, LOW, "slope")[dry], 1e-6, 1.0)
+    return decide.constant("dr/dz", solutions.column(ALL_WRINKLED, LOW, "slope")[dry], 5e-9, 1.0)
 
 
 def mylar(solutions: Solutions) -> Finding:
     """Spread of cos(phi) - p r^2/(2 N) over the wrinkled zone under gas."""
     slope, r, tension, gw = (solutions.column(GAS[2], INFLATED, n) for n in ("slope", "r", "tension", "gw"))
     integral = (1 + slope**2) ** -0.5 - INFLATED.value * r**2 / (2 * tension)
-    return decide.constant("cos(phi) - p r^2/(2 N)", integral[wrinkled(gw)], 1e-6)
+    return decide.constant("cos(phi) - p r^2/(2 N)", integral[wrinkled(gw)], 5e-10)
 
 
 def wet_part(solutions: Solutions) -> Finding:
@@ -86,8 +86,8 @@ def wet_part(solutions: Solutions) -> Finding:
     fine, coarse = (simpson(density.value[: last + 1 : step], step * h) for step in (1, 2))
     gained = decide.Number(fine, abs(fine - coarse) + last * h * np.max(density.uncertainty))
     return decide.all_of(
-        decide.constant("dry, axial force", force[dry], 1e-6),
-        decide.agree("wet, gain of it", force[last] - force[0], gained, 1e-5),
+        decide.constant("dry, axial force", force[dry], 5e-9),
+        decide.agree("wet, gain of it", force[last] - force[0], gained, 5e-6),
     )
 
 
@@ -126,7 +126,7 @@ CASE = Case(
     checks=(
         *(
             Constant(
-                "axial", spec, INFLATED, 1e-6, "under gas the axial force N cos(phi) - p r^2/2 is constant"
+                "axial", spec, INFLATED, 5e-9, "under gas the axial force N cos(phi) - p r^2/2 is constant"
             )
             for spec in GAS.values()
         ),
@@ -134,7 +134,7 @@ CASE = Case(
             "tension",
             ALL_WRINKLED,
             LOW,
-            1e-6,
+            5e-9,
             "the tension is constant all along a membrane wrinkled everywhere",
         ),
         Claim(

@@ -29,10 +29,10 @@ def unloaded(solutions: Solutions) -> Finding:
         gw, r, slope = (solutions.column(TUBES[M], EMPTY, name) for name in ("gw", "r", "slope"))
         others = np.delete(np.arange(len(gw)), thin)
         found += [
-            decide.agree(f"M = {M}: gw at the thin end", gw[thin], 1.0, 1e-8),
+            decide.agree(f"M = {M}: gw at the thin end", gw[thin], 1.0, 5e-9),
             decide.negative("gw - 1 elsewhere", gw[others] - 1),
-            decide.constant("r", r, 1e-8),
-            decide.zero("slope at the ends", slope[[0, -1]], 1e-8),
+            decide.constant("r", r, 5e-9),
+            decide.zero("slope at the ends", slope[[0, -1]], 5e-9),
         ]
     return decide.all_of(found)
 
@@ -75,7 +75,7 @@ def kink(solutions: Solutions) -> Finding:
         # A line through two samples reaches the front but for the bend of gw, of second order.
         gap = (2 * gw[1] - gw[0]) - (2 * gw[2] - gw[3])
         bent = decide.Number(0.0, CLOSE**2)
-        found.append(decide.zero(f"Z = {z:.4f}: gap", gap + bent, 1e-6))
+        found.append(decide.zero(f"Z = {z:.4f}: gap", gap + bent, 5e-7))
         found.append(decide.positive("change of slope", abs(above - below)))
     return decide.all_of(found)
 

@@ -45,7 +45,7 @@ def mirror_images(solutions: Solutions) -> Finding:
             name,
             solutions.samples(TUBES[2], ALIKE, name),
             solutions.samples(MIRRORED, ALIKE, name)[::-1],
-            1e-6,
+            5e-9,
         )
         for name in ("r", "lam1", "gw")
     )

@@ -73,7 +73,7 @@ def one_crest(solutions: Solutions) -> Finding:
         decide.zero(
             "M = 1: slope at mid-height",
             solutions.samples(UNIFORM, At("p", 0.3, profile=(4.0,)), "slope"),
-            1e-6,
+            5e-9,
         ),
     )
 
@@ -106,7 +106,7 @@ def at_crests(solutions: Solutions) -> Finding:
         slope = solutions.samples(TUBES[int(d)], at, "slope")
         bend = (slope[2] - slope[0]) / (2 * ASIDE)
         off = slope[1] / bend + CRESTS.number("Z")[row] - float(CRESTS.columns["Z"][row])
-        found.append(decide.zero(f"distance of the extreme, {at}", off, 1e-4))
+        found.append(decide.zero(f"distance of the extreme, {at}", off, 5e-6))
     return decide.all_of(found)
 
 
@@ -120,7 +120,7 @@ def grows_with_stretch(solutions: Solutions) -> Finding:
         found.append(decide.less(f"p = {p}: r_max/Af", radii[0] / disks[0], radii[1] / disks[1]))
         found.append(decide.less("r_max", *(radii if p > p0 else radii[::-1])))
     two, three = (solutions.number(TUBES[d], At("p", p0), "r_max") for d in (2, 3))
-    found.append(decide.agree(f"radii at p = {p0:.9f}", two, three + (crossing - p0), 1e-6))
+    found.append(decide.agree(f"radii at p = {p0:.9f}", two, three + (crossing - p0), 5e-9))
     return decide.all_of(found)
 
 

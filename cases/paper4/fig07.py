@@ -50,7 +50,7 @@ def uniform_wrinkles_at_last(solutions: Solutions) -> Finding:
         decide.same(
             "zones that open, and their states", [point.values["state"] for point in opened], [-1, -1]
         ),
-        decide.agree("p at both disks", first, second, 1e-6),
+        decide.agree("p at both disks", first, second, 5e-9),
         decide.less("p", 0.9, first, 1.02, solutions.point(UNIFORM_GAS, "limit_point", "p")),
         decide.positive("gw - 1 at p = 0.9", before - 1),
         decide.negative("gw - 1 at the disks, p = 1.02", after[[0, -1]] - 1),

@@ -25,7 +25,7 @@ def same_fields(solutions: Solutions) -> Finding:
         specs = [wrinkled_tube(**given, **e) for e in ENERGIES]
         for column in ("r", "z", "lam1", "gw", "tension"):
             found.append(
-                decide.agree(f"{name}: {column}", *(solutions.samples(s, at, column) for s in specs), 1e-6)
+                decide.agree(f"{name}: {column}", *(solutions.samples(s, at, column) for s in specs), 5e-9)
             )
         fronts = [
             [column for column in solutions.state(s, at).quantities if column.startswith("Z_front")]
@@ -33,7 +33,7 @@ def same_fields(solutions: Solutions) -> Finding:
         ]
         found.append(decide.same("fronts", *fronts))
         found += [
-            decide.agree(column, *(solutions.number(s, at, column) for s in specs), 1e-6)
+            decide.agree(column, *(solutions.number(s, at, column) for s in specs), 5e-9)
             for column in fronts[0]
         ]
     return decide.all_of(found)

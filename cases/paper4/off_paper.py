@@ -63,8 +63,10 @@ CASE = Case(
         ),
     ),
     asked={
-        **dict.fromkeys(("r", "z", "lam1", "lam2", "gw", "tension"), 1e-6),
-        **dict.fromkeys(("V", "r_max", "N", "gw_max", "gw_min"), 1e-6),
+        **dict.fromkeys(("r", "z", "lam1", "lam2", "gw", "tension"), 1e-8),
+        **dict.fromkeys(("V", "r_max", "gw_min"), 1e-8),
+        "N": 2e-7,
+        "gw_max": 2e-6,
         "wrinkled_fraction": 2e-8,
     },
 )

@@ -20,7 +20,7 @@ def agrees(solutions: Solutions) -> Finding:
             f"{name} at {at}",
             solutions.whole(wrinkled_sheet(**given, at_load=at.value), name),
             solutions.number(wrinkled_tube(**given, delta=2), at, name),
-            1e-5,
+            5e-6,
         )
         for given, at in STATES
         for name in ("V", "Pi")

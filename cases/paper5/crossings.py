@@ -91,7 +91,7 @@ def same_at_no_load(solutions: Solutions) -> Finding:
     values = decide.stack(solutions.along(LIQUID, f"Lambda_n{n}_1")[0] for n in WAVES["zw"])
     return decide.all_of(
         decide.same("level", solutions.branch(LIQUID).columns["zw"][0], 0.0),
-        decide.constant("lowest eigenvalue", values, 1e-6),
+        decide.constant("lowest eigenvalue", values, 5e-7),
         decide.positive("lowest eigenvalue", values),
     )
 
@@ -99,7 +99,7 @@ def same_at_no_load(solutions: Solutions) -> Finding:
 def no_waves_is_the_limit(solutions: Solutions) -> Finding:
     """Pressure at which n = 0 turns unstable and the limit pressure."""
     change = next(p for p in solutions.points(GAS, "stability_change") if p.values["n"] == 0)
-    return decide.agree("p", decide.of_point(change, "p"), solutions.point(GAS, "limit_point", "p"), 1e-7)
+    return decide.agree("p", decide.of_point(change, "p"), solutions.point(GAS, "limit_point", "p"), 1e-8)
 
 
 def resolved_waves(solutions: Solutions) -> Finding:
@@ -116,6 +116,10 @@ def resolved_waves(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
+ASKED = {"zw": 1e-7, "p": 1e-6}
+"""By control; pressures are small beside the largest, by which tables and solutions are uncertain."""
+
+
 def held_against(base: Spec, control: str) -> tuple[Points, ...]:
     """One check a row."""
     columns = reference(5, TABLES[control]).columns
@@ -126,7 +130,7 @@ def held_against(base: Spec, control: str) -> tuple[Points, ...]:
             base=base,
             parameters=(),
             where={"n": float(n), "direction": float(direction)},
-            asked={control: 1e-6},
+            asked={control: ASKED[control]},
         )
         for n, direction in zip(columns["n"], columns["direction"], strict=True)
     )

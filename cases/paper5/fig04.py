@@ -65,8 +65,8 @@ def straight_when_dry(solutions: Solutions) -> Finding:
     """Level 3: spread of dr/dz above the level; spread of the tension all along."""
     dry = solutions.profile(FLUID, at("zw", 3)).columns["z"] > 3
     return decide.all_of(
-        decide.constant("dr/dz", solutions.column(FLUID, at("zw", 3), "slope")[dry], 1e-6, 1.0),
-        decide.constant("tension", solutions.column(FLUID, at("zw", 3), "tension"), 1e-6),
+        decide.constant("dr/dz", solutions.column(FLUID, at("zw", 3), "slope")[dry], 5e-9, 1.0),
+        decide.constant("tension", solutions.column(FLUID, at("zw", 3), "tension"), 5e-9),
     )
 
 

@@ -71,7 +71,7 @@ CASE = Case(
                     rf"$\Lambda_{k}$",
                     reference=f"modes_fluid_n_{n}",
                     y=f"Lambda_{k}",
-                    asked={f"Lambda_{k}": 1e-6},
+                    asked={f"Lambda_{k}": 5e-8},
                     columns={f"Lambda_{k}": f"Lambda_n{n}_{k}"},
                 )
                 for k in (1, 2, 3)

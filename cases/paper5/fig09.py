@@ -151,8 +151,12 @@ CASE = Case(
     ),
     asked={
         "gw": 5e-8,
-        **dict.fromkeys(("z_pole", "lam_pole", "V", "t_level", "zw"), 1e-6),
-        "t_front_1": 1e-6,
+        "z_pole": 5e-7,
+        "V": 1e-7,
+        "lam_pole": 1e-7,
+        "t_level": 2e-8,
+        "zw": 5e-9,
+        "t_front_1": 2e-7,
         "t_front_2": 5e-9,
     },
 )

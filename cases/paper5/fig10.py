@@ -61,7 +61,7 @@ def limit_is_without_waves(solutions: Solutions) -> Finding:
     """Level at which n = 0 turns unstable and the highest level; n = 1 stays stable up to it."""
     change = next(p for p in solutions.points(MANY, "stability_change") if p.values["n"] == 0)
     return decide.all_of(
-        decide.agree("zw", decide.of_point(change, "zw"), solutions.point(MANY, "limit_point", "zw"), 1e-7),
+        decide.agree("zw", decide.of_point(change, "zw"), solutions.point(MANY, "limit_point", "zw"), 1e-8),
         decide.positive("eigenvalue for n = 1", solutions.along(MANY, "Lambda_n1_1")),
     )
 
@@ -81,7 +81,7 @@ CASE = Case(
                     rf"$\Lambda_{k}$",
                     reference=f"modes_hemisphere_n_{n}",
                     y=f"Lambda_{k}",
-                    asked={f"Lambda_{k}": 1e-6},
+                    asked={f"Lambda_{k}": 5e-8},
                     columns={f"Lambda_{k}": f"Lambda_n{n}_{k}"},
                 )
                 for k in (1, 2, 3)
