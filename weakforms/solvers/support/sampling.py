@@ -9,7 +9,7 @@ import ufl
 from dolfinx import fem, geometry
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
-from numpy.polynomial import Polynomial
+from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from ufl.core.expr import Expr
 
 from weakforms.solvers.support import compat
@@ -192,6 +192,10 @@ class Probe:
         return dict(zip(self.names, (total[:-1] / total[-1]).tolist(), strict=True))
 
 
+SEARCHED = 3
+"""Cells that are searched for the largest value: it lies in one with the largest nodal values."""
+
+
 class Peak:
     """Largest value of one component of a function along a one-dimensional mesh, by its polynomials."""
 
@@ -202,15 +206,17 @@ class Peak:
         self._cells = space.dofmap.list[: space.mesh.topology.index_map(1).size_local]
         nodes = space.tabulate_dof_coordinates()[:, 0][self._cells]
         middle, half = nodes.mean(axis=1, keepdims=True), np.ptp(nodes, axis=1, keepdims=True) / 2
-        self._at = (nodes - middle) / half
+        powers = np.arange(nodes.shape[1])
+        self._to_coefficients = np.linalg.inv(((nodes - middle) / half)[:, :, None] ** powers)
 
     def __call__(self) -> float:
         """The largest value; the cells that hold the largest nodal ones are searched."""
         values = self._function.x.array[self._block * self._cells + self._component]
         largest = float(values.max(initial=-np.inf))
-        for cell in np.argsort(values.max(axis=1, initial=-np.inf))[-3:]:
-            polynomial = Polynomial.fit(self._at[cell], values[cell], values.shape[1] - 1, domain=[-1, 1])
-            roots = polynomial.deriv().roots()
+        searched = np.argsort(values.max(axis=1, initial=-np.inf))[-SEARCHED:]
+        polynomials = np.einsum("cij,cj->ci", self._to_coefficients[searched], values[searched])
+        for coefficients in polynomials:
+            roots = polyroots(polyder(coefficients))
             inside = roots[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) <= 1)].real
-            largest = max(largest, *polynomial(inside).tolist(), largest)
+            largest = max(largest, *polyval(inside, coefficients).tolist(), largest)
         return self._comm.allreduce(largest, op=MPI.MAX)
