@@ -23,7 +23,7 @@ def solved():
 
 def test_no_column_is_missed_without_any_table(solved):
     """Traces and identities see all of these solutions by themselves."""
-    assert [(m.spec, m.column, m.factor) for m in audit([], solved)] == []
+    assert [(m.problem, m.column, m.factor) for m in audit([], solved)] == []
 
 
 def test_what_nothing_judges_is_missed(solved, monkeypatch):
@@ -61,5 +61,5 @@ def test_no_column_of_any_stored_solution_is_missed(tmp_path_factory):
         plan.states = {spec: at for spec, at in plan.states.items() if solution_key(spec, at) in kept}
     solver.run(plan, lambda *_: None)
     assert not solver.failures
-    missed = {f"{m.spec.partition('(')[0]}: {m.column}" for m in audit(cases, solver.results)}
+    missed = {f"{m.problem}: {m.column}" for m in audit(cases, solver.results)}
     assert sorted(missed - set(KNOWN)) == []

@@ -1,14 +1,17 @@
-"""Which columns of stored solutions no check would miss: each is falsified in turn, and cases judge again.
+"""Which columns no check looks at: each is falsified in all stored solutions, and the cases judge again.
 
-A column is multiplied by 1.01 and by -1 wherever a solution has it: branches, special points, states.
-Nothing is solved. What then still passes is judged by nothing.
+A column of a problem is multiplied by 1.01 and by -1 wherever a solution of the problem has it: in branches,
+special points, states, fields. Nothing is solved. A column with which every check still passes is judged by
+nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -20,7 +23,7 @@ from weakforms.verification.judging.consistency.exempt import EXEMPT, EXEMPT_SIZ
 from weakforms.verification.judging.consistency.identities import Identities
 from weakforms.verification.judging.consistency.traces import Trace
 from weakforms.verification.judging.outcome import Verdict
-from weakforms.verification.run.plan import case_wants, checks_of
+from weakforms.verification.run.plan import checks_of
 from weakforms.verification.run.solutions import Solutions
 
 FACTORS = (1.01, -1.0)
@@ -30,11 +33,16 @@ Judging = Callable[[Solutions], Iterable[Verdict]]
 
 @dataclass(frozen=True)
 class Missed:
-    """A column that could be wrong without any check of the cases noticing."""
+    """A column that could be wrong in every solution of a problem without any check noticing."""
 
-    spec: str
+    problem: str
     column: str
     factor: float
+
+
+def one_of(name: str) -> str:
+    """A column's name without the wave number it is for: columns for any wave number are one column."""
+    return re.sub(r"(?<=_n)\d+", "#", name)
 
 
 def columns_of(result: Result) -> list[str]:
@@ -50,7 +58,7 @@ def columns_of(result: Result) -> list[str]:
         for field in state.fields:
             coordinates = next(iter(field.columns))
             names |= dict.fromkeys(f"{field.name}:{c}" for c in field.columns if c != coordinates)
-    return list(names)
+    return list(dict.fromkeys(map(one_of, names)))
 
 
 def falsified(result: Result, name: str, factor: float) -> Result | None:
@@ -62,21 +70,21 @@ def falsified(result: Result, name: str, factor: float) -> Result | None:
         return value * factor
 
     def quantities(of: Mapping[str, Quantity]) -> dict[str, Quantity]:
-        return {k: replace(q, value=times(q.value)) if k == name else q for k, q in of.items()}
+        return {k: replace(q, value=times(q.value)) if one_of(k) == name else q for k, q in of.items()}
 
     def field(of: Field) -> Field:
-        columns = {k: times(v) if f"{of.name}:{k}" == name else v for k, v in of.columns.items()}
+        columns = {k: times(v) if one_of(f"{of.name}:{k}") == name else v for k, v in of.columns.items()}
         return Field(of.name, columns, of.uncertainty)
 
     def branch(of: Branch) -> Branch:
-        columns = {k: times(v) if k == name else v for k, v in of.columns.items()}
+        columns = {k: times(v) if one_of(k) == name else v for k, v in of.columns.items()}
         return Branch(of.name, of.control, columns, of.uncertainty)
 
     out = replace(
         result,
         branches=[branch(item) for item in result.branches],
         special_points=[
-            replace(p, values={k: times(v) if k == name else v for k, v in p.values.items()})
+            replace(p, values={k: times(v) if one_of(k) == name else v for k, v in p.values.items()})
             for p in result.special_points
         ],
         quantities=quantities(result.quantities),
@@ -88,14 +96,18 @@ def falsified(result: Result, name: str, factor: float) -> Result | None:
     return out if changed[0] else None
 
 
-def judgings(cases: Iterable[FoundCase], spec: Spec) -> Iterator[Judging]:
-    """All that judges a solution: what must hold for it alone first, then what each case says of it."""
-    yield from (partial(_verdicts, of(spec), 0) for of in (Trace, Identities))
-    for found in cases:
-        for check in checks_of(found):
-            own = isinstance(check, Trace | Identities)
-            if not own and any(wanted == spec for wanted, _ in check.wants(found.paper)):
-                yield partial(_verdicts, check, found.paper)
+def judgings(cases: Iterable[FoundCase], specs: Iterable[Spec]) -> list[Judging]:
+    """All that judges some solutions: what must hold for each alone, then what each case says of any."""
+    wanted = set(specs)
+    own = [partial(_verdicts, of(spec), 0) for spec in specs for of in (Trace, Identities)]
+    stated = [
+        partial(_verdicts, check, found.paper)
+        for found in cases
+        for check in checks_of(found)
+        if not isinstance(check, Trace | Identities)
+        and any(spec in wanted for spec, _ in check.wants(found.paper))
+    ]
+    return [*own, *stated]
 
 
 def _verdicts(check: Check, paper: int | str, solutions: Solutions) -> list[Verdict]:
@@ -105,36 +117,32 @@ def _verdicts(check: Check, paper: int | str, solutions: Solutions) -> list[Verd
 def audit(
     cases: list[FoundCase], results: Mapping[Spec, Result], report: Callable[[str], None] = lambda _: None
 ) -> list[Missed]:
-    """Falsify every column of every solution and say which were missed.
+    """Falsify every column of every problem and say which were missed.
 
     Args:
         cases: That judge.
         results: Stored solutions of theirs.
-        report: Told which solution is at hand.
+        report: Told which problem is at hand.
     """
     missed = []
-    users: dict[Spec, list[FoundCase]] = {}
-    for found in cases:
-        for spec in dict.fromkeys(spec for spec, _ in case_wants(found)):
-            users.setdefault(spec, []).append(found)
-    for spec, result in results.items():
-        report(str(spec))
-        sound = [one for one in judgings(users.get(spec, ()), spec) if _passes(one, Solutions(results))]
-        for name in columns_of(result):
-            for factor in FACTORS:
-                if name in EXEMPT or (factor > 0 and name in EXEMPT_SIZE):
-                    continue
-                wrong = falsified(result, name, factor)
-                if wrong is None:
-                    continue
-                solutions = Solutions({**results, spec: wrong})
-                if all(_passes(one, solutions) for one in sound):
-                    missed.append(Missed(str(spec), name, factor))
+    for problem in dict.fromkeys(spec.problem for spec in results):
+        report(problem)
+        own = {spec: result for spec, result in results.items() if spec.problem == problem}
+        sound = [one for one in judgings(cases, own) if _passes(one, Solutions(results))]
+        names = dict.fromkeys(name for result in own.values() for name in columns_of(result))
+        for name, factor in product(names, FACTORS):
+            if name in EXEMPT or (factor > 0 and name in EXEMPT_SIZE):
+                continue
+            found = {spec: falsified(result, name, factor) for spec, result in own.items()}
+            wrong = {spec: result for spec, result in found.items() if result is not None}
+            solutions = Solutions({**results, **wrong})
+            if wrong and all(_passes(one, solutions) for one in sound):
+                missed.append(Missed(problem, name, factor))
     return missed
 
 
 def _passes(one: Judging, solutions: Solutions) -> bool:
-    """Whether all its verdicts pass; what it cannot cope with has been noticed."""
+    """Whether all its verdicts pass; a check that breaks down is a failed one in a run, and here."""
     try:
         return all(verdict.passed for verdict in one(solutions))
     except Exception:
