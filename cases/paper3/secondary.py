@@ -53,6 +53,9 @@ OF_SECOND_ORDER = decide.Stated(
 SAME_ZERO = decide.Stated(
     1e-9, "the same", "the same elements on half and full circumference; SLEPc stops at 1e-10"
 )
+SAME_POINT = decide.Stated(
+    1e-4, "the same point", "the whole surface has a coarse mesh; a hundredth of an error of one percent"
+)
 BROKEN = decide.Stated(
     1e-4, "splits the pair", "ten thousand times what the even mesh leaves of an exact pair"
 )
@@ -207,6 +210,19 @@ def double_zero(solutions: Solutions) -> Finding:
     )
 
 
+def of_the_branch(solutions: Solutions) -> Finding:
+    """Level and volume at which the whole surface bends, and those of the primary branch's bifurcation."""
+    whole = quantities(solutions, HALF)
+    return decide.all_of(
+        decide.at_most(
+            f"{name}, relative difference",
+            abs(whole[f"{name}_bifurcation"] / solutions.point(TUBES[8, 2], "bifurcation_point", name) - 1),
+            SAME_POINT,
+        )
+        for name in ("zw", "V")
+    )
+
+
 def mesh_breaks_it(solutions: Solutions) -> Finding:
     """The pair on a mesh that is not uniform around."""
     even, uneven = (quantities(solutions, spec) for spec in (FULL, UNEVEN))
@@ -311,6 +327,12 @@ CASE = Case(
             "zero and the same secondary branch",
             ((HALF, None), (FULL, None)),
             double_zero,
+        ),
+        Claim(
+            "of_the_branch",
+            "the whole surface bends where the primary branch has its first bifurcation",
+            ((HALF, None), (TUBES[8, 2], None)),
+            of_the_branch,
         ),
         Claim(
             "mesh_breaks_it",

@@ -111,6 +111,8 @@ def test_solution_keys_tell_requests_and_code_apart(monkeypatch):
     }
     assert len(keys) == 16
     assert solution_key(one, [at]) == solution_key(tube(alpha=0.1), [At("p", 1.0)])
+    assert solution_key(tube(lf=6, n=(1, 2)), []) == solution_key(tube(lf=6.0, n=(1.0, 2)), [])
+    assert solution_key(tube(lf=True), []) != solution_key(tube(lf=1), [])
     monkeypatch.setattr("weakforms.verification.run.solving.source_digest", lambda: "other code")
     assert solution_key(one, [at]) not in keys
 

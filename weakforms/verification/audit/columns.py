@@ -12,12 +12,14 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
+from typing import Any
 
 import numpy as np
 
 from weakforms.results import Branch, Field, Quantity, Result
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.cases.specs import Spec
+from weakforms.verification.judging.bounds import FACTOR
 from weakforms.verification.judging.checks.check import Check
 from weakforms.verification.judging.consistency.exempt import EXEMPT, EXEMPT_SIZE
 from weakforms.verification.judging.consistency.identities import Identities
@@ -62,31 +64,36 @@ def columns_of(result: Result) -> list[str]:
 
 
 def falsified(result: Result, name: str, factor: float) -> Result | None:
-    """A solution with one column multiplied; ``None`` where that changes nothing."""
+    """A solution with one column multiplied; ``None`` where that changes no number that is clear of zero.
+
+    What is zero within its uncertainty remains so: that it is zero is for an identity or a claim to say.
+    """
     changed = [False]
 
-    def times(value: np.ndarray | float) -> np.ndarray | float:
-        changed[0] |= bool(np.any(np.nan_to_num(np.asarray(value, float)) != 0))
+    def times(value: np.ndarray | float, spread: np.ndarray | float | None) -> np.ndarray | float:
+        zero = FACTOR * np.nan_to_num(np.asarray(0.0 if spread is None else spread, float))
+        changed[0] |= bool(np.any(np.abs(np.nan_to_num(np.asarray(value, float))) > zero))
         return value * factor
 
     def quantities(of: Mapping[str, Quantity]) -> dict[str, Quantity]:
-        return {k: replace(q, value=times(q.value)) if one_of(k) == name else q for k, q in of.items()}
+        return {
+            k: replace(q, value=times(q.value, q.uncertainty)) if one_of(k) == name else q
+            for k, q in of.items()
+        }
+
+    def columns(of: Mapping[str, Any], spread: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+        return {k: times(v, spread.get(k)) if one_of(prefix + k) == name else v for k, v in of.items()}
 
     def field(of: Field) -> Field:
-        columns = {k: times(v) if one_of(f"{of.name}:{k}") == name else v for k, v in of.columns.items()}
-        return Field(of.name, columns, of.uncertainty)
+        return Field(of.name, columns(of.columns, of.uncertainty, f"{of.name}:"), of.uncertainty)
 
     def branch(of: Branch) -> Branch:
-        columns = {k: times(v) if one_of(k) == name else v for k, v in of.columns.items()}
-        return Branch(of.name, of.control, columns, of.uncertainty)
+        return Branch(of.name, of.control, columns(of.columns, of.uncertainty), of.uncertainty)
 
     out = replace(
         result,
         branches=[branch(item) for item in result.branches],
-        special_points=[
-            replace(p, values={k: times(v) if one_of(k) == name else v for k, v in p.values.items()})
-            for p in result.special_points
-        ],
+        special_points=[replace(p, values=columns(p.values, p.uncertainty)) for p in result.special_points],
         quantities=quantities(result.quantities),
         states=[
             replace(s, quantities=quantities(s.quantities), fields=tuple(map(field, s.fields)))

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import as_completed
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from weakforms.errors import InputError, WeakformsError
 from weakforms.results import Result, load_result, write_atomically
@@ -75,8 +76,16 @@ def solution_key(spec: Spec, states: list[At]) -> str:
     """Name under which a solution is stored."""
     from weakforms.solvers.support.provenance import versions
 
-    text = json.dumps([str(spec), sorted(map(repr, states)), source_digest(), versions()])
+    given = _as_compared([spec.problem, spec.parameters, spec.numerics])
+    text = json.dumps([given, sorted(map(repr, states)), source_digest(), versions()])
     return f"{spec.problem}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+
+
+def _as_compared(value: Any) -> Any:
+    """Parameters as equality sees them: cases that say ``L=8`` and ``L=8.0`` mean one solution."""
+    if isinstance(value, tuple | list):
+        return [_as_compared(item) for item in value]
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
 class Solver:

@@ -15,12 +15,13 @@ from typing import Any, ClassVar
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from weakforms.results import Branch, Result
+from weakforms.results import Branch, Result, SpecialPoint
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.bounds import Comparison, compare
 from weakforms.verification.judging.checks.check import Check, Wanted
 from weakforms.verification.judging.consistency import quadrature
-from weakforms.verification.judging.consistency.traces import is_judged, kinks, worst
+from weakforms.verification.judging.consistency.traces import is_study, kinks, worst
+from weakforms.verification.judging.decide import ROUNDING
 from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.run.solutions import Solutions
 
@@ -126,6 +127,46 @@ def positive(*columns: str) -> Identity:
     return Identity("positive", f"{', '.join(columns)} are positive", look)
 
 
+def zero(*columns: str) -> Identity:
+    """Numbers of a solution and of its states are zero within twice their uncertainty."""
+
+    def look(result: Result) -> Iterator[Found]:
+        everywhere = [("", result.quantities), *((state.branch, state.quantities) for state in result.states)]
+        for where, quantities in everywhere:
+            for name in (n for n in columns if n in quantities):
+                known = quantities[name].uncertainty
+                found = compare(quantities[name].value, np.nan if known is None else known, 0.0, 0.0, 1.0)
+                yield name, where, found
+
+    return Identity("zero", f"{', '.join(columns)}: zero", look)
+
+
+def of_events(name: str, statement: str, other: Callable[[SpecialPoint], float | None]) -> Identity:
+    """A number of special points by their others; ``None`` where the others do not tell it."""
+
+    def look(result: Result) -> Iterator[Found]:
+        for point in result.special_points:
+            expected = other(point) if name in point.values else None
+            if expected is not None:
+                size = abs(expected) or 1.0
+                yield name, point.kind, compare(point.values[name], 0.0, expected, ROUNDING * size, size)
+
+    return Identity(f"{name} of special points", statement, look)
+
+
+def total(name: str, statement: str, other: Callable[[Result], float | None]) -> Identity:
+    """A number of a whole solution by its others."""
+
+    def look(result: Result) -> Iterator[Found]:
+        expected = other(result) if name in result.quantities else None
+        if expected is not None:
+            size = abs(expected) or 1.0
+            found = result.quantities[name].value
+            yield name, "", compare(found, 0.0, expected, ROUNDING * size, size)
+
+    return Identity(f"{name} of the whole", statement, look)
+
+
 def smooth_parts(result: Result, branch: Branch, *names: str) -> list[slice]:
     """Parts of a trace between kinks, long enough for a spline of degree 5."""
     edges = sorted({0, *(k + side for k in kinks(result, branch) for side in (-1, 2)), len(branch)})
@@ -166,7 +207,7 @@ def stated(spec: Spec) -> list[Identity]:
     """Identities that a solution must meet."""
     from weakforms.verification.judging.consistency.identity_table import IDENTITIES
 
-    if not is_judged(spec):
+    if is_study(spec):
         return []
     given = dict(spec.parameters)
     return [identity for identity in IDENTITIES.get(spec.problem, ()) if identity.over(given)]

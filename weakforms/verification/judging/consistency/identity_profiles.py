@@ -204,13 +204,21 @@ def field(name: str, statement: str, by: Callable[[Result, State, Columns], np.n
 
 
 def derived(name: str, statement: str, by: Callable[..., np.ndarray], *of: str) -> Identity:
-    """A column of the profile by derivatives of others along it, where the samples tell them."""
+    """A column of the profile by derivatives of others along it, where the samples tell them.
+
+    Args:
+        name: The column.
+        statement: What is said of it.
+        by: Its value from the result, the state, the profile's columns and the derivatives.
+        of: Columns whose derivatives are taken.
+    """
 
     def look(result: Result) -> Iterator[Found]:
         for state, profile in profiles(result):
             x = next(iter(profile.columns.values()))
             slopes = [[s(x, 1) for s in quadrature.splines(x, profile.columns[other])] for other in of]
-            fine, coarse = (by(*side) for side in zip(*slopes, strict=True))
+            sides = zip(*slopes, strict=True)
+            fine, coarse = (by(result, state, profile.columns, *side) for side in sides)
             here = profile.columns[name]
             size = max(float(np.abs(here).max()), SMALL)
             # A kink is felt some points away, where the two are close again by accident.

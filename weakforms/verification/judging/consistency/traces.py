@@ -52,11 +52,15 @@ KINKS = ("contact_onset", "zone_opening", "zone_closing", "cusp_point")
 """Special points at which columns are not smooth."""
 
 
-def is_judged(spec: Spec) -> bool:
-    """Whether a solution has traces that a user would take: not where meshes are coarse on purpose."""
+def is_study(spec: Spec) -> bool:
+    """Whether meshes are coarse on purpose, as those of a study of convergence are."""
     numerics = dict(spec.numerics)
-    study = numerics.get("levels", 3) < 3 or numerics.get("degree", 4) < 4
-    return spec.problem in TRACED and not study
+    return numerics.get("levels", 3) < 3 or numerics.get("degree", 4) < 4
+
+
+def is_judged(spec: Spec) -> bool:
+    """Whether a solution has traces that a user would take."""
+    return spec.problem in TRACED and not is_study(spec)
 
 
 @dataclass(frozen=True)
