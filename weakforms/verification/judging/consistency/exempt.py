@@ -18,12 +18,9 @@ EXEMPT_SIZE: dict[str, str] = {
 """Columns of which only the sign is judged where no table has them, and why."""
 
 KNOWN: dict[str, str] = {
-    "wrinkled_tube: state": "a label of what opens or closes, not a number",
-    "hemisphere: state": "a label of what opens or closes, not a number",
     "hemisphere: t": "of an event: where on the meridian it is, without a profile there",
     **{
-        f"{problem}: mode_n#:{part}": "a mode's size and sign are conventions; its shape is looked at"
-        for problem in ("wrinkled_tube", "hemisphere")
+        f"hemisphere: mode_n#:{part}": "a mode's size and sign are conventions; its shape is looked at"
         for part in ("meridional", "circumferential", "normal")
     },
     "fluid_tube: Z_front": "its sign alone: tables and profiles look for it from the ring upwards",
@@ -40,7 +37,7 @@ KNOWN: dict[str, str] = {
         f"surface: {name}": "of a picture: nodes and triangles of a deformed surface, looked at"
         for name in (
             *("surface:Theta", "surface:gw", "surface:x", "surface:y", "surface:u_x", "surface:u_y"),
-            *("surface:u_z", "triangles:a", "triangles:b", "triangles:c"),
+            *("surface:u_z", "triangles:b", "triangles:c"),
             *("triangles:lam1", "triangles:lam2", "triangles:state"),
         )
     },

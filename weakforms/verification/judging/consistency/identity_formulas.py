@@ -182,9 +182,11 @@ def times_grid(result: Result, each: int, ends: int) -> float | None:
 
 
 def change_direction(result: Result) -> Iterator[Found]:
-    """More negative eigenvalues after a change than before it, or fewer, along the walk."""
+    """More negative eigenvalues after a change than before it, or fewer; one of two signs on its sides."""
     for point in result.special_points:
         if point.kind == "stability_change":
+            wrong = not point.values["Lambda_1"] < 0 < point.values["Lambda_1_stable"]
+            yield "Lambda_1_stable", point.kind, compare(float(wrong), 0.0, 0.0, 0.0, 1.0)
             columns = result.branch(point.branch).columns
             after = int(np.searchsorted(columns["zw"], point.values["zw"]))
             count = columns["n_negative"][after - 1 : after + 1]
