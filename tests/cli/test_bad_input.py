@@ -339,7 +339,7 @@ def test_the_copied_tree_itself_is_sound(tree, monkeypatch, weakforms):
     monkeypatch.setattr(runner, "solve_spec", first_solve)
     called = weakforms("verify", "-k", "fig03", "--out", tree.parents[2] / "out")
     assert (called.status, called.out) == (130, "")
-    assert called.complaints == ["weakforms: interrupted; the same with --resume goes on from what is solved"]
+    assert called.complaints == ["weakforms: interrupted; the same command with --resume continues"]
 
 
 @pytest.mark.parametrize(

@@ -222,7 +222,7 @@ def test_a_meridian_is_revolved():
     ("name", "columns", "words"),
     [
         ("a.ply", {"r": [1.0], "z": [0.0]}, "must end in .vtu, .xdmf, .stl"),
-        ("a.vtu", {"p": [1.0]}, "is no surface"),
+        ("a.vtu", {"p": [1.0]}, "is not a surface"),
         ("no/where/a.vtu", {"r": [1.0, 1.0], "z": [0.0, 1.0]}, "cannot write"),
     ],
 )

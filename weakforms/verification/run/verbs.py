@@ -44,7 +44,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
                     progress=progress,
                 )
         except KeyboardInterrupt:
-            complain("interrupted; the same with --resume goes on from what is solved")
+            complain("interrupted; the same command with --resume continues")
             raise typer.Exit(130) from None
         if first:
             for name in (FAULTS, RANDOM, AUDIT):

@@ -30,7 +30,7 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     except BrokenProcessPool:
         raise EnvironmentLackError(
             "a process at work died, perhaps for want of memory; "
-            f"with fewer than -j {jobs} and --resume the run goes on from what is solved"
+            f"with fewer than -j {jobs} and --resume the run continues from the stored solutions"
         ) from None
     finally:
         pool.shutdown(cancel_futures=True)
