@@ -144,7 +144,7 @@ def test_a_curve_that_jumps_over_the_table_is_told_so():
     verdicts = verdict_on(TUBE, curve)
     assert (verdicts.passed, verdicts.partial) == (True, True)
     assert (verdicts.met_rows, verdicts.table_rows) == (2 + 3 + 2, 100)
-    assert "7 of 100 rows are met" in verdicts.extent
+    assert "7 of 100 rows are covered" in verdicts.extent
     rows = np.linspace(0, 1, 11)
     assert met(rows, rows[::2]) == 11
     assert met(rows, np.array([0.5])) == 3
