@@ -360,7 +360,7 @@ def test_a_fault_in_the_weak_form_is_noticed(fault, monkeypatch):
 
 def test_with_the_pressure_reversed_the_tube_does_not_fill(monkeypatch):
     pressure_reversed(monkeypatch)
-    with pytest.raises(InputError, match=r"V = 20 is not met .* ranges over \[-"):
+    with pytest.raises(InputError, match=r"V = 20 is not taken .* ranges over \[-"):
         judged()
 
 
@@ -391,5 +391,5 @@ def test_bad_input_is_refused_before_anything_is_solved(given, message):
 
 
 def test_a_level_above_the_highest_is_refused_with_the_range():
-    with pytest.raises(InputError, match=r"zw = 8.5 is not met .* ranges over \[0, 8.37"):
+    with pytest.raises(InputError, match=r"zw = 8.5 is not taken .* ranges over \[0, 8.37"):
         solve("fluid_tube", at={"zw": 8.5}, numerics=COARSE)
