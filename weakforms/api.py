@@ -69,7 +69,7 @@ def solve(
     Raises:
         InputError: For an unknown problem or parameter, or a value out of range; nothing was solved.
         ConvergenceError: If no branch could be started.
-        EnvironmentLackError: When dolfinx is missing.
+        EnvironmentLackError: If dolfinx is missing.
     """
     return prepare(problem, parameters, numerics or {}, at, crossing, branch)(progress)
 
@@ -90,7 +90,7 @@ def prepare(
 
     Raises:
         InputError: For an unknown problem, parameter or branch, or a value out of range.
-        EnvironmentLackError: When dolfinx is missing.
+        EnvironmentLackError: If dolfinx is missing.
     """
     chosen = require_environment().get(problem)
     from weakforms.problems.problem import StateRequest

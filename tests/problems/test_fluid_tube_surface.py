@@ -390,7 +390,7 @@ def test_a_mesh_uneven_around_splits_the_pair():
     [
         ({"extent": "half", "uneven": 0.1}, "uneven = 0.1 needs extent = 'full'"),
         ({"uneven": 0.9}, "uneven = 0.9"),
-        ({"at": {"zw": 7.0}}, "no states to ask for"),
+        ({"at": {"zw": 7.0}}, "it has no states"),
         ({"numerics": {"cells": 10}}, "multiple of 4"),
     ],
 )

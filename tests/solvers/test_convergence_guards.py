@@ -94,7 +94,7 @@ def test_a_bifurcation_that_the_primary_branch_does_not_have():
     told = bare(PrimaryBranch, path=SimpleNamespace(pieces=[piece]))
     refused("has 0 bifurcation points of n = 2, not 1", told.bifurcation, [0.0], 2)
     refused("has 1 bifurcation points of n = 1, not 2", told.bifurcation, [0.0], 1, 2)
-    refused("zw = 5 is not met 1 times", told.at, "zw", 5.0, [0.0])
+    refused("zw = 5 is not taken 1 times", told.at, "zw", 5.0, [0.0])
 
 
 # -- bent states -----------------------------------------------------------------------------------

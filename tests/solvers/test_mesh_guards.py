@@ -122,7 +122,7 @@ def test_pieces_of_the_primary_branch_that_only_some_meshes_have(monkeypatch):
     pieces = iter(([1, 2, 3], [1, 2, 3], [1, 2]))
     monkeypatch.setattr(fluid_tube_problem, "FluidPath", lambda *_: SimpleNamespace(pieces=next(pieces)))
     given = FluidTubeParameters(), FluidTubeNumerics(), None, lambda *_: None
-    refused("pieces of the primary branch depend on the mesh", fluid_tube_problem.primary_family, *given)
+    refused("the parts of the primary branch depend on the mesh", fluid_tube_problem.primary_family, *given)
 
 
 def part(name, values, **fixed):
@@ -152,7 +152,7 @@ def test_pieces_are_one_branch_and_count_crossings_together():
     assert [(s.branch, s.crossing) for s in found] == [("a", 1), ("b", 2), ("b", 3)]
     assert [s.quantities["own"].value for s in found] == [1, 1, 2]
     assert [s.quantities["front"].value for s in found] == [7.0, 9.0, 9.0]
-    with pytest.raises(InputError, match=r"not met 4 times on this branch; u ranges over \[0, 2\]"):
+    with pytest.raises(InputError, match=r"not taken 4 times on this branch; u ranges over \[0, 2\]"):
         whole.state("u", 1.5, 4)
 
 

@@ -48,7 +48,7 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
         The path of the first page.
 
     Raises:
-        InputError: When the folder cannot be written to.
+        InputError: If the folder cannot be written to.
     """
     from weakforms.problems import registry
 

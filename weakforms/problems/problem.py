@@ -113,7 +113,7 @@ class Registry:
         """The problem of that name.
 
         Raises:
-            InputError: When there is none.
+            InputError: If there is none.
         """
         if name not in self.problems:
             known = ", ".join(self.problems)

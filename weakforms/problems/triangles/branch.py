@@ -78,7 +78,7 @@ class SurfaceRun:
         """Equilibrium at a load, reached from the nearest one known; counted by inertia.
 
         Raises:
-            ConvergenceError: When it is not reached, or is none of the whole surface.
+            ConvergenceError: If it is not reached, or is none of the whole surface.
         """
         if not self._known:
             return self._keep(self._point(load, self._begin))
@@ -131,7 +131,7 @@ class SurfaceRun:
         """Columns of a state; its ``count`` lowest eigenvalues by SLEPc, complete by the inertia.
 
         Raises:
-            ConvergenceError: When SLEPc does not find as many as the inertia counts.
+            ConvergenceError: If SLEPc does not find as many as the inertia counts.
         """
         if not point.values:
             self.system.set_state(point.state.u, point.state.loads)
@@ -193,7 +193,7 @@ class SurfaceRun:
             tolerance: Width of the bracket.
 
         Raises:
-            ConvergenceError: When a state in a bracket is not reached.
+            ConvergenceError: If a state in a bracket is not reached.
         """
         for before, after in pairwise(self.at(float(load)) for load in loads):
             if (before.n_negative > 0) != (after.n_negative > 0):

@@ -84,7 +84,7 @@ def tube(length: float, meridional: int, circumferential: int, mirrored: bool = 
         mirrored: The other diagonal of every quadrilateral.
 
     Raises:
-        InputError: When fewer than three columns are to close.
+        InputError: If fewer than three columns are to close.
     """
     if circumferential < 3:
         raise InputError(
@@ -148,7 +148,7 @@ def from_file(path: Path) -> Triangulation:
         path: A file meshio reads; lines and single nodes in it are passed over.
 
     Raises:
-        InputError: When it cannot be read or is no surface a membrane can be made of; says what is wrong.
+        InputError: If it cannot be read or is no surface a membrane can be made of; says what is wrong.
         EnvironmentLackError: Without meshio.
     """
     try:

@@ -97,7 +97,7 @@ class Meridian:
         """Refuse a surface whose nodes do not lie on one meridian turned about the ``z`` axis.
 
         Raises:
-            InputError: When they are further from the best one than :data:`ALIKE`.
+            InputError: If they are further from the best one than :data:`ALIKE`.
         """
         b = self._splines
         wrong = 0.0

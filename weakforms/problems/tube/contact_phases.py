@@ -55,7 +55,7 @@ class ContactRun:
         """Free inflation up to first touch.
 
         Raises:
-            ConvergenceError: When the branch ends before.
+            ConvergenceError: If the branch ends before.
         """
         branch = free_branch(self.slip.system, self.data.delta1, self._touch, self.step)
         last = branch.points[-1]
@@ -73,7 +73,7 @@ class ContactRun:
         """First touch.
 
         Raises:
-            InputError: When it comes after the pressure at which inflation ends.
+            InputError: If it comes after the pressure at which inflation ends.
         """
         last = self.free.points[-1]
         values = {**last.monitors, "p": last.state.loads["p"]}
@@ -136,7 +136,7 @@ class ContactRun:
         front-fitted problem a ``z_j`` with the last ``E`` and takes the slopes found for the next.
 
         Raises:
-            ConvergenceError: When the sweeps do not converge.
+            ConvergenceError: If the sweeps do not converge.
         """
         span = self._reached(self.frictionless).state.loads["front"]
         model = ContactModel(self.comm, replace(self.data, terms=self.terms, span=span))
@@ -167,7 +167,7 @@ class ContactRun:
         """The state at ``p_end``.
 
         Raises:
-            ConvergenceError: When the branch ends before.
+            ConvergenceError: If the branch ends before.
         """
         if len(branch.crossings("p", self.p_end)):
             return branch.at("p", self.p_end)

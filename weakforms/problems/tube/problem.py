@@ -233,7 +233,7 @@ def _fold_start(parameters: TubeFoldParameters, has_limit_point: Callable[[float
     """Pre-stretch at which a fold line is begun: 1, or else ``delta1_end``.
 
     Raises:
-        InputError: When no limit point is there; says what was searched.
+        InputError: If no limit point is there; says what was searched.
     """
     low, high = 1.0, parameters.delta1_end
     for delta1 in (low, high):

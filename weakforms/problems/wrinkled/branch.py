@@ -104,7 +104,7 @@ class WrinkledBranch:
         """The state of the plain mesh at a value of a column.
 
         Raises:
-            InputError: When the column does not take the value that often.
+            InputError: If the column does not take the value that often.
         """
         trace = self.trace
         self.membrane.prepare()
@@ -268,8 +268,8 @@ class WrinkledBranch:
         """A state with a column at exactly a value, its fronts, and its profile if wanted.
 
         Raises:
-            InputError: When the branch has no such state.
-            ConvergenceError: When it is not solved on all meshes.
+            InputError: If the branch has no such state.
+            ConvergenceError: If it is not solved on all meshes.
         """
         levels = self._special_state(name, value)
         if levels is None:

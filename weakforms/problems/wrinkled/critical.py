@@ -42,7 +42,7 @@ def critical_radii(
     from a slim one (Patil, Nordmark & Eriksson 2015, section 4.1 and table 2).
 
     Raises:
-        ConvergenceError: When the unloaded state is not found.
+        ConvergenceError: If the unloaded state is not found.
     """
     membrane = Membrane(comm, CYLINDER, {**values, "Af": SLIM}, False, cells, degree, "relaxed", (), material)
     found = []
@@ -75,7 +75,7 @@ def threshold(
         material: A law in the place of Mooney and Rivlin's.
 
     Raises:
-        ConvergenceError: When the membrane is taut, or wrinkled, in the whole range looked at.
+        ConvergenceError: If the membrane is taut, or wrinkled, in the whole range looked at.
     """
     membrane = Membrane(comm, CYLINDER, {**values, "M": 1.0}, False, cells, degree, "relaxed", (), material)
     held = _first_wrinkled(membrane, len(cells) - 1, towards)

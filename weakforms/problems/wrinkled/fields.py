@@ -172,7 +172,7 @@ def zones(meridian: Meridian, loads: Mapping[str, float], flat: float, liquid: b
         liquid: Whether there is a level.
 
     Raises:
-        ConvergenceError: When the surface crosses the axis: an equilibrium of the equations only.
+        ConvergenceError: If the surface crosses the axis: an equilibrium of the equations only.
     """
     model = meridian.model
     breaks = model.breaks_of(loads)

@@ -48,7 +48,7 @@ class Membrane(PlainMembrane):
         """The state selected by a constraint on the control, on every mesh, coarse to fine, or on the finest.
 
         Raises:
-            ConvergenceError: When no pattern of zones is found that the solution shows itself.
+            ConvergenceError: If no pattern of zones is found that the solution shows itself.
         """
         ways = [(THINNEST, True), (SLIVER, True)]
         if start.layout is not None:  # fitted already: its own zones may do where a plain mesh does not
@@ -141,7 +141,7 @@ class Membrane(PlainMembrane):
             graded: Make blocks short near fronts.
 
         Raises:
-            ConvergenceError: When it does not converge, or break points pass each other.
+            ConvergenceError: If it does not converge, or break points pass each other.
         """
         extra = () if touch is None or touch.at_end else (touch.at,)
         layout = Layout.of(wanted, self.length, extra, self.near_fronts if graded else ())

@@ -144,7 +144,7 @@ class Readings:
             critical: Magnitude below which an axisymmetric eigenvalue does not count as negative.
 
         Raises:
-            ConvergenceError: When meshes disagree on fronts or on stability.
+            ConvergenceError: If meshes disagree on fronts or on stability.
         """
         values = [self.columns(held) for held in levels]
         if any(set(v) != set(values[-1]) for v in values):

@@ -93,7 +93,7 @@ class PlainMembrane:
         that Newton's method finds nothing, or an equilibrium turned inside out.
 
         Raises:
-            ConvergenceError: When a step does not converge, nor any from disks that are less wide.
+            ConvergenceError: If a step does not converge, nor any from disks that are less wide.
         """
         try:
             return self._by_homotopy(load)
@@ -145,7 +145,7 @@ class PlainMembrane:
         The liquid comes in its place step by step: without either there is nothing to hold the membrane.
 
         Raises:
-            ConvergenceError: When a step does not converge.
+            ConvergenceError: If a step does not converge.
         """
         state = self.prepare()
         state.loads[self.control] = load
@@ -173,7 +173,7 @@ class PlainMembrane:
             state: ``TAUT`` or ``WRINKLED``.
 
         Raises:
-            ConvergenceError: When a step does not converge.
+            ConvergenceError: If a step does not converge.
         """
         easy = dict(self.body.easy)
         goal = {name: self.values[name] for name in easy}

@@ -199,7 +199,7 @@ class Run:
     """An output folder of ``weakforms verify``.
 
     Raises:
-        InputError: When it has no report.
+        InputError: If it has no report.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -221,7 +221,7 @@ def runs(first: Run, second: Run) -> list[Compared]:
     """Every solution of two runs of the same cases, the worst first.
 
     Raises:
-        InputError: When a stored solution is damaged.
+        InputError: If a stored solution is damaged.
     """
     specs = {**first.files, **second.files}
     found = [_compared(spec, first.result(spec), second.result(spec)) for spec in specs]

@@ -60,7 +60,7 @@ def describe(name: str) -> dict[str, Any]:
     """Facts about a problem or a case.
 
     Raises:
-        InputError: When there is neither of that name.
+        InputError: If there is neither of that name.
     """
     for found in find_cases():
         if found.id == name:

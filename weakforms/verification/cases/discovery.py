@@ -46,7 +46,7 @@ def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
     """All cases in the order of papers and names, then those of no paper.
 
     Raises:
-        InputError: When a case file does not define ``CASE``.
+        InputError: If a case file does not define ``CASE``.
     """
     found = []
     for path in sorted(part("cases", root).glob("paper[1-5]/*.py")):
@@ -78,7 +78,7 @@ def get_case(name: str) -> FoundCase:
     """The case of that id.
 
     Raises:
-        InputError: When there is none; names the nearest.
+        InputError: If there is none; names the nearest.
     """
     known = {found.id: found for found in find_cases()}
     if name not in known:
@@ -96,7 +96,7 @@ def select(paper: int | None = None, expression: str | None = None) -> list[Foun
     """Cases of a paper whose names satisfy an expression of words, ``and``, ``or``, ``not``, brackets.
 
     Raises:
-        InputError: When the expression is malformed or nothing is left.
+        InputError: If the expression is malformed or nothing is left.
     """
     cases = [c for c in find_cases() if paper is None or c.paper == paper]
     if expression is not None:

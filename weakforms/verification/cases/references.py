@@ -65,7 +65,7 @@ def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
     """The table ``reference_data/paperN/NAME``; of a table over a surface ``NAME@DEGREES`` is one meridian.
 
     Raises:
-        InputError: When it is missing, incomplete, altered (by its checksum) or no table.
+        InputError: If it is missing, incomplete, altered (by its checksum) or no table.
     """
     whole, separator, degrees = name.partition("@")
     if separator:

@@ -34,7 +34,7 @@ def elsewhere(own: Path, other: Path) -> Elsewhere:
     """Compare the stored solutions of two output folders of ``verify``, case by case.
 
     Raises:
-        InputError: When one of them has no report, what is stored is damaged, or they share no case.
+        InputError: If one of them has no report, what is stored is damaged, or they share no case.
     """
     first, second = Run(own), Run(other)
     found = tuple(row for row in rows(first, second) if row.case in second.specs)
@@ -48,7 +48,7 @@ def write_elsewhere(runs: Iterable[Elsewhere], folder: Path) -> None:
     """Put comparisons beside a report.
 
     Raises:
-        InputError: When the folder cannot be written.
+        InputError: If the folder cannot be written.
     """
     data = {"schema": SCHEMA, "runs": [asdict(run) for run in runs]}
     write_atomically(Path(folder) / NAME, dumps(data))
@@ -58,7 +58,7 @@ def load_elsewhere(folder: Path) -> tuple[Elsewhere, ...]:
     """Comparisons that lie beside a report; none where there is no such file.
 
     Raises:
-        InputError: When it is damaged.
+        InputError: If it is damaged.
     """
     path = Path(folder) / NAME
     if not path.exists():

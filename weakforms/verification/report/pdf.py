@@ -42,7 +42,7 @@ def browser() -> str:
     """The browser there is.
 
     Raises:
-        EnvironmentLackError: When there is none; says how to get one.
+        EnvironmentLackError: If there is none; says how to get one.
     """
     for name in BROWSERS:
         if path := shutil.which(name):
@@ -73,8 +73,8 @@ def write_pdf(run: RunOutcome, path: Path) -> Path:
         path: The file; its folder must be there.
 
     Raises:
-        InputError: When the place cannot be written to.
-        EnvironmentLackError: When there is no browser, or it does not do it.
+        InputError: If the place cannot be written to.
+        EnvironmentLackError: If there is no browser, or it does not do it.
     """
     path = Path(path).absolute()
     require_pdf_name(path)

@@ -48,7 +48,7 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
         The path of ``index.html``.
 
     Raises:
-        InputError: When the folder cannot be written, or what is stored cannot be drawn.
+        InputError: If the folder cannot be written, or what is stored cannot be drawn.
     """
     data = _plain(run.to_json())
     run = _decoded(data)
@@ -120,7 +120,7 @@ def load_run(folder: Path) -> RunOutcome:
         The run; numbers that were not finite come back as NaN in columns and ``None`` elsewhere.
 
     Raises:
-        InputError: When the file is missing, cut short, not JSON, or of another schema.
+        InputError: If the file is missing, cut short, not JSON, or of another schema.
     """
     path = Path(folder)
     path = path / "report.json" if path.suffix != ".json" else path

@@ -24,7 +24,7 @@ def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
         The path of ``index.html``.
 
     Raises:
-        InputError: When the folder cannot be written to.
+        InputError: If the folder cannot be written to.
     """
     require_writable(folder)
     of = {verdict.column: verdict for verdict in verdicts.verdicts}

@@ -47,7 +47,7 @@ def read_request(path: Path) -> dict[str, Any]:
     """A request from a file.
 
     Raises:
-        InputError: When it is no JSON, or does not fit the schema.
+        InputError: If it is no JSON, or does not fit the schema.
     """
     data = load_json(path, "request")
     validator = jsonschema.Draft202012Validator(schema("request"))
@@ -137,7 +137,7 @@ def run_batch(
         report: Progress: what, done, of how many.
 
     Raises:
-        InputError: When there is no request, or the output folder cannot be written to.
+        InputError: If there is no request, or the output folder cannot be written to.
     """
     folder = Path(folder)
     if out is None and (folder / OUTPUT).is_symlink():  # the folder may be somebody else's

@@ -22,7 +22,7 @@ class Solutions:
         """The stored result.
 
         Raises:
-            ConvergenceError: When solving it failed altogether.
+            ConvergenceError: If solving it failed altogether.
         """
         if spec not in self._results:
             raise ConvergenceError(f"{spec} was not solved")
@@ -32,7 +32,7 @@ class Solutions:
         """A branch by its name.
 
         Raises:
-            ConvergenceError: When the solution has none of that name.
+            ConvergenceError: If the solution has none of that name.
         """
         try:
             return self.result(spec).branch(name)
@@ -55,7 +55,7 @@ class Solutions:
         """The state asked for.
 
         Raises:
-            ConvergenceError: When it is not there; says why.
+            ConvergenceError: If it is not there; says why.
         """
         result = self.result(spec)
         for state in result.states:
@@ -90,7 +90,7 @@ class Solutions:
         """One number of a special point, with its uncertainty.
 
         Raises:
-            IndexError: When there are fewer points of the kind.
+            IndexError: If there are fewer points of the kind.
         """
         return of_point(self.points(spec, kind)[index], name)
 
@@ -138,7 +138,7 @@ def _meridian(field: Field, theta: float) -> Field:
     """The rows of a surface's field on one meridian.
 
     Raises:
-        ConvergenceError: When the field has none there.
+        ConvergenceError: If the field has none there.
     """
     rows = np.isclose(field.columns["Theta"], theta, rtol=0, atol=1e-9)
     if not rows.any():

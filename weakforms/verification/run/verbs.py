@@ -21,8 +21,8 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
     """Solve and judge cases, then write the report and say how it went.
 
     Raises:
-        InputError: When a case is not sound, or the folder is another run's or cannot be written.
-        EnvironmentLackError: When nothing can be solved here.
+        InputError: If a case is not sound, or the folder is another run's or cannot be written.
+        EnvironmentLackError: If nothing can be solved here.
         typer.Exit: With the contract's status, unless all checks hold.
     """
     from weakforms import api
@@ -71,8 +71,8 @@ def report(
         jobs: Processes that draw, side by side.
 
     Raises:
-        InputError: When something stored cannot be read or drawn, or the folder not be written.
-        EnvironmentLackError: When it is to be printed and there is no browser.
+        InputError: If something stored cannot be read or drawn, or the folder not be written.
+        EnvironmentLackError: If it is to be printed and there is no browser.
     """
     from weakforms.verification.report import pdf
 

@@ -21,7 +21,7 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
         jobs: How many.
 
     Raises:
-        EnvironmentLackError: When one of them died.
+        EnvironmentLackError: If one of them died.
     """
     # Spawned, not forked: MPI and PETSc do not survive a fork.
     pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_parent)

@@ -134,7 +134,7 @@ class PatchFamily:
         """The patch at an amplitude, and its shape.
 
         Raises:
-            InputError: When it is not asked for by its amplitude.
+            InputError: If it is not asked for by its amplitude.
         """
         if name != "e" or crossing != 1:
             raise InputError(f"wrinkled_patch: a state is asked for by its amplitude e, not by {name}")

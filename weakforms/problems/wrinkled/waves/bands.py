@@ -45,7 +45,7 @@ class Bands:
         """Brackets of the lower and upper end of the unstable whole numbers; ``None`` without any.
 
         Raises:
-            ConvergenceError: When they reach beyond ``most``.
+            ConvergenceError: If they reach beyond ``most``.
         """
         unstable = [n for n in range(1, most + 1) if self.unstable(n)]
         if not unstable:
@@ -58,7 +58,7 @@ class Bands:
         """Wave number between two at which the lowest eigenvalue is zero.
 
         Raises:
-            ConvergenceError: When its sign is the same at both.
+            ConvergenceError: If its sign is the same at both.
         """
         low = max(low, 1e-3)
         if self.lowest(low) * self.lowest(high) > 0:

@@ -129,7 +129,7 @@ class Waves:
         """The lowest eigenvalues at the state held and how many are negative; ``n = 0`` without torsion.
 
         Raises:
-            ConvergenceError: When SLEPc and the inertia disagree on the negative ones.
+            ConvergenceError: If SLEPc and the inertia disagree on the negative ones.
         """
         if n == 0:
             system = self.model.system
@@ -148,7 +148,7 @@ class Waves:
         stiffness is itself an eigenvalue, the lowest :math:`\nu` of :math:`K(\beta) x = \nu K_1 x`.
 
         Raises:
-            ConvergenceError: When something is unstable at the greater stiffness as well.
+            ConvergenceError: If something is unstable at the greater stiffness as well.
         """
         without = self.variation(n, 0.0).tangent().copy()
         variation = self.variation(n, stiff)

@@ -189,7 +189,7 @@ class StabilityChanges:
         width of zero, is stepped around.
 
         Raises:
-            ConvergenceError: When there is no state near the root.
+            ConvergenceError: If there is no state near the root.
         """
         tried, fa, fb, side = [a, b], a.lowest, b.lowest, 0
         for _ in range(STEPS):

@@ -83,7 +83,7 @@ def trial_form(held: Held, power: int) -> dict[str, float]:
         power: Of the sine.
 
     Raises:
-        InputError: When there is no part for it.
+        InputError: If there is no part for it.
     """
     waves_at(held)
     if held.zones.first == TAUT or (held.zones.surface is None and not held.zones.wet):

@@ -46,7 +46,7 @@ def sets(problem: Problem, seed: int, count: int) -> tuple[list[dict[str, Any]],
         The sets, and how many draws each message refused: parameters that contradict one another.
 
     Raises:
-        InputError: When next to nothing is admitted.
+        InputError: If next to nothing is admitted.
     """
     found: list[dict[str, Any]] = []
     refused: dict[str, int] = {}

@@ -136,7 +136,7 @@ def load_audit(path: Path) -> AuditRun:
     """An audit from its file.
 
     Raises:
-        InputError: When it cannot be read, or is none.
+        InputError: If it cannot be read, or is none.
     """
     data = load_json(path, "audit")
     if data.get("schema") != SCHEMA:
