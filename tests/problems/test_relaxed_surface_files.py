@@ -132,11 +132,11 @@ WRONG = {
     twice: "duplicate triangles",
     fin: "not a manifold",
     needle: "without area",
-    closed: "no edge to be clamped",
+    closed: "no edge to clamp",
     two_parts: "2 parts",
     hole: "3 edges",
-    oblique: "no circle about the z axis",
-    oval: "no surface of revolution",
+    oblique: "not a circle about the z axis",
+    oval: "not a surface of revolution",
     nan: "not a finite number",
 }
 
@@ -185,7 +185,7 @@ def test_other_files(tmp_path, rings):
         ({"geometry": "surface.obj"}, "'tube', 'hemisphere' or a file"),
         ({"degree": 2}, "degree = 2"),
         ({"load_start": -0.1}, "allowed with this geometry: 0 to 100"),
-        ({"load_start": 3, "load_end": 3}, "two loads are wanted"),
+        ({"load_start": 3, "load_end": 3}, "they must differ"),
         ({"geometry": "hemisphere", "M": 1.2}, "M = 1.2 has no meaning"),
         ({"geometry": "hemisphere", "load": "gas"}, "hangs full of fluid"),
         ({"geometry": "hemisphere", "load_start": -0.3}, "allowed with this geometry: -1.05 to -0.48"),

@@ -114,7 +114,7 @@ def test_bent_states_count_what_breaks_the_symmetry_twice():
 
 
 def test_an_eigenvalue_as_near_to_zero_as_the_turns_has_no_sign():
-    refused("its sign cannot be told", breaking([1e-9, -5e-10, 0.3], 0, 0)._breaking, None)
+    refused("its sign is uncertain", breaking([1e-9, -5e-10, 0.3], 0, 0)._breaking, None)
 
 
 def test_bent_states_below_every_target_are_refused():
