@@ -194,7 +194,7 @@ def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeyp
     monkeypatch.setattr(solving, "_task", die)
     called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
     assert (called.status, len(called.complaints)) == (4, 1)
-    assert "a process at work died" in called.complaints[0]
+    assert "a worker process ended unexpectedly" in called.complaints[0]
 
 
 # -- an interrupted run --------------------------------------------------------------------------

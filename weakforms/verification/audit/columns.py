@@ -1,8 +1,7 @@
-"""Which columns no check looks at: each is falsified in all stored solutions, and the cases judge again.
+"""Finds columns of stored solutions that no check judges: each is falsified in turn and judged again.
 
-A column of a problem is multiplied by 1.01 and by -1 wherever a solution of the problem has it: in branches,
-special points, states, fields. Nothing is solved. A column with which every check still passes is judged by
-nothing.
+A column of a problem is multiplied by 1.01 and by -1 in all solutions of the problem: in branches, special
+points, states and fields. Nothing is solved. If all checks still pass, no check judges the column.
 """
 
 from __future__ import annotations
@@ -41,12 +40,12 @@ class Missed:
 
 
 def one_of(name: str) -> str:
-    """A column's name without the wave number it is for: columns for any wave number are one column."""
+    """Column name with its wave number replaced by ``#``: columns that differ in it only count as one."""
     return re.sub(r"(?<=_n)\d+", "#", name)
 
 
 def columns_of(result: Result) -> list[str]:
-    """Everything a solution has numbers for; a column of a field is ``field:column``."""
+    """All columns of a solution; a column of a field is ``field:column``."""
     names: dict[str, None] = {}
     for branch in result.branches:
         names |= dict.fromkeys(branch.columns)
@@ -62,7 +61,7 @@ def columns_of(result: Result) -> list[str]:
 
 
 def falsified(result: Result, name: str, factor: float) -> Result | None:
-    """A solution with one column multiplied; ``None`` where that changes nothing."""
+    """A solution with one column multiplied by a factor; ``None`` if that changes nothing."""
     changed = [False]
 
     def times(value: np.ndarray | float) -> np.ndarray | float:
@@ -117,12 +116,12 @@ def _verdicts(check: Check, paper: int | str, solutions: Solutions) -> list[Verd
 def audit(
     cases: list[FoundCase], results: Mapping[Spec, Result], report: Callable[[str], None] = lambda _: None
 ) -> list[Missed]:
-    """Falsify every column of every problem and say which were missed.
+    """Falsify every column of every problem and return those that no check noticed.
 
     Args:
-        cases: That judge.
-        results: Stored solutions of theirs.
-        report: Told which problem is at hand.
+        cases: Cases that judge.
+        results: Stored solutions of these cases.
+        report: Called with each problem's name.
     """
     missed = []
     for problem in dict.fromkeys(spec.problem for spec in results):
@@ -142,7 +141,7 @@ def audit(
 
 
 def _passes(one: Judging, solutions: Solutions) -> bool:
-    """Whether all its verdicts pass; a check that breaks down is a failed one in a run, and here."""
+    """Whether all verdicts pass; a check that cannot be evaluated has noticed the change."""
     try:
         return all(verdict.passed for verdict in one(solutions))
     except Exception:
