@@ -26,7 +26,7 @@ pytestmark = pytest.mark.paper4
         (["--at", "p=0.1"], "there is no p"),
         (["--set", "load=gas", "--at", "zw=3"], "there is no zw"),
         (["--at", "zw=-1"], "must be 0 or more"),
-        (["--at", "front=1"], "ask for the state"),
+        (["--at", "front=1"], "request a state"),
         (["--at", "r_max=1"], "cannot ask for a state at 'r_max'"),
         (["--at", "zw=nan"], "not a finite number"),
     ],

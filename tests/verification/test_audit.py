@@ -194,4 +194,4 @@ def test_the_report_shows_it_when_it_lies_beside_the_results():
     page = render(RunOutcome("quick", "all", "", 0.0, {}), audited=Audited(run))["audit.html"]
     for text in (run.headline, "s = 1.5 is out of reach", run.missed[0].command, "67 %"):
         assert escape(text) in page
-    assert "No audit lies beside" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]
+    assert "There is no audit in the folder" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]

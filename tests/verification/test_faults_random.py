@@ -322,10 +322,10 @@ def test_the_report_shows_them(run_one, tmp_path):
     beside = Seeded.beside(tmp_path / "report")
     assert (beside.run, beside.random) == (None, run)
     page = render(empty, beside)["faults.html"]
-    assert "Faults that nobody chose" in page
+    assert "Random faults" in page
     assert 'id="mutant-x-1-abc"' in page
     assert "3 cases or tests run of 3 that may see it" in page
-    assert "Faults that nobody chose" not in render(empty, Seeded())["faults.html"]
+    assert "Random faults" not in render(empty, Seeded())["faults.html"]
 
 
 @pytest.mark.parametrize(

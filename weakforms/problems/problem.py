@@ -158,7 +158,7 @@ def check_requests(problem: Problem, requests: Requests) -> None:
     for wanted in requests.states:
         if wanted.name not in allowed:
             raise InputError(
-                f"{problem.name}: there is no state at {wanted.name!r}; allowed: {', '.join(allowed)}"
+                f"{problem.name}: cannot ask for a state at {wanted.name!r}; allowed: {', '.join(allowed)}"
             )
         if wanted.branch not in problem.branches:
             raise InputError(

@@ -107,7 +107,7 @@ def _at_both_ends(membrane: Membrane, absent: Held, present: Held, after: int, o
     """Zones that open or close at both ends at once, as in a symmetric membrane."""
     fewer, more = absent.zones, present.zones
     if len(more.fronts) != len(fewer.fronts) + 2 or more.first == fewer.first:
-        raise ConvergenceError("several zones change at the same load")
+        raise ConvergenceError("several zones change at once")
     last = more.first * (-1) ** len(more.fronts)
     ends = ((0.0, more.fronts[0], more.first), (more.fronts[-1], membrane.length, last))
     return [e for zone in ends for e in _located(membrane, absent, present, zone, after, opening)]

@@ -145,7 +145,7 @@ class Tube:
 class BentTube:
     """Paper 3: the bent fluid-filled tube on half its surface, from its bifurcation on."""
 
-    title = "2-D: secondary branch of the fluid-filled tube"
+    title = "2-D: secondary branch of the fluid-loaded tube"
     asked = 1.1
     primitives = PRIMITIVES
     cells, degree, step, end = 16, 3, 0.1, 0.9

@@ -1,4 +1,4 @@
-"""The verdict on somebody else's curve as files: JSON, a page with its pictures, each picture by itself."""
+"""The verdict on a curve of another code as files: JSON, a page with its pictures, and each picture."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
 
     Args:
         verdicts: What :func:`weakforms.compare` returned.
-        folder: Where to; made when missing.
+        folder: Folder for the files; created if missing.
 
     Returns:
         The path of ``index.html``.
