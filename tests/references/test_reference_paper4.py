@@ -88,7 +88,7 @@ def test_both_methods_find_the_same_state(membrane, load):
 
 def test_the_pattern_of_figure_4_is_found_by_all_three():
     state = cas.solved(*THREE_FRONTS)
-    assert state.zones == "wrinkled tense wrinkled tense"
+    assert state.zones == "wrinkled taut wrinkled taut"
     untracked = cas.grid_at(*THREE_FRONTS).fronts
     assert len(untracked) == len(state.shots[1].shot.fronts) == 3
     assert np.abs(untracked - tracked(*THREE_FRONTS).pattern.fronts).max() < 2e-3
@@ -186,7 +186,7 @@ def test_newtons_matrix_is_exact():
 
 
 def test_wrong_zones_are_mended():
-    """From the tense pattern, and from one with a zone too many, to the same state."""
+    """From the taut pattern, and from one with a zone too many, to the same state."""
     membrane, load = THREE_FRONTS
     right = tracked(membrane, load)
     surface = right.pattern.breaks[1:-1][right.pattern.kinds.index("surface")]
@@ -205,7 +205,7 @@ def test_wrong_zones_are_mended():
 
 
 def test_an_event_lies_between_its_patterns():
-    """Merging of the two tense zones: four zones just below the level, two just above."""
+    """Merging of the two taut zones: four zones just below the level, two just above."""
     event = evt.find(evt.Touch(WATER, 9.25, 6.7, maximum=False))
     level = float(event.x[0].fine)
     assert level == pytest.approx(float(event.x[1].fine), abs=1e-9)

@@ -11,7 +11,7 @@ from reference_data.solvers.paper5.waves.cylinder import FLUID
 
 pytestmark = pytest.mark.paper5
 STEP = 1e-30
-LEVEL = 6.6  # wrinkled below, tense above
+LEVEL = 6.6  # wrinkled below, taut above
 
 
 MESHES = [

@@ -113,7 +113,7 @@ def test_mode_of_figure_6():
 
 
 def test_printed_ranges_of_the_polyhedra():
-    """The four ends to a hundredth; the meridional mesh matters only where a ring turns tense."""
+    """The four ends to a hundredth; the meridional mesh matters only where a ring turns taut."""
     _, c = read("surface_ranges")
     rows = {
         (int(a), int(b), int(k)): i

@@ -54,7 +54,7 @@ SCALES = {
     "kappa": "meridional curvature of the free part at the contact edge times R_f, positive: bulged outward",
     "t_min": "smallest principal Cauchy resultant anywhere over C1 h",
     "G": "energy release rate at the contact edge over C1 h, closed form",
-    "G_difference": "energy release rate from differences of potentials",
+    "G_difference": "energy release rate from differences of potentials over C1 h",
     "rho": "deformed radius over R_f",
     "eta": "deformed height over R_f",
     "lam1": "meridional stretch, 1",

@@ -72,7 +72,7 @@ def require_surface(points: np.ndarray, triangles: np.ndarray, name: str) -> Non
     graph = coo_matrix((np.ones(len(edges)), edges.T), shape=(len(points),) * 2)
     parts, _ = connected_components(graph, directed=False)
     if parts > 1:
-        refuse(f"it has {parts} unconnected parts; allowed: 1")
+        refuse(f"it has {parts} parts that are not connected; allowed: 1")
     _require_clamped(points, edges[count == 1], size, refuse)
 
 

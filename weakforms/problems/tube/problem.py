@@ -45,7 +45,7 @@ SCALES = {
     "contact_length": "deformed length of the whole patch over R_f",
     "lam2_mid": "circumferential stretch at the mid-plane, 1",
     "line_force": "axial line force at the edge of the patch over C1 h_o (equation 22)",
-    "line_force_membrane": "axial line force at the edge of the patch without the jump of the spring's term",
+    "line_force_membrane": "axial line force without the jump of the spring's term over C1 h_o",
     "traction_front": "|f_t| at the front, inside, times R_f/(C1 h_o)",
     "traction_max": "largest axial traction |f_t| of the substrate times R_f/(C1 h_o)",
     "spring_max": "largest radial spring density |f_k| times R_f/(C1 h_o)",
