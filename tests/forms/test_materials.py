@@ -317,7 +317,7 @@ def test_the_papers_own_ratio_is_that_laws_constant_only():
     other = validated(tube, {"model": "gent", "jm": 50}, "tube")
     assert "alpha" not in other.model_dump()
     assert other.material == Chosen("gent", (("shear", 2.0), ("jm", 50.0)))
-    with pytest.raises(InputError, match="alpha is no constant"):
+    with pytest.raises(InputError, match="alpha is not a constant"):
         validated(tube, {"model": "gent", "alpha": 0.2}, "tube")
 
 
