@@ -1,4 +1,4 @@
-"""The fluid-loaded tube on the command line: states on every branch, and input that is refused."""
+"""The fluid-loaded tube on the command line: states on every branch, and refused input."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Bad input to the problems of Paper 4: one line says what is allowed, exit 2, before anything is solved."""
+"""Bad input to the problems of Paper 4: exit status 2 and one line, before anything is solved."""
 
 import pytest
 

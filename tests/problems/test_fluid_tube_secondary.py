@@ -1,4 +1,4 @@
-"""The secondary branch of the fluid-loaded tube: structure, stability, slopes, profiles, shapes as files."""
+"""The secondary branch of the fluid-loaded tube: structure, stability, slopes, profiles, files of shapes."""
 
 import json
 
@@ -101,7 +101,7 @@ def test_the_turn_of_the_pattern_is_a_zero_eigenvalue(state):
 
 
 def test_the_turns_zero_is_no_negative_eigenvalue_whatever_its_sign(family):
-    """By inertia alone it would be one where round-off makes it negative: it is known by its vector."""
+    """The zero of the turn may be negative by rounding: it is identified by its vector, not counted."""
     solved, stability = family.levels[0].at("zw", ZW), family.levels[0].stability
     values = stability.spectra(solved.state)
     between = values["Lambda_breaking"] / 2
@@ -118,7 +118,7 @@ def test_the_turns_zero_is_no_negative_eigenvalue_whatever_its_sign(family):
 
 
 class Turned(Stability):
-    """With another value for the eigenvalue next to zero."""
+    """The same with another value of the eigenvalue next to zero."""
 
     def __init__(self, system, value):
         super().__init__(system)
@@ -131,7 +131,7 @@ class Turned(Stability):
 
 
 def test_an_instability_that_breaks_the_symmetry_is_counted(family):
-    """Axisymmetric states past the bifurcation have one: a negative eigenvalue, not the turn's zero."""
+    """Axisymmetric states past the bifurcation have a negative eigenvalue, which is not the turn's zero."""
     level = family.fine
     points = np.linspace(0, LENGTH, 121)
     state = PrimaryBranch(MPI.COMM_SELF, 8.0, 2.0).at("V", 140.0, points)
@@ -183,7 +183,7 @@ def test_a_state_is_found_at_any_column(family):
 
 
 def enclosed(points, triangles):
-    """Volume between a lateral surface, its disk at ``z = 0`` and that at ``z = 8``, normals outwards."""
+    """Volume between a lateral surface and its disks at ``z = 0`` and ``z = 8``, normals outwards."""
     a, b, c = (points[triangles[:, i]] for i in range(3))
     return np.einsum("ij,ij->", a, np.cross(b, c)) / 6 + np.pi * 8 / 3
 

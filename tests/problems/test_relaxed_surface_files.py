@@ -1,4 +1,4 @@
-"""Problem ``surface``: a user's own triangles, what is refused, shapes for other tools."""
+"""Problem ``surface``: a user's own triangles, what is refused, shapes for other programs."""
 
 from xml.etree import ElementTree
 
@@ -40,7 +40,7 @@ def rings():
 
 @pytest.mark.parametrize("suffix", [".msh", ".vtu", ".stl"])
 def test_a_file_of_the_tube_gives_the_tube(tmp_path, rings, suffix):
-    """The same mesh by another way: cubic splines and the whole SNES instead of ring-periodic positions."""
+    """The same mesh by another method: cubic splines and SNES on all nodes, without periodic positions."""
     path = write(tmp_path / f"tube{suffix}", *rings)
     own = weakforms.solve("surface", meridional=10, circumferential=12, **TUBE, numerics=FEW).branch()
     read = weakforms.solve("surface", geometry=str(path), **TUBE, numerics=FEW)
@@ -261,7 +261,7 @@ def test_the_width_at_a_node_is_the_mean_of_the_triangles_around(solved):
 
 
 def test_making_a_mesh_says_nothing(capfd):
-    """Standard output is for the result's JSON; gmsh writes there unless it is told not to."""
+    """Only the result's JSON goes to standard output; gmsh writes there unless it is told not to."""
     assert not gmsh.isInitialized()
     hemisphere(0.5)
     flat_sheet(MPI.COMM_SELF, np.linspace(0, 1, 4), 3)

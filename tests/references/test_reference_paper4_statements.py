@@ -1,4 +1,4 @@
-"""What paper 4 says of its membranes, held against the committed tables."""
+"""The claims of paper 4 about its membranes, tested on the committed tables."""
 
 import tomllib
 from itertools import pairwise
@@ -37,7 +37,7 @@ def only(name: str, **keys: float) -> dict[str, float]:
     [(0.5, 2, "0.5568", False), (1.5, 3, "0.4362", True), (0.99, 2, "0.7046", True), (1, 2, "0.7071", True)],
 )
 def test_table_2_is_reproduced(M, delta, printed, rounds):
-    """To the printed digits; 0.5568 is cut off, since the fifth decimal is a 6 or more."""
+    """Agreement to the printed digits; 0.5568 is cut off, not rounded: the fifth decimal is 6 or more."""
     value = only("table2", M=M, delta=delta)["Af_critical"]
     assert f"{value:.6f}".startswith(printed)
     assert (f"{value:.4f}" == printed) == rounds
@@ -209,7 +209,7 @@ def test_regenerated_table_equals_the_committed_one(name, tmp_path):
 
 @pytest.mark.parametrize("path", sorted(DATA.glob("*.toml")), ids=lambda p: p.stem)
 def test_fronts_in_the_documentation_rise_and_match_the_profile(path):
-    """Between two fronts gw - 1 has one sign, the one the zones claim."""
+    """Between two fronts gw - 1 has one sign, as the zones claim."""
     about, columns = read(path.stem)
     if "Z" not in columns or "gw" not in columns:
         return

@@ -1,4 +1,4 @@
-"""Another package's tests assert its curves through the fixture ``weakforms_check``."""
+"""Another package's tests compare its curves by the fixture ``weakforms_check``."""
 
 import json
 

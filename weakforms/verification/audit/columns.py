@@ -96,7 +96,7 @@ def falsified(result: Result, name: str, factor: float) -> Result | None:
 
 
 def judgings(cases: Iterable[FoundCase], specs: Iterable[Spec]) -> list[Judging]:
-    """All that judges some solutions: what must hold for each alone, then what each case says of any."""
+    """Checks of some solutions: first those of each solution alone, then those of the cases."""
     wanted = set(specs)
     own = [partial(_verdicts, of(spec), 0) for spec in specs for of in (Trace, Identities)]
     stated = [
