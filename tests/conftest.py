@@ -1,7 +1,7 @@
-"""What holds for all tests: how they crash, how they are interrupted, and how they run side by side.
+"""Settings for all tests: how crashes and interrupts are reported, and how tests run in parallel.
 
-``pyproject.toml`` asks for a process (a worker) per core. What is handed to a worker is a case, with all its
-checks, or a whole file, so that what a file prepares once is prepared in one worker.
+``pyproject.toml`` requests one process (a worker) per core. A worker receives a case with all its checks, or
+a whole file, so that module fixtures are set up in one worker only.
 """
 
 import os
@@ -36,7 +36,7 @@ SILENCE = 60.0
 
 
 def pytest_xdist_auto_num_workers(config) -> int:
-    """A worker per core; none for one file, whose output and debugger are then at hand."""
+    """One worker per core; none for a single file, so that its output and debugger are available."""
     files = {Path(str(name).split("::")[0]) for name in config.args}
     if len(files) == 1 and all(path.is_file() and path.name != "test_cases.py" for path in files):
         return 0
@@ -44,7 +44,7 @@ def pytest_xdist_auto_num_workers(config) -> int:
 
 
 def pytest_xdist_make_scheduler(config, log):
-    """Hand out cases and files; another ``--dist`` than ours is left alone."""
+    """Distribute cases and files; another ``--dist`` than ours is left alone."""
     from xdist.scheduler import LoadScopeScheduling
 
     class CasesAndFiles(LoadScopeScheduling):
@@ -60,7 +60,7 @@ def pytest_xdist_make_scheduler(config, log):
             super()._assign_work_unit(node)
 
         def remove_node(self, node):
-            """Name the test that a worker died of, and do not begin it again, as xdist would."""
+            """Name the test in which a worker died, and do not run it again, as xdist would."""
             units = self.assigned_work[node].values()
             left = ((unit, nodeid) for unit in units for nodeid, done in unit.items() if not done)
             unit, crashed = next(left, ({}, None))
@@ -72,7 +72,7 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 class SignOfLife:
-    """In a log, a line a minute: how many tests are done, which of them run; and each that fails, at once."""
+    """Write to a log each minute how many tests are done and which run, and each failure at once."""
 
     def __init__(self, reporter, session) -> None:
         self.reporter, self.session = reporter, session
@@ -95,20 +95,20 @@ class SignOfLife:
         self.over.set()
 
     def watch(self) -> None:
-        """Print until the session is over."""
+        """Print progress lines until the session ends."""
         while not self.over.wait(SILENCE):
             minutes = (time.monotonic() - self.begun) / 60
             done = f"{minutes:.0f} min, {self.done} of {self.session.testscollected} tests done"
             self.say(f"{done}; now {', '.join(list(self.running)) or 'none'}")
 
     def say(self, text: str) -> None:
-        """A line that can be read at once: what goes into a file waits in a buffer otherwise."""
+        """Print a line and flush it; output to a file is buffered otherwise."""
         self.reporter.write_line(f"\n{text}")
         self.reporter.flush()
 
 
 def pytest_sessionstart(session) -> None:
-    """The process that prints shows signs of life, unless it has a terminal for its dots."""
+    """The printing process writes progress lines, unless it has a terminal for its dots."""
     config = session.config
     reporter = config.pluginmanager.getplugin("terminalreporter")
     if not (reporter is None or reporter.isatty or hasattr(config, "workerinput")):

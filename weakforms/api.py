@@ -1,4 +1,4 @@
-"""What other programs call: solve a problem, list cases, compare a curve."""
+"""The functions that other programs call: solve a problem, list cases, compare a curve."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results import Result
 
 States = Mapping[str, float] | Iterable[tuple[str, float]]
-"""States wanted: a column, or a kind of special point, and its value or number."""
+"""Requested states: a column and its value, or a kind of special point and its number."""
 
 
 def require_environment() -> Any:
-    """The registry of problems, which needs dolfinx.
+    """Import the registry of problems, which needs dolfinx.
 
     Raises:
-        EnvironmentLackError: Naming what is missing and how to get it.
+        EnvironmentLackError: If something is missing; the message says how to get it.
     """
     try:
         import petsc4py
 
-        # First of all: a .petscrc in the current folder, which may be somebody else's, could load a library.
+        # This comes first: a .petscrc in the current folder, written by anybody, could load a library.
         petsc4py.init(["weakforms", "-skip_petscrc"])
         from weakforms.problems import registry
     except ImportError as error:
@@ -54,22 +54,22 @@ def solve(
     """Solve a problem at any parameters.
 
     Args:
-        problem: Its name, such as ``"tube"``.
-        at: States wanted: columns and the values at which the state is solved for, with its profile. The
-            name of a kind of special point with a number asks for that point's state.
-        crossing: Which crossing of those values along the branch.
-        branch: On which branch.
-        numerics: Meshes and degree, where the defaults will not do.
-        progress: Called with what is being done, how much of it is done, and how much there is.
-        **parameters: Parameters of the problem; the others keep their defaults.
+        problem: Name of the problem, such as ``"tube"``.
+        at: Requested states: columns and the values at which the state is solved for, with its profile. The
+            name of a kind of special point with a number asks for the state at that point.
+        crossing: Which crossing of these values along the branch, from 1.
+        branch: Name of the branch with these states.
+        numerics: Meshes and degree, if not the defaults.
+        progress: Called with the current step, the amount of work done and the total amount.
+        **parameters: Parameters of the problem; those not given keep their defaults.
 
     Returns:
         Branch, special points and states, every number with its uncertainty.
 
     Raises:
         InputError: For an unknown problem or parameter, or a value out of range; nothing was solved.
-        ConvergenceError: When no branch could be started.
-        EnvironmentLackError: When dolfinx is missing.
+        ConvergenceError: If no branch could be started.
+        EnvironmentLackError: If dolfinx is missing.
     """
     return prepare(problem, parameters, numerics or {}, at, crossing, branch)(progress)
 
@@ -82,11 +82,15 @@ def prepare(
     crossing: int = 1,
     branch: str = "primary",
 ) -> Callable[[Any], Result]:
-    """Everything :func:`solve` does before solving: what it returns solves, and takes a progress callback.
+    """Do everything that :func:`solve` does before solving.
+
+    Returns:
+        A function of a progress callback that solves and returns the result.
+
 
     Raises:
         InputError: For an unknown problem, parameter or branch, or a value out of range.
-        EnvironmentLackError: When dolfinx is missing.
+        EnvironmentLackError: If dolfinx is missing.
     """
     chosen = require_environment().get(problem)
     from weakforms.problems.problem import StateRequest
@@ -108,9 +112,9 @@ def solve_requests(
     branch_uncertainty: bool = True,
     drawn: int = 0,
 ) -> Result:
-    """As :func:`solve`, with requests that say for each state which profile points it needs.
+    """Solve as :func:`solve` does, with requests that give the profile points of each state.
 
-    ``drawn`` states more are solved for at points of each trace drawn at random.
+    In addition, ``drawn`` states are solved for at random points of each trace.
     """
     return _prepared(problem, parameters, numerics, states, branch_uncertainty, drawn)(None)
 

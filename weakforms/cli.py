@@ -1,4 +1,4 @@
-"""The command line: one verb for each thing people do with the suite."""
+"""The command line: one verb for each use of the suite."""
 
 from __future__ import annotations
 
@@ -46,18 +46,18 @@ Jobs = Annotated[
         max=64,
         envvar="WEAKFORMS_JOBS",
         default_factory=free_cores,
-        show_default="as many as there are cores; 1 under mpirun",
-        help="Processes side by side.",
+        show_default="number of cores; 1 under mpirun",
+        help="Number of parallel processes.",
     ),
 ]
-Resume = Annotated[bool, typer.Option("--resume", help="Take over what an interrupted run stored.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Keep what an interrupted run stored.")]
 
 
 @app.callback()
 def _options(
     debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")] = False,
 ) -> None:
-    """Options before the verb."""
+    """Define the options before the verb."""
 
 
 @app.command("list")
@@ -65,7 +65,7 @@ def list_(
     paper: Annotated[int | None, typer.Option(min=1, max=5, help="Only this paper.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Every problem and every case, one line each."""
+    """List every problem and every case, one line each."""
     from weakforms.verification.cases.catalogue import listing, print_listing
 
     entries = listing(paper)
@@ -77,7 +77,7 @@ def list_(
 
 @app.command()
 def show(name: Annotated[str, typer.Argument(help="A problem or a case.")], as_json: Json = False) -> None:
-    """A problem's parameters, ranges and energy; a case's source, checks and references."""
+    """Show a problem's parameters, ranges and energy, or a case's source, checks and references."""
     from weakforms.verification.cases.catalogue import describe, print_description
 
     facts = describe(name)
@@ -95,22 +95,25 @@ def solve(
     ] = None,
     at: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="A state wanted: a column (or special point) at a value."),
+        typer.Option(
+            metavar="NAME=VALUE",
+            help="Also solve for a state: a column and its value, or a kind of special point and its number.",
+        ),
     ] = None,
-    crossing: Annotated[int, typer.Option(help="Which crossing of that value.")] = 1,
-    branch: Annotated[str, typer.Option(help="On which branch.")] = "primary",
+    crossing: Annotated[int, typer.Option(help="Which crossing of that value along the branch.")] = 1,
+    branch: Annotated[str, typer.Option(help="Branch on which the state lies.")] = "primary",
     mesh: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="Numerics: degree, cells, levels."),
+        typer.Option(metavar="NAME=VALUE", help="A numerical setting: degree, cells, levels."),
     ] = None,
     spec: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.json", help="Request with parameters, at, numerics."),
+        typer.Option(metavar="FILE.json", help="Request file with parameters, at, numerics."),
     ] = None,
     out: Annotated[Path | None, typer.Option(help="File for the result; default: standard output.")] = None,
     form: Annotated[str, typer.Option("--format", help="json or csv (csv: the branches only).")] = "json",
 ) -> None:
-    """One problem at any parameters, as a result JSON."""
+    """Solve one problem at any parameters and write the result as JSON."""
     from weakforms import api
     from weakforms.results.io import branch_csv, dumps, require_place_for, validate, write_atomically
 
@@ -137,14 +140,14 @@ def solve(
 
 @app.command()
 def shape(
-    result: Annotated[Path, typer.Argument(metavar="RESULT.json", help="What solve --out wrote.")],
+    result: Annotated[Path, typer.Argument(metavar="RESULT.json", help="Result that solve --out wrote.")],
     file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="The shape: .vtu or .xdmf (with fields), or .stl.")
+        Path, typer.Argument(metavar="FILE", help="File to write: .vtu or .xdmf (with fields), or .stl.")
     ],
-    branch: Annotated[str, typer.Option(help="Of a state on which branch; default: any.")] = "",
-    state: Annotated[int, typer.Option(min=1, help="Which of them.")] = 1,
+    branch: Annotated[str, typer.Option(help="Branch of the state; default: any.")] = "",
+    state: Annotated[int, typer.Option(min=1, help="Number of the state, from 1.")] = 1,
 ) -> None:
-    """Deformed shape of a state of a result, for other tools."""
+    """Write the deformed shape of a state of a result, for other tools."""
     from weakforms.results import load_result
     from weakforms.results.io import require_place_for
     from weakforms.shapes import require_shape_name, shown_state, write_shape
@@ -175,13 +178,13 @@ def verify(
     jobs: Jobs,
     paper: Annotated[int | None, typer.Option(min=1, max=5, help="Only this paper.")] = None,
     expression: Annotated[
-        str | None, typer.Option("-k", metavar="EXPR", help="Cases by name, with and, or, not.")
+        str | None, typer.Option("-k", metavar="EXPR", help="Select cases by name, with and, or, not.")
     ] = None,
     profile: Annotated[str, typer.Option(help="quick or full.")] = "full",
     resume: Resume = False,
     out: Out = Path("out"),
 ) -> None:
-    """All cases with a progress bar; then the report."""
+    """Solve and check all cases, then write the report."""
     from weakforms.verification.cases.discovery import select
     from weakforms.verification.run import verbs
 
@@ -191,7 +194,7 @@ def verify(
     if profile == "quick":
         cases = [found for found in cases if found.case.quick]
         if not cases:
-            raise InputError("none of the cases selected is in the quick profile")
+            raise InputError("none of the selected cases is in the quick profile")
     words = [f"paper {paper}"] if paper else []
     words += [f"-k {expression!r}"] if expression else []
     verbs.verify(cases, out, profile, ", ".join(words) or "all cases", jobs, resume)
@@ -201,17 +204,21 @@ def verify(
 def report(
     folder: Annotated[Path, typer.Argument(help="Output folder of a run.")],
     jobs: Jobs,
-    out: Annotated[Path | None, typer.Option(help="Folder for the report; default: its old place.")] = None,
-    as_pdf: Annotated[
-        bool, typer.Option("--pdf", help="Print it as report.pdf as well; a browser does that.")
-    ] = False,
+    out: Annotated[Path | None, typer.Option(help="Folder for the report; default: where it was.")] = None,
+    as_pdf: Annotated[bool, typer.Option("--pdf", help="Also write report.pdf; needs a browser.")] = False,
     seeded: Annotated[
         Path | None,
-        typer.Option("--faults", metavar="FILE", help="What faults left; default: DIR/faults.json."),
+        typer.Option(
+            "--faults", metavar="FILE", help="Outcome of weakforms faults; default: DIR/faults.json."
+        ),
     ] = None,
     others: Annotated[
         list[Path] | None,
-        typer.Option("--other", metavar="OUT", help="Another run of the cases, to compare all numbers with."),
+        typer.Option(
+            "--other",
+            metavar="OUT",
+            help="Output folder of another run; the report compares all numbers with it.",
+        ),
     ] = None,
 ) -> None:
     """Rebuild the report from stored results, without solving."""
@@ -227,18 +234,18 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
     curve: Annotated[str | None, typer.Option(help="Which curve of the case.")] = None,
     accuracy: Annotated[
         float | None,
-        typer.Option(help="Relative accuracy the curve claims; default: what the case asks."),
+        typer.Option(help="Relative accuracy that the curve claims; default: what the case asks for."),
     ] = None,
     names: Annotated[
         list[str] | None,
         typer.Option(
-            "--map", metavar="OURS=THEIRS", help="A column's name in the file, where it is another."
+            "--map", metavar="OURS=THEIRS", help="Name of a column in the file, if it is different."
         ),
     ] = None,
     constants: Annotated[
         list[str] | None,
         typer.Option(
-            "--constant", metavar="NAME=VALUE", help="Radius, modulus, thickness of a curve with units."
+            "--constant", metavar="NAME=VALUE", help="Radius, modulus or thickness, for a curve with units."
         ),
     ] = None,
     only: Annotated[
@@ -246,18 +253,18 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
         typer.Option("--column", metavar="NAME", help="Judge only this column; may be repeated."),
     ] = None,
     branch: Annotated[
-        str | None, typer.Option(help="Which branch of the file; default: the one the case draws.")
+        str | None, typer.Option(help="Branch of the file; default: the one that the case draws.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for verdicts.json, the pictures and a page of both.")
+        Path | None, typer.Option(help="Folder for verdicts.json, pictures and a page that shows both.")
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Hold somebody else's curve against the reference.
+    """Compare a curve of another code with the reference table of a case.
 
-    Every column of the table that the case judges is wanted, unless --column names some. Exit status: 0
-    within bounds, 1 out of bounds, 2 bad input (a result for other parameters too), 5 not judged: a column is
-    missing, or most of its rows lie where the table cannot tell to the accuracy asked.
+    The curve must have every column that the case judges, unless --column selects some. Exit status: 0 within
+    bounds, 1 out of bounds, 2 bad input (also a result for other parameters), 5 not judged (a column is
+    missing, or the table is too coarse for the accuracy in most of its rows).
     """
     from weakforms.verification.cases.catalogue import print_verdicts
     from weakforms.verification.crosscheck.compare import compare as compare_curve
@@ -284,7 +291,7 @@ def batch(
 ) -> None:
     """Answer a folder of requests: solutions and verdicts, one file each.
 
-    Exit status: the largest of all requests' own (0 within bounds, 1 out of bounds, 2 bad input, 3 a solve
+    The exit status is the largest of all requests (0 within bounds, 1 out of bounds, 2 bad input, 3 a solve
     did not converge, 4 something is not installed, 5 not judged).
     """
     from weakforms.verification.run.requests import run_batch
@@ -303,13 +310,16 @@ def bench(
     only: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Only this problem; may be repeated.")
     ] = None,
-    cold: Annotated[bool, typer.Option(help="Start without compiled forms too; takes minutes.")] = True,
+    cold: Annotated[bool, typer.Option(help="Also start without compiled forms; takes minutes.")] = True,
     as_json: Json = False,
     surface: Annotated[
-        int, typer.Option(min=0, max=2_000_000, help="Refine the triangulated tube up to so many unknowns.")
+        int,
+        typer.Option(
+            min=0, max=2_000_000, help="Refine the triangulated tube up to this number of unknowns."
+        ),
     ] = 0,
 ) -> None:
-    """Time and memory by stage for fixed problems, cold and warm."""
+    """Measure time and memory by stage for fixed problems, with and without compiled forms."""
     from weakforms import api
     from weakforms.verification.audit.bench import print_bench, run_bench
     from weakforms.verification.audit.bench_surface import print_surface_bench, run_surface_bench
@@ -341,30 +351,34 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
         typer.Option(
             "-k",
             metavar="EXPR",
-            help="Faults by name, area, subject or file; of --measure, files of tests and cases.",
+            help="Select faults by name, area, subject or file; with --measure, files of tests and cases.",
         ),
     ] = None,
-    listed: Annotated[bool, typer.Option("--list", help="Say what they are, and run nothing.")] = False,
+    listed: Annotated[bool, typer.Option("--list", help="List the faults without running them.")] = False,
     random: Annotated[
-        int | None, typer.Option("--random", metavar="N", help="N mutants that nobody chose, instead.")
+        int | None,
+        typer.Option("--random", metavar="N", help="Run N random mutants instead of the catalogue."),
     ] = None,
-    seed: Annotated[int, typer.Option(metavar="S", help="What the draw of --random depends on.")] = 1,
+    seed: Annotated[int, typer.Option(metavar="S", help="Seed of the draw of --random.")] = 1,
     budget: Annotated[
-        float, typer.Option(metavar="SECONDS", help="Begin no more tests on a mutant of --random after this.")
+        float,
+        typer.Option(
+            metavar="SECONDS", help="Time after which no further test of a random mutant is started."
+        ),
     ] = 300.0,
     measured: Annotated[
-        bool, typer.Option("--measure", help="Note which lines each test and case runs, for --random.")
+        bool, typer.Option("--measure", help="Record which lines each test and case runs, for --random.")
     ] = False,
     out: Out = Path("out"),
     resume: Resume = False,
     as_json: Json = False,
 ) -> None:
-    """Seed faults in scratch copies of the tree; say which check catches each."""
+    """Put faults into scratch copies of the tree and report which check catches each."""
     from weakforms.verification.audit.faults import verb
 
     chosen = only or (expression and not measured)
     if sum((bool(chosen), random is not None, measured)) > 1:
-        raise InputError("faults: --random, --measure and a choice of seeded faults exclude each other")
+        raise InputError("faults: --random, --measure and a selection of seeded faults exclude each other")
     try:
         if measured:
             status = verb.measure_verb(expression, out, resume, console())
@@ -373,7 +387,7 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
         else:
             status = verb.faults_verb(only or [], expression, listed, out, jobs, resume, as_json, console())
     except KeyboardInterrupt:
-        complain("interrupted; the same with --resume goes on from what is known")
+        complain("interrupted; the same command with --resume continues")
         raise typer.Exit(130) from None
     if status:
         raise typer.Exit(status)
@@ -385,20 +399,22 @@ def audit(
         list[str] | None,
         typer.Option("--problem", metavar="NAME", help="Only this problem; may be repeated."),
     ] = None,
-    sets: Annotated[int, typer.Option(min=1, max=10_000, help="Sets of parameters a problem.")] = 8,
-    seed: Annotated[int | None, typer.Option(min=0, help="Of the draws; default: today's date.")] = None,
+    sets: Annotated[
+        int, typer.Option(min=1, max=10_000, help="Number of parameter sets for each problem.")
+    ] = 8,
+    seed: Annotated[int | None, typer.Option(min=0, help="Seed of the draws; default: today's date.")] = None,
     limit: Annotated[float, typer.Option(min=1, help="Seconds after which a solve is ended.")] = 300.0,
     out: Out = Path("out"),
     resume: Resume = False,
     as_json: Json = False,
 ) -> None:
-    """Solve at parameters drawn over all allowed ranges; say which sets are not answered, and why."""
+    """Solve at random parameters from all allowed ranges and report which sets fail, and why."""
     from weakforms.verification.audit.any_parameters.verb import audit_verb
 
     try:
         status = audit_verb(problems or [], sets, seed, limit, out, resume, as_json, console())
     except KeyboardInterrupt:
-        complain("interrupted; the same with --resume and the seed goes on from what is known")
+        complain("interrupted; the same command with --resume and the seed continues")
         raise typer.Exit(130) from None
     if status:
         raise typer.Exit(status)
@@ -408,9 +424,9 @@ def audit(
 def docs(
     jobs: Jobs,
     out: Annotated[Path, typer.Option("--out", help="Folder for the pages.")] = Path("out/docs"),
-    pictures: Annotated[bool, typer.Option(help="Solve the problems' examples for their pictures.")] = True,
+    pictures: Annotated[bool, typer.Option(help="Solve the examples of the problems and draw them.")] = True,
 ) -> None:
-    """Write the documentation as static pages: guides, a page a problem, cases, API."""
+    """Write the documentation as static pages: guides, problems, cases, API."""
     from weakforms import api
 
     api.require_environment()
@@ -433,14 +449,14 @@ def warm() -> None:
 
 
 def main() -> None:
-    """Console script."""
+    """Run the command line."""
     # PETSc's own handlers turn a closed pipe or a termination into a crash report.
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} -no_signal_handler".strip()
     with suppress(FileNotFoundError):
-        os.environ["TMPDIR"] = tempfile.gettempdir()  # MPI breaks down over one that cannot be written to
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it does without a folder of its own, aloud
+        os.environ["TMPDIR"] = tempfile.gettempdir()  # MPI fails if it cannot write to its folder
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it warns if it has no folder of its own
     for stream in (sys.stdout, sys.stderr):
-        if stream is not None:  # closed by whoever called
+        if stream is not None:  # the caller may have closed it
             stream.reconfigure(errors="backslashreplace")
     words = sys.argv[1:]
     debug = "--debug" in words

@@ -1,10 +1,10 @@
-"""The errors the suite raises on purpose, each with the exit status it ends a command with."""
+"""The errors that the suite raises on purpose, each with the exit status of the command."""
 
 from __future__ import annotations
 
 
 class WeakformsError(Exception):
-    """Base of all deliberate errors; the message is one line a user can act on."""
+    """Base of all deliberate errors; the message is one line that tells the user what to do."""
 
     exit_status = 1
 
@@ -16,12 +16,12 @@ class InputError(WeakformsError):
 
 
 class ConvergenceError(WeakformsError):
-    """A solve ended without a converged state; nothing of it may be shown as a number."""
+    """A solve ended without a converged state; no number of it may be shown."""
 
     exit_status = 3
 
 
 class EnvironmentLackError(WeakformsError):
-    """Something the suite needs is not installed; the message names the command that gets it."""
+    """Something that the suite needs is not installed; the message names the command that installs it."""
 
     exit_status = 4

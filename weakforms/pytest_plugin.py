@@ -1,6 +1,6 @@
-"""A pytest fixture for other packages: assert that a curve of theirs agrees with a reference table.
+"""A pytest fixture for other packages: assert that their curve agrees with a reference table.
 
-Installed with the package; elsewhere ``pytest -p weakforms.pytest_plugin``.
+Installing the package registers it; without installation use ``pytest -p weakforms.pytest_plugin``.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ CurveLike = str | Path | Mapping[str, Sequence[float]]
 def weakforms_check() -> Callable[..., Verdicts]:
     """``weakforms_check(case, curve, name=None, accuracy=None)``: fails with the table of verdicts.
 
-    Everything that :func:`weakforms.compare` takes, it takes too. It fails too where there is no verdict
-    ("not judged"), unless ``unjudged=True`` lets that pass.
+    The fixture accepts all arguments of :func:`weakforms.compare`. It also fails if there is no verdict ("not
+    judged"), unless ``unjudged=True`` allows this.
     """
     from weakforms.errors import InputError
     from weakforms.verification.crosscheck.compare import compare

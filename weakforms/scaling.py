@@ -1,8 +1,8 @@
-"""Numbers with units in, the papers' numbers without units out, and back.
+"""Conversion between numbers with units and the papers' non-dimensional numbers.
 
-Every paper divides lengths by one radius and forces per length by one stiffness; what else it scales follows.
-A code that computes in metres and pascals states that radius, thickness and modulus, and its columns
-are divided by what belongs to them.
+Every paper divides lengths by one radius and forces per length by one stiffness; all other scales follow. A
+code that computes in metres and pascals gives its radius, thickness and modulus, and each of its columns is
+divided by its scale.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from weakforms.errors import InputError
 
 @dataclass(frozen=True)
 class Scaling:
-    """What the columns of a problem are multiples of."""
+    """The units of the columns of a problem."""
 
     length: str
-    """Constant that lengths are divided by; empty where no column has one, as the other two."""
+    """Constant by which lengths are divided; empty if no column needs it, like the other two."""
     modulus: str
-    """Constant that stresses are divided by; its product with ``thickness``, what forces per length are."""
+    """Constant by which stresses are divided; forces per length are divided by it times ``thickness``."""
     thickness: str
     kinds: Mapping[str, str]
-    """Per column one of :data:`KINDS`; a column that is not listed has no unit."""
+    """One of :data:`KINDS` for each column; a column that is not listed has no unit."""
     turn: float = 1.0
-    """Energies and volumes are divided by this too: ``2 pi`` where they count a radian."""
+    """Factor by which energies and volumes are divided too: ``2 pi`` if they are given per radian."""
 
     @property
     def constants(self) -> tuple[str, ...]:
@@ -36,10 +36,10 @@ class Scaling:
         return tuple(name for name in (self.length, self.modulus, self.thickness) if name)
 
     def unit(self, column: str, constants: Mapping[str, float]) -> float:
-        """What one unit of a column is, with the constants' values.
+        """One unit of a column, as a number, from the constants' values.
 
         Raises:
-            InputError: For a constant that is missing, not a number or not positive.
+            InputError: If a constant is missing, not a number or not positive.
         """
         powers, turned = KINDS[self.kinds.get(column, "number")]
         names = (self.length, self.modulus, self.thickness)
@@ -80,7 +80,7 @@ KINDS: dict[str, tuple[tuple[int, int, int], bool]] = {
     "volume": ((3, 0, 0), True),
     "energy": ((2, 1, 1), True),
 }
-"""Powers of length, modulus and thickness, and whether ``turn`` comes with it."""
+"""Powers of length, modulus and thickness, and whether ``turn`` is a factor too."""
 
 
 def _of(**columns: str) -> dict[str, str]:
@@ -199,7 +199,7 @@ SCALINGS: dict[str, Scaling] = {
     "material": Scaling("", "S", "", _LAW),
     "wrinkled_material": Scaling("", "C1", "", _LAW),
 }
-"""By problem; a test holds them against the scalings that the problems state."""
+"""Scalings by problem; a test compares them with the scalings that the problems state."""
 
 
 def _constant(name: str, constants: Mapping[str, float], scaling: Scaling) -> float:
@@ -216,7 +216,7 @@ def _constant(name: str, constants: Mapping[str, float], scaling: Scaling) -> fl
 
 
 def _kinds(scaling: Scaling) -> list[str]:
-    """Kinds that a problem's columns have, and that have a unit."""
+    """Kinds of a problem's columns that have a unit."""
     return [kind for kind in KINDS if kind in scaling.kinds.values()]
 
 
@@ -229,7 +229,7 @@ def scaling_of(problem: str) -> Scaling:
     """Scaling of a problem.
 
     Raises:
-        InputError: When none is known.
+        InputError: If none is known.
     """
     if problem not in SCALINGS:
         raise InputError(f"no scaling is known of problem {problem!r}; known: {', '.join(SCALINGS)}")
@@ -239,15 +239,15 @@ def scaling_of(problem: str) -> Scaling:
 def nondimensional(
     problem: str, columns: Mapping[str, Sequence[float]], **constants: float
 ) -> dict[str, np.ndarray]:
-    """Columns with units as the paper's numbers: each divided by its unit.
+    """Convert columns with units to the paper's numbers: each is divided by its unit.
 
     Args:
-        problem: Whose scaling, such as ``"tube"``.
-        columns: By the problem's names; names that are not a column's are left as they are.
+        problem: Problem whose scaling applies, such as ``"tube"``.
+        columns: Columns by the problem's names; columns with other names are not changed.
         **constants: Radius, modulus and thickness by the paper's symbols, such as ``R_f``, ``C1``, ``h_o``.
 
     Raises:
-        InputError: For a problem without a scaling, or a constant missing, unknown or not positive.
+        InputError: If the problem has no scaling, or a constant is missing, unknown or not positive.
     """
     return _converted(problem, columns, constants, -1)
 
@@ -255,7 +255,7 @@ def nondimensional(
 def dimensional(
     problem: str, columns: Mapping[str, Sequence[float]], **constants: float
 ) -> dict[str, np.ndarray]:
-    """The paper's numbers with units: the inverse of :func:`nondimensional`."""
+    """Convert the paper's numbers to numbers with units: the inverse of :func:`nondimensional`."""
     return _converted(problem, columns, constants, 1)
 
 

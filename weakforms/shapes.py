@@ -1,4 +1,4 @@
-"""Deformed shapes as files other tools read, by meshio: VTU or XDMF with the fields on it, or STL."""
+"""Deformed shapes as files for other tools, by meshio: VTU or XDMF with fields, or STL."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ if TYPE_CHECKING:
 SUFFIXES = (".vtu", ".xdmf", ".stl")
 
 TRIANGLES = "triangles"
-"""Field that says which points of the field before it are corners of triangles."""
+"""Name of the field that lists the corners of triangles, as points of the field before it."""
 
 TURNS = 73
-"""Meridians of a surface of revolution, the first and last the same."""
+"""Number of meridians of a surface of revolution; the first and the last are the same."""
 
 
 def require_shape_name(path: Path) -> None:
-    """Make sure a file name says which format is wanted.
+    """Make sure that the ending of a file name is one of the known formats.
 
     Raises:
-        InputError: When it does not.
+        InputError: If it is not.
     """
     if Path(path).suffix.lower() not in SUFFIXES:
         raise InputError(f"cannot write a shape to {path}: the name must end in {', '.join(SUFFIXES)}")
 
 
 def shown_state(result: Result, branch: str = "", number: int = 1) -> State:
-    """The ``number``-th state with a profile, of one branch or any.
+    """The ``number``-th state with a profile, on one branch or on any.
 
     Raises:
-        InputError: When there are fewer.
+        InputError: If there are fewer.
     """
     found = [s for s in result.states if s.fields and branch in ("", s.branch)]
     if number > len(found):
@@ -64,16 +64,16 @@ def _meshio():  # noqa: ANN202
 
 
 def surface(field: Field) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """A profile as a surface in space.
+    """The surface in space that a profile describes.
 
     A field with ``x, y, z`` over ``Z, Theta`` that covers half the circumference is mirrored in the plane
-    ``y = 0``; a meridian ``r, z`` or ``rho, eta`` is revolved about the axis.
+    ``y = 0``; a meridian ``r, z`` or ``rho, eta`` is rotated about the axis.
 
     Returns:
         Points of shape ``(rows, meridians, 3)``, and every other column over ``(rows, meridians)``.
 
     Raises:
-        InputError: When the field is neither.
+        InputError: If the field is neither.
     """
     columns = field.columns
     if {"x", "y", "z", "Theta"} <= set(columns):
@@ -81,7 +81,7 @@ def surface(field: Field) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     for radius, height in (("r", "z"), ("rho", "eta")):
         if {radius, height} <= set(columns):
             return _revolved(columns, radius, height)
-    raise InputError(f"a profile with the columns {', '.join(columns)} is no surface in space")
+    raise InputError(f"a profile with the columns {', '.join(columns)} is not a surface in space")
 
 
 def _mirrored(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -108,10 +108,10 @@ def _revolved(
 
 
 def shape_mesh(field: Field, *more: Field) -> meshio.Mesh:
-    """The surface as a mesh, normals outwards, with the profile's columns at its points.
+    """The surface as a mesh with outward normals and the profile's columns at its points.
 
-    Of triangles where a field of that name says which (``a, b, c``; its other columns are theirs), else of
-    quadrilaterals.
+    The mesh consists of triangles if a field of that name lists them (corners ``a, b, c``; its other columns
+    are values on the triangles), else of quadrilaterals.
     """
     meshio = _meshio()
     cells = next((f.columns for f in more if f.name == TRIANGLES), None)
@@ -139,15 +139,15 @@ def write_shape(path: Path, field: Field, *more: Field) -> None:
     The file appears under its name only when complete.
 
     Raises:
-        InputError: For another ending, a profile that is no surface, or a place that cannot be written to.
+        InputError: If the ending is another, the profile is not a surface, or the file cannot be written.
     """
     path = Path(path)
     require_shape_name(path)
     meshio = _meshio()
     try:
         mesh = shape_mesh(field, *more)
-    except (KeyError, ValueError, IndexError, TypeError) as error:  # the result may be anybody's
-        raise InputError(f"the profile is no surface in space: {type(error).__name__}: {error}") from error
+    except (KeyError, ValueError, IndexError, TypeError) as error:  # the result file may come from anywhere
+        raise InputError(f"the profile is not a surface in space: {type(error).__name__}: {error}") from error
     mesh.point_data, mesh.cell_data = _named(mesh.point_data), _named(mesh.cell_data)
     suffix = path.suffix.lower()
     if suffix == ".stl":
@@ -168,12 +168,12 @@ def write_shape(path: Path, field: Field, *more: Field) -> None:
 
 
 def _named(data: dict[str, Any]) -> dict[str, Any]:
-    """The same under names that every format can carry."""
+    """The same columns under names that every format allows."""
     return {re.sub(r"[^\w .:()/*^+-]", "?", name): values for name, values in data.items()}
 
 
 def xdmf(mesh: meshio.Mesh) -> str:
-    """A mesh of one kind of cell as XDMF with its numbers in the text: one file, and no HDF5 needed."""
+    """A mesh with one kind of cell as XDMF, with its numbers in the text: one file, without HDF5."""
     (block,) = mesh.cells
     count = len(block.data)
     shape = {"triangle": "Triangle", "quad": "Quadrilateral"}[block.type]

@@ -1,4 +1,4 @@
-"""What the verbs share: request parsing, one-line errors, progress on a terminal, output from one rank."""
+"""Functions that all verbs use: requests, one-line errors, progress on a terminal, output from one rank."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ _LACKS = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO),
     *(errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.EAGAIN),
 )
-"""What the system refuses for want of something."""
+"""Errors of the operating system that mean that something is missing or full."""
 
 COMPLAINT = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
-"""What a wrong use of the command line raises; newer releases of typer bring a click of their own."""
+"""Exceptions for wrong use of the command line; newer releases of typer contain their own click."""
 
 LONGEST_COMPLAINT = 600
-"""Characters after which a complaint is cut: a message may quote what it was given."""
+"""Number of characters after which a message is cut, because it may quote long input."""
 
 
 def request(
@@ -57,7 +57,7 @@ def pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:
     """Names and values of a repeatable option.
 
     Raises:
-        InputError: For an item that is no ``NAME=VALUE``.
+        InputError: If an item does not have the form ``NAME=VALUE``.
     """
     pairs = []
     for item in given or []:
@@ -69,10 +69,10 @@ def pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:
 
 
 def once(option: str, given: list[str] | None) -> dict[str, str]:
-    """Names and values of a repeatable option in which no name stands twice.
+    """Names and values of a repeatable option in which no name may be repeated.
 
     Raises:
-        InputError: For an item that is no ``NAME=VALUE``, or a name that comes again.
+        InputError: If an item does not have the form ``NAME=VALUE``, or a name is repeated.
     """
     found: dict[str, str] = {}
     for name, value in pairs(option, given):
@@ -83,7 +83,7 @@ def once(option: str, given: list[str] | None) -> dict[str, str]:
 
 
 def rank() -> int:
-    """This process's rank; 0 where MPI is not there."""
+    """The rank of this process; 0 without MPI."""
     try:
         from mpi4py import MPI
     except ImportError:
@@ -92,7 +92,7 @@ def rank() -> int:
 
 
 def free_cores() -> int:
-    """Processes that work side by side by default: one a core, and one where ranks share the work already."""
+    """Default number of processes: one for each core, or one if MPI ranks share the work already."""
     try:
         from mpi4py import MPI
     except ImportError:
@@ -103,12 +103,12 @@ def free_cores() -> int:
 
 
 def console(stderr: bool = False) -> Console:
-    """A plain console on standard output or standard error; square brackets and colons mean themselves."""
+    """A plain console on standard output or standard error that does not interpret brackets and colons."""
     return Console(stderr=stderr, highlight=False, markup=False, emoji=False)
 
 
 def plain(text: object) -> str:
-    """The text as a terminal may have it: without control characters, which could be commands to it."""
+    """The text without control characters, which a terminal could take for commands."""
     return re.sub(r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]+", "\N{REPLACEMENT CHARACTER}", str(text))
 
 
@@ -122,16 +122,16 @@ PULSE = 15.0
 
 
 class WorkProgress:
-    """What long work says of itself: a bar on a terminal, lines in a log; this one keeps silent.
+    """Progress of long work: a bar on a terminal, lines in a log. This base class prints nothing.
 
-    Calling it says where the work is.
+    Calling it reports the progress.
     """
 
     def __call__(self, what: str, done: float, total: float) -> None:
-        """The work is at ``what``; ``done`` of ``total`` is behind it."""
+        """Report that ``what`` is being done now, and that ``done`` of ``total`` is finished."""
 
     def line(self, text: str) -> None:
-        """Something came to its end: a line in a log; a terminal shows the bar alone."""
+        """Report that something is finished: a line in a log; a terminal shows only the bar."""
 
 
 class _Bar(WorkProgress):
@@ -143,11 +143,11 @@ class _Bar(WorkProgress):
 
 
 class _Log(WorkProgress):
-    """Lines on standard error; one at least every :data:`PULSE` seconds while the work goes on."""
+    """Lines on standard error, at least one in :data:`PULSE` seconds during the work."""
 
     def __init__(self) -> None:
         self._begun, self._latest, self._ended = time.monotonic(), "starting", Event()
-        # The stream of now: what is redirected later belongs to others.
+        # Keep the current stream: it may be redirected later.
         self._stream = sys.stderr
 
     def __call__(self, what: str, done: float, total: float) -> None:
@@ -157,7 +157,7 @@ class _Log(WorkProgress):
         if self._stream is None:
             return
         minutes, seconds = divmod(int(time.monotonic() - self._begun), 60)
-        with suppress(OSError, ValueError):  # a reader that went away is no reason to end the work
+        with suppress(OSError, ValueError):  # the work continues if nobody reads the log
             self._stream.write(f"[{minutes}:{seconds:02}] {plain(text)}\n")
             self._stream.flush()
 
@@ -171,7 +171,7 @@ class _Log(WorkProgress):
 
 @contextmanager
 def progress_bar() -> Iterator[WorkProgress]:
-    """A bar on a terminal, lines in a log, silence on all ranks but the first; yields what to report to."""
+    """Yield an object for progress reports: a bar on a terminal, lines in a log, from the first rank only."""
     from rich.progress import (
         BarColumn,
         Progress,
@@ -201,13 +201,13 @@ def progress_bar() -> Iterator[WorkProgress]:
         TextColumn("left:"),
         TimeRemainingColumn(),
     )
-    # One solution may take minutes: the speed is that of the last hour, not of the last 30 s.
+    # One solution may take minutes: the speed is averaged over the last hour, not over the last 30 s.
     with Progress(*columns, console=screen, transient=True, speed_estimate_period=3600) as bar:
         yield _Bar(bar)
 
 
 def complain(text: str) -> None:
-    """One line on standard error, from one rank; cut where it is very long, without control characters."""
+    """Print one line on standard error from one rank; long lines are cut, control characters removed."""
     if rank() != 0:
         return
     line = plain(" ".join(text.split()))
@@ -217,7 +217,7 @@ def complain(text: str) -> None:
 
 
 def _abort_other_ranks() -> None:
-    """End ranks that would wait for this one for ever."""
+    """End the other ranks, which would wait for this one for ever."""
     from mpi4py import MPI
 
     if MPI.COMM_WORLD.size > 1:
@@ -225,7 +225,7 @@ def _abort_other_ranks() -> None:
 
 
 def guarded(run: Callable[[], Any], debug: bool = False) -> int:
-    """Exit status of a command; deliberate errors become one line, with ``debug`` after their traceback."""
+    """Run a command and return its exit status. Errors become one line; ``debug`` adds the traceback."""
     try:
         outcome = run()
         sys.stdout.flush()
@@ -239,22 +239,22 @@ def guarded(run: Callable[[], Any], debug: bool = False) -> int:
 
 
 def _verdict_on(error: BaseException) -> tuple[int, str]:
-    """Exit status and message an exception ends a command with."""
+    """Exit status and message for an exception that ends a command."""
     if isinstance(error, WeakformsError):
         return error.exit_status, str(error)
     if isinstance(error, COMPLAINT):
         return 2, error.format_message()
     if isinstance(error, typer.Abort | KeyboardInterrupt):
         return 130, "interrupted"
-    if isinstance(error, SystemExit):  # what click and rich make of a reader that went away
+    if isinstance(error, SystemExit):  # what click and rich raise when the reader of a pipe has closed it
         return 2, "cannot write to standard output: Broken pipe"
-    # What is left is a defect of ours: still one line, and a way to the traceback.
+    # Anything else is a defect of this program: still one line, and a hint to the traceback.
     defect = 1, f"internal error, please report it ({type(error).__name__}: {error}); see --debug"
     return _refused_by_the_system(error) or defect
 
 
 def _refused_by_the_system(error: BaseException) -> tuple[int, str] | None:
-    """Exit status and message where the machine, not the program, ended a command."""
+    """Exit status and message if the machine, not the program, ended a command."""
     if isinstance(error, MemoryError):
         return 4, "there is not enough memory for this"
     if not isinstance(error, OSError):
@@ -264,11 +264,11 @@ def _refused_by_the_system(error: BaseException) -> tuple[int, str] | None:
     if error.errno not in _LACKS:
         return None
     place = f" ({error.filename})" if error.filename else ""
-    return 4, f"this machine does not let it go on: {error.strerror}{place}"
+    return 4, f"this machine does not allow it to continue: {error.strerror}{place}"
 
 
 def _stdout_is_gone() -> bool:
-    """Whether standard output takes nothing more; then it is closed for good, so that the exit is quiet."""
+    """Whether standard output accepts nothing more; then close it, so that the exit prints no error."""
     try:
         sys.stdout.flush()
     except OSError:

@@ -1,8 +1,9 @@
-"""Flat disk inflated: the neo-Hookean maximum, and the pressure against the stretch of the pole.
+"""Inflation of a flat disk: the neo-Hookean maximum, and the pressure over the stretch of the pole.
 
-Without a length but its radius, a disk's equations can be integrated from the pole outwards at unit pressure
-for any stretch of the pole: where the circumferential stretch has come back to 1 is the clamp, and its
-radius is the pressure. That one integration a point, without shooting, is what the branch is held against.
+The radius is the only length of a disk. Its equations can therefore be integrated from the pole outwards at
+unit pressure for any stretch of the pole. The clamp is the point where the circumferential stretch returns to
+1, and the radius of this point gives the pressure. The branch is compared with one such integration for each
+point, without shooting.
 """
 
 import numpy as np
@@ -13,11 +14,11 @@ from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, c
 DISK = circular(alpha=0, t_end=3.1).on(cells=192)
 POLES = (1.05, 1.2, 1.5, 1.8, 2.5, 3.0, 4.0)
 ANCHORS = {"p": ("1.879173469", 2.0), "lam_pole": ("2.195944", 1.0)}
-"""Published digits at the maximum, p R/(2 c1 h0) and the pole's stretch, and what divides our columns."""
+"""Published digits at the maximum, p R/(2 c1 h0) and the pole's stretch, and the factors of our columns."""
 
 
 START = 2e-3
-"""Radius at which the integration begins, with a series of two terms."""
+"""Radius at which the integration starts, with a series of two terms."""
 
 
 def derivatives(a: float, b: float) -> tuple[float, float, float, float]:
@@ -36,7 +37,7 @@ def rates(x: float, y: np.ndarray) -> list[float]:
 
 
 def pressure(pole: float, x: float = START) -> float:
-    """Pressure at a stretch of the pole: the radius at which lam2 is back to 1; a series up to ``x``."""
+    """Pressure at a stretch of the pole: the radius at which lam2 returns to 1; a series up to ``x``."""
     w1, _, w11, w12 = derivatives(pole, pole)
     bend = pole**2 / (2 * w1)
     # lam1 = pole + a x^2, lam2 = pole + b x^2 near the pole
@@ -53,7 +54,7 @@ def pressure(pole: float, x: float = START) -> float:
 
 
 def parametrised(solutions: Solutions) -> Finding:
-    """The branch at the poles' stretches against one integration each, which is good to its tolerance."""
+    """The branch at some stretches of the pole, compared with one integration for each."""
     found = solutions.numbers(DISK, [At("lam_pole", pole) for pole in POLES], "p")
     exact = np.array([pressure(pole) for pole in POLES])
     halved = np.array([pressure(pole, START / 2) for pole in POLES])
@@ -89,7 +90,7 @@ CASE = Case(
     checks=(
         Claim(
             "pole_stretch",
-            "the branch is the one that integration from the pole at unit pressure gives",
+            "the branch agrees with integration from the pole at unit pressure",
             tuple((DISK, At("lam_pole", pole)) for pole in POLES),
             parametrised,
         ),

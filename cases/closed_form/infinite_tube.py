@@ -1,7 +1,8 @@
-"""Long tubes with closed ends that stay cylinders: limit pressures, and where two states coexist.
+"""Long tubes with closed ends that stay cylinders: limit pressures and Maxwell pressure.
 
 Uniform states have w1 = p lam2^2/2 and w2 = p lam1 lam2. A bulge that spreads along a long tube joins two of
-them at one pressure and one potential w - p lam1 lam2^2/2: Maxwell's rule of equal areas over the volume.
+them with the same pressure and the same potential w - p lam1 lam2^2/2. This is Maxwell's rule of equal areas
+over the volume.
 """
 
 from weakforms import (

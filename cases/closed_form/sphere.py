@@ -1,4 +1,4 @@
-"""Spherical balloons of every law: pressure over stretch, limit points, and where two of them merge.
+"""Spherical balloons of every law: pressure over stretch, limit points, and the constants at which two merge.
 
 P = p r_o/(S h_o) = 2 w1(lam, lam)/lam^2, S the stress of the law's constants (C1 for neo-Hookean and
 Mooney-Rivlin, the small-strain shear modulus for Ogden's three-term rubber).
@@ -56,7 +56,7 @@ def printed(
 
 
 def merging_pressure(solutions: Solutions) -> Finding:
-    """Its next digits are close to a half: our uncertainty does not tell how it rounds."""
+    """The next digits are close to one half, so that our uncertainty does not decide the rounding."""
     found = solutions.point(MERGES["mooney_rivlin"], "cusp_point", "P")
     digits = "3.6556338082"
     half = 10.0 ** -len(digits.partition(".")[2]) / 2

@@ -1,8 +1,8 @@
-"""The five conditions of section 3.1.1 on a strain energy, and the laws that fail them.
+"""The five conditions of section 3.1.1 on a strain energy, and the laws that do not satisfy them.
 
 Saint Venant-Kirchhoff's energy stays finite as a stretch goes to zero (condition 5), and its stress in
 compression comes back to zero; the harmonic material's energy becomes negative in large equibiaxial
-stretches (condition 1). Both failures are stated here: a change that hid them would fail this case.
+stretches (condition 1). This case states both failures, so that it fails if a change hides them.
 """
 
 import numpy as np
@@ -34,7 +34,8 @@ PRESSED = homogeneous(model="saint_venant_kirchhoff", loading="uniaxial", lam_en
 POWER = decide.Stated(
     1.5,
     "goes to infinity",
-    "section 3.1.1: a power law grows as a stretch is divided by ten or tripled, by its root at least",
+    "section 3.1.1: a power law grows at least by the root of the factor when a stretch is divided by ten or "
+    "tripled",
 )
 STEEPER = decide.Stated(
     3, "without bound", "section 3.1.1: over the last third of the way the stress rises faster than before"
@@ -42,7 +43,7 @@ STEEPER = decide.Stated(
 
 
 def energies(solutions: Solutions, specs: list) -> decide.Number:
-    """``W`` at some stretches, exact but for rounding."""
+    """``W`` at some stretches, exact up to rounding."""
     return decide.stack(solutions.whole(spec, "W") for spec in specs)
 
 
@@ -78,9 +79,9 @@ def locks(solutions: Solutions) -> Finding:
 
 
 def kirchhoff_stays_finite(solutions: Solutions) -> Finding:
-    """Condition 5 does not hold: the energy tends to a number as l1 goes to zero, with its square."""
+    """Condition 5 does not hold: as l1 tends to zero, the energy tends to a finite limit, like l1^2."""
     w = energies(solutions, THIN["saint_venant_kirchhoff"])
-    limit = 2.0 / (1 - 0.5) / 4  # Y/(2 (1 - nu^2)) E1^2 at E1 = -1/2, by hand
+    limit = 2.0 / (1 - 0.5) / 4  # Y/(2 (1 - nu^2)) E1^2 at E1 = -1/2
     return decide.order(f"W less {limit:g}", [1 / x for x in SMALL], w - limit, 2)
 
 
@@ -174,7 +175,7 @@ CASE = Case(
         ),
         Claim(
             "kirchhoff_compression",
-            "Saint Venant-Kirchhoff gives way in uniaxial compression, at lam = 1/sqrt(3)",
+            "Saint Venant-Kirchhoff has a limit point in uniaxial compression, at lam = 1/sqrt(3)",
             ((PRESSED, None),),
             kirchhoff_gives_way,
         ),

@@ -1,9 +1,9 @@
 """Appendix, validation and not verification: Treloar's rubber against laws with constants of the literature.
 
-The other cases ask whether equations are solved rightly; this one shows how well they describe a rubber.
+The other cases check that equations are solved correctly; this one shows how well they describe a rubber.
 Treloar, L. R. G. (1944), Trans. Faraday Soc. 40, 59-70: uniaxial and equibiaxial tension of vulcanised
-natural rubber, nominal stress in kg/cm^2, as two open collections tabulate it alike (equibiaxial to one unit
-of the last digit). His pure shear data are left out: we found them in one collection only.
+natural rubber, nominal stress in kg/cm^2, on which two open collections agree (for equibiaxial tension to one
+unit of the last digit). The pure shear data are left out, because only one collection contains them.
 """
 
 import numpy as np
@@ -63,22 +63,22 @@ LAWS = {
     "neo_hookean": ({}, 0.2),
     # Ogden (1972): mu = 6.3, 0.012, -0.1 kg/cm^2, alpha = 1.3, 5, -2; the defaults are over 4.225 kg/cm^2
     "ogden": ({}, 4.225 * MPA),
-    # Arruda & Boyce (1993): N K T = 0.27 MPa, n = 26.5. sqrt(n) lets a test piece go up to 8.7
+    # Arruda & Boyce (1993): N K T = 0.27 MPa, n = 26.5. sqrt(n) allows stretches up to 8.7
     "arruda_boyce": ({"nkt": 0.27, "links": 26.5}, 1.0),
 }
 """Constants of the literature and their stress S in MPa."""
 
 
 BEGIN = 1.1
-"""Stretch below which the data, to two digits, tell less than the laws differ."""
+"""Stretch below which the data, with two digits, are less accurate than the differences between the laws."""
 GOOD = decide.Stated(
     0.15, "good", "the thesis prints no number; the laws differ by more at the last stretches"
 )
 FOLLOWS = decide.Stated(0.1, "within 10 % rms", "the claim's own number")
 NOT_GOOD = decide.Stated(
-    0.6, "for small and moderate stretches only", "beyond, less than two thirds of the stress"
+    0.6, "for small and moderate stretches only", "beyond these stretches, less than two thirds of the stress"
 )
-SOFT = decide.Stated(0.85, "too soft", "further off than the 15 % that count as good")
+SOFT = decide.Stated(0.85, "too soft", "further off than the 15 % that count as agreement")
 
 
 def test(model: str, loading: str) -> object:

@@ -1,4 +1,4 @@
-"""The circular membrane of paper 1 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's."""
+"""The circular membrane of paper 1 with other rubbers: Ogden's, Gent's, Arruda and Boyce's."""
 
 from weakforms import (
     At,
@@ -81,7 +81,7 @@ CASE = Case(
         ),
         Claim(
             "contact",
-            "frictionless contact begins once and spreads, the substrate pushing, with these laws too",
+            "also with these laws, frictionless contact starts once and spreads, and the substrate pushes",
             tuple((spec, DEEP) for spec in CONTACT.values()),
             contact,
         ),

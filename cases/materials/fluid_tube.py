@@ -1,15 +1,15 @@
-"""The fluid-loaded tube of paper 3 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's, Mooney's.
+"""The fluid-loaded tube of paper 3 with other rubbers: Ogden's, Gent's, Arruda and Boyce's, Mooney's.
 
-L = 8, delta = 2, gamma = 0.116 with mu = 2 S, S the stress the constants are over. Primary branch, limit
-point, bifurcation with one wave and eigenvalues, against the paper's reference codes, which have laws of
-their own. All but Ogden's bifurcate much later than the neo-Hookean one. Mooney and Rivlin's rubber is the
-paper's own form with ``alpha = 0.1``, which the paper leaves at zero.
+L = 8, delta = 2, gamma = 0.116 with mu = 2 S, where S is the stress by which the constants are divided.
+Primary branch, limit point, bifurcation with one wave and eigenvalues are compared with the paper's reference
+codes, which implement the laws separately. All tubes except Ogden's bifurcate much later than the neo-Hookean
+one. The Mooney-Rivlin tube is the paper's form with ``alpha = 0.1``, which is zero in the paper.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, fluid_tube
 
 ENDS = {"ogden": 0.9, "gent": 0.8, "arruda_boyce": 0.8}
-"""Fraction of the highest level at which a branch ends: beyond the first bifurcation."""
+"""Fraction of the highest level at which a branch ends, beyond the first bifurcation."""
 TUBES = {
     **{m: fluid_tube(model=m, zw_end=end) for m, end in ENDS.items()},
     "mooney_rivlin": fluid_tube(alpha=0.1, zw_end=0.9),
@@ -31,7 +31,7 @@ def zeros(solutions: Solutions) -> Finding:
 
 
 def order(solutions: Solutions) -> Finding:
-    """Negative eigenvalues (axisymmetric) before and behind the limit point, by inertia."""
+    """Negative eigenvalues (axisymmetric) before and after the limit point, by inertia."""
     found = []
     for model, spec in TUBES.items():
         counts = solutions.branch(spec).columns["n_negative"]
@@ -47,7 +47,7 @@ def order(solutions: Solutions) -> Finding:
 
 
 def same_law(solutions: Solutions) -> Finding:
-    """The neo-Hookean law written in the invariants, against the paper's own form."""
+    """The neo-Hookean law of the catalogue, against the paper's form."""
     return decide.all_of(
         decide.agree(
             f"{kind} {name}", *(solutions.point(spec, kind, name) for spec in (SAME, NEO_HOOKEAN)), 5e-10
@@ -100,21 +100,21 @@ CASE = Case(
         ),
         Claim(
             "zeros",
-            "the maximum of the level is a zero of the axisymmetric eigenvalue, the first bifurcation one of "
-            "that with one wave, whatever the law",
+            "the maximum of the level is a zero of the axisymmetric eigenvalue, the first bifurcation a zero "
+            "of that with one wave, for every law",
             tuple((spec, at) for spec in TUBES.values() for at in (LIMIT, FIRST)),
             zeros,
         ),
         Claim(
             "order",
-            "one negative axisymmetric eigenvalue behind the limit point and none before; the bifurcation "
+            "one negative axisymmetric eigenvalue after the limit point and none before; the bifurcation "
             "with one wave comes later",
             tuple((spec, None) for spec in TUBES.values()),
             order,
         ),
         Claim(
             "same_law",
-            "the neo-Hookean tube by the catalogue's law is the paper's",
+            "the neo-Hookean tube with the catalogue's law is that of the paper",
             ((SAME, None), (NEO_HOOKEAN, None)),
             same_law,
         ),

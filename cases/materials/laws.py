@@ -1,4 +1,4 @@
-"""Every law of chapter 3: energy, stresses and tangent, full and relaxed, against derivatives by hand."""
+"""Every law of chapter 3: energy, stresses and tangent, against derivatives in closed form."""
 
 from weakforms import Case, Points, material
 

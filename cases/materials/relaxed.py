@@ -1,7 +1,7 @@
-"""Wrinkled states of every law: which state, which width, and two formulations that are one function.
+"""Wrinkled states of every law: the state, the natural width, and the agreement of two formulations.
 
-Section 3.3: for an isotropic sheet the modified deformation gradient and the relaxed energy are the same,
-whatever the law. The width that uniaxial tension leaves is lam^(-1/2) for every incompressible law.
+Section 3.3: for an isotropic sheet the modified deformation gradient and the relaxed energy are the same for
+every law. The width in uniaxial tension is lam^(-1/2) for every incompressible law.
 """
 
 import numpy as np
@@ -29,12 +29,12 @@ PULLED = tuple(At("lam", v) for v in (1.1, 1.5, 2.0, 3.0, 3.9))
 
 
 def rows(model: str) -> list[tuple[Spec, int]]:
-    """Solutions at the stretches of the reference, but at rest, and the states it has there."""
+    """Solutions at the stretches of the reference, except at rest, and its states there."""
     columns = reference("materials", f"law_{model}").columns
     return [
         (material(model=model, l1=float(a), l2=float(b)), int(s))
         for a, b, s in zip(columns["l1"], columns["l2"], columns["state"], strict=True)
-        if (a, b) != (1, 1)  # where three states meet, second derivatives depend on the way there
+        if (a, b) != (1, 1)  # where three states meet, second derivatives depend on the direction
     ]
 
 
@@ -42,11 +42,11 @@ def states(solutions: Solutions) -> Finding:
     """State of the sheet at all stretches of all laws."""
     wanted = [row for model in (*MODELS, *COMPRESSIBLE) for row in rows(model)]
     found = [solutions.result(spec).quantities["state"].value == expected for spec, expected in wanted]
-    return decide.every("states that are the reference's", found)
+    return decide.every("states that agree with the reference", found)
 
 
 def same_energy(solutions: Solutions) -> Finding:
-    """The two formulations, relative to one plus the number."""
+    """Difference of the two formulations, relative to one plus the number."""
     found = [solutions.result(spec).quantities for model in MODELS for spec, _ in rows(model)]
     one, two = (np.array([q[f"{n}_{form}"].value for q in found for n in NAMES]) for form in FORMS)
     return decide.exact("relaxed energy and modified gradient", one, two, 1 + np.abs(one))
@@ -80,7 +80,7 @@ CASE = Case(
         ),
         Claim(
             "natural_width",
-            "uniaxial tension leaves the width lam^(-1/2), whatever the incompressible law",
+            "the width in uniaxial tension is lam^(-1/2) for every incompressible law",
             tuple((spec, at) for spec in PIECES.values() for at in PULLED),
             widths,
         ),

@@ -1,6 +1,7 @@
-"""The tube of paper 2 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's.
+"""The tube of paper 2 with other rubbers: Ogden's, Gent's, Arruda and Boyce's.
 
-Branch, limit points and stability against the paper's reference codes, which have laws of their own.
+Branch, limit points and stability are compared with the paper's reference codes, which implement the laws
+separately.
 """
 
 from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, decide, tube
@@ -15,7 +16,7 @@ FIRST, LATER = At("u_max", 0.5, profile=()), At("u_max", 2.0, profile=())
 
 
 def stable_before(solutions: Solutions) -> Finding:
-    """Negative eigenvalues before and behind the first limit point."""
+    """Negative eigenvalues before and after the first limit point."""
     counts = [
         [int(solutions.value(spec, at, "n_negative")) for at in (FIRST, LATER)] for spec in TUBES.values()
     ]
@@ -32,7 +33,7 @@ def integrals(solutions: Solutions) -> Finding:
 
 
 def contact_balance(solutions: Solutions) -> Finding:
-    """Frictionless contact leaves the axial force constant, patch or not."""
+    """In frictionless contact the axial force is constant, on the patch and outside."""
     return decide.all_of(
         decide.constant("F_axial", solutions.column(CONTACT, DEEP, "F_axial"), 5e-6),
         decide.positive("contact length", solutions.number(CONTACT, DEEP, "contact_length")),
@@ -68,13 +69,13 @@ CASE = Case(
         ),
         Claim(
             "stability",
-            "stable under pressure control before the first limit point, one negative eigenvalue behind it",
+            "stable under pressure control before the first limit point, one negative eigenvalue after it",
             tuple((spec, at) for spec in TUBES.values() for at in (FIRST, LATER)),
             stable_before,
         ),
         Claim(
             "integrals",
-            "both first integrals of the meridian are constant, whatever the law",
+            "both first integrals of the meridian are constant for every law",
             tuple((spec, LATER) for spec in FINE.values()),
             integrals,
         ),

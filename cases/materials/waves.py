@@ -1,7 +1,8 @@
-"""Waves around the filled, wrinkled cylinder of paper 5 made of other rubbers.
+"""Waves around the filled, wrinkled cylinder of paper 5 with other rubbers.
 
-Levels at which they set in and, a taut zone growing from above, vanish again, for Ogden's, Gent's, and Arruda
-and Boyce's rubber, against the paper's reference codes, which have laws of their own.
+The levels at which waves appear and, when a taut zone grows from above, disappear again, for Ogden's, Gent's,
+and Arruda and Boyce's rubber. They are compared with the paper's reference codes, which implement the laws
+separately.
 """
 
 from weakforms import Case, Claim, Finding, Points, Solutions, decide, wrinkled_tube
@@ -15,7 +16,7 @@ TUBES = {
 
 
 def more_waves_earlier(solutions: Solutions) -> Finding:
-    """Levels at which 20 and 10 waves set in, and at which 10 and 20 vanish."""
+    """Levels at which 20 and 10 waves appear, and at which 10 and 20 disappear."""
     found = []
     for model, spec in TUBES.items():
         changes = sorted(solutions.points(spec, "stability_change"), key=lambda point: point.values["V"])
@@ -44,7 +45,8 @@ CASE = Case(
         ),
         Claim(
             "more_waves_earlier",
-            "the more waves, the lower the level at which they set in, and the higher where they vanish",
+            "with more waves, the level at which they appear is lower, and the level at which they disappear "
+            "is higher",
             tuple((spec, None) for spec in TUBES.values()),
             more_waves_earlier,
         ),

@@ -1,7 +1,8 @@
-"""The wrinkled cylinder of paper 4 made of other rubbers: Ogden's, Gent's, Arruda and Boyce's.
+"""The wrinkled cylinder of paper 4 with other rubbers: Ogden's, Gent's, Arruda and Boyce's.
 
-Critical radius, threshold of wrinkling, levels at which zones open and close, and limit pressure, against
-the paper's reference codes, which have laws of their own. The relaxed energy follows from each law.
+Critical radius, threshold of wrinkling, levels at which zones open and close, and limit pressure, are
+compared with the paper's reference codes, which implement the laws separately. The relaxed energy follows
+from each law.
 """
 
 from weakforms import (
@@ -35,7 +36,7 @@ def axial(solutions: Solutions) -> Finding:
 
 
 def stable(solutions: Solutions) -> Finding:
-    """Negative axisymmetric eigenvalues below the first limit pressure and behind it."""
+    """Negative axisymmetric eigenvalues before and after the first limit pressure."""
     found = []
     for model, spec in INFLATED.items():
         counts, volume = solutions.branch(spec).columns["n_negative"], solutions.along(spec, "V")

@@ -1,6 +1,6 @@
 """Paper 1: the curves behind figures 3 to 10, over the pressure or the edge of the patch.
 
-First contact, frictionless and adhesive inflation, deflation; G = 0 all along adhesive inflation.
+First contact, frictionless and adhesive inflation, deflation; G = 0 during adhesive inflation.
 """
 
 from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular, decide
@@ -23,7 +23,7 @@ def label(s: tuple[float, float]) -> str:
 
 
 def no_release(solutions: Solutions) -> Finding:
-    """G along adhesive inflation, beside the 1 that peeling reaches."""
+    """G along adhesive inflation, compared with the value 1 that peeling reaches."""
     return decide.all_of(decide.zero("G", solutions.along(spec, "G"), 1e-9) for spec in STICK.values())
 
 
@@ -37,7 +37,7 @@ def contact_later(solutions: Solutions) -> Finding:
 
 
 def taut(solutions: Solutions) -> Finding:
-    """Smallest principal resultant anywhere along the branches, but for the unstressed beginning."""
+    """Smallest principal resultant anywhere along the branches, except for the unstressed start."""
     return decide.all_of(
         decide.positive("smallest resultant", solutions.along(spec, "t_min")[1:])
         for spec in (*SLIP.values(), *STICK.values(), *DOWN.values())
@@ -85,7 +85,7 @@ CASE = Case(
         ),
         Claim(
             "no_release",
-            "nothing is released while the patch grows: G = 0",
+            "no energy is released while the patch grows: G = 0",
             tuple((s, None) for s in STICK.values()),
             no_release,
         ),

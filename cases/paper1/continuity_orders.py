@@ -1,14 +1,15 @@
 """Paper 1: orders of continuity at the edge of the patch, measured, alpha = 0.1, beta = 1.
 
-Frictionless, the paper has lam1 in C1 and lam2 in C2; lam1 is smoother than that (lam1' holds the slope angle
-only, and its rate, like the pressure, is continuous). In adhesive inflation lam1 is C0 and lam2 C1; in
-adhesive deflation lam1 jumps and lam2 is C0.
+In frictionless contact the paper states that lam1 is C1 and lam2 is C2. lam1 is smoother than stated: lam1'
+depends only on the slope angle, whose derivative is continuous like the pressure. In adhesive inflation lam1
+is C0 and lam2 C1; in adhesive deflation lam1 jumps and lam2 is C0.
 """
 
 from weakforms import At, Case, Claim, Finding, Solutions, circular, continuity, reference
 
 WINDOW = 0.12
-"""Wide enough for third derivatives: they pass on what samples are off by over the cube of it."""
+"""Width of the sampling window for third derivatives, which contain the error of samples divided by its
+cube."""
 STICK = circular(alpha=0.1, beta=1, contact="adhesive").on(degree=6)
 SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=5.0).on(degree=6)
 DOWN = STICK.at(phase="deflation")
@@ -34,7 +35,7 @@ def as_stated(kind: str, solutions: Solutions) -> Finding:
 
 
 STATEMENTS = {
-    "frictionless": "frictionless: lam2 is C2, as stated; so is lam1, which is stated to be C1",
+    "frictionless": "frictionless: lam2 is C2, as stated; lam1 is C2 too, but is stated to be C1",
     "adhesive_inflation": "adhesive inflation: lam1 is C0, lam2 is C1",
     "adhesive_deflation": "adhesive deflation: lam1 jumps, lam2 is C0",
 }

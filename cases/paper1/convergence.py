@@ -1,7 +1,7 @@
 """Paper 1: observed orders of convergence of free inflation.
 
-Elements of degree d give functionals and limit pressures of order 2d, the radius in a maximum norm of order d
-+ 1.
+With elements of degree d, functionals and limit pressures converge with order 2d, the radius in a maximum
+norm with order d + 1.
 """
 
 from weakforms import Case, Order, circular

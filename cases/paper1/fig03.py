@@ -1,7 +1,8 @@
 """Paper 1, figure 3: profiles and paths of material points in free inflation and frictionless contact.
 
-Mooney-Rivlin, alpha = 0.1, k = 50, l = 0.5; (a) beta = 1, (b) beta = 2. The pressures are the paper's
-legends. Points in contact move outwards as the pressure grows; their paths diverge and have no inflexion.
+Mooney-Rivlin, alpha = 0.1, k = 50, l = 0.5; (a) beta = 1, (b) beta = 2. The pressures are those of the
+paper's legends. Points in contact move outwards as the pressure grows; their paths diverge and have no
+inflexion.
 """
 
 from weakforms import (
@@ -50,7 +51,7 @@ def outwards(solutions: Solutions) -> Finding:
 
 
 def no_inflexion(solutions: Solutions) -> Finding:
-    """Turning of the paths in the (rho, eta) plane, for points that touch late or never: to the right."""
+    """Curvature of the paths in the (rho, eta) plane, for points that touch late or never."""
     found = []
     for beta, over in OVER.items():
         for x in (0.3, 0.5, 0.7):

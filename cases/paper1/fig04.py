@@ -1,8 +1,8 @@
 """Paper 1, figure 4: profiles and paths of material points in adhesive inflation.
 
-Both stretches of what has touched are locked, and the patch moves vertically as a whole ("locked"; the text's
-list of unknowns does not close the problem, the vertical balance of the whole patch does). (a) beta = 1, (b)
-beta = 2.
+Both stretches of points that have touched are locked, and the patch moves vertically as a whole ("locked").
+The unknowns that the text lists do not determine the problem; the vertical balance of the whole patch does.
+(a) beta = 1, (b) beta = 2.
 """
 
 import numpy as np
@@ -32,9 +32,9 @@ SAME_STATE = {(2, 2.66): "fig03b_p_2.66", (2, 4.49): "fig03b_p_4.49"}
 FIRST_TOUCH = {1: 2.03, 2: 4.89}
 PRINTED = {1: (0.408, 2.094, 2.833, 3.477), 2: (2.66, 4.49, 6.16, 8.49)}
 CLEAR_OF_EDGE = 0.01
-"""How far inside the patch a point is that is looked at."""
+"""Distance of points from the edge, inside the patch."""
 HUNDREDTHS = tuple(k / 100 for k in range(45, 66))
-"""Pole heights in contact, around the substrate at l = 0.5, that would count as round."""
+"""Pole heights in contact, around the substrate at l = 0.5, that count as round numbers."""
 PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 OVER = {
     1: (0.1, 0.408, 0.8, 1.2, 1.6, 2.094, 2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477),
@@ -46,7 +46,7 @@ LATE = {1: (2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477), 2: (5.4, 5.8, 6.16, 6.7, 7.3
 def of(beta: int, p: float) -> Spec:
     """The free membrane below the pressure of first contact, the constrained one above.
 
-    While the patch is small the stretch at the clamp wants more cells.
+    While the patch is small, the stretch at the clamp needs more cells.
     """
     if p < FIRST_TOUCH[beta]:
         return FREE[beta]
@@ -54,7 +54,7 @@ def of(beta: int, p: float) -> Spec:
 
 
 def samples(solutions: Solutions, beta: int, pressures: tuple[float, ...], name: str) -> decide.Number:
-    """A column at the material points of the paths, one row a pressure."""
+    """A column at the material points of the paths, one row for each pressure."""
     at = [At("p", p, profile=PATHS) for p in pressures]
     return decide.stack(solutions.samples(STICK[beta], a, name) for a in at)
 
@@ -100,7 +100,7 @@ def rise_to_the_edge(solutions: Solutions) -> Finding:
 
 
 def inflexion(solutions: Solutions) -> Finding:
-    """Slope of the path of X = 0.6, which does not touch: it falls, then rises."""
+    """Slope of the path of X = 0.6, which does not touch: it decreases, then increases."""
     found = []
     for beta, pressures in OVER.items():
         rho, eta = (samples(solutions, beta, pressures, name)[:, PATHS.index(0.6)] for name in ("rho", "eta"))
@@ -136,7 +136,7 @@ CASE = Case(
         for letter, beta in (("a", 1), ("b", 2))
     ),
     checks=(
-        Claim("vertical", "points in contact move vertically, their stretches frozen", ALONG, vertical),
+        Claim("vertical", "points in contact move vertically, with frozen stretches", ALONG, vertical),
         Claim("pole_frozen", "the pole keeps the stretch it had at first contact", ALONG, pole_frozen),
         Claim("rise_to_the_edge", "both stretches grow from the pole to the edge", ALONG, rise_to_the_edge),
         PrintedInput(
@@ -165,7 +165,7 @@ CASE = Case(
         ),
         Claim(
             "inflexion",
-            "paths of points outside, near the patch, first flatten, then steepen",
+            "paths of points outside, near the patch, first become flatter, then steeper",
             ALONG,
             inflexion,
         ),

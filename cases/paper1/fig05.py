@@ -1,6 +1,6 @@
 """Paper 1, figure 5: profiles and paths in adhesive deflation without peeling.
 
-The end of inflation is not printed; the last profile of figure 4 is taken: p = 3.477 (beta = 1) and 8.49
+The end of inflation is not printed; here it is the last profile of figure 4: p = 3.477 (beta = 1) and 8.49
 (beta = 2).
 """
 
@@ -14,7 +14,7 @@ DOWN = {
 }
 PRINTED = {1: (0.6, 1.4, 2.4, 3.2), 2: (0.2, 2.2, 4.2, 6.43)}
 CLEAR_OF_EDGE = 0.01
-"""How far inside the patch a point is that is looked at."""
+"""Distance of points from the edge, inside the patch."""
 PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 OVER = {
     1: (3.4, 3.2, 2.8, 2.4, 2.0, 1.7, 1.4, 1.0, 0.6),
@@ -48,7 +48,7 @@ def rigid(solutions: Solutions) -> Finding:
 
 
 def tensile_from_the_edge(solutions: Solutions) -> Finding:
-    """Which points of the patch are under tension as the pressure falls: the outer ones, and ever more."""
+    """Points of the patch under tension as the pressure falls: the outer ones, and increasingly many."""
     found, shares = [], {}
     for beta, pressures in OVER.items():
         shares[beta] = []
@@ -63,10 +63,10 @@ def tensile_from_the_edge(solutions: Solutions) -> Finding:
             found.append(decide.every("tensile ones outside", np.diff(tensile.astype(int)) >= 0))
             shares[beta].append(float(tensile.mean()))
         found.append(
-            decide.every(f"beta = {beta}: the tensile share does not fall", np.diff(shares[beta]) >= 0)
+            decide.every(f"beta = {beta}: the tensile fraction does not decrease", np.diff(shares[beta]) >= 0)
         )
-    found.append(decide.same("beta = 1, tensile share at last", shares[1][-1], 1.0))
-    found.append(decide.less("and at first", shares[1][0], shares[1][-1]))
+    found.append(decide.same("beta = 1, last tensile fraction", shares[1][-1], 1.0))
+    found.append(decide.less("and the first one", shares[1][0], shares[1][-1]))
     return decide.all_of(found)
 
 
@@ -100,9 +100,8 @@ CASE = Case(
         Claim("rigid", "the patch moves rigidly: sigma - sigma(edge) does not change", ALONG, rigid),
         Claim(
             "tensile_from_the_edge",
-            "the contact stress turns tensile first at the edge; the tensile zone grows inwards, for "
-            "beta = 1 to "
-            "the whole patch",
+            "the contact stress becomes tensile first at the edge; the tensile zone grows inwards, for beta "
+            "= 1 over the whole patch",
             ALONG,
             tensile_from_the_edge,
         ),

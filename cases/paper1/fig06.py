@@ -1,7 +1,7 @@
 """Paper 1, figure 6: frictionless against adhesive contact at equal pressure, with and without pre-stretch.
 
-(a) neo-Hookean at p = 4 (above the limit pressures of free inflation: the substrate makes it possible), (b)
-Mooney-Rivlin at p = 6.
+(a) neo-Hookean at p = 4 (above the limit pressures of free inflation, which is possible with the substrate),
+(b) Mooney-Rivlin at p = 6.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
@@ -43,12 +43,12 @@ BEYOND = decide.Stated(1.01, "bulges beyond its clamp", "no number is printed; a
 
 
 def bulges(solutions: Solutions) -> Finding:
-    """Largest radius at p = 6, frictionless, Mooney-Rivlin, beside that of the clamp."""
+    """Largest radius at p = 6, frictionless, Mooney-Rivlin, compared with that of the clamp."""
     at = At("p", 6.0, profile=())
     reach = {b: solutions.column(PAIRS[0.1, b, LAWS[0]], at, "rho") for b in (1, 2)}
     return decide.all_of(
         decide.at_least("beta = 1", reach[1].largest(), BEYOND),
-        decide.less("beta = 2, all but the clamp", reach[2][:-1].largest(), 1),
+        decide.less("beta = 2, without the clamp", reach[2][:-1].largest(), 1),
     )
 
 
@@ -80,9 +80,8 @@ CASE = Case(
     checks=(
         Claim(
             "stick_indents_more",
-            "at equal pressure sticking gives the deeper indentation, the larger peak stress and "
-            "mean gradient of "
-            "the stress, and the smaller patch",
+            "at equal pressure adhesive contact has the deeper indentation, the larger peak stress and mean "
+            "gradient of the stress, and the smaller patch",
             WANTS,
             stick_indents_more,
         ),

@@ -1,7 +1,7 @@
 """Paper 1, figure 7: stretches along the radius and the isotropic zone, frictionless, alpha = 0.1, beta = 1.
 
-X_iso is the first X at which lam1 and lam2 differ by 1e-4. The stretches go with p^(2/3) at small pressure,
-hence X_iso with p^(-1/3); it falls in free inflation and rises again once contact has formed.
+X_iso is the first X at which lam1 and lam2 differ by 1e-4. At small pressure the stretches change like
+p^(2/3), hence X_iso like p^(-1/3). It decreases in free inflation and increases after first contact.
 """
 
 import numpy as np
@@ -16,7 +16,9 @@ STATES = ((FREE, 1.64), (SLIP, 4.82), (SLIP, 5.95))
 
 LIKE = decide.Stated(0.02, "like p^(-1/3)", "the next term, of relative order p^(2/3), at p up to 0.2")
 GROWS = decide.Stated(
-    2, "grows after it", "no number is printed; figure 7b has it at about twice its least value at the end"
+    2,
+    "grows after first contact",
+    "no number is printed; figure 7b has it at about twice its least value at the end",
 )
 NEARLY_EQUAL = decide.Stated(
     0.05, "nearly equal", "no number is printed; a fifteenth of the height of figure 7a"
@@ -24,7 +26,7 @@ NEARLY_EQUAL = decide.Stated(
 
 
 def power(solutions: Solutions) -> Finding:
-    """Exponent of X_iso(p) as p falls: nearer to -1/3 the lower p."""
+    """Exponent of X_iso(p) as p falls; it tends to -1/3."""
     values = {
         p: solutions.number(circular(alpha=0.1, beta=1, l=1), At("p", p), "X_iso") for p in (0.05, 0.1, 0.2)
     }
@@ -37,7 +39,7 @@ def power(solutions: Solutions) -> Finding:
 
 
 def least_at_contact(solutions: Solutions) -> Finding:
-    """X_iso along the branch: falling before first contact, rising after it."""
+    """X_iso along the branch: it falls before first contact and rises after it."""
     p, radius = (solutions.along(SLIP, name) for name in ("p", "X_iso"))
     before, after = decide.sides(p, solutions.point(SLIP, "contact_onset", "p"))
     known = before & (p.value > 0)

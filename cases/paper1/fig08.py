@@ -1,7 +1,7 @@
 """Paper 1, figures 8 and 9: stretches in adhesive inflation and deflation, alpha = 0.1, beta = 1.
 
 At the edge of a growing patch lam1 has a kink and lam2 a jump of its second derivative; in deflation lam1
-jumps and lam2 has a kink. The tables leave out points close to the edge.
+jumps and lam2 has a kink. The tables do not contain points close to the edge.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide

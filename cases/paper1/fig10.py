@@ -1,7 +1,7 @@
 """Paper 1, figure 10: contact stress over the radius, alpha = 0.1, beta = 1; negative is compression.
 
 (a) frictionless, (b) adhesive inflation, (c) adhesive deflation from p = 3.477. The printed axis of (c) is
-wider than the locked patch with its vertical balance needs.
+wider than necessary for the locked patch with its vertical balance.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, PrintedInput, Solutions, circular, decide
@@ -17,11 +17,11 @@ PANELS = (
 )
 
 HUNDREDTHS = tuple(k / 100 for k in range(45, 66))
-"""Pole heights in contact, around the substrate at l = 0.5, that would count as round."""
+"""Pole heights in contact, around the substrate at l = 0.5, that count as round numbers."""
 
 
 def compressive_in_inflation(solutions: Solutions) -> Finding:
-    """Sign of the contact stress on the patch, and that it vanishes at the edge."""
+    """Sign of the contact stress on the patch, and its zero at the edge."""
     found = []
     for _, _, of, pressures, _ in PANELS[:2]:
         for p in pressures:

@@ -1,8 +1,8 @@
 """Paper 1, figures 11 and 12: energy release rate over the radius of the patch, and pull-off.
 
-At a pressure below first contact G has a minimum: the pull-off point q. To its right the patch is stable
-against peeling (dG/drho* > 0; solid), to its left it is not (dashed). Above first contact G rises from zero,
-with zero slope, at the radius that adhesive inflation reaches at that pressure.
+At a pressure below first contact G has a minimum: the pull-off point q. To the right of q the patch is stable
+against peeling (dG/drho* > 0; solid), to the left it is not (dashed). Above first contact G rises from zero,
+with zero slope, from the radius that adhesive inflation reaches at that pressure.
 """
 
 import numpy as np
@@ -31,21 +31,23 @@ SETS = {
     "fig12a": (BASE.at(alpha=0.1, beta=1, k=100, p_end=5.2), (1.4, 1.6, 1.8, 2.3, 2.7), 0.5),
     "fig12b": (BASE.at(alpha=0.1, beta=2, p_end=7.8), (2.4, 3.2, 3.8, 4.2, 5.6), 1.2),
 }
-"""Curve, pressures and height of the axis. Inflation ends where rho* = 0.6, the end of the axis: G at a
-pressure and radius does not depend on how far inflation went."""
+"""Curve, pressures and height of the axis. Inflation ends at rho* = 0.6, the end of the axis, because G at a
+pressure and radius does not depend on the end of inflation."""
 HIGH = {"fig11a": (2.2, 2.4), "fig11b": (2.2, 2.4), "fig12a": (2.3, 2.7), "fig12b": (5.6,)}
 CURVES = {(name, p): spec.at(p=p) for name, (spec, pressures, _) in SETS.items() for p in pressures}
 MR, NH, STIFF, STRETCHED = "fig11b", "fig11a", "fig12a", "fig12b"
 
 
 def adhesive(spec: Spec) -> Spec:
-    """The inflation that a peeling curve begins with."""
+    """The inflation at the start of a peeling curve."""
     kept = {name: value for name, value in spec.parameters if name not in ("phase", "p")}
     return circular(**kept)
 
 
 ZERO_SLOPE = decide.Stated(
-    0.2, "with zero slope", "over the first step; a parabola's is a twentieth to a fifth of its mean one"
+    0.2,
+    "with zero slope",
+    "over the first step; for a parabola it is a twentieth to a fifth of the mean slope",
 )
 
 
@@ -70,7 +72,7 @@ def both_ways(solutions: Solutions) -> Finding:
 
 
 def from_zero(solutions: Solutions) -> Finding:
-    """Above first contact: G where the curve begins, that it rises, and its slope beside the mean one."""
+    """Above first contact: G at the start of the curve, its increase, and its slope over the mean one."""
     found = []
     for name, pressures in HIGH.items():
         for p in pressures:
@@ -79,22 +81,22 @@ def from_zero(solutions: Solutions) -> Finding:
             slope = (g[1] - g[0]) / (rho[1] - rho[0]) / ((g[-1] - g[0]) / (rho[-1] - rho[0]))
             found += [
                 decide.zero(f"{name}, p = {p:g}: G", g[0], 1e-5, g.largest()),
-                decide.agree("rho* where it begins", rho[0], reached, 1e-6),
+                decide.agree("rho* at the start", rho[0], reached, 1e-6),
                 decide.rises("G", g),
-                decide.at_most("slope over the mean one", slope, ZERO_SLOPE),
+                decide.at_most("slope over mean slope", slope, ZERO_SLOPE),
             ]
     return decide.all_of(found)
 
 
 def _ratio(solutions: Solutions, more: str, less: str, p: float) -> decide.Number:
-    """One curve over another at equal pressure, over their common radii from q outwards."""
+    """Ratio of two curves at equal pressure, over their common radii from q outwards."""
     curves = [CURVES[name, p] for name in (more, less)]
     radii = [solutions.branch(spec).columns["rho_contact"] for spec in curves]
     rho = np.linspace(max(r.min() for r in radii), min(r.max() for r in radii), 40)
     g = [solutions.along(spec, "G") for spec in curves]
     found = []
     for r, c in zip(radii, g, strict=True):
-        # Between points of a trace a cubic spline is off by less than it is apart from straight lines.
+        # Between points of a trace a cubic spline has a smaller error than its distance from straight lines.
         curved = make_interp_spline(r[::-1], c.value[::-1])(rho)
         straight = np.interp(rho, r[::-1], c.value[::-1])
         found.append(decide.Number(curved, np.max(c.uncertainty) + np.abs(curved - straight)))
@@ -110,7 +112,7 @@ def grows(solutions: Solutions) -> Finding:
 
 
 def stable_side(solutions: Solutions) -> Finding:
-    """Negative eigenvalues, the front among the freedoms, to both sides of q."""
+    """Negative eigenvalues, with the front as a degree of freedom, on both sides of q."""
     found = []
     for (name, p), spec in CURVES.items():
         counts = solutions.branch(spec).columns["n_negative"]
@@ -177,7 +179,7 @@ CASE = Case(
         ),
         Claim(
             "stable_side",
-            "the branch right of q is stable against peeling, the left one not",
+            "the branch to the right of q is stable against peeling, the left one is not",
             ALL,
             stable_side,
         ),

@@ -1,7 +1,7 @@
 """Paper 1: free inflation before any contact, its limit points and its limits of small pressure.
 
-A neo-Hookean disk has a limit point of the pressure; with pre-stretch it tends to that of a film of constant
-tension, p = 4 at t0 = 1. A Mooney-Rivlin disk (alpha = 0.1, beta = 1) has none.
+A neo-Hookean disk has a limit point of the pressure. For large pre-stretch it tends to the limit point of a
+film of constant tension, p = 4 at t0 = 1. A Mooney-Rivlin disk (alpha = 0.1, beta = 1) has none.
 """
 
 from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, circular, decide
@@ -15,7 +15,7 @@ SMALL = (0.48, 0.24, 0.12, 0.06)
 
 
 TENDS = decide.Stated(
-    1e-3, "tends to p = 4", "what pre-stretch 10 leaves, with its sixth inverse power and more"
+    1e-3, "tends to p = 4", "difference at pre-stretch 10, of the sixth inverse power and higher"
 )
 
 
@@ -26,7 +26,7 @@ def isotropic_rest(solutions: Solutions) -> Finding:
 
 
 def film(solutions: Solutions) -> Finding:
-    """Limit pressure and pole height against the pre-stretch: both distances to the film's values fall."""
+    """Limit pressure and pole height over the pre-stretch: differences from those of the film."""
     p, t0 = (
         decide.stack(solutions.point(spec, "limit_point", name) for spec in FILM.values())
         for name in ("p", "t0")
@@ -39,9 +39,9 @@ def film(solutions: Solutions) -> Finding:
 
 
 def at_rest(values: decide.Number) -> decide.Number:
-    """What numbers at falling heights, each half the one before, tend to; they have even powers only.
+    """Limit of numbers at decreasing heights, each half the one before, whose expansion has even powers only.
 
-    Extrapolated once for each further height (Romberg); what the last time changes is the uncertainty.
+    Each further height gives one more extrapolation (Romberg); the last change is the uncertainty.
     """
     power = 4
     while len(values) > 1:

@@ -1,4 +1,4 @@
-"""Paper 1 off the paper's parameters: other alpha, beta, k and l, all phases."""
+"""Paper 1 at other parameters than in the paper: other alpha, beta, k and l, all phases."""
 
 from weakforms import Axis, Case, Curve, Panel, Points, circular
 
@@ -36,7 +36,7 @@ ENDS = {
     "adhesive": (5.6, 3.6, 2.95, 6.9, 5.5),
     "deflation": (5.0, 2.5, 2.0, 6.0, 4.5),
 }
-"""Where each curve ends, in the order of the sets: t0 of free inflation, else p."""
+"""End of each curve, in the order of the sets: t0 for free inflation, else p."""
 
 PEELING = (
     (SETS[0], 2.4, 5.6),
@@ -44,7 +44,7 @@ PEELING = (
     (SETS[3], 2.4, 6.7),
     (SETS[4], 2.0, 5.6),
 )
-"""Data, pressure, and where inflation ends."""
+"""Data, pressure, and end of inflation."""
 
 
 def peeling(data: dict[str, float], p: float, p_end: float) -> Curve:

@@ -1,8 +1,8 @@
 """Paper 1, section 3: the usual no-slip model, in which only the radius of a point sticks.
 
-The text says that both stretches are locked. Where only rho is, and the patch is in vertical equilibrium, the
-indentation is slightly *smaller* than without friction, against figure 6 and the abstract: the paper's patch
-is locked.
+The text says that both stretches are locked. If only rho is locked, and the patch is in vertical equilibrium,
+the indentation is slightly *smaller* than without friction. This contradicts figure 6 and the abstract, so
+that the paper's patch must be locked.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
@@ -17,7 +17,7 @@ SLIGHTLY = decide.Stated(0.01, "slightly", "no number is printed; a line of figu
 
 
 def indents_less(solutions: Solutions) -> Finding:
-    """Pole height against frictionless at equal pressure."""
+    """Pole height compared with frictionless contact at equal pressure."""
     gaps = decide.stack(
         solutions.number(SLIP[b], At("p", p), "t0") - solutions.number(RADIAL[b], At("p", p), "t0")
         for b, pressures in PRESSURES.items()
@@ -49,9 +49,9 @@ CASE = Case(
             "with the radius alone locked the indentation is slightly smaller than without friction",
             tuple((of[b], At("p", p)) for of in (RADIAL, SLIP) for b, ps in PRESSURES.items() for p in ps),
             indents_less,
-            differs="the abstract and figure 6 have adhesion increase the indentation; the usual no-slip "
-            "model, in which only the radius sticks, decreases it slightly, so the paper's patch must "
-            "lock both stretches",
+            differs="according to the abstract and figure 6, adhesion increases the indentation; the usual "
+            "no-slip model, in which only the radius sticks, decreases it slightly, so that the paper's "
+            "patch must lock both stretches",
         ),
     ),
     asked={"p": 1e-7, "t0": 5e-8, "rho_contact": 1e-6, "lam1_contact": 1e-6, "sigma_pole": 1e-7, "V": 1e-6},

@@ -1,7 +1,7 @@
-"""Paper 1's own way through adhesive contact on a fixed mesh, and the limit it tends to.
+"""Paper 1's scheme for adhesive contact on a fixed mesh, and its limit.
 
-The pole is raised by equal steps, and the ring that touched within a step is frozen at its end: of first
-order in the step. At t0 = 0.57 a step of 0.01 gives a pressure 2.6 % too high.
+The pole is raised by equal steps, and the ring that touched within a step is frozen at its end. The scheme is
+of first order in the step. At t0 = 0.57 a step of 0.01 gives a pressure 2.6 % too high.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ STEPS = (8, 16, 32, 64)
 RUNS = [circular_scheme(t_end=0.58).on(steps=n, cells=50 * n) for n in STEPS]
 LIMIT, END = circular(contact="adhesive", p_end=4.0), At("t0", 0.58)
 COARSE = 0.1
-"""Accuracy asked of the scheme: of first order, with the front within a cell of a coarse mesh."""
+"""Accuracy asked of the scheme, which is of first order, with the front within a cell of a coarse mesh."""
 
 
 def tends_to_limit(solutions: Solutions) -> Finding:

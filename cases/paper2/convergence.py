@@ -12,13 +12,13 @@ EIGENVALUE = {k: TUBE.on(degree=k, cells=n) for k, n in ((1, 128), (2, 64))}
 
 
 def eigenvalue_order(solutions: Solutions) -> Finding:
-    """Order of the lowest eigenvalue at u_max = 3 from three meshes, and that it is known."""
+    """Order of the lowest eigenvalue at u_max = 3 from three meshes, compared with its uncertainty."""
     found = []
     for k, spec in EIGENVALUE.items():
         q = solutions.quantity(spec, At("u_max", 3.0), "eigenvalue_1")
         found.append(
             decide.positive(
-                f"P{k}, observed order less {2 * k} and its slack",
+                f"P{k}, observed order minus {2 * k} and its slack",
                 decide.number(q.order or float("nan")) - 2 * k + decide.ORDER_SLACK,
             )
         )

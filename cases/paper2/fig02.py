@@ -1,7 +1,7 @@
 """Paper 2, figure 2: mid-plane displacement against pressure in free inflation.
 
 Panel (a) neo-Hookean, panel (b) Mooney-Rivlin with alpha = 0.1, each for three pre-stretches. Past a limit
-point the pressure is no abscissa, so the curves are compared over the displacement.
+point the pressure is not a valid abscissa, so that the curves are compared over the displacement.
 """
 
 from weakforms import (
@@ -52,11 +52,13 @@ def curves_cross(solutions: Solutions) -> Finding:
 
 
 def first_branch_at_1_9(solutions: Solutions) -> Finding:
-    """At p = 1.9 the unstretched tube is before its limit point, that with delta1 = 1.5 far inflated."""
+    """At p = 1.9 the unstretched tube is before its limit point; that with delta1 = 1.5 is far inflated."""
     low, high = (solutions.number(MR[d], At("p", 1.9), "u_max") for d in (1, 1.5))
     first, second = (solutions.point(MR[1], "limit_point", "u_max", index) for index in (0, 1))
     return decide.all_of(
-        decide.less("u_max of delta1 = 1, limit points of it, and delta1 = 1.5", low, first, second, high),
+        decide.less(
+            "u_max for delta1 = 1, at its limit points, and for delta1 = 1.5", low, first, second, high
+        ),
         decide.less("p", 1.9, solutions.point(MR[1], "limit_point", "p", 1)),
     )
 
@@ -139,7 +141,7 @@ CASE = Case(
         ),
         Claim(
             "states_at_1.9",
-            "at p = 1.9 the unstretched tube is on its first branch, the one with delta1 = 1.5 is not",
+            "at p = 1.9 the unstretched tube is on its first branch, but the one with delta1 = 1.5 is not",
             ((MR[1], At("p", 1.9)), (MR[1.5], At("p", 1.9))),
             first_branch_at_1_9,
         ),

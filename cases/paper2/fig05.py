@@ -7,7 +7,7 @@ PRESSURES = (1.5, 1.9)
 
 
 def grows(solutions: Solutions) -> Finding:
-    """The pre-stretched tube is the wider one at both pressures, and both grow."""
+    """The pre-stretched tube is wider at both pressures, and both tubes grow."""
     u = {(d, p): solutions.number(TUBES[d], At("p", p), "u_max") for d in TUBES for p in PRESSURES}
     return decide.all_of(
         *(decide.less(f"u_max at p = {p}", u[1, p], u[1.5, p]) for p in PRESSURES),
@@ -40,7 +40,7 @@ CASE = Case(
     checks=(
         Claim(
             "grows",
-            "the pre-stretched tube is the wider one at both pressures",
+            "the pre-stretched tube is wider at both pressures",
             tuple((TUBES[d], At("p", p)) for d in TUBES for p in PRESSURES),
             grows,
         ),

@@ -1,7 +1,7 @@
 """Paper 2, figure 6: mid-plane displacement against pressure in constrained inflation and deflation.
 
 Panel (a) frictionless, panel (b) adhesive inflation and deflation from p = 3. In deflation the patch is
-bonded; by the paper's equation (9) the spring then pulls as well as it pushes ("bilateral").
+bonded; by the paper's equation (9) the spring then both pulls and pushes ("bilateral").
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, tube
@@ -44,13 +44,13 @@ def ordered(solutions: Solutions) -> Finding:
 
 
 def stiffens(solutions: Solutions) -> Finding:
-    """du_max/dp over the last step before first contact against its mean from p = 2 to 3."""
+    """du_max/dp over the last step before first contact, compared with its mean from p = 2 to 3."""
     ratios = []
     for s in SETS:
         u, p = (solutions.along(SLIP[s], name) for name in ("u_max", "p"))
         last = (
             int((solutions.branch(SLIP[s]).columns["Z_front"] == 0).sum()) - 2
-        )  # the onset itself is the next
+        )  # the onset is the next point
         before = (u[last] - u[last - 1]) / (p[last] - p[last - 1])
         low, high = (solutions.number(SLIP[s], At("p", v), "u_max") for v in (2.0, 3.0))
         ratios.append(before / (high - low))
@@ -139,7 +139,8 @@ CASE = Case(
         ),
         Claim(
             "laws_agree",
-            "frictionless and adhesive: u_max nearly equal, the adhesive patch the shorter by less than 5 %",
+            "frictionless and adhesive contact have nearly equal u_max, and the adhesive patch is shorter by "
+            "less than 5 %",
             tuple((c[s], At("p", 3.0)) for c in (SLIP, STICK) for s in SETS),
             laws_agree,
         ),

@@ -1,9 +1,9 @@
 """Paper 2, figure 6(b) again: adhesive deflation with a spring that pushes but does not pull.
 
 The paper remarks that inflation and deflation curves closely match. With the spring of its equation (9),
-which pulls a receding membrane outwards, they do not; with this reading they do, all the way down.
-The traction is not compared here: at low pressure the spring lets go close to the edge of the patch, and the
-kink limits its bound to more than 1e-3.
+which pulls a receding membrane outwards, they do not; with a spring that only pushes they do, down to zero
+pressure. The traction is not compared here: at low pressure the spring goes slack close to the edge of the
+patch, and because of the kink its bound is above 1e-3.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
@@ -36,7 +36,7 @@ CASE = Case(
             "b",
             x=Axis("p", 0, 3),
             y=Axis("u_max", 0, 0.6),
-            title="deflation, the spring pushes only",
+            title="deflation, the spring only pushes",
             curves=tuple(
                 Curve(
                     PUSHING[s],

@@ -1,7 +1,7 @@
 """Paper 2, figure 7: principal stretches along the constrained tube, alpha = 0.1, delta1 = 1.
 
-(a) frictionless, (b) adhesive inflation, (c) adhesive deflation with a bilateral spring. The tables leave out
-points within 0.02 of the front, where the stretches have kinks or jumps.
+(a) frictionless, (b) adhesive inflation, (c) adhesive deflation with a bilateral spring. The tables do not
+contain points within 0.02 of the front, where the stretches have kinks or jumps.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
@@ -36,7 +36,7 @@ def where_largest(solutions: Solutions) -> Finding:
         lam1, lam2 = (
             solutions.column(SLIP, At("p", float(p), profile=()), name) for name in ("lam1", "lam2")
         )
-        found.append(decide.positive(f"p = {p}: lam1 at the end less lam1 elsewhere", lam1[-1] - lam1[:-1]))
+        found.append(decide.positive(f"p = {p}: lam1 at the end minus lam1 elsewhere", lam1[-1] - lam1[:-1]))
         found.append(decide.at_least("lam2, centre over end", lam2[0] / lam2[-1], HIGH))
     return decide.all_of(found)
 

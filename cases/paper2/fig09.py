@@ -9,18 +9,16 @@ END = At("p", 3.0)
 
 
 JUST = decide.Stated(
-    1e-3, "just begins", "no number is printed; a thousandth of the radius is not seen in figure 9"
+    1e-3, "just begins", "no number is printed; a thousandth of the radius is not visible in figure 9"
 )
 SIDEWAYS = decide.Stated(
-    2, "bulge sideways", "no number is printed; the wall at the disk is less than half as steep to the plane"
+    2, "bulge sideways", "no number is printed; the slope of the wall at the disk is less than half"
 )
-CURVATURE = decide.Stated(
-    1e-4, "small", "t1 times the curvature of the plateau, which the balance leaves out"
-)
+CURVATURE = decide.Stated(1e-4, "small", "t1 times the curvature of the plateau, which the balance neglects")
 
 
 def overhang(solutions: Solutions) -> Finding:
-    """How far eta exceeds its value at the disk, frictionless, delta1 = 1."""
+    """Largest excess of eta over its value at the disk, frictionless, delta1 = 1."""
     most = {}
     for alpha in (0, 0.1):
         eta = solutions.samples(SLIP[alpha, 1], At("p", 3.0, profile=FINE), "eta")
@@ -98,7 +96,7 @@ CASE = Case(
         ),
         Claim(
             "overhang",
-            "the unstretched neo-Hookean wall just begins to overhang the disk at p = 3 (eta exceeds its end "
+            "the unstretched neo-Hookean wall just starts to overhang the disk at p = 3 (eta exceeds its end "
             "value by less than 1e-3); the Mooney-Rivlin one does not",
             tuple((SLIP[a, 1], At("p", 3.0, profile=FINE)) for a in (0, 0.1)),
             overhang,

@@ -9,7 +9,7 @@ BONDED = {
 
 
 def horizontal(solutions: Solutions) -> Finding:
-    """Material points of the patch keep their eta while the tube deflates: it is frozen, not solved for."""
+    """Material points of the patch keep their eta while the tube deflates, because it is frozen."""
     found = []
     for spec in BONDED.values():
         fields = [solutions.profile(spec, At("p", float(p), profile=())).columns for p in DOWN]

@@ -16,7 +16,7 @@ STAGNATES = decide.Stated(
 
 
 def grows_then_stagnates(solutions: Solutions) -> Finding:
-    """Growth of the patch from p = 1.6 to 2 against that from 2.6 to 3; delta1 = 2 stays shorter."""
+    """Growth of the patch from p = 1.6 to 2 over that from 2.6 to 3; for delta1 = 2 it is shorter."""
     found = []
     for law in ("frictionless", "adhesive"):
         for alpha in (0, 0.1):
@@ -53,8 +53,8 @@ CASE = Case(
     checks=(
         Claim(
             "grows_then_stagnates",
-            "the contact length of the unstretched tube grows fast first and then stagnates; at p = 3 the "
-            "pre-stretched tube's is smaller (near first contact it is the longer one); all stay below l_f",
+            "the contact length of the unstretched tube grows fast first and then stagnates; at p = 3 that "
+            "of the pre-stretched tube is smaller (near first contact it is larger); all stay below l_f",
             tuple(
                 (TUBES[law, (a, 1)], At("p", p)) for _, law, _ in LAWS for a in (0, 0.1) for p in EARLY_LATE
             )

@@ -11,7 +11,9 @@ BONDED = STICK.at(phase="deflation", spring="bilateral")
 UP, DOWN = (1.5, 2, 2.5, 3), (2.5, 2, 1.5, 1, 0)
 
 
-ABOUT = decide.Stated(0.3, "about p = 0.3", "the claim's own place, as far off as it is from p = 0")
+ABOUT = decide.Stated(
+    0.3, "about p = 0.3", "the claim's own position; the tolerance is its distance from p = 0"
+)
 SAME_ORDER = decide.Stated(2.5, "of the same order", "no number is printed; well below a factor of ten")
 
 
@@ -21,11 +23,11 @@ def grows(solutions: Solutions) -> Finding:
 
 
 def turns_up(solutions: Solutions) -> Finding:
-    """|f_t| at the front in deflation: where it is smallest."""
+    """|f_t| at the front in deflation: the pressure at its minimum."""
     p, values = (solutions.along(BONDED, name) for name in ("p", "traction_front"))
     i = int(values.value.argmin())
     return decide.all_of(
-        decide.at_most("least at p, off 0.3", abs(p[i] - 0.3), ABOUT),
+        decide.at_most("pressure at the minimum minus 0.3", abs(p[i] - 0.3), ABOUT),
         decide.less("|f_t|", values[i], values[-1], values[0]),
     )
 
@@ -79,8 +81,8 @@ CASE = Case(
             "in deflation |f_t| at the front decreases with p to about p = 0.3, then turns up slightly",
             ((BONDED, None),),
             turns_up,
-            differs="the text has the adhesive traction decrease with the pressure in deflation; below about "
-            "p = 0.3 it turns up again",
+            differs="according to the text the adhesive traction decreases with the pressure in deflation; "
+            "below about p = 0.3 it increases again",
         ),
         Claim("same_order", "f_t and f_k are of the same order", ((STICK, At("p", 3.0)),), same_order),
         Claim(

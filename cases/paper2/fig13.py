@@ -1,8 +1,8 @@
 """Paper 2, figure 13: axial line force at the edge of the patch in deflation.
 
-The definition of equation (22) holds the jump of the spring's term. With a bilateral spring the force rises
-monotonically as p falls, for all four tubes; the paper's remark that it starts to fall at low pressure for an
-unstretched tube holds for a unilateral spring.
+The definition in equation (22) includes the jump of the spring's term. With a bilateral spring the force
+rises monotonically as p falls, for all four tubes; the paper's remark that it starts to fall at low pressure
+for an unstretched tube is true for a unilateral spring.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, reference, tube
@@ -20,14 +20,14 @@ def falling(s: tuple[float, float]) -> list[At]:
     return [At("p", float(p)) for p in sorted(table.columns["p"], reverse=True)]
 
 
-FALLS = decide.Stated(0.03, "falls", "no number is printed; three times what counts as not falling")
+FALLS = decide.Stated(0.03, "falls", "no number is printed; three times the limit for not falling")
 DOES_NOT = decide.Stated(
     0.01, "not for the pre-stretched one", "no number is printed; a line of figure 13 is as wide"
 )
 
 
 def starts_at_zero(solutions: Solutions) -> Finding:
-    """f_l(3) within its uncertainty of zero, beside its value at p = 0."""
+    """f_l(3) is zero within its uncertainty; its value at p = 0 is not."""
     return decide.all_of(
         decide.zero(f"f_l of {s}", solutions.number(BONDED[s], At("p", 3.0), "line_force"), 2e-5)
         for s in SETS
@@ -35,7 +35,7 @@ def starts_at_zero(solutions: Solutions) -> Finding:
 
 
 def rises_bilateral(solutions: Solutions) -> Finding:
-    """With a bilateral spring f_l rises all the way to p = 0."""
+    """With a bilateral spring f_l rises down to p = 0."""
     return decide.all_of(
         decide.rises(f"f_l of {s}", solutions.numbers(BONDED[s], falling(s), "line_force")) for s in SETS
     )
@@ -58,7 +58,7 @@ def falls_unilateral(solutions: Solutions) -> Finding:
 
 
 def panel(name: str, title: str, curves: dict, table: str) -> Panel:
-    """One reading of the spring."""
+    """Panel for one kind of spring."""
     return Panel(
         name,
         x=Axis("p", 0, 3),
@@ -80,12 +80,12 @@ CASE = Case(
     source="Patil, Nordmark & Eriksson (2014), figure 13",
     panels=(
         panel("bilateral", "spring of equation (9)", BONDED, "bilateral"),
-        panel("unilateral", "spring that pushes only", PUSHING, "unilateral"),
+        panel("unilateral", "spring that only pushes", PUSHING, "unilateral"),
     ),
     checks=(
         Claim(
             "starts_at_zero",
-            "the line force is zero where deflation begins",
+            "the line force is zero at the start of deflation",
             tuple((BONDED[s], At("p", 3.0)) for s in SETS),
             starts_at_zero,
         ),
@@ -94,13 +94,13 @@ CASE = Case(
             "with the spring of equation (9) the line force rises monotonically as p falls",
             tuple((BONDED[s], at) for s in SETS for at in falling(s)),
             rises_bilateral,
-            differs="the text remarks that the line force of the unstretched tube begins to fall at low "
-            "pressure; with the spring of the paper's equation (9) it rises all the way, and it falls "
-            "only with a spring that pushes but does not pull",
+            differs="the text remarks that the line force of the unstretched tube starts to fall at low "
+            "pressure; with the spring of the paper's equation (9) it rises down to p = 0, and it falls only "
+            "with a spring that pushes but does not pull",
         ),
         Claim(
             "falls_unilateral",
-            "with a spring that pushes only the line force stays below 1 and falls at low pressure for the "
+            "with a spring that only pushes the line force stays below 1 and falls at low pressure for the "
             "unstretched tube, not for the pre-stretched one",
             tuple((PUSHING[s], None) for s in SETS),
             falls_unilateral,

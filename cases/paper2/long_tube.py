@@ -1,7 +1,7 @@
-"""Paper 2, limits: the long tube before and at bulging, the unloaded tube, and the two halves of a whole one.
+"""Paper 2, limits: the long tube before and at bulging, the unloaded tube, and the whole tube.
 
 A tube of length l_f = 40 is almost uniform in its middle. The paper's closed form for the infinite tube
-holds where lam1 = delta1; what the finite tube's own lam1 changes is stated, not hidden.
+assumes lam1 = delta1; the effect of the finite tube's lam1 is stated.
 """
 
 from collections.abc import Callable
@@ -20,7 +20,7 @@ WHOLE_BRANCH = {lf: tube(alpha=0.1, delta1=1, lf=lf) for lf in (10, 20)}
 
 
 NEAR = (4e-3, 2e-3)
-"""Steps of the hoop stretch to both sides of where the pressure is stationary."""
+"""Steps of the hoop stretch on both sides of the stationary pressure."""
 FOLLOWS = decide.Stated(
     1e-3, "follows to 1e-3", "the claim's own number; lam1 at mid-plane changes with 1/lf"
 )
@@ -45,7 +45,7 @@ def closed_form(solutions: Solutions) -> Finding:
 
 
 def middle_equilibrium(solutions: Solutions) -> Finding:
-    """With the tube's own lam1 the uniform balance t2 = p rho is left with the curvature term only."""
+    """With the tube's own lam1, the defect of the uniform balance t2 = p rho is the curvature term only."""
     found = []
     for at, limit in zip(MIDDLE, (FLAT, CURVED), strict=True):
         p, lam1, u = (solutions.number(LONG, at, name) for name in ("p", "lam1_mid", "u_max"))
@@ -58,7 +58,7 @@ def middle_equilibrium(solutions: Solutions) -> Finding:
 
 
 def unloaded(solutions: Solutions) -> Finding:
-    """At p = 0 the taut tube is the pre-stretched cylinder, exactly."""
+    """At p = 0 the taut tube is exactly the pre-stretched cylinder."""
     columns = solutions.profile(TAUT, At("p", 0.0, profile=())).columns
     return decide.all_of(
         decide.exact("rho", columns["rho"], np.ones(len(columns["Z"]))),
@@ -83,7 +83,7 @@ def halves_agree(solutions: Solutions) -> Finding:
 
 
 def rises(solutions: Solutions) -> Finding:
-    """u_max rises all along the branch of longer tubes too."""
+    """u_max also rises along the whole branch of longer tubes."""
     return decide.all_of(
         decide.rises(f"u_max, lf = {lf}", solutions.along(spec, "u_max")) for lf, spec in WHOLE_BRANCH.items()
     )
@@ -128,7 +128,7 @@ def stretch_at(force: float, l2: float) -> float:
 
 
 def localised(solutions: Solutions) -> Finding:
-    """The condition is that p is stationary at fixed N; first limit points rise towards its pressure."""
+    """The condition is that p is stationary at fixed N; first limit pressures rise towards this value."""
     lam2 = localisation_stretch()
     critical, level, even, odd = pressure(1.0, lam2), axial_force(1.0, lam2), [], []
     for step in NEAR:
@@ -138,7 +138,8 @@ def localised(solutions: Solutions) -> Finding:
     cells = [1 / step for step in NEAR]
     limits = [solutions.point(spec, "limit_point", "p") for spec in LENGTHS.values()]
     return decide.all_of(
-        # Stationary: what is left is of second order in the step aside, and its odd part of third.
+        # For a stationary value the difference is of second order in the step, and its odd part of third
+        # order.
         decide.order("p at fixed N, even part", cells, even, 2),
         decide.order("odd part", cells, odd, 3),
         decide.less(

@@ -1,10 +1,10 @@
-"""Paper 2, constrained inflation off the paper: other alpha, delta1, l_f, k and s."""
+"""Paper 2, constrained inflation at other parameters than in the paper: alpha, delta1, l_f, k and s."""
 
 from weakforms import Axis, Case, Curve, Panel, tube
 
 SETS = ({"alpha": 0.05, "delta1": 1.3, "lf": 8, "k": 50, "s": 1.2}, {"alpha": 0.05, "delta1": 1.5, "lf": 6})
-# Far from the tube at first: the patch is still short at p = 3. Finite differences do not resolve the
-# traction at its edge just after contact, so there is no table of adhesive inflation itself.
+# The substrate is far from the tube, so that the patch is still short at p = 3. Finite differences do not
+# resolve the traction at its edge just after contact, so there is no table of adhesive inflation itself.
 DISTANT = ({"alpha": 0.1, "delta1": 1.5, "lf": 6, "k": 100, "s": 1.6},)
 KINDS = {
     "frictionless": ({"contact": "frictionless"}, (*SETS, *DISTANT)),

@@ -1,4 +1,4 @@
-"""Paper 2, free inflation well off the paper's parameters: alpha 0 to 0.2, delta1 1 to 3, l_f 4 to 10."""
+"""Paper 2, free inflation far from the paper's parameters: alpha 0 to 0.2, delta1 1 to 3, l_f 4 to 10."""
 
 from weakforms import Axis, Case, Count, Curve, Panel, Points, tube
 
@@ -29,7 +29,7 @@ CASE = Case(
         Count(
             "limit_point",
             dict(zip(TUBES.values(), (1, 1, 0, 0, 2, 1), strict=True)),
-            "number of limit points as the reference has it",
+            "number of limit points as in the reference",
         ),
         Points(
             "limit_point",

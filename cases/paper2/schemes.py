@@ -1,8 +1,9 @@
-"""Paper 2's own way through contact on a fixed mesh, and the limit it tends to.
+"""Paper 2's schemes for contact on a fixed mesh, and their limit.
 
-Frictionless contact by a conditional in the weak form (semi-smooth Newton), the printed adhesive rule by
-pressure steps, and the front advanced from node to node: linear elements, refined in mesh and step, against
-the front-fitted solution at p = 3. The two adhesive routes are of first order in the contact length.
+The schemes are frictionless contact by a conditional in the weak form (semi-smooth Newton), the printed
+adhesive rule by pressure steps, and the front that moves from node to node. With linear elements, refined in
+mesh and step, they are compared with the front-fitted solution at p = 3. The two adhesive schemes are of
+first order in the contact length.
 """
 
 import numpy as np
@@ -26,9 +27,9 @@ ORDERS = {
     "pressure_steps": {"u_max": 1, "contact_length": 1},
     "front_nodes": {"u_max": 1, "contact_length": 1},
 }
-"""First order, second for the displacement of frictionless contact."""
+"""First order; second order for the displacement in frictionless contact."""
 COARSE = 0.1
-"""Accuracy asked of the schemes: of first order, with the front within a cell of a coarse mesh."""
+"""Accuracy asked of the schemes, which are of first order, with the front within a cell of a coarse mesh."""
 
 
 def tends_to_limit(scheme: str, solutions: Solutions) -> Finding:

@@ -1,10 +1,10 @@
 """Paper 2, table 1: orders of continuity at the contact front, measured.
 
 On each side of the front a polynomial is fitted to the solution (elements of degree 6) over a window, and
-its derivatives are compared at the front: the first whose jump does not vanish is the order. The printed
-table has u, w, lam2 in C^i and lam1, t1, t2 in C^(i-1) with i = 2 (frictionless), 1 (adhesive inflation), 0
-(adhesive deflation): the first jump is in derivative i + 1, or i. In frictionless contact lam1, t1 and t2
-are smoother than that: w - lam1 w_1 is constant along the membrane, which makes lam1 a smooth function of
+its derivatives are compared at the front. The order is that of the first derivative with a jump. According to
+the printed table u, w, lam2 are in C^i and lam1, t1, t2 in C^(i-1) with i = 2 (frictionless), 1 (adhesive
+inflation), 0 (adhesive deflation): the first jump is in derivative i + 1, or i. In frictionless contact lam1,
+t1 and t2 are smoother: w - lam1 w_1 is constant along the membrane, so that lam1 is a smooth function of
 lam2.
 """
 
@@ -23,7 +23,7 @@ KINDS = {
 
 
 def front(kind: int) -> float:
-    """Material position of the front: at the state's pressure, in deflation at p = 3."""
+    """Material position of the front at the state's pressure, or at p = 3 in deflation."""
     table = reference(2, f"{KINDS[kind][3]}_alpha_0.1_delta1_1")
     row = int(np.argmin(np.abs(table.columns["p"] - (3.0 if kind == 4 else KINDS[kind][2]))))
     return float(table.columns["Z_front"][row])
@@ -35,7 +35,7 @@ def state(kind: int) -> At:
 
 
 def as_measured(kind: int, solutions: Solutions) -> Finding:
-    """The measured orders are the reference's, and no jump is in between."""
+    """The measured orders agree with the reference, and every jump is clearly zero or clearly not zero."""
     table = reference(2, "table1_continuity")
     rows = table.columns["kind"] == kind
     expected = dict(zip(FIELDS, table.columns["first_jump"][rows].astype(int), strict=True))
@@ -43,8 +43,8 @@ def as_measured(kind: int, solutions: Solutions) -> Finding:
 
 
 STATEMENTS = {
-    2: "frictionless: the third derivative of u and w is the first to jump, as printed; so is that of lam1, "
-    "t1 and t2, where the table prints the second",
+    2: "frictionless: the third derivative of u and w is the first to jump, as printed; the same holds for "
+    "lam1, t1 and t2, for which the table prints the second",
     3: "adhesive inflation: the second derivatives of u and w and the first of lam1, t1, t2 jump, as printed",
     4: "adhesive deflation: the first derivatives of u and w jump, and lam1, t1, t2 themselves, as printed",
 }

@@ -1,7 +1,7 @@
-"""Paper 3: the pre-stretches at which the first bifurcation overtakes the limit point.
+"""Paper 3: the pre-stretches at which the order of first bifurcation and limit point changes.
 
-The paper remarks that for larger and for very low pre-stretch the limit point no longer comes first. Where
-the order changes, one state is both; it is solved for with the pre-stretch one more unknown.
+The paper remarks that for larger and for very low pre-stretch the limit point does not come first. Where the
+order changes, one state is both; it is solved for with the pre-stretch as an additional unknown.
 """
 
 from weakforms import (

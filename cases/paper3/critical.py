@@ -1,6 +1,7 @@
 """Paper 3: limit points and bifurcations of the primary branch, and the order of the eigenvalues' zeros.
 
-Level control unless it says volume; n waves around the circumference, n = 0 axisymmetric without torsion.
+Stability is under level control unless volume is mentioned; n is the number of waves around the
+circumference, and n = 0 is axisymmetric without torsion.
 """
 
 from weakforms import At, Case, Claim, Finding, Points, Solutions, States, decide, fluid_tube
@@ -16,7 +17,7 @@ ASKED = {"zw": 5e-10, "V": 1e-9, "r_mid": 1e-7, "r_max": 1e-7, "Pi": 1e-7}
 
 
 def signs(solutions: Solutions) -> Finding:
-    """Eigenvalue columns to both sides of the critical points."""
+    """Eigenvalue columns on both sides of the critical points."""
     found = []
     for tube in EVERY:
         volume = solutions.along(tube, "V")
@@ -49,7 +50,7 @@ def limit_is_a_zero(solutions: Solutions) -> Finding:
 
 
 def one_negative(solutions: Solutions) -> Finding:
-    """Negative eigenvalues at the limit point and at the bifurcation, besides those points' own zeros."""
+    """Negative eigenvalues at the limit point and at the bifurcation, without the zeros of these points."""
     counts = [[int(solutions.value(tube, at, "n_negative")) for at in (LIMIT, FIRST)] for tube in EVERY]
     return decide.same("at limit point and bifurcation", counts, [[0, 1]] * len(EVERY))
 
@@ -95,8 +96,8 @@ CASE = Case(
         ),
         Claim(
             "limit_is_a_zero",
-            "the maximum of the level is a zero of the axisymmetric eigenvalue, the first bifurcation one of "
-            "that with one wave",
+            "the maximum of the level is a zero of the axisymmetric eigenvalue, the first bifurcation a zero "
+            "of that with one wave",
             tuple((tube, at) for tube in EVERY for at in (LIMIT, FIRST)),
             limit_is_a_zero,
         ),

@@ -1,8 +1,7 @@
 """Paper 3, figure 2: mid-height radius against fluid level, for two aspect ratios and three pre-stretches.
 
-The level has a maximum along the branch, so the curves are compared over the volume, which rises all along
-it.
-Dashed: unstable under level control against axisymmetric perturbations.
+The level has a maximum along the branch, so that the curves are compared over the volume, which rises along
+the whole branch. Dashed parts are unstable under level control to axisymmetric perturbations.
 """
 
 from weakforms import (
@@ -23,7 +22,7 @@ from weakforms import (
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
 BENT = {key: fluid_tube(L=key[0], delta=key[1], secondary=True) for key in TUBES if key != (24, 1.5)}
-"""All but L = 24, delta = 1.5, whose dry part is slightly compressed: see case ``secondary``."""
+"""All tubes except L = 24, delta = 1.5, whose dry part is slightly compressed: see case ``secondary``."""
 EVERY = tuple((tube, None) for tube in TUBES.values())
 BOTH = ("limit_point", "bifurcation_point")
 
@@ -34,7 +33,7 @@ BENT_ASKED = {
     **{f"{name}_quarter_{side}": 1e-4 for name in ("T1", "T2") for side in SIDES},
     "Pi": 1e-6,
 }
-"""Accuracy asked of the secondary branch, on the whole surface; its eigenvalues: case ``secondary``."""
+"""Accuracy asked of the secondary branch on the whole surface; case ``secondary`` checks its eigenvalues."""
 
 
 def first(solutions: Solutions, tube: Spec, kind: str, name: str) -> decide.Number:
@@ -64,14 +63,14 @@ def filled_or_not(solutions: Solutions) -> Finding:
 
 
 def one_maximum(solutions: Solutions) -> Finding:
-    """The level rises, then falls; the volume rises all along."""
+    """The level rises, then falls; the volume always rises."""
     found = []
     for tube in TUBES.values():
         level, volume = (solutions.along(tube, name) for name in ("zw", "V"))
         before, behind = decide.sides(volume, first(solutions, tube, "limit_point", "V"))
         found += [
             decide.rises("zw before the limit point", level[before]),
-            decide.falls("zw behind it", level[behind]),
+            decide.falls("zw after it", level[behind]),
             decide.rises("V", volume),
         ]
     return decide.all_of(found)
@@ -87,7 +86,7 @@ CASE = Case(
             y=Axis("r_mid", low, high),
             title=rf"$L/A = {length}$",
             markers=BOTH,
-            note="The printed axes are not recoverable from the text; the ranges are chosen here.",
+            note="The text does not give the printed axes; the ranges are chosen here.",
             curves=tuple(
                 Curve(TUBES[length, d], rf"$\delta = {d}$", reference=f"primary_L_{length}_delta_{d}")
                 for d in STRETCHES
@@ -109,7 +108,7 @@ CASE = Case(
     checks=(
         Claim(
             "limit_first",
-            "for these pre-stretches the limit point comes before the first bifurcation on the path",
+            "for these pre-stretches the limit point comes before the first bifurcation on the branch",
             EVERY,
             limit_first,
         ),

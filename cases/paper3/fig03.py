@@ -1,7 +1,7 @@
-"""Paper 3, figure 3: fluid volume against fluid level, and what the pre-stretch does to it.
+"""Paper 3, figure 3: fluid volume against fluid level, and the effect of the pre-stretch.
 
-No limit point with the volume as control: it rises all along the primary branch, which is stable under volume
-control up to the bifurcation.
+With the volume as control there is no limit point: it rises along the whole primary branch, which is stable
+under volume control up to the bifurcation.
 """
 
 import numpy as np
@@ -24,11 +24,11 @@ from weakforms import (
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
 BENT = {key: fluid_tube(L=key[0], delta=key[1], secondary=True) for key in TUBES if key != (24, 1.5)}
-"""All but L = 24, delta = 1.5, whose dry part is slightly compressed: see case ``secondary``."""
+"""All tubes except L = 24, delta = 1.5, whose dry part is slightly compressed: see case ``secondary``."""
 STIFF, CROSSED, SOFT = At("zw", 4.0), At("zw", 7.5), At("zw", 8.1, crossing=2)
 CROSSINGS = reference(3, "crossings")
 ACCURACY = 1e-7
-"""Relative, of a level at which two curves cross."""
+"""Relative accuracy of a level at which two curves cross."""
 STEP = 1e-2
 AROUND = tuple(At("zw", 6.0 + s * STEP) for s in (-1, 0, 1))
 
@@ -44,7 +44,7 @@ def volumes(solutions: Solutions, length: int, at: At) -> list[decide.Number]:
 
 
 def stiffens_then_softens(solutions: Solutions) -> Finding:
-    """V falls with delta at zw = 4, the order is reversed at 7.5, and past the limit V rises with delta."""
+    """V decreases with delta at zw = 4, increases at 7.5, and increases past the limit point."""
     return decide.all_of(
         way(f"V, L = {length}, {at}", volumes(solutions, length, at))
         for length in LENGTHS
@@ -53,7 +53,7 @@ def stiffens_then_softens(solutions: Solutions) -> Finding:
 
 
 def either_side(row: int) -> list[tuple[Spec, At]]:
-    """Both curves that cross in a row of the table, just below and just above the level of the crossing."""
+    """The two curves that cross in a row of the table, just below and above the level of the crossing."""
     table = CROSSINGS.columns
     out = []
     for side in (-ACCURACY, ACCURACY):
@@ -80,7 +80,7 @@ def crossings(solutions: Solutions) -> Finding:
 
 
 def work_conjugate(solutions: Solutions) -> Finding:
-    """Central difference of the potential over the level against the volume: off by the squared step."""
+    """Central difference of the potential over the level, compared with the volume."""
     found = []
     for tube in TUBES.values():
         before, after = (solutions.number(tube, at, "Pi") for at in (AROUND[0], AROUND[2]))
@@ -113,7 +113,7 @@ CASE = Case(
             y=Axis("V", 0, 250),
             title=rf"$L/A = {length}$",
             markers=("limit_point", "bifurcation_point"),
-            note="The printed axes are not recoverable from the text; the ranges are chosen here.",
+            note="The text does not give the printed axes; the ranges are chosen here.",
             curves=tuple(
                 Curve(TUBES[length, d], rf"$\delta = {d}$", reference=f"primary_L_{length}_delta_{d}")
                 for d in STRETCHES
@@ -135,19 +135,18 @@ CASE = Case(
     checks=(
         Claim(
             "stiffens_then_softens",
-            "with pre-stretch the volume at a level falls at low levels (stiffening) and rises past the "
-            "limit "
-            "point (softening); the paper claims stiffening before the limit altogether, but the order is "
-            "reversed well before it",
+            "with pre-stretch the volume at a level decreases at low levels (stiffening) and increases past "
+            "the limit point (softening); the paper claims stiffening everywhere before the limit point, but "
+            "the order is reversed well before it",
             tuple((tube, at) for tube in EVERY for at in (STIFF, CROSSED, SOFT)),
             stiffens_then_softens,
-            differs="the text claims stiffening with pre-stretch before the limit point altogether; the "
+            differs="the text claims stiffening with pre-stretch everywhere before the limit point; the "
             "order of the volumes is reversed well before it, where the curves cross",
         ),
         Claim(
             "crossings",
-            "the curves of two pre-stretches cross where the reference has it, to 1e-7 of the level: once "
-            "well before the limit points, and again past them",
+            "the curves of two pre-stretches cross at the levels of the reference, to 1e-7 of the level: "
+            "once well before the limit points, and again past them",
             tuple(wanted for row in range(len(CROSSINGS)) for wanted in either_side(row)),
             crossings,
         ),

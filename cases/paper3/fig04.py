@@ -28,10 +28,10 @@ def lighter_is_higher(solutions: Solutions) -> Finding:
 
 
 def density_fills(solutions: Solutions) -> Finding:
-    """Whether the limit point of the short tube is over-filled, by density."""
+    """Whether the short tube is over-filled at its limit point, by density."""
     levels = critical(solutions, 8, "limit_point")
     return decide.less(
-        "limit levels of twice and once water's density, and the length", levels[2], 8, levels[1]
+        "limit levels for twice and once the density of water, and the length", levels[2], 8, levels[1]
     )
 
 
@@ -68,7 +68,8 @@ CASE = Case(
         ),
         Claim(
             "density_fills",
-            "whether the limit point is reached over-filled depends on the density too: with twice that of "
+            "whether the tube is over-filled at the limit point depends on the density too: with twice that "
+            "of "
             "water the tube of L/A = 8 is partially filled there",
             EVERY,
             density_fills,

@@ -1,7 +1,7 @@
 """Paper 3, figure 5: principal stress resultants along the tube on the primary branch.
 
-The levels and the pre-stretch of the figure are not recoverable; here delta = 2, levels before the limit
-point and past it. The axial coordinate is the material one; the current height is drawn beside it.
+The text does not give the levels and the pre-stretch of the figure; here delta = 2, with levels before the
+limit point and past it. The axial coordinate is the material one; a second panel uses the current height.
 """
 
 from weakforms import At, Axis, Case, Claim, Constant, Curve, Finding, Panel, Solutions, decide, fluid_tube
@@ -14,7 +14,7 @@ PAST = {8: (8.2, 8), 24: (8.3, 8)}
 TENSE = tuple(At(name, value, profile=()) for name, value in (("zw", 2.0), ("zw", 6.0), ("limit_point", 1.0)))
 MIDDLE = tuple(At("zw", float(zw)) for zw in LEVELS[24])
 HEIGHT = {8: 4, 24: 10}
-"""The material point at ``l/4`` or ``l/10`` stands at a height of about 2."""
+"""The material point at ``l/4`` or ``l/10`` is at a height of about 2."""
 RISING = tuple(At("zw", zw) for zw in (3.5, 4.5, 5.5, 6.5, 7.5))
 
 
@@ -61,7 +61,7 @@ def no_wrinkling(solutions: Solutions) -> Finding:
 
 
 def low_and_constant(solutions: Solutions) -> Finding:
-    """In the dry middle of the long tube the circumferential resultant is all but zero."""
+    """In the dry middle of the long tube the circumferential resultant is nearly zero."""
     values = solutions.numbers(TUBES[24], MIDDLE, "T2_mid")
     return decide.all_of(
         decide.positive("T2 at mid height", values), decide.at_most("T2 at mid height", values, LOW)
@@ -80,7 +80,7 @@ def panels() -> tuple[Panel, ...]:
                         x=Axis(axis, 0, end),
                         y=Axis(column, 0, high),
                         title=rf"$L/A = {length}$, $\delta = 2$",
-                        note="The axes of this figure are not recoverable. Past: after the limit point.",
+                        note="The text does not give the axes of this figure. Past: after the limit point.",
                         curves=tuple(
                             Curve(TUBES[length], label, reference=f"fig05{name}_{key}", at=at, y=column)
                             for key, at, label in states(length)
@@ -108,8 +108,9 @@ CASE = Case(
         ),
         Claim(
             "grows_and_falls",
-            "with the level the circumferential resultant grows and the meridional one falls, at a material "
-            "point of height about 2 from zw = 3.5 to the limit point (not at every point of the tube, as "
+            "with rising level the circumferential resultant increases and the meridional one decreases, at "
+            "a material point of height about 2 from zw = 3.5 to the limit point (not at every point of the "
+            "tube, as "
             "the "
             "paper says)",
             tuple(
@@ -118,8 +119,8 @@ CASE = Case(
                 for at in (*RISING, At("limit_point", 1.0))
             ),
             grows_and_falls,
-            differs="the text says that with the level the circumferential resultant grows and the "
-            "meridional one falls; that holds at the material points looked at here, not everywhere",
+            differs="the text says that with rising level the circumferential resultant increases and the "
+            "meridional one decreases; this is true at the material points considered here, not everywhere",
         ),
         Claim(
             "no_wrinkling",

@@ -1,11 +1,11 @@
 """Paper 3, figure 6: principal stress resultants on the secondary branch at zw = 7.779, three meridians.
 
-Neither the length nor the pre-stretch is printed. L = 24 is meant: figure 8(b) has that level, and the paper
-says of this figure that T2 is constant and low from the centre to the top; delta = 2 is assumed. The level is
-reached on the secondary branch of the short tube as well; it is shown as an extra.
+Neither the length nor the pre-stretch is printed. L = 24 must be meant, because figure 8(b) has that level,
+and the paper says of this figure that T2 is constant and low from the centre to the top. delta = 2 is
+assumed. The secondary branch of the short tube reaches this level too, which is shown as an extra.
 
 On the two meridians of the plane of symmetry the principal directions are the meridian's and the
-circumference's. T1 >= T2 belongs to the larger stretch.
+circumference's. T1 >= T2, and T1 belongs to the larger stretch.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
@@ -48,7 +48,7 @@ CASE = Case(
             title=rf"$L/A = {length}$, $\delta = 2$, $z_w = 7.779$",
             note=""
             if length == 24
-            else "Not in the paper: the short tube's secondary branch has this level as well.",
+            else "Not in the paper: the secondary branch of the short tube at the same level.",
             curves=tuple(
                 Curve(tube, label, reference=f"{TABLES[length]}@{degrees}", at=BENT, y=name)
                 for degrees, label in MERIDIANS.items()

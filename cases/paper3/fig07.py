@@ -1,7 +1,7 @@
 """Paper 3, figure 7: axisymmetric profiles of the long tube before and after the limit point.
 
-The pre-stretch is not printed. It is taken as delta = 2: zw = 8.356 lies just below that tube's limit level,
-and the tube with delta = 3 never reaches it.
+The pre-stretch is not printed. It is assumed to be delta = 2: zw = 8.356 lies just below the limit level of
+that tube, and the tube with delta = 3 does not reach it.
 """
 
 import numpy as np
@@ -32,7 +32,7 @@ AXES = (Axis("x", -3, 3), Axis("y", -3, 3), Axis("z", 0, 24))
 
 
 def delta_2_is_meant(solutions: Solutions) -> Finding:
-    """8.356 against the limit levels of two pre-stretches."""
+    """8.356 compared with the limit levels of two pre-stretches."""
     two, three = (solutions.point(tube, "limit_point", "zw") for tube in (TUBE, OTHER))
     return decide.less("limit levels of delta = 3 and 2, around the printed level", three, AFTER.value, two)
 
@@ -48,7 +48,7 @@ def crest(z: np.ndarray, r: np.ndarray) -> decide.Number:
 
 
 def goes_down(solutions: Solutions) -> Finding:
-    """Past the limit point: level, largest radius, the height at which it lies."""
+    """Past the limit point: level, largest radius, and its height."""
     found = [
         decide.falls("zw", solutions.numbers(TUBE, LATER, "zw")),
         decide.rises("r_max", solutions.numbers(TUBE, LATER, "r_max")),

@@ -1,4 +1,4 @@
-"""Paper 3 well off its parameters: L 8 to 24, delta 1.1 to 7, gamma 0.05 to 0.25.
+"""Paper 3 far from its parameters: L 8 to 24, delta 1.1 to 7, gamma 0.05 to 0.25.
 
 The paper remarks that for larger and for very small pre-stretch the bifurcation comes before the limit point.
 """
@@ -75,7 +75,7 @@ CASE = Case(
         ),
         Claim(
             "rises_again",
-            "the limit level falls with the pre-stretch up to delta = 3 but is higher again at delta = 5",
+            "the limit level decreases with the pre-stretch up to delta = 3 but is higher again at delta = 5",
             ((USUAL, None), (HIGH, None)),
             rises_again,
         ),

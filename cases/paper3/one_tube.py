@@ -1,6 +1,6 @@
-"""Paper 3: critical points of one tube, L = 8 and delta = 2 with gamma = 0.116, and its eigenvalues' signs.
+"""Paper 3: critical points and signs of eigenvalues of one tube, L = 8, delta = 2, gamma = 0.116.
 
-The same as in ``critical`` for every tube; small enough for the quick profile.
+Case ``critical`` checks the same for every tube; this case is small enough for the quick profile.
 """
 
 from weakforms import Case, Claim, Finding, Points, Solutions, decide, fluid_tube
@@ -11,7 +11,7 @@ HERE = {"L": 8.0, "delta": 2.0, "gamma": 0.116}
 
 
 def in_order(solutions: Solutions) -> Finding:
-    """The highest level comes first along the branch, the bifurcation with one wave at more volume."""
+    """The highest level comes first along the branch; the bifurcation with one wave has a larger volume."""
     volumes, levels = (
         [solutions.point(TUBE, kind, name) for kind in ("limit_point", "bifurcation_point")]
         for name in ("V", "zw")

@@ -1,7 +1,8 @@
-"""Paper 3: the secondary branch of bent shapes, its stability and its beginning; the symmetry of the circle.
+"""Paper 3: the secondary branch of bent shapes, its stability and its start; the symmetry of the circle.
 
-Level control unless it says volume. Mirror-symmetric displacements keep the plane of symmetry (C1v); the
-others break it, and among them the turn of the pattern about the axis is an exact zero eigenvalue.
+Stability is under level control unless volume is mentioned. Mirror-symmetric displacements keep the plane of
+symmetry (C1v); the others break it. Among these, the rotation of the pattern about the axis has an eigenvalue
+that is exactly zero.
 """
 
 import numpy as np
@@ -26,9 +27,9 @@ TUBES = {
     for d in STRETCHES
     if (length, d) != (24, 1.5)
 }
-"""Not held against its table: L = 24, delta = 1.5, whose dry part is slightly compressed. A membrane without
-bending stiffness wrinkles there as finely as a mesh can show: inertia and eigenvalues depend on the mesh, and
-from some states of a coarse mesh Newton's method does not find the finer one's."""
+"""L = 24, delta = 1.5 is not compared with its table, because its dry part is slightly compressed. A membrane
+without bending stiffness wrinkles there as finely as the mesh allows. Inertia and eigenvalues depend on the
+mesh, and from some states of a coarse mesh Newton's method does not find those of a finer one."""
 PUBLISHED = {
     length: At("zw", zw, branch="secondary", profile=()) for length, zw in {8: 7.336, 24: 7.779}.items()
 }
@@ -45,10 +46,12 @@ AROUND = tuple(At("zw", 7.6 + s * STEP, branch="secondary") for s in (-1, 0, 1))
 
 
 VERTEX = decide.Stated(
-    WIDE**2, "where the reference has it", "the square of the distance of the states: what a parabola misses"
+    WIDE**2,
+    "where the reference has it",
+    "the square of the distance between states, the error of a parabola",
 )
 OF_SECOND_ORDER = decide.Stated(
-    10 * STEP**2, "dPi/dzw = -gamma V", "of the square of the step, ten times: V bends more here"
+    10 * STEP**2, "dPi/dzw = -gamma V", "ten times the square of the step, because V has more curvature here"
 )
 SAME_ZERO = decide.Stated(
     1e-9, "the same", "the same elements on half and full circumference; SLEPc stops at 1e-10"
@@ -57,12 +60,12 @@ SAME_POINT = decide.Stated(
     1e-4, "the same point", "the whole surface has a coarse mesh; a hundredth of an error of one percent"
 )
 BROKEN = decide.Stated(
-    1e-4, "splits the pair", "ten thousand times what the even mesh leaves of an exact pair"
+    1e-4, "splits the pair", "ten thousand times the difference of an exact pair on the even mesh"
 )
 
 
 def falls(solutions: Solutions) -> Finding:
-    """Level and volume along the branch, the negative eigenvalues, and the side of the bulge."""
+    """Level and volume along the branch, number of negative eigenvalues, and side of the bulge."""
     found = []
     for tube in TUBES.values():
         zw, volume, front, back = (
@@ -72,7 +75,7 @@ def falls(solutions: Solutions) -> Finding:
             decide.falls("zw", zw),
             decide.falls("V", volume),
             decide.every("one negative", solutions.branch(tube, "secondary").columns["n_negative"] == 1),
-            decide.positive("r_mid at Theta = 0 less that at pi", (front - back)[1:]),
+            decide.positive("r_mid at Theta = 0 minus that at pi", (front - back)[1:]),
         ]
     return decide.all_of(found)
 
@@ -86,7 +89,7 @@ def turns_down(solutions: Solutions) -> Finding:
     k = int(radius.value.argmax())
     _, published = decide.sides(long, PUBLISHED[24].value)
     return decide.all_of(
-        decide.less("L = 8: largest r_mid, beside both ends", radius[0], radius[k]),
+        decide.less("L = 8: largest r_mid, compared with both ends", radius[0], radius[k]),
         decide.less("and the last", radius[-1], radius[k]),
         decide.less("it is largest above the printed level", PUBLISHED[8].value, short[k]),
         decide.rises("L = 24: r_mid down to 7.779", other[published]),
@@ -94,7 +97,7 @@ def turns_down(solutions: Solutions) -> Finding:
 
 
 def where_it_turns(solutions: Solutions) -> Finding:
-    """r_mid and V at the reference's turning point, and the vertex of a parabola through states around it."""
+    """r_mid and V at the maximum in the reference, and the vertex of a parabola through states around it."""
     found = [
         decide.agree(name, solutions.number(TUBES[8, 2], TOP[1], name), TURN.number(name)[0], 2e-6)
         for name in ("V", "r_mid")
@@ -125,19 +128,20 @@ def stability(solutions: Solutions) -> Finding:
 EIGENVALUES = dict.fromkeys(("Lambda_1", "LambdaV_1", "Lambda_2", "Lambda_3", "Lambda_breaking"), 1e-6)
 """Relative accuracy asked of eigenvalues."""
 LONG = EIGENVALUES | {"Lambda_1": 3e-6, "LambdaV_1": 1e-5}
-"""The same for L = 24: these modes lie in the bulge next to the lower ring, small against its cells."""
+"""The same for L = 24, where these modes lie in the bulge next to the lower ring, which few cells resolve."""
 SLOPES = {"dzw_dV": 3e-6, "dzw_dr2": 2e-6, "dr_mean_dzw": 1e-4}
-"""The last is limited by its table: 5e-7 absolutely, of slopes down to 0.012."""
+"""Accuracies asked of slopes; the table limits the last one to an absolute error of 5e-7, for slopes down to
+0.012."""
 JUDGED = {**{(8, 2): 7.336, (24, 2): 7.779}, (8, 1.5): 8.025, (8, 3): 7.8, (24, 3): 7.8}
 
 
 def judged(key: tuple[int, float]) -> At:
-    """A state of a tube's secondary branch that is judged for stability, at a row of its table."""
+    """A state of a tube's secondary branch for the stability checks, at a row of its table."""
     return At("zw", JUDGED[key], branch="secondary", profile=())
 
 
 def eigenvalues(solutions: Solutions) -> Finding:
-    """Eigenvalues against the tables, by the rule of all comparisons."""
+    """Eigenvalues compared with the tables, by the rule of all comparisons."""
     found = []
     for key in JUDGED:
         table = reference(3, f"secondary_L_{key[0]}_delta_{key[1]}")
@@ -149,7 +153,7 @@ def eigenvalues(solutions: Solutions) -> Finding:
 
 
 def tense(solutions: Solutions) -> Finding:
-    """Smallest principal resultants of the states judged."""
+    """Smallest principal resultants of these states."""
     return decide.all_of(
         decide.positive(f"L = {k[0]}, delta = {k[1]}", solutions.number(TUBES[k], judged(k), "T_min"))
         for k in JUDGED
@@ -157,7 +161,7 @@ def tense(solutions: Solutions) -> Finding:
 
 
 def turn_is_a_zero(solutions: Solutions) -> Finding:
-    """Eigenvalue of the turn of the pattern, beside the next one."""
+    """Eigenvalue of the rotation of the pattern, compared with the next one."""
     found = []
     for tube, at in STATES:
         turn, other = (solutions.number(tube, at, f"Lambda_{n}") for n in ("rotation", "breaking"))
@@ -166,7 +170,7 @@ def turn_is_a_zero(solutions: Solutions) -> Finding:
 
 
 def starts_at_the_bifurcation(solutions: Solutions) -> Finding:
-    """Zero of the surface's mirror-symmetric tangent against the zero of the n = 1 eigenvalue."""
+    """Zero of the surface's mirror-symmetric tangent, compared with the zero of the n = 1 eigenvalue."""
     found = []
     for tube in TUBES.values():
         points = solutions.points(tube, "bifurcation_point")
@@ -190,19 +194,19 @@ def sub_critical(solutions: Solutions) -> Finding:
 
 
 def work_conjugate(solutions: Solutions) -> Finding:
-    """Central difference of the potential over the level against the volume, on the secondary branch."""
+    """Central difference of the potential over the level, compared with the volume."""
     before, after = (solutions.number(TUBES[8, 2], at, "Pi") for at in (AROUND[0], AROUND[2]))
     off = (after - before) / (2 * STEP) / (-0.116 * solutions.number(TUBES[8, 2], AROUND[1], "V")) - 1
     return decide.at_most("relative difference", abs(off), OF_SECOND_ORDER)
 
 
 def quantities(solutions: Solutions, spec) -> dict[str, float]:  # noqa: ANN001
-    """The numbers of a solution that has no branch."""
+    """The quantities of a solution that has no branch."""
     return {name: q.value for name, q in solutions.result(spec).quantities.items()}
 
 
 def double_zero(solutions: Solutions) -> Finding:
-    """Critical eigenvalues and the bent state on half and full circumference, by the same elements."""
+    """Critical eigenvalues and the bent state on half and full circumference, with the same elements."""
     half, full = (quantities(solutions, spec) for spec in (HALF, FULL))
     return decide.all_of(
         decide.same("multiplicities", [half["multiplicity"], full["multiplicity"]], [1, 2]),
@@ -231,7 +235,7 @@ def mesh_breaks_it(solutions: Solutions) -> Finding:
             "split even over uneven", abs(even["Lambda_split"]) / abs(uneven["Lambda_split"]), BROKEN
         ),
         decide.at_most(
-            "force that holds the pattern, even over uneven",
+            "force that prevents the rotation, even over uneven",
             abs(even["phase"]) / abs(uneven["phase"]),
             BROKEN,
         ),
@@ -265,20 +269,20 @@ CASE = Case(
         Claim(
             "turns_down",
             "the radius at mid-length of the short tube rises, then falls before zw = 7.336 (the sudden "
-            "downward turn of figure 2a); that of the long tube rises through zw = 7.779",
+            "downward bend of figure 2a); that of the long tube rises through zw = 7.779",
             EVERY,
             turns_down,
         ),
         Claim(
             "stability",
-            "the published states have one negative eigenvalue under level control, one under volume control "
-            "too (beyond the paper), and none among displacements that break the symmetry",
+            "the published states have one negative eigenvalue under level control, one also under volume "
+            "control (not in the paper), and none among displacements that break the symmetry",
             STATES,
             stability,
         ),
         Claim(
             "eigenvalues",
-            "the lowest eigenvalues of a state of each branch are the reference's: at fixed level and "
+            "the lowest eigenvalues of a state of each branch agree with the reference: at fixed level and "
             "volume, and among displacements that break the symmetry",
             tuple((TUBES[key], judged(key)) for key in JUDGED),
             eigenvalues,
@@ -292,13 +296,13 @@ CASE = Case(
         ),
         Claim(
             "where_it_turns",
-            "r_mid of the short tube is largest where the reference has it",
+            "the maximum of r_mid of the short tube is that of the reference",
             tuple((TUBES[8, 2], at) for at in TOP),
             where_it_turns,
         ),
         Claim(
             "turn_is_a_zero",
-            "the turn of the pattern about the axis is a zero eigenvalue of the symmetry-breaking space",
+            "the rotation of the pattern about the axis has a zero eigenvalue in the symmetry-breaking space",
             STATES,
             turn_is_a_zero,
         ),
@@ -311,7 +315,7 @@ CASE = Case(
         Claim(
             "sub_critical",
             "level and volume decrease from the start with the square of the amplitude: sub-critical in the "
-            "volume (beyond the paper)",
+            "volume (not in the paper)",
             EVERY,
             sub_critical,
         ),
@@ -323,8 +327,8 @@ CASE = Case(
         ),
         Claim(
             "double_zero",
-            "on the full circumference the critical eigenvalue is double, on the half single, with the same "
-            "zero and the same secondary branch",
+            "on the full circumference the critical eigenvalue is double, on half of it single, with the "
+            "same zero and the same secondary branch",
             ((HALF, None), (FULL, None)),
             double_zero,
         ),

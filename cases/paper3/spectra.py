@@ -1,8 +1,8 @@
 """Paper 3, section 10.1: the lowest eigenvalues along the primary branch, by Fourier number.
 
-Of the second variation at fixed level against the mass of the stress-free tube; n waves around, n = 0
-axisymmetric without torsion, and the axisymmetric one at fixed volume. Limit point and bifurcation are their
-zeros.
+These are the eigenvalues of the second variation at fixed level with the mass of the stress-free tube, for n
+waves around (n = 0 is axisymmetric without torsion), and the axisymmetric one at fixed volume. Limit point
+and bifurcation are their zeros.
 """
 
 from weakforms import Axis, Case, Curve, Panel, fluid_tube

@@ -1,6 +1,6 @@
-"""Paper 4: volume, radius, tension, extremes of gw and wrinkled share over the load, and limit loads.
+"""Paper 4: volume, radius, tension, extremes of gw and wrinkled fraction over the load, and limit loads.
 
-No limit load is met up to p = 0.55 or zw = 16; for M = 0.5, delta = 3 one lies just above p = 0.55.
+There is no limit load up to p = 0.55 or zw = 16; for M = 0.5, delta = 3 one lies just above p = 0.55.
 """
 
 from weakforms import (
@@ -59,7 +59,7 @@ def no_limit_in_range(solutions: Solutions) -> Finding:
     found = []
     for load, (control, end) in PAPER.items():
         loads = decide.stack(solutions.point(spec, "limit_point", control) for spec in members(load))
-        found.append(decide.positive(f"{control} at limit points less {end:g}", loads - end))
+        found.append(decide.positive(f"{control} at limit points minus {end:g}", loads - end))
     return decide.all_of(found)
 
 
@@ -70,8 +70,8 @@ def stable_below(solutions: Solutions) -> Finding:
         for spec in members(load):
             counts = solutions.branch(spec).columns["n_negative"]
             below, above = decide.sides(solutions.along(spec, "V"), solutions.point(spec, "limit_point", "V"))
-            found.append(decide.every("none below the limit load", counts[below] == 0))
-            found.append(decide.every("one or more above it", counts[above] >= 1))
+            found.append(decide.every("none before the limit load", counts[below] == 0))
+            found.append(decide.every("one or more after it", counts[above] >= 1))
     return decide.all_of(found)
 
 

@@ -1,9 +1,9 @@
-"""Paper 4: what the exact solution satisfies, checked on the computed one.
+"""Paper 4: equations that the exact solution satisfies, checked for the computed solution.
 
-The tension is constant in wrinkled zones, the axial force all along the gas-filled membrane and in dry parts;
-dry wrinkled parts are cones; gas-filled wrinkled parts keep the first integral of the Mylar balloon. At a
-front the second derivatives of r and z jump, in the ratio r' : z': the printed statement that u is C2 and w
-is C1 holds as far as r' is small there.
+The tension is constant in wrinkled zones. The axial force is constant along a gas-filled membrane and in dry
+parts. Dry wrinkled parts are cones. Gas-filled wrinkled parts have the first integral of the Mylar balloon.
+At a front the second derivatives of r and z jump, in the ratio r' : z'. The printed statement that u is C2
+and w is C1 is thus true only if r' is small there.
 """
 
 import numpy as np
@@ -23,16 +23,16 @@ FRONTS = {
     "fluid": (FLUID, PRINTED, (1.511572660117, 5.069224906584, 7.595374980714)),
     "gas": (GAS[2], INFLATED, (6.305956442427,)),
 }
-"""States and their fronts, as the reference has them: where jumps are measured."""
+"""States, and their fronts from the reference, at which jumps are measured."""
 GAMMA = 1000 * 9.81 * 0.01**2 / (0.2111e6 * 0.1e-3)
 WINDOW, NODES = 0.3, 24
 OFFSETS = WINDOW * (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
 VERGE = 1 - 1e-6
-"""Rows nearer to a front than gw tells are in no zone."""
+"""Rows with gw closer to 1 than this are near a front and belong to no zone."""
 ASKED = 1e-3
 """Accuracy asked of second derivatives by polynomials fitted to samples."""
 MUCH_SMALLER = decide.Stated(
-    0.15, "the smaller by far", "no number is printed; the ratio is r'/z', a steep meridian's"
+    0.15, "much smaller", "no number is printed; the ratio is r'/z' of a steep meridian"
 )
 
 
@@ -44,7 +44,7 @@ def jumps_at(kind: str) -> At:
 
 
 def wrinkled(gw: decide.Number) -> np.ndarray:
-    """Rows clear of any front."""
+    """Wrinkled rows away from any front."""
     return decide.sides(gw, VERGE)[0]
 
 
@@ -74,12 +74,12 @@ def mylar(solutions: Solutions) -> Finding:
 
 
 def wet_part(solutions: Solutions) -> Finding:
-    """Fluid: the axial force grows by the integral of gamma z' r^2/2 on the wet part, and not above it."""
+    """Under fluid the axial force increases by the integral of gamma z' r^2/2 on the wet part only."""
     z, r, lam1, slope, force = (
         solutions.samples(FLUID, DENSE, n) for n in ("z", "r", "lam1", "slope", "axial")
     )
     wet, dry = decide.sides(z, PRINTED.value)
-    # Simpson's rule, with z' r^2 from the profile itself; twice as coarse tells its error.
+    # Simpson's rule, with z' r^2 from the profile; the rule with twice the step gives its error.
     density = lam1 * (1 + slope**2) ** -0.5 * r**2 * (GAMMA / 2)
     last = int(wet.sum()) - 1 - (int(wet.sum()) - 1) % 4
     h = DENSE.profile[1] - DENSE.profile[0]
@@ -135,7 +135,7 @@ CASE = Case(
             ALL_WRINKLED,
             LOW,
             5e-9,
-            "the tension is constant all along a membrane wrinkled everywhere",
+            "the tension is constant along a membrane that is wrinkled everywhere",
         ),
         Claim(
             "tension_constant",
@@ -146,7 +146,7 @@ CASE = Case(
         Claim("cones", "dry wrinkled parts are cones", ((ALL_WRINKLED, LOW),), cones),
         Claim(
             "mylar",
-            "cos(phi) - p r^2/(2N) is constant where gas-filled and wrinkled",
+            "cos(phi) - p r^2/(2N) is constant in gas-filled wrinkled parts",
             ((GAS[2], INFLATED),),
             mylar,
         ),
@@ -158,11 +158,12 @@ CASE = Case(
         ),
         Claim(
             "jumps",
-            "at a front r'' and z'' jump in the ratio r' : z', so the jump of r'' is the smaller by far",
+            "at a front r'' and z'' jump in the ratio r' : z', so that the jump of r'' is much smaller",
             tuple((spec, jumps_at(kind)) for kind, (spec, _, _) in FRONTS.items()),
             jumps,
-            differs="the text has u in C2 and w in C1 at a front; the second derivatives of both jump, in "
-            "the ratio r' : z', so that of u is small where the meridian is steep, and not zero",
+            differs="according to the text u is C2 and w is C1 at a front; the second derivatives of both "
+            "jump, in the ratio r' : z', so that the jump of u is small where the meridian is steep, but not "
+            "zero",
         ),
     ),
     quick=True,

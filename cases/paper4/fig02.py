@@ -1,8 +1,8 @@
 """Paper 4, figure 2: wrinkling function along the fluid-filled membrane, delta = 2, Case 1, Af = (Af)_c.
 
-(a) M = 0.5, lower end thin; (b) M = 1.5, upper end thin. Of the levels only zw = 7.44 is in the text; the
-others are chosen here. With the exact critical radius a taut sliver stands at the thin end at every level
-above 0, thinner than 1e-3 at low ones.
+(a) M = 0.5, lower end thin; (b) M = 1.5, upper end thin. The text gives only the level zw = 7.44; the others
+are chosen here. With the exact critical radius there is a narrow taut zone at the thin end at every level
+above 0, thinner than 1e-3 at low levels.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ LEVELS = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
 TUBES = {M: wrinkled_tube(M=M, delta=2) for M in (0.5, 1.5)}
 EMPTY, PRINTED = At("zw", 0.0, profile=()), At("zw", 7.44, profile=())
 CLOSE = 1e-4
-"""Distance of samples from a front and from each other, at a kink."""
+"""Distance of samples near a kink from the front and from each other."""
 
 
 def fronts(solutions: Solutions, M: float, level: float) -> list[decide.Number]:
@@ -23,7 +23,7 @@ def fronts(solutions: Solutions, M: float, level: float) -> list[decide.Number]:
 
 
 def unloaded(solutions: Solutions) -> Finding:
-    """Zero load: gw <= 1, equal to 1 at the thin end only; radius constant, ends not pulled sideways."""
+    """Zero load: gw = 1 at the thin end, less elsewhere; constant radius, no radial force at the ends."""
     found = []
     for M, thin in ((0.5, 0), (1.5, -1)):
         gw, r, slope = (solutions.column(TUBES[M], EMPTY, name) for name in ("gw", "r", "slope"))
@@ -47,7 +47,7 @@ def pattern(solutions: Solutions) -> Finding:
 
 
 def thin_end_taut(solutions: Solutions) -> Finding:
-    """At the thin end gw is above 1, at the thick end below 1, at every level from 3 on."""
+    """The thin end has gw above 1, the thick end below 1, at every level from 3 on."""
     found = []
     for M, tube in TUBES.items():
         for level in LEVELS[1:]:
@@ -67,12 +67,12 @@ def front_rises(solutions: Solutions) -> Finding:
 
 
 def kink(solutions: Solutions) -> Finding:
-    """At each front gw is continuous and its slope is not (two samples to each side)."""
+    """At each front gw is continuous and its slope is not (with two samples on each side)."""
     found = []
     for z in PLACES:
         gw = solutions.samples(TUBES[1.5], At("zw", 7.44, profile=around(z)), "gw")
         below, above = (gw[1] - gw[0]) / CLOSE, (gw[3] - gw[2]) / CLOSE
-        # A line through two samples reaches the front but for the bend of gw, of second order.
+        # A line through two samples gives the value at the front up to the curvature of gw, of second order.
         gap = (2 * gw[1] - gw[0]) - (2 * gw[2] - gw[3])
         bent = decide.Number(0.0, CLOSE**2)
         found.append(decide.zero(f"Z = {z:.4f}: gap", gap + bent, 5e-7))
@@ -81,12 +81,12 @@ def kink(solutions: Solutions) -> Finding:
 
 
 def around(z: float) -> tuple[float, ...]:
-    """Two points to each side of a front."""
+    """Two points on each side of a front."""
     return tuple(z + d * CLOSE for d in (-2, -1, 1, 2))
 
 
 PLACES = (1.511572660117, 5.069224906584, 7.595374980714)
-"""Fronts at zw = 7.44, M = 1.5, as the reference has them: where the kink is sampled."""
+"""Fronts at zw = 7.44, M = 1.5, from the reference, at which the kink is sampled."""
 
 STATES = tuple((TUBES[M], At("zw", float(v), profile=())) for M in TUBES for v in LEVELS)
 

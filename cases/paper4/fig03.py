@@ -1,6 +1,7 @@
 """Paper 4, figure 3: wrinkling function along the fluid-filled membrane, delta = 3, Case 1, Af = (Af)_c.
 
-As figure 2 with more pre-stretch. At zw = 7.44 there are two zones only: the text's four belong to delta = 2.
+This is figure 2 with more pre-stretch. At zw = 7.44 there are only two zones; the four of the text belong to
+delta = 2.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube

@@ -1,6 +1,6 @@
 """Paper 4, figure 4: profiles of the fluid-filled membrane, Case 1, Af = (Af)_c; taut full, wrinkled dashed.
 
-(a) M = 0.5, (b) M = 1.5. The text does not say for which pre-stretch; both are drawn. The states are those of
+(a) M = 0.5, (b) M = 1.5. The text does not give the pre-stretch; both are drawn. The states are those of
 figures 2 and 3.
 """
 

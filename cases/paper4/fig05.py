@@ -1,6 +1,6 @@
 """Paper 4, figure 5: wrinkling function along the gas-filled membrane, M = 0.5, Case 1, Af = (Af)_c.
 
-Of the pressures only p = 0.55 is in the text. M and 2 - M are mirror images under gas.
+The text gives only the pressure p = 0.55. Under gas, M and 2 - M give mirror images.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ def states(pressures: tuple[float, ...]) -> tuple:
 
 
 def wrinkled_zone_shrinks(solutions: Solutions) -> Finding:
-    """One front, taut below it; the wrinkled share falls with p and stays above 0."""
+    """One front, taut below it; the wrinkled fraction decreases with p and stays above 0."""
     found = []
     for d, spec in TUBES.items():
         ats = [At("p", p, profile=()) for p in PRESSURES[1:]]
@@ -32,8 +32,8 @@ def wrinkled_zone_shrinks(solutions: Solutions) -> Finding:
             ]
         shares = solutions.numbers(spec, ats, "wrinkled_fraction")
         found += [
-            decide.falls(f"wrinkled share, delta = {d}", shares),
-            decide.positive("of it, the last", shares[-1]),
+            decide.falls(f"wrinkled fraction, delta = {d}", shares),
+            decide.positive("last wrinkled fraction", shares[-1]),
         ]
     return decide.all_of(found)
 

@@ -1,8 +1,8 @@
 """Paper 4, figure 6: profiles of the gas-filled membrane, M = 0.5, Case 1, Af = (Af)_c.
 
 (a) all pressures; (b) p = 0 and 0.55 on equal scales in the paper. The text's two crests with a trough
-between them are there in a window of pressures only, and "radial expansion grows with pre-stretch" holds
-for r/Af at every pressure, for the radius itself from p = 0.42 on.
+between them exist in a range of pressures only. "Radial expansion grows with pre-stretch" is true for r/Af at
+every pressure, but for the radius only from p = 0.42 on.
 """
 
 import numpy as np
@@ -28,9 +28,9 @@ UNIFORM = wrinkled_tube(M=1, delta=2, load="gas")
 CRESTS, WINDOW, CROSSING = (reference(4, name) for name in ("crests", "crest_window", "r_max_crossing"))
 GRID = tuple(np.linspace(0.0, 8.0, 321))
 CLEAR = 5e-3
-"""Distance in pressure from the ends of a window at which crests are counted."""
+"""Distance in pressure from the ends of the range, at which crests are counted."""
 ASIDE = 1e-3
-"""Distance of samples to both sides of an extreme."""
+"""Distance of samples on both sides of an extreme."""
 NEAR = decide.Stated(
     0.1, "near the quarter heights", "no number is printed; less than half way to the next quarter"
 )
@@ -47,7 +47,7 @@ def crests(solutions: Solutions, d: int, p: float) -> list[tuple[float, bool]]:
 
 
 def sampled(p: float) -> At:
-    """The state with its profile where extremes are looked for."""
+    """The state with its profile for the search of extremes."""
     return At("p", float(p), profile=GRID)
 
 
@@ -79,7 +79,7 @@ def one_crest(solutions: Solutions) -> Finding:
 
 
 def window(solutions: Solutions) -> Finding:
-    """One crest outside and two inside the reference's window, CLEAR of its ends."""
+    """One crest outside and two inside the reference's range, at the distance CLEAR from its ends."""
     found = []
     for d, event, p in zip(*(WINDOW.columns[n] for n in ("delta", "event", "p")), strict=True):
         counts = [len(crests(solutions, int(d), float(p + shift))) for shift in (-CLEAR, CLEAR)]
@@ -100,7 +100,7 @@ def crest_states() -> list[tuple[float, int, At]]:
 
 
 def at_crests(solutions: Solutions) -> Finding:
-    """The meridian is upright where the reference has its crests and troughs."""
+    """The meridian is vertical at the crests and troughs of the reference."""
     found = []
     for d, row, at in crest_states():
         slope = solutions.samples(TUBES[int(d)], at, "slope")
@@ -169,7 +169,8 @@ CASE = Case(
         ),
         Claim(
             "one_crest",
-            "elsewhere there is one crest: in the thick half at p = 0.3, in the thin half at 0.55; at "
+            "at other pressures there is one crest: in the thick half at p = 0.3, in the thin half at 0.55; "
+            "at "
             "mid-height for uniform thickness",
             (
                 (TUBES[2], sampled(0.3)),
@@ -180,15 +181,15 @@ CASE = Case(
         ),
         Claim(
             "window",
-            "the window of pressures with two crests",
+            "the range of pressures with two crests",
             COUNTED,
             window,
-            differs="the text has two crests and a trough under gas; they are there in a window of pressures "
-            "only, with one crest below and above it",
+            differs="according to the text there are two crests and a trough under gas; they exist in a "
+            "range of pressures only, with one crest below and above it",
         ),
         Claim(
             "at_crests",
-            "crests and troughs are where the reference has them",
+            "crests and troughs are those of the reference",
             tuple((TUBES[int(d)], at) for d, _, at in crest_states()),
             at_crests,
         ),
@@ -201,8 +202,8 @@ CASE = Case(
                 for p in (*PRESSURES[1:], CROSSING.columns["p"][0])
             ),
             grows_with_stretch,
-            differs="the text has the radial expansion grow with the pre-stretch; relative to the disks it "
-            "does at every pressure, the radius itself only from p = 0.42 on",
+            differs="according to the text the radial expansion grows with the pre-stretch; relative to the "
+            "disks it does at every pressure, but the radius only from p = 0.42 on",
         ),
     ),
     asked={"r": 5e-9, "z": 5e-9},

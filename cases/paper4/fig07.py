@@ -1,8 +1,8 @@
 """Paper 4, figure 7: profiles with almost uniform thickness under fluid, delta = 2, zw = 4.5, M = 0.99 and 1.
 
-A uniform membrane is on the verge of wrinkling without load and does not wrinkle under a fluid; in its dry
-part gw - 1 decays to 1e-9 and below, so gw > 1 - 1e-7 is what is tested. Under gas it wrinkles after all, at
-both disks, shortly before the limit pressure.
+Without load a uniform membrane has gw = 1, at the limit of wrinkling. Under a fluid it does not wrinkle; in
+its dry part gw - 1 decays to 1e-9 and below, so that gw > 1 - 1e-7 is tested. Under gas it wrinkles at both
+disks, shortly before the limit pressure.
 """
 
 from weakforms import (
@@ -35,7 +35,7 @@ FAR_INFLATED = tuple(At("p", v, profile=()) for v in (0.9, 1.02))
 
 
 def uniform_is_taut(solutions: Solutions) -> Finding:
-    """M = 1: least gw at some levels, where gw - 1 decays to 1e-9 and below in the dry part."""
+    """M = 1: smallest gw at some levels, where gw - 1 decays to 1e-9 and below in the dry part."""
     return decide.all_of(
         decide.at_least(f"gw at {at}", solutions.column(TUBES[1], at, "gw"), VERGE) for at in LOADED
     )
@@ -74,7 +74,7 @@ def count_fronts(solutions: Solutions, spec: Spec, at: At) -> int:
 
 
 def any_variation_wrinkles(solutions: Solutions) -> Finding:
-    """Wrinkled share at zw = 4.5 for M from 0.1 to 1.9."""
+    """Wrinkled fraction at zw = 4.5 for M from 0.1 to 1.9."""
     shares = decide.stack(solutions.number(UNEVEN[M], At("zw", 4.5), "wrinkled_fraction") for M in OTHERS)
     return decide.positive("wrinkled share", shares)
 
@@ -112,7 +112,7 @@ CASE = Case(
         ),
         Claim(
             "uniform_wrinkles_at_last",
-            "beyond the paper's pressures, under gas, a uniform membrane too wrinkles at both disks",
+            "under gas, at pressures above those of the paper, a uniform membrane wrinkles at both disks too",
             tuple((UNIFORM_GAS, at) for at in FAR_INFLATED),
             uniform_wrinkles_at_last,
         ),

@@ -1,7 +1,7 @@
 """Paper 4, figure 8: profiles under fluid for disks of different radius, M = 0.5, delta = 2.
 
-Af = 0.4 and 0.5 beside the critical radius (printed as 0.5568). At zw = 4.5 the membranes on the smaller
-disks are wrinkled all over; at higher levels they are taut in the middle and wrinkled at both ends.
+Af = 0.4 and 0.5, and the critical radius (printed as 0.5568). At zw = 4.5 the membranes on the smaller disks
+are wrinkled everywhere; at higher levels they are taut in the middle and wrinkled at both ends.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, decide, wrinkled_tube
@@ -15,7 +15,7 @@ INFLATED = At("p", 0.2, profile=())
 
 
 def all_wrinkled(solutions: Solutions) -> Finding:
-    """Wrinkled share at zw = 4.5."""
+    """Wrinkled fraction at zw = 4.5."""
     shares = {Af: solutions.number(TUBES[Af], LOW, "wrinkled_fraction") for Af in RADII}
     return decide.all_of(
         *(decide.exact(f"share for Af = {Af}", shares[Af].value, 1.0) for Af in RADII[:2]),
@@ -64,8 +64,8 @@ CASE = Case(
     checks=(
         Claim(
             "all_wrinkled",
-            "on disks of 0.4 and 0.5 the membrane is wrinkled all over at zw = 4.5; on the critical ones its "
-            "lower end is taut",
+            "on disks of 0.4 and 0.5 the membrane is wrinkled everywhere at zw = 4.5; on the critical ones "
+            "its lower end is taut",
             tuple((TUBES[Af], LOW) for Af in RADII),
             all_wrinkled,
         ),

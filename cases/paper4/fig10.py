@@ -1,7 +1,7 @@
 """Paper 4, figure 10: wrinkling function in Case 2 (disks of radius Ao), under gas (a) and fluid (b).
 
-M = 0.5, delta = 2, and M = 0.3, delta = 3. Of the loads none is in the text. Without load a zone in the
-middle is wrinkled and both ends are taut; it vanishes at a very small pressure, or at a moderate level.
+M = 0.5, delta = 2, and M = 0.3, delta = 3. The text gives no loads. Without load a zone in the middle is
+wrinkled and both ends are taut; the zone disappears at a very small pressure, or at a moderate level.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, wrinkled_tube
@@ -41,7 +41,7 @@ def vanishes(solutions: Solutions) -> Finding:
 
 
 def curves(spec: dict, d: int, control: str, loads: tuple, table: str) -> tuple[Curve, ...]:
-    """One curve a load."""
+    """One curve for each load."""
     label = "p" if control == "p" else "z_w"
     return tuple(
         Curve(
@@ -82,7 +82,7 @@ CASE = Case(
         ),
         Claim(
             "vanishes",
-            "the wrinkled zone vanishes at a very small pressure, and under fluid at a moderate level",
+            "the wrinkled zone disappears at a very small pressure, and under fluid at a moderate level",
             tuple((spec[d], None) for spec in (GAS, FLUID) for d in DATA),
             vanishes,
         ),

@@ -1,6 +1,6 @@
-"""Paper 4, figure 11: wrinkling function in Case 2, thickness varying little, M = 0.9, delta = 2.
+"""Paper 4, figure 11: wrinkling function in Case 2 with little variation of thickness, M = 0.9, delta = 2.
 
-No wrinkling at any pressure, not even without load.
+There is no wrinkling at any pressure, not even without load.
 """
 
 from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
@@ -10,7 +10,7 @@ PRESSURES = (0, 0.05, 0.1, 0.2)
 
 
 def taut(solutions: Solutions) -> Finding:
-    """Least gw at each pressure."""
+    """Smallest gw at each pressure."""
     return decide.positive(
         "gw_min - 1", solutions.numbers(TUBE, [At("p", float(p)) for p in PRESSURES], "gw_min") - 1
     )

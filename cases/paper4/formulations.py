@@ -1,6 +1,6 @@
 """Paper 4: relaxed energy and modified deformation gradient give the same fields.
 
-This is also what can be compared with the model "Wrinkling of Cylindrical Membranes with Varying Thickness"
+This can also be compared with the model "Wrinkling of Cylindrical Membranes with Varying Thickness"
 of the COMSOL application library (M = 0.5, stretching, then water): it compares the same two treatments
 with this paper and reports that their wrinkled regions agree. Its numbers could not be obtained.
 """

@@ -1,4 +1,4 @@
-"""Paper 4 off the paper's parameters: M 0.1 to 1.9, delta 1.25 to 4, c2 0 to 0.1, L 5 to 12, other disks."""
+"""Paper 4 at other parameters than in the paper: M, delta, c2, L and disks."""
 
 from weakforms import At, Axis, Case, Curve, Panel, Spec, wrinkled_tube
 
@@ -15,17 +15,17 @@ CONTROL = {"gas": "p", "fluid": "zw"}
 
 
 def name(load: str, M: float, delta: float, c2: float, length: float, radius: object, _: object) -> str:
-    """Of the table of a set."""
+    """Name of the table of a set."""
     return f"off_{load}_M_{M}_delta_{delta}_c2_{c2}_L_{length}_Af_{radius}"
 
 
 def spec(load: str, M: float, delta: float, c2: float, length: float, radius: object, _: object) -> Spec:
-    """The membrane of a set; defaults left out, so that solutions are shared with other cases."""
+    """The membrane of a set, without default values, so that solutions are shared with other cases."""
     given = {"M": M, "delta": delta} | ({} if load == "fluid" else {"load": load})
     given |= {} if c2 == 0.01 else {"c2": float(c2)}
     given |= {} if length == 8 else {"L": float(length)}
     tube = wrinkled_tube(**given | ({} if radius == "critical" else {"Af": float(radius)}))
-    # Its thick lower end has layers at fronts and disk that are thin for so long a membrane.
+    # Its thick lower end has layers at fronts and disk that are thin relative to the length.
     return tube.on(cells=48) if M == 1.9 else tube
 
 

@@ -1,7 +1,7 @@
 """Paper 4 by a form without symmetry: a quarter of the membrane as a sheet, relaxed energy from C.
 
-Elements of degree 4, a few around; along, the mesh ends at the fronts of the axisymmetric solution. With many
-elements around the state would be unstable to waves (Paper 5).
+There are a few elements of degree 4 around. Along the meridian, the mesh has nodes at the fronts of the
+axisymmetric solution. With many elements around, the state would be unstable to waves (Paper 5).
 """
 
 from weakforms import At, Case, Claim, Finding, Solutions, decide, wrinkled_sheet, wrinkled_tube

@@ -1,7 +1,7 @@
-"""Paper 4, table 1: energy of a sheet in its four states, and the modified deformation gradient beside it.
+"""Paper 4, table 1: energy of a sheet in its four states, also by the modified deformation gradient.
 
-Both forms, differentiated by UFL, against the printed formulas; the first derivatives are continuous where
-the states meet, the second ones jump.
+Both forms, differentiated by UFL, are compared with the printed formulas. The first derivatives are
+continuous where the states meet; the second ones jump.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ SAMPLES = {
 }
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
 NEAR = 1e-7
-"""Distance from the curves on which states meet at which continuity is looked at."""
+"""Distance from the curves on which states meet, for the check of continuity."""
 CONTINUOUS = decide.Stated(
     50 * NEAR, "continuous", "a slope of 25 times the distance of the two sides; the tangent is below that"
 )
@@ -86,10 +86,9 @@ def as_printed(solutions: Solutions, energy: str) -> Finding:
 
 
 def smooth(solutions: Solutions) -> Finding:
-    """Jumps across the curves where states meet: none in W and its slopes, some in the tangent.
+    """Jumps across the curves where states meet: none in W and its first derivatives, some in the tangent.
 
-    Where there is no jump the difference is the slope times the distance of the two sides, of which 50 is
-    more than any.
+    Without a jump the difference is the slope times the distance of the two sides; all slopes are below 50.
     """
     rows = []
     for name, point in MEETING.items():
@@ -108,7 +107,7 @@ CASE = Case(
     checks=(
         Claim(
             "state_table",
-            "energy, stresses and tangent in all four states are the table's",
+            "energy, stresses and tangent in all four states agree with the table",
             tuple((sheet(p), None) for p in POINTS),
             lambda solutions: as_printed(solutions, "relaxed"),
         ),

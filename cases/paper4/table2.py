@@ -1,7 +1,7 @@
 """Paper 4, table 2: critical radius of the disks, (Af)_c/Ao.
 
-The largest radius at which the unloaded membrane has gw <= 1 everywhere, computed with the weak form and
-never typed. The printed 0.5568 is cut off: the fifth digit rounds it up to 0.5569.
+The largest radius at which the unloaded membrane has gw <= 1 everywhere, computed with the weak form. The
+printed 0.5568 is cut off: with the fifth digit it rounds up to 0.5569.
 """
 
 from weakforms import Case, Claim, CutOff, Finding, Points, Printed, Solutions, decide, wrinkled_tube

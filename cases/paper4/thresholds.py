@@ -1,7 +1,8 @@
 """Paper 4, section on case 2: thickness ratios beyond which the unloaded membrane wrinkles.
 
-Printed as "M < 0.75 or M > 1.25" (delta = 2) and "M < 0.4 or M > 1.6" (delta = 3): read off a grid. They
-are the roots of min gw = 1 in M on the taut solution, and depend on the length and on c2.
+Printed as "M < 0.75 or M > 1.25" (delta = 2) and "M < 0.4 or M > 1.6" (delta = 3): these are values of a
+grid. The thresholds are the roots of min gw = 1 in M for the taut solution, and depend on the length and on
+c2.
 """
 
 from weakforms import (
@@ -19,7 +20,7 @@ from weakforms import (
 )
 
 STEP = "0.05"
-"""Step of the grid that the text's ratios lie on: where wrinkling begins is less than a step beyond them."""
+"""Step of the grid of the text's ratios: wrinkling starts less than a step beyond them."""
 ROWS = (
     (2, False, "0.75", OnGrid(STEP, upwards=False)),
     (2, True, "1.25", OnGrid(STEP, upwards=True)),
@@ -31,12 +32,12 @@ EMPTY = At("p", 0.0)
 
 
 def still_taut(solutions: Solutions) -> Finding:
-    """M = 0.75, delta = 2, without load: least gw."""
+    """M = 0.75, delta = 2, without load: smallest gw."""
     return decide.positive("gw_min - 1", solutions.number(ON_GRID, EMPTY, "gw_min") - 1)
 
 
 CASE = Case(
-    title="Thickness ratios at which the unloaded membrane begins to wrinkle",
+    title="Thickness ratios at which the unloaded membrane starts to wrinkle",
     source="Patil, Nordmark & Eriksson (2015), section on case 2",
     checks=(
         Points(

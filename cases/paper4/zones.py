@@ -1,8 +1,7 @@
-"""Paper 4: loads at which taut and wrinkled zones appear and vanish, and where the fronts are in between.
+"""Paper 4: loads at which taut and wrinkled zones appear and disappear, and the fronts in between.
 
-M = 1.5, delta = 2 under fluid: the taut zone at the thin top is there from the beginning (a sliver), a
-second one appears near one third of the length, and both merge when the wrinkled zone between them
-vanishes.
+M = 1.5, delta = 2 under fluid: a narrow taut zone at the thin top exists from the start, a second one appears
+near one third of the length, and both merge when the wrinkled zone between them disappears.
 """
 
 from weakforms import (
@@ -59,7 +58,9 @@ def spec_of(row: int) -> Spec:
     return wrinkled_tube(**given | ({} if (M, delta, c2, length) in CRITICAL else {"Af": radius}))
 
 
-NEAR = decide.Stated(0.05, "near one third", "no number is printed; half way to a fourth is nearly as far")
+NEAR = decide.Stated(
+    0.05, "near one third", "no number is printed; less than half of the distance to a fourth"
+)
 
 
 def order(solutions: Solutions) -> Finding:
@@ -77,7 +78,7 @@ def order(solutions: Solutions) -> Finding:
 ROWS = range(len(EVENTS))
 
 CASE = Case(
-    title="Zones that appear, merge and vanish",
+    title="Zones that appear, merge and disappear",
     source="Patil, Nordmark & Eriksson (2015), sections on case 1 and case 2",
     panels=tuple(
         Panel(

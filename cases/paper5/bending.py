@@ -1,8 +1,9 @@
-"""Paper 5, beyond the paper: a small bending stiffness ends the instability to all short waves.
+"""Paper 5, extended: a small bending stiffness removes the instability to all short waves.
 
-The paper asks for a modification that makes the model stable. Bending energy of the *incremental* curvature
-leaves the equilibrium alone; with a stiffness beta H^3 the unstable wave numbers are a finite band, empty
-above a critical beta. B1 counts the circumferential curvature only, B2 the whole of a thin shell's.
+The paper asks for a modification that makes the model stable. A bending energy of the *incremental* curvature
+does not change the equilibrium. With a stiffness beta H^3 the unstable wave numbers form a finite band, which
+is empty above a critical beta. Model B1 contains the circumferential curvature only, model B2 the complete
+bending energy of a thin shell.
 """
 
 from weakforms import (
@@ -30,7 +31,8 @@ STIFF = wrinkled_tube(**DATA, n=WAVES, load_end=20.0, beta=PAPER)
 BOWL = hemisphere(n=TRIED, beta=THIN).on(step=0.2, cells=8)
 LEVELS = tuple(float(zw) for zw in reference(5, "bending_critical").columns["zw"])
 SMALL = {2.0: 2e-3, 3.0: 1e-4}
-"""Relative accuracy asked of beta_c where it is so small that the table's own absolute one is no better."""
+"""Relative accuracy asked of beta_c if it is so small that the absolute accuracy of the table is the
+limit."""
 SPECS = tuple(wrinkled_bending(zw=zw) for zw in LEVELS)
 BANDS = tuple(
     wrinkled_bending(zw=float(zw), beta=PAPER) for zw in reference(5, "bending_bands").columns["zw"]
@@ -44,13 +46,13 @@ MODELS = tuple(
 
 
 MOST = 400
-"""Wave number up to which bands are looked for."""
+"""Largest wave number of the search for bands."""
 NEXT = decide.Stated(0.01, "next to", "no number is printed; a three hundredth of the window's width")
 NEARLY_ALL = decide.Stated(0.2, "nearly all", "no number is printed; four fifths and more")
 
 
 def window(solutions: Solutions, spec: object, n: int) -> list[decide.Number]:
-    """Levels between which n waves are unstable, if there are any."""
+    """Range of levels at which n waves are unstable, if there is one."""
     found = {
         p.values["direction"]: decide.of_point(p, "zw")
         for p in solutions.points(spec, "stability_change")
@@ -60,7 +62,7 @@ def window(solutions: Solutions, spec: object, n: int) -> list[decide.Number]:
 
 
 def inside(solutions: Solutions) -> Finding:
-    """Windows with and without bending stiffness: the first inside the second, or empty."""
+    """Ranges with and without bending stiffness: the first is inside the second, or empty."""
     found = []
     for n in WAVES:
         plain, stiff = (window(solutions, spec, n) for spec in (PLAIN, STIFF))
@@ -72,7 +74,7 @@ def inside(solutions: Solutions) -> Finding:
 
 
 def within_real(solutions: Solutions) -> Finding:
-    """Levels of the first and last change over the whole n tried, and those over all real n."""
+    """Levels of the first and last change over some whole n, and those over all real n."""
     table, found = reference(5, "bending_window"), []
     windows = list(filter(None, (window(solutions, STIFF, n) for n in WAVES)))
     for end, direction in ((0, 1), (1, -1)):
@@ -85,7 +87,7 @@ def within_real(solutions: Solutions) -> Finding:
 
 
 def stiffens(solutions: Solutions) -> Finding:
-    """Rise of the lowest eigenvalue by the stiffness, over the levels that both branches have."""
+    """Increase of the lowest eigenvalue by the stiffness, over the levels that both branches have."""
     plain, stiff = (list(solutions.branch(spec).columns["zw"]) for spec in (PLAIN, STIFF))
     common = [i for i, zw in enumerate(stiff) if zw in set(plain)]
     where = [plain.index(stiff[i]) for i in common]
@@ -103,7 +105,7 @@ def stiffens(solutions: Solutions) -> Finding:
 
 
 def finite(solutions: Solutions) -> Finding:
-    """Unstable band of real n with the paper's thickness at each level, and where none is left."""
+    """Unstable band of real n with the paper's thickness at each level, and the levels without a band."""
     found = []
     for spec in BANDS:
         low, last, high, beta = (
@@ -123,7 +125,7 @@ def wavelength(solutions: Solutions) -> Finding:
 
 
 def models_agree(solutions: Solutions) -> Finding:
-    """Rise of the lowest eigenvalue by B1 over that by B2."""
+    """Increase of the lowest eigenvalue by B1 over that by B2."""
     shares = []
     for spec in MODELS:
         base, one, two = (solutions.whole(spec, f"Lambda_{name}") for name in ("membrane", "B1", "B2"))
@@ -133,7 +135,7 @@ def models_agree(solutions: Solutions) -> Finding:
 
 
 def hemisphere_is_stable(solutions: Solutions) -> Finding:
-    """Least of the lowest eigenvalues for the n tried, up to the highest level."""
+    """Smallest of the lowest eigenvalues for some n, up to the highest level."""
     stable = solutions.branch(BOWL).columns["n_negative"] == 0
     return decide.all_of(
         decide.same("changes of stability", len(solutions.points(BOWL, "stability_change")), 0),
@@ -142,8 +144,8 @@ def hemisphere_is_stable(solutions: Solutions) -> Finding:
 
 
 CASE = Case(
-    title="A bending stiffness makes the instability finite",
-    source="beyond Patil, Nordmark & Eriksson (2016), section 5",
+    title="A bending stiffness limits the unstable wave numbers",
+    source="extension of Patil, Nordmark & Eriksson (2016), section 5",
     checks=(
         *(
             Points(
@@ -196,13 +198,14 @@ CASE = Case(
         ),
         Claim(
             "wavelength",
-            "at each level a critical stiffness leaves no unstable n; the last one has a wavelength",
+            "at each level there is a critical stiffness without unstable n; the last unstable n has a "
+            "finite wavelength",
             tuple((spec, None) for spec in SPECS),
             wavelength,
         ),
         Claim(
             "models_agree",
-            "nearly all of the shell's stiffness against waves is that of the circumferential curvature",
+            "nearly all of the shell's stiffness against waves comes from the circumferential curvature",
             tuple((spec, None) for spec in MODELS),
             models_agree,
         ),

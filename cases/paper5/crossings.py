@@ -1,7 +1,7 @@
-"""Paper 5: where waves set in and where they vanish, wave number by wave number, under liquid and gas.
+"""Paper 5: loads at which waves appear and disappear, for each wave number, under liquid and gas.
 
-The more waves, the lower the level at which they set in and the higher that at which they vanish (the taut
-part grows from above): at fixed level a membrane of this kind is unstable to all short waves.
+With more waves, the level at which they appear is lower, and the level at which they disappear (because the
+taut part grows from above) is higher. At a fixed level such a membrane is unstable to all short waves.
 """
 
 import math
@@ -33,17 +33,15 @@ LIQUID = wrinkled_tube(**DATA, n=WAVES["zw"], load_end=20.0)
 GAS = wrinkled_tube(**DATA, load="gas", n=WAVES["p"])
 LOADS = {LIQUID: "zw", GAS: "p"}
 RANGES = {48: (5.14, 6.81), 96: (4.03, 9.81)}
-"""Levels between which the paper's finite elements are unstable, by elements around the axis."""
+"""Ranges of levels at which the paper's finite element models are unstable, by elements around the axis."""
 DEEP = 1.0
-"""Level of a radius: below it the liquid changes the eigenvalues by less than they are known to."""
+"""A level of one radius: below it the liquid changes the eigenvalues by less than their uncertainty."""
 FULLY = 4.9
-"""Level below which all of the membrane is wrinkled."""
+"""Level below which the whole membrane is wrinkled."""
 
 
 ONE = decide.Stated(0.05, "one n", "no number is printed; n is known by two levels of three digits")
-SOMEWHAT = decide.Stated(
-    0.25, "somewhat below", "no number is printed; more than half of N/(2 pi), and by far"
-)
+SOMEWHAT = decide.Stated(0.25, "somewhat below", "no number is printed; much more than half of N/(2 pi)")
 
 
 def changes(solutions: Solutions, spec: Spec, direction: float) -> dict[int, decide.Number]:
@@ -56,7 +54,7 @@ def changes(solutions: Solutions, spec: Spec, direction: float) -> dict[int, dec
 
 
 def monotonic(solutions: Solutions) -> Finding:
-    """Loads at which waves set in, falling with n, and vanish, rising with n."""
+    """Loads at which waves appear, which decrease with n, and disappear, which increase with n."""
     found = []
     for spec in LOADS:
         found.append(decide.falls("set in", list(changes(solutions, spec, 1.0).values())))
@@ -97,13 +95,13 @@ def same_at_no_load(solutions: Solutions) -> Finding:
 
 
 def no_waves_is_the_limit(solutions: Solutions) -> Finding:
-    """Pressure at which n = 0 turns unstable and the limit pressure."""
+    """Pressure at which n = 0 becomes unstable, and the limit pressure."""
     change = next(p for p in solutions.points(GAS, "stability_change") if p.values["n"] == 0)
     return decide.agree("p", decide.of_point(change, "p"), solutions.point(GAS, "limit_point", "p"), 1e-8)
 
 
 def resolved_waves(solutions: Solutions) -> Finding:
-    """Real n that is just unstable at the ends of the printed ranges, over N/(2 pi) of the hoop mesh N."""
+    """Real n at the stability limit at the ends of the printed ranges, over N/(2 pi)."""
     found = []
     for mesh, levels in RANGES.items():
         n = decide.stack(solutions.whole(wrinkled_linear(zw=zw), "n_critical") for zw in levels)
@@ -121,7 +119,7 @@ ASKED = {"zw": 1e-7, "p": 1e-6}
 
 
 def held_against(base: Spec, control: str) -> tuple[Points, ...]:
-    """One check a row."""
+    """One check for each row."""
     columns = reference(5, TABLES[control]).columns
     return tuple(
         Points(
@@ -137,7 +135,7 @@ def held_against(base: Spec, control: str) -> tuple[Points, ...]:
 
 
 CASE = Case(
-    title="Levels and pressures at which waves set in and vanish",
+    title="Levels and pressures at which waves appear and disappear",
     source="Patil, Nordmark & Eriksson (2016), section 4.1; wave numbers beyond the figures chosen here",
     panels=tuple(
         Panel(
@@ -157,7 +155,7 @@ CASE = Case(
         *(row for spec, control in LOADS.items() for row in held_against(spec, control)),
         Claim(
             "monotonic",
-            "with n the load at which waves set in falls and that at which they vanish rises",
+            "with n the load at which waves appear decreases and that at which they disappear increases",
             tuple((spec, None) for spec in LOADS),
             monotonic,
         ),
@@ -169,8 +167,8 @@ CASE = Case(
         ),
         Claim(
             "falls_with_n",
-            "as long as all of it is wrinkled, the lowest eigenvalue falls with n, "
-            "from a level of one radius on",
+            "from a level of one radius on, and while the whole membrane is wrinkled, the lowest eigenvalue "
+            "decreases with n",
             ((LIQUID, None),),
             falls_with_n,
         ),

@@ -12,15 +12,15 @@ from weakforms import Axis, Case, Claim, Finding, Line, Panel, Solutions, Spec, 
 LAWS = (0.01, 0.0)
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
 NEAR = 1e-7
-"""Relative distance from a boundary at which both sides are looked at."""
+"""Relative distance of the points on both sides of a boundary."""
 CONTINUOUS = decide.Stated(
     50 * NEAR, "continuous", "a slope of 25 times the distance of the two sides; the tangent is below that"
 )
 JUMPS = decide.Stated(0.1, "the tangent is not", "a million times that; the tangent's own size is about 2")
 ALONG = (1.2, 2.0, 3.5, 5.0)
-"""Larger stretch of the points looked at ..."""
+"""Larger stretch of the points ..."""
 ACROSS = (0.2, 0.5, 0.9)
-"""... and the smaller one where the sheet is on the verge of going slack."""
+"""... and the smaller one at the boundary to the slack state."""
 BOUNDARIES = {
     "A/B": [lambda e, v=v: (v, v**-0.5 * (1 + e)) for v in ALONG],
     "A/C": [lambda e, v=v: (v**-0.5 * (1 + e), v) for v in ALONG],
@@ -128,7 +128,8 @@ CASE = Case(
         ),
         Claim(
             "stresses",
-            "A taut, B and C in tension one way, D without stress, bounded by lam2 = lam1^(-1/2), "
+            "A is taut, B and C have tension in one direction, D has no stress; the boundaries are lam2 = "
+            "lam1^(-1/2), "
             "lam1 = lam2^(-1/2) and lam = 1",
             BOTH,
             stresses,

@@ -1,8 +1,8 @@
 """Paper 5, figure 2 and section 2.3: a flat wrinkled patch under pressure is unstable at any wave number.
 
-The perturbation leaves the direction of tension as it is, so that the strain energy stays the same, while the
-pressure's potential falls as printed in equation 33. The figure is drawn with a = 1, e = 0.08, c = 0.1 and
-n = 10: a curve with steep flanks.
+The perturbation does not change the direction of tension, so that the strain energy is constant, while the
+pressure's potential decreases as printed in equation 33. The figure is drawn with a = 1, e = 0.08, c = 0.1
+and n = 10: a curve with steep flanks.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ A, B, C = 0.3, 2.0, 0.1
 
 
 def bracket(n: float, length: float) -> tuple[float, float]:
-    """What multiplies e and e^2 in the printed potential."""
+    """Factors of e and e^2 in the printed potential."""
     linear = (A / n + C) * np.sin(n * length)
     return linear, n * length / 2 + np.sin(2 * n * length) / 4
 
@@ -67,12 +67,12 @@ STEEP = decide.Stated(0.25, "steep flanks", "no number is printed; less than a f
 
 
 def overhangs(solutions: Solutions) -> Finding:
-    """Where x falls along the drawn curve; height of the flat line."""
+    """Smallest slope of x along the drawn curve, and height of the flat line."""
     x = solutions.profile(DRAWN, BENT).columns["X"]
     z, flat = (solutions.profile(DRAWN, at).columns["z"] for at in (BENT, FLAT))
     slope = 1 + BENT.value * 10 * np.cos(10 * x)
     return decide.all_of(
-        # Between the points sampled a sine's crest is missed by the square of their distance.
+        # Between sample points, the error of a sine's maximum is of the square of their distance.
         decide.agree(
             "swing",
             decide.Number(np.ptp(z), 2 * BENT.value * (10 * np.diff(x).max()) ** 2 / 8),
@@ -112,7 +112,7 @@ CASE = Case(
         ),
         Claim(
             "grows_with_n",
-            "the second variation is negative and falls with n",
+            "the second variation is negative and decreases with n",
             tuple((spec, At("e", 0.0)) for spec in PATCHES.values()),
             grows_with_n,
         ),

@@ -15,7 +15,7 @@ LAST = At("zw", 5.73)
 
 
 LAYER = decide.Stated(1e-3, "but for a layer thinner than 0.001 L", "the claim's own number")
-VERGE = decide.Stated(1e-4, "wrinkled", "no number is printed; in that layer gw hardly exceeds 1")
+VERGE = decide.Stated(1e-4, "wrinkled", "no number is printed; in that layer gw exceeds 1 only slightly")
 PART = decide.Stated(0.05, "the upper part", "the length's last twentieth and more")
 
 
@@ -25,12 +25,12 @@ def at(control: str, load: float) -> At:
 
 
 def share(solutions: Solutions, state: At, spec: object = FLUID) -> decide.Number:
-    """Part of the length that is wrinkled."""
+    """Wrinkled fraction of the length."""
     return solutions.number(spec, state, "wrinkled_fraction")
 
 
 def all_wrinkled(solutions: Solutions) -> Finding:
-    """Wrinkled part of the length up to zw = 5.73: all but a layer at the upper disk."""
+    """Wrinkled fraction of the length up to zw = 5.73: everything except a layer at the upper disk."""
     levels = [*(at("zw", v) for v in LEVELS if v < LAST.value), LAST]
     return decide.all_of(
         decide.at_most(
@@ -62,7 +62,7 @@ def gas_pattern(solutions: Solutions) -> Finding:
 
 
 def straight_when_dry(solutions: Solutions) -> Finding:
-    """Level 3: spread of dr/dz above the level; spread of the tension all along."""
+    """Level 3: spread of dr/dz above the level, and spread of the tension along the whole membrane."""
     dry = solutions.profile(FLUID, at("zw", 3)).columns["z"] > 3
     return decide.all_of(
         decide.constant("dr/dz", solutions.column(FLUID, at("zw", 3), "slope")[dry], 5e-9, 1.0),
@@ -96,7 +96,7 @@ CASE = Case(
     checks=(
         Claim(
             "all_wrinkled",
-            "up to zw = 5.73 the whole membrane is wrinkled (but for a layer thinner than 0.001 L)",
+            "up to zw = 5.73 the whole membrane is wrinkled (except for a layer thinner than 0.001 L)",
             (*((FLUID, at("zw", v)) for v in LEVELS), (FLUID, LAST)),
             all_wrinkled,
         ),

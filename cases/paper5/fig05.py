@@ -1,8 +1,8 @@
 """Paper 5, figure 5: three lowest eigenvalues of the liquid-filled cylinder over the level, n = 1, 20, 50.
 
-Mass unit: density C1/(Ao g), weight H R. Up to zw = 5.73 the membrane is wrinkled all over (but for a layer
-at the upper disk), so the relaxed energy rules everywhere. For n = 1 all are positive; the first of n = 20
-and of n = 50 turns negative at the printed levels.
+Mass unit: density C1/(Ao g), weight H R. Up to zw = 5.73 the whole membrane is wrinkled (except for a layer
+at the upper disk), so that its energy is the relaxed one. For n = 1 all eigenvalues are positive; the first
+one for n = 20 and for n = 50 becomes negative at the printed levels.
 """
 
 from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Printed, Solutions, decide, wrinkled_tube
@@ -12,7 +12,7 @@ TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, n=WAVES)
 RANGES = {1: (0, 1.2), 20: (-3, 1.2), 50: (-10, 1.2)}
 LAST = 5.73
 AXIS_END = 5.83
-"""A little beyond, as the figure is drawn."""
+"""Last level, a little beyond that of the figure."""
 
 
 def shown(solutions: Solutions, n: int) -> tuple[decide.Number, decide.Number]:
@@ -22,7 +22,7 @@ def shown(solutions: Solutions, n: int) -> tuple[decide.Number, decide.Number]:
 
 
 def one_wave(solutions: Solutions) -> Finding:
-    """Least eigenvalue for n = 1 on the branch, to zw = 16."""
+    """Smallest eigenvalue for n = 1 on the branch, up to zw = 16."""
     crossed = [p for p in solutions.points(TUBE, "stability_change") if p.values["n"] == 1]
     return decide.all_of(
         decide.positive("least eigenvalue", solutions.along(TUBE, "Lambda_n1_1")),
@@ -83,7 +83,7 @@ CASE = Case(
         Claim("one_wave", "for n = 1 all eigenvalues are positive", ((TUBE, None),), one_wave),
         Claim(
             "one_negative",
-            "for n = 20 and n = 50 the first eigenvalue turns negative, once",
+            "for n = 20 and n = 50 the first eigenvalue becomes negative once",
             ((TUBE, None),),
             one_negative,
         ),

@@ -11,12 +11,13 @@ from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, d
 TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, n=(100,), load_end=4.0).on(cells=24)
 SHOWN = At("zw", 3.0, profile=(), field="mode_n100")
 ASKED = {"meridional": 1e-3, "circumferential": 1e-5, "normal": 1e-7}
-"""Relative to the largest value of each; the meridional part is 200 times smaller than the others."""
+"""Accuracy relative to the largest value of each part; the meridional part is 200 times smaller than the
+others."""
 PARTS = tuple(ASKED)
 
 
 SHARE = 1e-3
-"""Of its largest value: where the product of the two parts is large enough for a sign."""
+"""Fraction of its largest value above which the product of the two parts has a definite sign."""
 NEARLY = decide.Stated(0.01, "nearly vanishes", "no number is printed; a line of figure 6 is as wide")
 OPPOSITE = decide.Stated(
     1e-6, "the same sign", "where one of them crosses zero the product is of second order"
@@ -39,18 +40,18 @@ def alike(solutions: Solutions) -> Finding:
 
 
 def localised(solutions: Solutions) -> Finding:
-    """Mean place and standard deviation of the squared normal part, as a density along Z."""
+    """Mean position and standard deviation of the squared normal part, as a density along Z."""
     z, normal = solutions.profile(TUBE, SHOWN).columns["Z"], solutions.column(TUBE, SHOWN, "normal")
     square = normal.value**2
     weight = square / square.sum()
     mean = float((z * weight).sum())
     spread = float(np.sqrt(((z - mean) ** 2 * weight).sum()))
-    # A change of the mode by its uncertainty moves both by no more than this part of the length 8.
+    # A change of the mode by its uncertainty moves both by at most this fraction of the length 8.
     known = decide.Number(0.0, 2 * 8 * np.max(normal.uncertainty) / normal.value.max())
     wet = solutions.profile(TUBE, At("zw", 3.0, profile=())).columns
     surface = wet["Z"][wet["z"] <= 3.0].max()
     return decide.all_of(
-        decide.less("mean place and the surface", mean + known, surface),
+        decide.less("mean position and the surface", mean + known, surface),
         decide.at_most("standard deviation", spread + known, LOCALISED),
     )
 

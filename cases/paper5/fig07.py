@@ -1,6 +1,6 @@
 """Paper 5, figure 7: three lowest eigenvalues of the gas-filled cylinder over the pressure, n = 1, 5, 15, 20.
 
-For n = 1 and 5 none is negative. For n = 15 and 20 the first one is negative over a range that begins at a
+For n = 1 and 5 none is negative. For n = 15 and 20 the first one is negative over a range that starts at a
 small pressure; it becomes positive again inside the printed range for n = 15, and just outside it for n = 20.
 """
 
@@ -16,7 +16,7 @@ JUST_OUTSIDE = decide.Stated(1.15, "just outside", "no number is printed; a seve
 
 
 def changes(solutions: Solutions, n: int) -> list[tuple[decide.Number, float]]:
-    """Pressures and directions of the changes before the pressure turns."""
+    """Pressures and directions of the changes before the limit point of the pressure."""
     turn = solutions.points(TUBE, "limit_point")[0].values["V"]
     return [
         (decide.of_point(p, "p"), p.values["direction"])
@@ -26,7 +26,7 @@ def changes(solutions: Solutions, n: int) -> list[tuple[decide.Number, float]]:
 
 
 def never(solutions: Solutions) -> Finding:
-    """Least eigenvalue on the branch for n = 1 and 5, past its limit load too."""
+    """Smallest eigenvalue on the branch for n = 1 and 5, also past its limit load."""
     return decide.all_of(
         decide.all_of(
             decide.positive(f"n = {n}", solutions.along(TUBE, f"Lambda_n{n}_1")),
@@ -37,12 +37,12 @@ def never(solutions: Solutions) -> Finding:
 
 
 def over_a_range(solutions: Solutions) -> Finding:
-    """Pressures at which the first eigenvalue of n = 15 and 20 turns negative and positive."""
+    """Pressures at which the first eigenvalue of n = 15 and 20 becomes negative and positive."""
     found = []
     for n in WAVES[2:]:
         here = changes(solutions, n)
         found.append(decide.same(f"n = {n}: directions", [d for _, d in here], [1.0, -1.0]))
-        found.append(decide.at_most("begins at p", here[0][0], SMALL))
+        found.append(decide.at_most("starts at p", here[0][0], SMALL))
     return decide.all_of(found)
 
 
@@ -91,7 +91,7 @@ CASE = Case(
             "at higher pressures the eigenvalue becomes positive",
             ((TUBE, None),),
             positive_again,
-            differs="for n = 20 it does so beyond the printed range, p <= 0.38",
+            differs="for n = 20 the eigenvalue becomes positive beyond the printed range, p <= 0.38",
         ),
     ),
 )

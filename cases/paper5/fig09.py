@@ -1,8 +1,8 @@
 """Paper 5, figure 9: wrinkling function of the liquid-filled hemisphere along its meridian.
 
-At low levels the hemisphere is wrinkled below and above the level, at high ones nowhere. Next to the equator
-(where lam2 = 1 and lam1 > 1) and at the pole it is always taut. The levels are chosen here. "High" means
-about -0.55 and up: the branch has its highest level at -0.478.
+At low levels the hemisphere is wrinkled below and above the level; at high levels it is not wrinkled. Next to
+the equator (where lam2 = 1 and lam1 > 1) and at the pole it is always taut. The levels are chosen here.
+"High" means about -0.55 and above: the branch has its highest level at -0.478.
 """
 
 import math
@@ -40,7 +40,7 @@ def around_the_level(solutions: Solutions) -> Finding:
 
 
 def taut_at_high_levels(solutions: Solutions) -> Finding:
-    """Least gw at zw = -0.5, and that the wrinkled zone closes."""
+    """Smallest gw at zw = -0.5, and the closing of the wrinkled zone."""
     (closing,) = solutions.points(BOWL, "zone_closing")
     return decide.all_of(
         decide.positive("gw_min - 1", solutions.number(BOWL, HIGH, "gw_min") - 1),
@@ -56,7 +56,7 @@ def taut_ends(solutions: Solutions) -> Finding:
 
 
 def limit(solutions: Solutions) -> Finding:
-    """Highest level, and the depth of an empty sheet that hangs as a cone, below all levels."""
+    """Highest level, and the depth of an empty sheet that hangs as a cone, which is below all levels."""
     counts = solutions.branch(BOWL).columns["n_negative"]
     before, past = decide.sides(solutions.along(BOWL, "V"), solutions.point(BOWL, "limit_point", "V"))
     return decide.all_of(
@@ -125,13 +125,13 @@ CASE = Case(
         ),
         Claim(
             "taut_at_high_levels",
-            "at high levels nothing is wrinkled",
+            "at high levels the hemisphere is not wrinkled",
             ((BOWL, HIGH), (BOWL, None)),
             taut_at_high_levels,
         ),
         Claim(
             "taut_ends",
-            "pole and equator are taut at every level",
+            "the pole and the equator are taut at every level",
             tuple((BOWL, at(v)) for v in LEVELS),
             taut_ends,
         ),

@@ -30,7 +30,7 @@ def stable(solutions: Solutions, name: str) -> decide.Number:
 
 
 def none_negative(solutions: Solutions) -> Finding:
-    """Least eigenvalue for n = 10 on the branch."""
+    """Smallest eigenvalue for n = 10 on the branch."""
     found = [p for p in solutions.points(BOWL, "stability_change") if p.values["n"] == WAVES[0]]
     return decide.all_of(
         decide.positive("eigenvalue", stable(solutions, "Lambda_n10_1")),
@@ -51,14 +51,16 @@ def negative_when_low(solutions: Solutions) -> Finding:
 
 
 def not_monotonic(solutions: Solutions) -> Finding:
-    """States at which the lowest eigenvalue rises from n = 10 to n = 50, and at which it falls."""
+    """States at which the lowest eigenvalue increases from n = 10 to n = 50, or decreases."""
     ten, fifty = (stable(solutions, f"Lambda_n{n}_1") for n in WAVES)
     rises, falls = decide.sides(ten - fifty, 0)
-    return decide.less("states at which it does neither, and those of each", 0, min(rises.sum(), falls.sum()))
+    return decide.less(
+        "numbers of states with neither, with increase and with decrease", 0, min(rises.sum(), falls.sum())
+    )
 
 
 def limit_is_without_waves(solutions: Solutions) -> Finding:
-    """Level at which n = 0 turns unstable and the highest level; n = 1 stays stable up to it."""
+    """Level at which n = 0 becomes unstable, and the highest level; n = 1 stays stable up to it."""
     change = next(p for p in solutions.points(MANY, "stability_change") if p.values["n"] == 0)
     return decide.all_of(
         decide.agree("zw", decide.of_point(change, "zw"), solutions.point(MANY, "limit_point", "zw"), 1e-8),
@@ -110,7 +112,7 @@ CASE = Case(
         ),
         Claim(
             "not_monotonic",
-            "the lowest eigenvalue does not fall with n everywhere, as it does in a wrinkled cylinder",
+            "the lowest eigenvalue does not decrease with n everywhere, unlike in a wrinkled cylinder",
             ((BOWL, None),),
             not_monotonic,
         ),

@@ -1,8 +1,8 @@
-"""Paper 5, section 2.4: a perturbation without meridional displacement, and the n from which it is unstable.
+"""Paper 5, section 2.4: a perturbation without meridional displacement, and its limit of stability in n.
 
-Along u = f z0', v = f, w = -f r0' the relaxed second variation is A + n B with B < 0: unstable for every
-n > n* = A/(-B), whatever the pressure. The true n from which waves set in is smaller: only one shape is
-tried.
+Along u = f z0', v = f, w = -f r0' the relaxed second variation is A + n B with B < 0: the membrane is
+unstable for every n > n* = A/(-B), at any pressure. The true stability limit in n is smaller, because only
+one shape is tried.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ GAMMA = 1000 * 9.81 * 0.01**2 / (0.2111e6 * 0.1e-3)
 
 
 AFFINE = decide.Stated(
-    1e-11, "affine", "what differences of numbers of size one leave of rounding: no mesh is involved"
+    1e-11, "affine", "rounding in differences of numbers of size one; it does not depend on a mesh"
 )
 CORRECTION = decide.Stated(
     2, "a correction in n^(-1/2)", "over a factor 8 of n any other power of n differs by more"
@@ -57,12 +57,12 @@ def overestimates(solutions: Solutions) -> Finding:
     """The estimate n* and the real n at which the lowest eigenvalue is zero, at each level."""
     star, true = (column(solutions, name) for name in ("n_star", "n_critical"))
     return decide.all_of(
-        decide.positive("n* less the true n", star - true), decide.negative("B", column(solutions, "B"))
+        decide.positive("n* minus the true n", star - true), decide.negative("B", column(solutions, "B"))
     )
 
 
 def true_numbers(solutions: Solutions) -> Finding:
-    """The lowest whole number of waves that is unstable, against the table's, at each of its levels."""
+    """The smallest unstable whole number of waves, compared with the table at each of its levels."""
     found = [round(n) for n in column(solutions, "n_true").value]
     return decide.same("n", found, TABLE.columns["n_true"].astype(int).tolist())
 
@@ -100,13 +100,13 @@ CASE = Case(
         ),
         Claim(
             "overestimates",
-            "n* is larger than the n from which the membrane is unstable",
+            "n* is larger than the n at which the membrane becomes unstable",
             tuple((spec, None) for spec in ROWS),
             overestimates,
         ),
         Claim(
             "true_numbers",
-            "the lowest unstable wave number at each level is the reference's",
+            "the lowest unstable wave number at each level agrees with the reference",
             tuple((spec, None) for spec in ROWS),
             true_numbers,
         ),

@@ -1,9 +1,10 @@
 """Paper 5: the unstable ranges that a finite element code found on the tube, in three dimensions.
 
-Convention, nowhere tuned: nodes uniform in (S, Theta) on the cylinder, flat triangles that are their own
-reference metric, all diagonals one way, thickness and strain at the centroid; the liquid by the vertical flux
-of its potential, edge midpoints. The equilibrium is the ring-periodic one; that it is one of the whole
-surface its residual shows. Stability by the inertia of the whole tangent.
+The conventions are not tuned: nodes are uniform in (S, Theta) on the cylinder; the flat triangles define the
+reference metric; all diagonals have one direction; thickness and strain are those at the centroid; the load
+of the liquid is the vertical flux of its potential at edge midpoints. The equilibrium is ring-periodic, and
+its residual shows that it is an equilibrium of the whole surface. The inertia of the whole tangent decides on
+stability.
 """
 
 import numpy as np
@@ -28,7 +29,7 @@ COARSE, FINE = (
     surface(rule=1, load_start=4, load_end=8).on(scan=40, shown=8),
     surface(rule=1, load_start=3.5, load_end=10.5).on(scan=70, shown=10),
 )
-"""Walks on meshes of 48 and of 96 columns, in steps of 0.1."""
+"""Branches on meshes of 48 and of 96 columns, in steps of 0.1."""
 
 M48, M96 = COARSE.at(meridional=120, circumferential=48), FINE.at(meridional=80, circumferential=96)
 H48, H96 = COARSE.at(meridional=60, circumferential=48), FINE.at(meridional=40, circumferential=96)
@@ -43,43 +44,47 @@ OTHERS = {
     "printed potential": STEEP.at(rule=1, potential="horizontal"),
 }
 PICTURE = surface(meridional=60, circumferential=35, load_start=5.5, load_end=6.5).on(scan=2, shown=1)
-"""A mesh coarse enough for every line of it to be drawn."""
+"""A mesh coarse enough to draw all its lines."""
 
 SOLVED = 1e-6
 """Absolute accuracy of eigenvalues of the whole surface by SLEPc."""
 IN_BALANCE = decide.Stated(
-    1e-9, "of the whole", "below it the whole tangent's Newton step changes no digit shown"
+    1e-9, "of the whole", "below it the Newton step of the whole tangent changes no printed digit"
 )
-HARDLY = decide.Stated(0.01, "hardly", "the claim on the upper end's own number; a tenth of the walk's step")
-DEPENDS = decide.Stated(1.0, "depends", "no number is printed; ten steps of the walk")
+HARDLY = decide.Stated(0.01, "hardly", "the claim on the upper end's own number; a tenth of the load step")
+DEPENDS = decide.Stated(1.0, "depends", "no number is printed; ten load steps")
 JUMP = decide.Stated(1e3 * SOLVED, "jumps", "a thousand times the accuracy of eigenvalues")
 ZERO = decide.Stated(
     1e-4, "zeros of an eigenvalue", "a hundred times the accuracy of eigenvalues: the bracket's ends"
 )
-ABOUT = decide.Stated(0.85, "four columns a wave", "no number is printed; less than five columns a wave")
+ABOUT = decide.Stated(
+    0.85, "four columns a wave", "no number is printed; less than five columns for each wave"
+)
 A_LITTLE = decide.Stated(0.2, "a little below", "no number is printed; four fifths and more")
-NEARLY = decide.Stated(0.1, "nearly the same", "no number is printed; half of what is missing, and less")
+NEARLY = decide.Stated(0.1, "nearly the same", "no number is printed; at most half of the difference")
 SHOWN = At("zw", 6.5)
 AXES = (Axis("x", -0.9, 0.9), Axis("y", -0.9, 0.9), Axis("z", 0, 8))
 
 
 def changes(solutions: Solutions, spec: object, place: int, name: str = "zw") -> decide.Number:
-    """Level at which stability changes, or the eigenvalue on a side of it."""
+    """Level at which stability changes, or the eigenvalue on one side of it."""
     point = solutions.points(spec, "stability_change")[place]
     return decide.of_point(point, name) if name == "zw" else decide.Number(point.values[name], SOLVED)
 
 
 def whole(solutions: Solutions) -> Finding:
-    """Residual of the whole surface at ring-periodic equilibria, and that every level was solved."""
+    """Residual of the whole surface at ring-periodic equilibria, and number of solved levels."""
     residual = np.concatenate([solutions.branch(s).columns["residual"] for s in MESHES.values()])
     return decide.all_of(
         decide.at_most("residual of the whole surface", residual, IN_BALANCE),
-        decide.every("walks without a failure", [not solutions.result(s).failures for s in MESHES.values()]),
+        decide.every(
+            "branches without a failure", [not solutions.result(s).failures for s in MESHES.values()]
+        ),
     )
 
 
 def signs(solutions: Solutions) -> Finding:
-    """The lowest eigenvalue by SLEPc is negative where the inertia counts negative ones, and only there."""
+    """The lowest eigenvalue by SLEPc is negative exactly where the inertia counts negative ones."""
     found = []
     for name, spec in MESHES.items():
         counts = solutions.branch(spec).columns["n_negative"]
@@ -97,7 +102,7 @@ def signs(solutions: Solutions) -> Finding:
 
 
 def hoop(solutions: Solutions) -> Finding:
-    """Half the cells along moves the lower ends little; twice as many around moves them by more than 1."""
+    """Half the cells along change the lower ends little; twice as many around by more than 1."""
     lower, upper = (
         {name: changes(solutions, spec, place) for name, spec in MESHES.items()} for place in (0, -1)
     )
@@ -114,7 +119,7 @@ def hoop(solutions: Solutions) -> Finding:
 
 
 def rings_switch(solutions: Solutions) -> Finding:
-    """The upper end of 96 columns is where rings of triangles become taut: eigenvalues jump there."""
+    """At the upper end with 96 columns, rings of triangles become taut, and eigenvalues jump."""
     sides = ("Lambda_1_stable", "Lambda_1")
     found = []
     for name, spec in (("80 x 96", M96), ("40 x 96", H96)):
@@ -128,7 +133,7 @@ def rings_switch(solutions: Solutions) -> Finding:
 
 
 def waves(solutions: Solutions) -> Finding:
-    """Waves of the critical mode on each mesh, against a quarter of its columns."""
+    """Waves of the critical mode on each mesh, compared with a quarter of its columns."""
     counts = [solutions.points(spec, "stability_change")[0].values["n"] for spec in MESHES.values()]
     quarters = [dict(spec.parameters)["circumferential"] / 4 for spec in MESHES.values()]
     share = np.array(counts) / np.array(quarters)
@@ -139,7 +144,7 @@ def waves(solutions: Solutions) -> Finding:
 
 
 def effective(solutions: Solutions) -> Finding:
-    """Wave numbers at which the axisymmetric theory's waves have the mesh's ends of the unstable range."""
+    """Wave numbers for which the axisymmetric theory has the same ends of the unstable range as the mesh."""
     table, found = reference(5, "stability_changes_fluid").columns, []
     for spec in (M48, M96):
         columns = dict(spec.parameters)["circumferential"]
@@ -159,16 +164,16 @@ def effective(solutions: Solutions) -> Finding:
 
 
 def sensitive(solutions: Solutions) -> Finding:
-    """The upper end of 120 x 48 by other quadratures and by the printed potential."""
+    """The upper end for 120 x 48 with other quadratures and with the printed potential."""
     moved = [abs(changes(solutions, spec, -1) - changes(solutions, M48, -1)) for spec in OTHERS.values()]
     return decide.all_of(
-        decide.at_most("upper end moves by", decide.stack(moved), HARDLY),
-        decide.positive("the most by", decide.stack(moved).largest()),
+        decide.at_most("change of the upper end", decide.stack(moved), HARDLY),
+        decide.positive("largest change", decide.stack(moved).largest()),
     )
 
 
 def bloch(solutions: Solutions) -> Finding:
-    """All ends against matrices reduced by wave number, of another code, each within the brackets' halves."""
+    """All ends compared with those of another code, which reduces the matrices by wave number."""
     table, found = reference(5, "surface_ranges"), []
     rows = [(spec, 1.0, ("lower", "upper")) for spec in MESHES.values()]
     rows += [(spec, rule, ("upper",)) for spec, rule in zip(OTHERS.values(), (2.0, 3.0, 4.0), strict=True)]
@@ -203,7 +208,7 @@ CASE = Case(
             x=Axis("zw", 3.5, 10.5),
             y=Axis("Lambda_1", -4, 1, r"$\Lambda_1$"),
             title="Lowest eigenvalue of the whole surface",
-            note="Marked: where stability changes, by the eigenvalue on the unstable side.",
+            note="Marked: changes of stability, with the eigenvalue on the unstable side.",
             curves=tuple(Curve(spec, name) for name, spec in MESHES.items()),
             markers="stability_change",
         ),
@@ -216,7 +221,7 @@ CASE = Case(
             SHOWN,
             AXES,
             title="The same with its lowest mode",
-            note="The mode is unstable; its waves are about as short as the mesh resolves.",
+            note="The mode is unstable; its waves are about the shortest that the mesh resolves.",
             displaced=0.2,
         ),
     ),
@@ -227,30 +232,31 @@ CASE = Case(
         printed("upper end, 80 x 96", "9.81", M96, 1),
         Claim(
             "whole",
-            "ring-periodic equilibria are those of the whole",
+            "ring-periodic equilibria are equilibria of the whole surface",
             tuple((s, None) for s in MESHES.values()),
             whole,
         ),
-        Claim("signs", "SLEPc and inertia say the same", tuple((s, None) for s in MESHES.values()), signs),
+        Claim("signs", "SLEPc and inertia agree", tuple((s, None) for s in MESHES.values()), signs),
         Claim(
             "hoop",
-            "the range depends on the mesh around the tube; its lower end, and for 48 columns its upper one, "
-            "hardly on that along it",
+            "the range depends on the mesh around the tube; its lower end, and for 48 columns its upper end, "
+            "depend little on the mesh along it",
             tuple((s, None) for s in MESHES.values()),
             hoop,
         ),
         Claim(
             "rings_switch",
-            "lower ends are zeros of an eigenvalue; upper ones of 96 columns are jumps, and depend on rings",
+            "lower ends are zeros of an eigenvalue; upper ends for 96 columns are jumps, and depend on rings",
             tuple((s, None) for s in MESHES.values()),
             rings_switch,
             differs="The paper calls the unstable range largely independent of the axial discretization. The "
-            "upper end of 96 columns is not: it is where rings of triangles become taut one by one, and with "
-            "half as many rings there is even a stable gap.",
+            "upper end for 96 columns is not: there rings of triangles become taut one by one, and with half "
+            "as many rings there is even a stable gap.",
         ),
         Claim(
             "waves",
-            "the critical waves are about as short as triangles resolve, four columns a wave",
+            "the critical waves are about the shortest that the triangles resolve, four columns for each "
+            "wave",
             tuple((s, None) for s in MESHES.values()),
             waves,
         ),
@@ -262,13 +268,13 @@ CASE = Case(
         ),
         Claim(
             "bloch",
-            "the inertia of the whole tangent gives the ends that blocks by wave number give",
+            "the inertia of the whole tangent gives the same ends as blocks by wave number",
             tuple((s, None) for s in (*MESHES.values(), *OTHERS.values())),
             bloch,
         ),
         Claim(
             "sensitive",
-            "the upper end of 120 x 48 moves by less than 0.01 with quadrature and potential of the load",
+            "the upper end for 120 x 48 changes by less than 0.01 with quadrature and potential of the load",
             tuple((s, None) for s in (M48, *OTHERS.values())),
             sensitive,
         ),

@@ -1,4 +1,4 @@
-"""Paper 5: the hemisphere as an unstructured surface in space against its spectrum by wave number."""
+"""Paper 5: the hemisphere as an unstructured surface in space, compared with its spectrum by wave number."""
 
 import numpy as np
 
@@ -13,10 +13,10 @@ MESHES = [
 ]
 REVOLVED = hemisphere(n="0,1,2", low_end=-0.8)
 LEVELS = (At("zw", -0.55), At("zw", -0.7))
-"""Taut all over but for the rim, and wrinkled on half of the meridian."""
+"""Levels at which the hemisphere is taut except for the rim, and wrinkled on half of the meridian."""
 
 SPECTRUM = {-0.55: (1, 1, 0, 2, 2), -0.7: (1, 1, 2, 2, 0)}
-"""Waves of the five lowest modes, those of n > 0 twice; n = 0 without torsion."""
+"""Wave numbers of the five lowest modes; those with n > 0 occur twice; n = 0 is without torsion."""
 
 
 FALL = {
@@ -24,7 +24,9 @@ FALL = {
         8, "converge", "with the square of the size where the sheet is taut, 16 from first to last"
     ),
     -0.7: decide.Stated(
-        2, "converge", "where it wrinkles triangles change state singly, and errors fall unevenly"
+        2,
+        "converge",
+        "where it wrinkles, triangles change their state one by one, and errors decrease irregularly",
     ),
 }
 CLOSE = decide.Stated(
@@ -34,28 +36,28 @@ NEAREST = decide.Stated(
     0.01, "the nearest surface of revolution", "on the coarsest mesh, a tenth of its size"
 )
 ASKED = 0.1
-"""Accuracy asked of the meshes' own spread."""
+"""Accuracy asked of the spread over the meshes."""
 
 
 def spectrum(solutions: Solutions) -> Finding:
-    """The five lowest eigenvalues converge to those of the axisymmetric theory, within their own spread."""
+    """The five lowest eigenvalues converge to those of the axisymmetric theory."""
     found = []
     for at in LEVELS:
         one = decide.stack(solutions.number(REVOLVED, at, f"Lambda_n{n}_1") for n in SPECTRUM[at.value])
         sizes = np.array([[solutions.value(s, at, f"Lambda_{i}") for i in range(1, 6)] for s in MESHES])
         error = np.abs(sizes / one.value - 1)
-        # The meshes' own uncertainty: how far they differ from each other.
+        # The uncertainty is the difference between the meshes.
         spread = decide.Number(sizes[2] / one.value, np.ptp(sizes, axis=0) / one.value / 2)
         found += [
             decide.agree(f"eigenvalues, {at}", spread, np.ones(5), ASKED),
             decide.at_most("largest error on the finest mesh", error[2], CLOSE),
-            decide.at_least("fall of the largest error", error[0].max() / error[2].max(), FALL[at.value]),
+            decide.at_least("decrease of the largest error", error[0].max() / error[2].max(), FALL[at.value]),
         ]
     return decide.all_of(found)
 
 
 def state(solutions: Solutions) -> Finding:
-    """Volume by the mesh, and how far SNES goes from the nearest surface of revolution."""
+    """Volume on the mesh, and distance of the equilibrium from the nearest surface of revolution."""
     found = []
     for at in LEVELS:
         one = 2 * np.pi * solutions.number(REVOLVED, at, "V")
@@ -70,7 +72,7 @@ def state(solutions: Solutions) -> Finding:
 
 
 def stable(solutions: Solutions) -> Finding:
-    """All states counted are stable: these meshes do not resolve the short waves that are not."""
+    """All states are stable, because these meshes do not resolve the unstable short waves."""
     counts = np.concatenate([solutions.branch(s).columns["n_negative"] for s in MESHES])
     return decide.every("states without a negative eigenvalue", counts == 0)
 
@@ -82,11 +84,14 @@ CASE = Case(
     checks=(
         Claim(
             "spectrum",
-            "the lowest eigenvalues of the whole surface are those of the axisymmetric theory, wave by wave",
+            "the lowest eigenvalues of the whole surface agree with those of the axisymmetric theory for "
+            "each wave number",
             WANTS,
             spectrum,
         ),
-        Claim("state", "its equilibria tend to the axisymmetric ones", WANTS, state),
-        Claim("stable", "they are stable at these levels", tuple((s, None) for s in MESHES), stable),
+        Claim("state", "its equilibria converge to the axisymmetric ones", WANTS, state),
+        Claim(
+            "stable", "the equilibria are stable at these levels", tuple((s, None) for s in MESHES), stable
+        ),
     ),
 )

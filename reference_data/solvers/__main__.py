@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-# Tables must come out byte for byte the same: threaded BLAS may change the order of sums.
+# Tables must be the same in every byte: threaded BLAS may change the order of sums.
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
@@ -30,7 +30,7 @@ def parser() -> argparse.ArgumentParser:
         type=Path,
         default=Path(__file__).resolve().parents[1],
         metavar="DIR",
-        help="where paperN/NAME.csv goes (default: reference_data)",
+        help="folder for paperN/NAME.csv (default: reference_data)",
     )
     return out
 

@@ -1,4 +1,4 @@
-"""Which tables exist: every module ``tables*`` in a folder of a paper or a group offers a dictionary."""
+"""Finds tables: every module ``tables*`` in a folder of a paper or a group has a dictionary of them."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Builder = Callable[[], Table]
 
 
 GROUPS = ("materials", "closed_form")
-"""Folders of tables that belong to no paper."""
+"""Folders of tables that do not belong to a paper."""
 
 
 def tables() -> dict[str, tuple[int | str, Builder]]:
     """Name of each table, with the number of its paper, or its group, and the function that computes it.
 
     Raises:
-        ValueError: If two modules claim one name.
+        ValueError: If two modules use one name.
     """
     found: dict[str, tuple[int | str, Builder]] = {}
     for folder in solvers_folders():
@@ -38,6 +38,6 @@ def tables() -> dict[str, tuple[int | str, Builder]]:
 
 
 def solvers_folders() -> list[str]:
-    """The groups that have tables: a folder a paper, and those that belong to none."""
+    """The folders with tables: one for each paper, and the groups."""
     names = (info.name for info in pkgutil.iter_modules(solvers.__path__) if info.ispkg)
     return sorted((name for name in names if name != "core"), key=lambda n: (n in GROUPS, n))

@@ -1,4 +1,4 @@
-"""Commands called in this process or in limited ones of their own, and what every one of them must leave."""
+"""Run commands in this process or in limited processes, and check what each must leave behind."""
 
 import io
 import json
@@ -40,7 +40,7 @@ quickly = settings.get_profile("abuse")
 
 @dataclass(frozen=True)
 class Called:
-    """What a command left."""
+    """Exit status and output of a command."""
 
     status: int
     out: str
@@ -50,7 +50,7 @@ class Called:
 
 
 def call(*words: object) -> Called:
-    """A command in this process, by the console script's own way."""
+    """Run a command in this process, as the console script does."""
     out, err = io.StringIO(), io.StringIO()
     with redirect_stdout(out), redirect_stderr(err):
         status = guarded(lambda: app([str(word) for word in words], standalone_mode=False))
@@ -58,7 +58,7 @@ def call(*words: object) -> Called:
 
 
 def orderly(called: Called, *allowed: int) -> Called:
-    """One of the exit statuses named, and at most one clear line about it."""
+    """Assert that the exit status is one of those named, with at most one clear line of error."""
     assert called.status in allowed, called
     for text in (called.out, called.err):
         assert "Traceback" not in text
@@ -94,7 +94,7 @@ for words in commands:
 
 
 def limited(commands: list[list[str]], megabytes: int, timeout: float = 240) -> list[Called]:
-    """Commands one after the other in one process, which may take so much memory beyond its start."""
+    """Run commands one after the other in one process that may use only so much memory beyond its start."""
     given = json.dumps([megabytes * 2**20, [[str(word) for word in words] for words in commands]])
     done = subprocess.run(
         [sys.executable, "-c", DRIVER],
@@ -111,22 +111,22 @@ def limited(commands: list[list[str]], megabytes: int, timeout: float = 240) -> 
 
 @dataclass
 class Program:
-    """A command in a process of its own, as a user starts it."""
+    """A command in a separate process, as a user starts it."""
 
     process: subprocess.Popen
 
     def wait(self, timeout: float = 180) -> Called:
-        """Its end."""
+        """Wait for the end of the process."""
         out, err = self.process.communicate(timeout=timeout)
         return Called(self.process.returncode, out, err)
 
     def kill(self, how: int = signal.SIGKILL) -> None:
-        """Send a signal to it and to everything it started."""
+        """Send a signal to the process and to all processes it started."""
         os.killpg(self.process.pid, how)
 
 
 def start(*words: object, before: str = "", after: str = "", **more: object) -> Program:
-    """Start a command; ``before`` is Python that the same process runs first, ``after`` at its end."""
+    """Start a command; ``before`` is Python code that its process runs first, ``after`` at the end."""
     code = f"import sys; sys.argv[0] = 'weakforms'\n{before}\nfrom weakforms.cli import main\n"
     code += f"try:\n    main()\nfinally:\n    {after}\n" if after else "main()\n"
     environment = os.environ | {"PYTHONPATH": str(ROOT)} | more.pop("env", {})

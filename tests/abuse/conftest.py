@@ -1,4 +1,4 @@
-"""Solves that must not happen."""
+"""Fixtures that replace the solver, for tests in which nothing may be solved."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +11,7 @@ from weakforms.problems import registry
 
 @pytest.fixture
 def solves(monkeypatch) -> list[str]:
-    """Every solve is counted and answered with a canned result."""
+    """Count every solve and return a prepared result for it."""
     seen = []
     for problem in registry.problems.values():
         monkeypatch.setattr(type(problem), "solve", lambda self, *_: seen.append(self.name) or canned())
@@ -20,7 +20,7 @@ def solves(monkeypatch) -> list[str]:
 
 @pytest.fixture(scope="module")
 def nothing_is_solved() -> Iterator[None]:
-    """As ``solves``, for a whole module."""
+    """Like ``solves``, for a whole module."""
     with pytest.MonkeyPatch.context() as patch:
         for problem in registry.problems.values():
             patch.setattr(type(problem), "solve", lambda *_: canned())
@@ -29,7 +29,7 @@ def nothing_is_solved() -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def tree(tmp_path_factory) -> Path:
-    """Two cases that solve in a second or two."""
+    """Two cases that are solved in a second or two."""
     folder = tmp_path_factory.mktemp("tree")
     (folder / "cases" / "paper2").mkdir(parents=True)
     for name, first in (("one", 0), ("two", COUNT // 2)):

@@ -1,4 +1,4 @@
-"""Solves made to go wrong on purpose: each is noticed, named, and leaves no number behind."""
+"""Solves that go wrong on purpose: each failure is noticed and named, and no number is returned."""
 
 import json
 
@@ -23,7 +23,7 @@ COMM = MPI.COMM_SELF
 
 
 def points(energy, count: int = 1) -> System:
-    """``count`` degrees of freedom ``u`` in the energy ``energy(u, load)``."""
+    """A system with ``count`` degrees of freedom ``u`` and the energy ``energy(u, load)``."""
     domain = mesh.create_unit_interval(COMM, 1)
     shape = () if count == 1 else (count,)
     space = fem.functionspace(domain, ("DG", 0, shape))
@@ -46,7 +46,7 @@ def points(energy, count: int = 1) -> System:
 def branch_of(
     system: System, begin: float, end: float, step: float = 0.1, **control: float
 ) -> EquilibriumBranch:
-    """The branch through ``u = begin`` (its first component), followed to ``end``."""
+    """Follow the branch through ``u = begin`` (its first component) to ``end``."""
     solver = ExtendedNewton(system, ["load"])
     continuation = Continuation(solver, control=StepControl(first=step, largest=step, **control))
     state = system.state()
@@ -59,9 +59,9 @@ def branch_of(
 
 
 def well(at: float, width: float, other: float | None = None):
-    """Along ``u_0 = load`` the stiffness of ``u_1`` is negative on a short stretch.
+    """On a short part of ``u_0 = load`` the stiffness of ``u_1`` is negative.
 
-    With ``other``, that of ``u_2`` rises from below zero there and that of ``u_1`` falls below it at ``at``.
+    With ``other`` the stiffness of ``u_1`` becomes negative at ``at``, and the stiffness of ``u_2`` positive.
     """
 
     def energy(u, load):
@@ -118,7 +118,7 @@ def test_an_undisturbed_branch_is_not_accused():
 
 @pytest.mark.parametrize(("gap", "step"), [(0.02, 0.1), (0.05, 0.1), (0.05, 0.3), (0.1, 0.3), (0.1, 0.1)])
 def test_a_jump_to_a_parallel_branch_is_refused(gap, step, monkeypatch):
-    """Parallel lines ``u = load + k gap``, all alike; every long guess is thrown onto the next of them."""
+    """Equal parallel lines ``u = load + k gap``; every long guess is moved onto the next line."""
     period = 2 * np.pi / gap
     system = points(lambda u, load: -ufl.cos(period * (u - load)) / period**2)
     right, thrown = Continuation.predict, []
@@ -157,7 +157,7 @@ TUBE = ("solve", "tube", "--set", "u_end=0.6", "--mesh", "cells=16", "--mesh", "
 
 
 def left(called) -> dict:
-    """The result of a solve that failed in part: valid, with its failures named."""
+    """The result of a solve that failed in part: it is valid and names its failures."""
     assert called.status == 3
     data = json.loads(called.out)
     assert data["failures"]

@@ -1,4 +1,4 @@
-"""Huge, deep, cut short or wrongly encoded: files at every door are refused or read within bounds."""
+"""Files that are huge, deep, cut short or wrongly encoded are refused, or read within bounds."""
 
 import codecs
 import json
@@ -31,7 +31,7 @@ def result_text() -> str:
 
 
 def repeated(path, head: bytes, body: bytes, times: int, tail: bytes = b"") -> None:
-    """A file of many equal parts, written without holding it."""
+    """Write a file of many equal parts without holding it in memory."""
     block = body * 10_000
     with path.open("wb") as stream:
         stream.write(head)
@@ -158,7 +158,7 @@ def test_encodings(tmp_path, encoding, door):
     st.integers(0, 10**9), st.sampled_from([b"", b"\0", b"\xff\xfe", b"\x1a", b'"', b"}", b"\r", b"1e999"])
 )
 def test_cut_and_spliced(tmp_path, place, splice):
-    """Every file that is read, cut anywhere and with something put in there."""
+    """Every file that is read may be cut at any place and have bytes inserted there."""
     request = json.dumps({"problem": "tube", "parameters": {"alpha": 0.1}, "at": {"p": 0.5}})
     folder = tmp_path / "requests"
     folder.mkdir(exist_ok=True)
@@ -259,7 +259,7 @@ def test_names_and_constants_of_curves(tmp_path, values, names):
 
 @pytest.mark.parametrize("problem", registry.problems)
 def test_no_mesh_is_without_bounds(problem):
-    """Whatever number the numerics are given, one beyond all reason is refused before memory is taken."""
+    """An unreasonable value of any numerical option is refused before memory is taken."""
     for name, field in registry.get(problem).numerics.model_fields.items():
         if field.annotation not in (int, int | None):
             continue

@@ -1,4 +1,4 @@
-"""Names and texts that somebody chose: shown as they are, never obeyed, and never a way out of a folder."""
+"""Names and texts from users are shown as they are; they are never run and never leave a folder."""
 
 import json
 import os
@@ -57,7 +57,7 @@ texts = st.one_of(st.sampled_from(TEXTS), st.text(max_size=12))
 
 
 def run_of(text: str) -> dict:
-    """A stored run that says ``text`` wherever a text may stand."""
+    """A stored run with ``text`` in every place that holds a text."""
     numbers = [0.0, 0.5, 1.0]
     curve = CurveOutcome(text, text, numbers, numbers, [False] * 3, text, text, numbers, numbers, text)
     curve.residual_x, curve.residual, curve.residual_bound = numbers, [1e-9] * 3, [1e-8] * 3
@@ -94,7 +94,7 @@ def run_of(text: str) -> dict:
 
 
 class Page(HTMLParser):
-    """What a browser would find in a page."""
+    """Elements, attributes and links that a browser finds in a page."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -109,7 +109,7 @@ class Page(HTMLParser):
 
 
 def harmless(page: str) -> None:
-    """No element or attribute that does anything, no link out of the report, no control character."""
+    """Assert that a page has no active element, no link out of the report and no control character."""
     for tag, attributes in Page(page).found:
         assert tag not in ("script", "img", "iframe", "object", "embed", "base", "form"), tag
         for name, value in attributes.items():
@@ -133,7 +133,7 @@ def test_reports_escape_what_they_show(tmp_path_factory, text):
 
 
 def escapes(folder: Path, text: str) -> None:
-    """A report of a run that says the text everywhere is harmless, or is not written at all."""
+    """The report of a run with the text in every place is harmless, or it is not written."""
     (folder / "report.json").write_text(json.dumps(run_of(text)))
     new = folder / "new"
     called = orderly(call("report", folder, "--out", new), 0, 2)
@@ -240,7 +240,7 @@ def test_undecodable_names(tmp_path):
 
 @pytest.fixture
 def requests(tmp_path):
-    """A folder of requests from somebody who wishes us ill, beside a secret and a file of ours."""
+    """A folder of hostile requests, beside a secret and one of our own files."""
     folder = tmp_path / "requests"
     folder.mkdir()
     (tmp_path / "secret.csv").write_text("u_max,p\n1,SECRET\n")
@@ -303,7 +303,7 @@ def test_answers_of_a_batch_stay_inside(requests, tmp_path):
 @quickly
 @given(texts)
 def test_results_that_say_anything(tmp_path, text):
-    """Names inside a result never become names of files, and its texts go no further than CSV and XML can."""
+    """Names in a result never become file names, and its texts stay valid in CSV and XML."""
     result = canned()
     result.failures = [Failure(text, text)]
     result.branches = [Branch(text, text, result.branches[0].columns)]
@@ -332,7 +332,7 @@ def test_verdicts_on_curves_of_such_names(tmp_path, text):
 
 
 def test_what_is_stored_is_one_thing():
-    """The run above says its text in every place that takes one."""
+    """The stored run above has its text in every place that holds one."""
     data = json.dumps(run_of("@@"))
     places = {name for kind in (Verdict, CaseOutcome, Printed, PanelOutcome) for name in kind.__annotations__}
     assert data.count("@@") > 40

@@ -1,4 +1,4 @@
-"""Killed, out of room, without permission, twice at once: at most the solution in hand is lost."""
+"""Runs that are killed, lack space or permission, or run twice at once lose at most one solution."""
 
 import json
 import os
@@ -20,7 +20,7 @@ from weakforms.results import load_result
 
 @pytest.fixture(scope="module")
 def undisturbed(tree, tmp_path_factory) -> dict:
-    """The report of a run that nothing disturbs."""
+    """The report of an undisturbed run."""
     out = tmp_path_factory.mktemp("undisturbed")
     called = verify(tree, out).wait()
     assert called.status == 0, called.err
@@ -32,7 +32,7 @@ TIMES = ("seconds", "started", "wall_s")
 
 
 def report(out: Path) -> dict:
-    """``report.json`` apart from times, which no run shares with another."""
+    """The content of ``report.json`` without times, which differ between runs."""
 
     def without(value: object) -> object:
         if isinstance(value, dict):
@@ -47,7 +47,7 @@ def stored(out: Path) -> list[Path]:
 
 
 def whole(out: Path) -> None:
-    """Whatever has a name of ours is complete."""
+    """Assert that every file with a final name is complete."""
     for path in stored(out):
         load_result(path)
     for path in (out / "report").glob("*"):
@@ -60,7 +60,7 @@ def whole(out: Path) -> None:
 
 
 def resumed(tree: Path, out: Path, undisturbed: dict) -> None:
-    """The run goes on to the same report, and nothing half-written is left."""
+    """Assert that the run can be continued to the same report and that no partly written file remains."""
     called = verify(tree, out, "--resume").wait()
     assert called.status == 0, called.err
     whole(out)
@@ -69,7 +69,7 @@ def resumed(tree: Path, out: Path, undisturbed: dict) -> None:
 
 
 def interrupted_at(tree: Path, out: Path, rng: random.Random, how: int, *words: object) -> int:
-    """Start, kill at a random moment of the work, look at what is left; number of solutions stored then."""
+    """Start a run, kill it at a random time, check what is left, return the number of stored solutions."""
     had = len(stored(out))
     running = verify(tree, out, "--resume", *words)
     wanted, end = rng.randint(had, COUNT), time.monotonic() + 60
@@ -154,7 +154,7 @@ resource.setrlimit(resource.RLIMIT_FSIZE, ({size}, {size}))
 
 @pytest.mark.parametrize("size", [2000, 20_000])
 def test_a_disk_that_is_full(tree, tmp_path, undisturbed, size):
-    """No room for the first solution, or for the report."""
+    """The disk is full before the first solution, or before the report."""
     called = orderly(verify(tree, tmp_path, before=NO_FILE_ABOVE.format(size=size)).wait(), 2, 4)
     assert "File too large" in called.err
     whole(tmp_path)
@@ -177,7 +177,7 @@ def test_standard_output_and_files_that_are_full(tmp_path):
 
 @pytest.fixture
 def ours():
-    """A folder every user may look into, unlike pytest's own."""
+    """A folder that every user may read, unlike pytest's own."""
     folder = Path(tempfile.mkdtemp())
     folder.chmod(0o755)
     yield folder
@@ -237,7 +237,7 @@ def made(cache: Path, ending: str) -> list[Path]:
 
 
 def test_compiled_forms(tmp_path):
-    """One compiles, several at once wait for it; what a killed compiler or a crash left is made anew."""
+    """One process compiles while others wait; what a killed compiler or a crash left is compiled again."""
     several = [compile_form(tmp_path) for _ in range(3)]
     values = {compiled(process) for process in several}
     assert len(values) == 1
@@ -277,7 +277,7 @@ def test_a_process_killed_while_it_compiles(tmp_path):
 
 
 def test_forms_that_cannot_be_stored(tmp_path):
-    """A cache that is a file, or has no room: one line, exit status 4."""
+    """If the cache is a file or its disk is full, one line is printed and the exit status is 4."""
     words = ("solve", "tube", "--mesh", "cells=16", "--mesh", "levels=2", "--set", "u_end=0.3")
     (tmp_path / "file").write_text("")
     called = orderly(start(*words, env={"XDG_CACHE_HOME": str(tmp_path / "file")}).wait(), 4)

@@ -1,4 +1,4 @@
-"""The property-based tests of every door once more, with many examples."""
+"""The property-based tests of all inputs again, with many examples."""
 
 import os
 import subprocess

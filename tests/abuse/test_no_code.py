@@ -1,4 +1,4 @@
-"""What comes in is data: nothing of it is run as code, and nothing goes out over a network."""
+"""Input is data: no part of it is run as code, and nothing is sent over a network."""
 
 import json
 import os
@@ -16,7 +16,7 @@ MARK = "was-run"
 
 
 def payloads(mark: Path) -> list[str]:
-    """Texts that leave a mark where something evaluates them."""
+    """Texts that create a file if anything evaluates them."""
     python = f"open({str(mark)!r}, 'w')"
     return [
         f"__import__('os').system('touch {mark}')",
@@ -37,7 +37,7 @@ def payloads(mark: Path) -> list[str]:
 
 @pytest.fixture
 def mark(tmp_path, monkeypatch):
-    """A file that must not appear; in a working folder of its own."""
+    """A file that must not appear, in a separate working folder."""
     monkeypatch.chdir(tmp_path)
     yield tmp_path / MARK
     assert not (tmp_path / MARK).exists(), "something was evaluated"
@@ -104,7 +104,7 @@ HOSTILE_FILES = {
 
 
 def test_files_in_the_current_folder_are_not_obeyed(mark, tmp_path):
-    """Configurations that some library would read in a folder of somebody else's requests."""
+    """Configuration files that some library might read in a folder of another user's requests."""
     for name, text in HOSTILE_FILES.items():
         Path(name).write_text(text)
     words = ("solve", "tube", "--mesh", "cells=16", "--mesh", "levels=2", "--set", "u_end=0.3")
@@ -132,7 +132,7 @@ socket.getaddrinfo = lambda *address, **more: connect(socket.socket(), address)
 
 @pytest.fixture
 def watched(mark, tmp_path):
-    """An environment in which every connection leaves a mark, in children too."""
+    """An environment in which every connection creates a file, in child processes too."""
     (tmp_path / "site").mkdir()
     (tmp_path / "site" / "sitecustomize.py").write_text(NO_NETWORK.format(mark=str(mark)))
     path = os.pathsep.join([str(tmp_path / "site"), str(Path(__file__).resolve().parents[2])])
@@ -171,7 +171,7 @@ SOURCES = ("weakforms", "cases", "reference_data")
 
 @pytest.mark.parametrize("folder", SOURCES)
 def test_no_source_evaluates_text_or_opens_connections(folder):
-    """``eval``, ``exec``, ``pickle``, a shell, a socket: none of them stands in the source."""
+    """The source uses no ``eval``, ``exec``, ``pickle``, shell or socket."""
     import ast
 
     root = Path(__file__).resolve().parents[2] / folder
@@ -192,7 +192,7 @@ def test_no_source_evaluates_text_or_opens_connections(folder):
 
 
 def test_environment_variables_that_make_no_sense(tmp_path):
-    """Whatever they say, a listing is a listing."""
+    """Whatever the files contain, listing them only lists them."""
     odd = {"COLUMNS": "x", "LINES": "-1", "TERM": "\x1b[31m", "NO_COLOR": ""}
     odd |= {
         "PYTHONIOENCODING": "ascii",

@@ -1,4 +1,4 @@
-"""One run of the suite, whose cases are solved and judged by several processes."""
+"""One run of the suite: several processes solve and judge its cases."""
 
 import fcntl
 from pathlib import Path
@@ -14,12 +14,13 @@ from weakforms.verification.run.solving import Solver, solution_key
 
 
 class SharedRun:
-    """Solutions of the cases selected, and what the cases make of them.
+    """Solutions of the selected cases and the verdicts on them.
 
-    A solution goes into a folder that all workers share, under a lock: whoever needs it first solves it.
+    Solutions are stored in a folder that all workers share. Under a lock, the first worker that needs a
+    solution computes it.
 
     Args:
-        cases: The cases selected; together they say which states are wanted of a solution.
+        cases: The selected cases; together they determine which states a solution must have.
         folder: Where solutions are stored.
     """
 
@@ -30,7 +31,7 @@ class SharedRun:
         (folder / "solutions").mkdir(parents=True, exist_ok=True)
 
     def outcome(self, case: str) -> CaseOutcome:
-        """Verdicts of a case; while others solve what it needs, this worker solves what is needed later."""
+        """Verdicts of a case; while others solve its problems, this worker solves those needed later."""
         if case not in self.outcomes:
             solver = Solver(self.folder / "solutions", resume=True)
             left = self.plan.by_case[case]
@@ -46,16 +47,16 @@ class SharedRun:
         return self.outcomes[case]
 
     def path(self, spec: Spec, ending: str = "json") -> Path:
-        """Where a solution is stored, and beside it who solves it."""
+        """Where a solution is stored; a file beside it names the worker that solves it."""
         return self.folder / "solutions" / f"{solution_key(spec, self.plan.states[spec])}.{ending}"
 
     def begun(self, spec: Spec) -> bool:
-        """Whether a worker is at it, or died of it."""
+        """Whether a worker is solving this, or died while solving it."""
         lock = self.path(spec, "lock")
         return lock.exists() and lock.stat().st_size > 0
 
     def solve(self, spec: Spec, solver: Solver, wait: bool) -> bool:
-        """Solve, or take what is stored; False where another worker is at it."""
+        """Solve, or use the stored solution; False if another worker is solving it."""
         states = self.plan.states[spec]
         with self.path(spec, "lock").open("a") as lock:
             try:

@@ -1,7 +1,7 @@
-"""The physics: every case of the suite, each of its checks an item of its own.
+"""The physics: every case of the suite, with a separate test for each check.
 
-Each solution is solved once a session, by the code path of ``weakforms verify``, in the worker that first
-needs it.
+Each problem is solved once in a session, as ``weakforms verify`` solves it, in the worker that first needs
+the solution.
 """
 
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""No case decides by itself: statements about numbers are judged in ``weakforms.decide``."""
+"""No case decides by itself: statements about numbers are judged by ``weakforms.decide``."""
 
 import ast
 from pathlib import Path
@@ -11,13 +11,13 @@ AGREEMENT = {"agree", "zero", "constant", "not_negative"}
 
 
 def small(node: ast.AST, below: float) -> list[ast.Constant]:
-    """Literal fractions in a piece of code."""
+    """Literal fractions in a part of the code."""
     found = [n for n in ast.walk(node) if isinstance(n, ast.Constant) and type(n.value) is float]
     return [n for n in found if 0 < n.value < below]
 
 
 def called(node: ast.AST) -> str:
-    """Name of what is called in ``decide``, if it is that."""
+    """Name of the function of ``decide`` that is called, if it is one."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
         owner = node.func.value
         if isinstance(owner, ast.Name) and owner.id == "decide":
@@ -47,7 +47,7 @@ def faults(source: str) -> list[str]:
 
 
 def own_verdicts(function: ast.FunctionDef) -> list[str]:
-    """Findings that are no call, and literal tolerances that are no accuracy asked."""
+    """Findings that are not calls, and literal tolerances that do not request an accuracy."""
     asked = {
         id(argument)
         for node in ast.walk(function)

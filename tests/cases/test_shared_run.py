@@ -1,4 +1,4 @@
-"""Processes that share a run solve everything once."""
+"""Processes that share a run solve each problem only once."""
 
 import fcntl
 import multiprocessing
@@ -31,7 +31,7 @@ CASES = [case("one", SPECS[:1]), case("both", SPECS)]
 
 @pytest.fixture
 def solved(monkeypatch):
-    """What is solved in this process, as it is asked for."""
+    """Problems solved in this process, in the order of requests."""
     right, seen = solving.solve_spec, []
     monkeypatch.setattr(solving, "solve_spec", lambda spec, at: seen.append(spec) or right(spec, at))
     return seen

@@ -1,4 +1,4 @@
-"""The command line called inside this process, and solves that must not happen."""
+"""Fixtures that call the command line in this process, and that replace the solver."""
 
 import io
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from weakforms.terminal import guarded
 
 @dataclass(frozen=True)
 class Called:
-    """What a command left: exit status, standard output, standard error."""
+    """Exit status, standard output and standard error of a command."""
 
     status: int
     out: str
@@ -23,12 +23,12 @@ class Called:
 
     @property
     def complaints(self) -> list[str]:
-        """Lines on standard error that are no signs of life."""
+        """Lines on standard error other than progress lines."""
         return [line for line in self.err.splitlines() if line.startswith("weakforms: ")]
 
 
 def call(*words: object) -> Called:
-    """The console script's own way through ``guarded``."""
+    """Call a command as the console script does, through ``guarded``."""
     out, err = io.StringIO(), io.StringIO()
     with redirect_stdout(out), redirect_stderr(err):
         status = guarded(lambda: app([str(word) for word in words], standalone_mode=False))
@@ -36,7 +36,7 @@ def call(*words: object) -> Called:
 
 
 def pytest_make_parametrize_id(val: object) -> str | None:
-    """Long and binary parameters get short names."""
+    """Give short names to long and binary parameters."""
     return ascii(val)[:40] if isinstance(val, str | bytes) else None
 
 
@@ -47,7 +47,7 @@ def weakforms():
 
 @pytest.fixture
 def solves(monkeypatch):
-    """Every solve is counted and answered with a canned result."""
+    """Count every solve and return a prepared result for it."""
     seen = []
     for problem in registry.problems.values():
         monkeypatch.setattr(type(problem), "solve", lambda self, *_: seen.append(self.name) or canned())
@@ -56,7 +56,7 @@ def solves(monkeypatch):
 
 @pytest.fixture(scope="module")
 def canned_solves() -> Iterator[None]:
-    """As ``solves``, for a whole module."""
+    """Like ``solves``, for a whole module."""
     with pytest.MonkeyPatch.context() as patch:
         for problem in registry.problems.values():
             patch.setattr(type(problem), "solve", lambda *_: canned())
@@ -64,7 +64,7 @@ def canned_solves() -> Iterator[None]:
 
 
 def canned() -> Result:
-    """The smallest result that fits the schema."""
+    """The smallest result that follows the schema."""
     versions = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
     return Result(
         problem="tube",

@@ -1,4 +1,4 @@
-"""Bad input: exit status 2 and one line saying what was wrong and what is allowed, nothing done."""
+"""Bad input: exit status 2, one line that names the error and what is allowed, and nothing done."""
 
 import json
 import os
@@ -17,7 +17,7 @@ COMPARE = f"compare {CASE} --curve {CURVE}"
 
 
 def listing(folder: Path) -> dict[Path, object]:
-    """Every file with its content, but for what Python itself caches."""
+    """Every file with its content, except Python's caches."""
     paths = [p for p in sorted(folder.rglob("*")) if "__pycache__" not in p.parts]
     return {p: p.read_bytes() if p.is_file() else None for p in paths}
 
@@ -28,7 +28,7 @@ def changed(before: dict, after: dict) -> list[Path]:
 
 @pytest.fixture
 def refused(weakforms, solves, tmp_path, monkeypatch):
-    """Calls the program in a folder of its own, and makes sure that it only complained."""
+    """Call the program in a separate folder and assert that it only reported an error."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(runner, "solve_spec", lambda spec, _: solves.append(spec))
 
@@ -285,7 +285,7 @@ def test_control_characters_do_not_reach_the_terminal(weakforms):
 
 @pytest.fixture
 def tree(tmp_path, monkeypatch):
-    """A copy of one case and its tables that the program takes for its own."""
+    """A copy of one case and its tables that the program uses instead of the original."""
     source = references.ROOT
     for part in ("cases/paper2/fig03.py", "reference_data/paper2"):
         (tmp_path / part).parent.mkdir(parents=True, exist_ok=True)
@@ -339,7 +339,7 @@ def test_the_copied_tree_itself_is_sound(tree, monkeypatch, weakforms):
     monkeypatch.setattr(runner, "solve_spec", first_solve)
     called = weakforms("verify", "-k", "fig03", "--out", tree.parents[2] / "out")
     assert (called.status, called.out) == (130, "")
-    assert called.complaints == ["weakforms: interrupted; the same with --resume goes on from what is solved"]
+    assert called.complaints == ["weakforms: interrupted; the same command with --resume continues"]
 
 
 @pytest.mark.parametrize(

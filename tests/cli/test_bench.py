@@ -1,4 +1,4 @@
-"""The benchmark's table: its stages, its floor, and bad names."""
+"""The benchmark's table: its stages, its least possible times, and unknown names."""
 
 import json
 import time
@@ -12,7 +12,7 @@ from weakforms.verification.audit import bench, bench_work
 
 @pytest.fixture
 def small(monkeypatch):
-    """The tube on few cells, measured in this process."""
+    """The tube on a coarse mesh, measured in this process."""
     monkeypatch.setattr(bench_work.Tube, "cells", 16)
     monkeypatch.setattr(
         bench, "_in_a_process", lambda name, kind: bench.measure(name, time.time(), kind != "whole")

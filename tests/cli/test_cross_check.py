@@ -1,4 +1,4 @@
-"""Other programs' doors: renamed and dimensional curves, verdict pages, folders of requests."""
+"""Curves from other programs: renamed and dimensional columns, pages of verdicts, folders of requests."""
 
 import json
 import math
@@ -112,7 +112,7 @@ DIMENSIONS = {
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_number_does_not_depend_on_the_system_of_units(kind):
-    """Constants in metres and newtons or in inches and pounds: a unit changes by its dimension."""
+    """Constants in metres and newtons or in inches and pounds: each is converted by its dimension."""
     inch, pound = 0.0254, 4.4482216152605
     force, length = DIMENSIONS[kind]
     scaling = Scaling("R", "C", "h", {"x": kind}, 2 * np.pi)
@@ -245,7 +245,7 @@ def test_nothing_is_named_twice(weakforms, tmp_path, options, said):
 
 
 def own_csv(path, branches):
-    """As ``solve --format csv`` writes it, of columns given by branch."""
+    """A file of columns given by branch, as ``solve --format csv`` writes it."""
     made = Result("tube", {}, {}, {}, {}, [Branch(name, "p", found) for name, found in branches.items()])
     path.write_text(branch_csv(made))
     return path
@@ -267,7 +267,7 @@ def test_our_own_csv_is_a_curve(weakforms, tmp_path):
 
 
 def test_where_a_column_of_ours_has_no_meaning_it_need_not_have_a_number(weakforms, tmp_path):
-    """As the radius of contact before contact; within the table's range it must have one."""
+    """The contact radius has no value before contact; within the table's range it must have one."""
     columns = {name: np.r_[np.nan, values] for name, values in references.load(2, CURVE).columns.items()}
     columns["u_max"][0] = 1e-3
     words = ("compare", CASE, own_csv(tmp_path / "c.csv", {"primary": columns}), "--curve", CURVE)

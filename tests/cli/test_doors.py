@@ -1,4 +1,4 @@
-"""Whatever is put in at a door: an exit status of the contract and at most one line, never a traceback."""
+"""Every input gives a documented exit status and at most one line, never a traceback."""
 
 import json
 import os
@@ -188,7 +188,7 @@ def test_accuracies_and_parts(weakforms, tmp_path, accuracy, first, length):
 
 
 def damaged(value: object, path: list[int], new: object) -> object:
-    """The value with one leaf or branch of it replaced."""
+    """The value with one leaf or branch replaced."""
     if not path or not isinstance(value, dict | list) or not value:
         return new
     keys = list(value) if isinstance(value, dict) else list(range(len(value)))

@@ -1,4 +1,4 @@
-"""The fluid-loaded tube on the command line: states on every branch, and input that is refused."""
+"""The fluid-loaded tube on the command line: states on every branch, and refused input."""
 
 import json
 
@@ -36,7 +36,7 @@ def test_bad_input_is_refused_before_anything_is_solved(weakforms, solves, words
 def test_a_level_the_branch_never_reaches_is_refused_with_its_range(weakforms):
     called = weakforms(*SOLVE, "--at", "zw=9")
     assert (called.status, called.out) == (2, "")
-    assert "zw = 9 is not met" in called.err
+    assert "zw = 9 is not taken" in called.err
     assert "8.37" in called.err
 
 

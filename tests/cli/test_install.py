@@ -1,4 +1,4 @@
-"""The package without its tree: a wheel in an environment of its own, as ``pip install`` leaves it."""
+"""The package without its source tree: a wheel in a separate environment, as ``pip install`` creates it."""
 
 import csv
 import os
@@ -27,7 +27,7 @@ def test_wrong(weakforms_check):
 
 
 def run(*command: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
-    """A command that sees neither the tree nor what pip or pytest were told outside."""
+    """Run a command that sees neither the source tree nor the settings of pip and pytest outside."""
     hidden = ("PYTHONPATH", "PYTEST_ADDOPTS", "PIP_FIND_LINKS")
     environment = {name: value for name, value in os.environ.items() if name not in hidden}
     words = [str(word) for word in command]
@@ -43,7 +43,7 @@ def pip(*words: object) -> None:
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
-    """Built from a copy of the tree, for setuptools builds where the source is."""
+    """A wheel built from a copy of the tree, because setuptools writes beside the source."""
     folder = tmp_path_factory.mktemp("wheel")
     skipped = shutil.ignore_patterns("__pycache__", "*.egg-info")
     for name in ("weakforms", "cases", "reference_data"):
@@ -57,7 +57,7 @@ def wheel(tmp_path_factory):
 
 @pytest.fixture(scope="module", params=["as here", "newest of everything"])
 def installed(request, wheel, tmp_path_factory):
-    """The scripts of an environment that has the wheel."""
+    """The scripts of an environment in which the wheel is installed."""
     folder = tmp_path_factory.mktemp("environment")
     here = request.param == "as here"
     options = ["--system-site-packages"] if here else []
@@ -75,7 +75,7 @@ def installed(request, wheel, tmp_path_factory):
 
 @pytest.fixture
 def folder(tmp_path):
-    """A user's own: folders named as ours, a curve that is right and one that is not."""
+    """A user's folder: subfolders with the names of ours, one correct curve and one wrong curve."""
     for name in ("cases", "reference_data"):
         (tmp_path / name / "paper2").mkdir(parents=True)
         (tmp_path / name / "__init__.py").touch()

@@ -1,7 +1,7 @@
-"""The script `run`: where it runs a verb, what it hands in, what it says when something is missing.
+"""The script `run`: where it runs a command, what it passes on, and its messages if something is missing.
 
-Docker, podman, buildah and the rest are stand-ins on a PATH of our own that write down how they
-were called. No image is built, so these tests are quick and run inside the image as well.
+Docker, podman, buildah and the rest are replaced by programs that record their arguments. No image is built,
+so these tests are quick and run inside the image as well.
 """
 
 import os
@@ -36,7 +36,7 @@ def main():
 
 
 class Machine:
-    """A machine that has only what a test puts on it, with a copy of the script in a small tree."""
+    """A machine that has only what a test installs, with a copy of the script in a small tree."""
 
     def __init__(self, folder: Path) -> None:
         self.tree = folder / "tree"
@@ -61,7 +61,7 @@ class Machine:
         self.put("ruff", "exit 1")
 
     def put(self, name: str, body: str = "exit 0") -> None:
-        """Install a program that records its arguments, then does `body`."""
+        """Install a program that records its arguments and then runs `body`."""
         path = self.bin / name
         path.unlink(missing_ok=True)
         record = f"""{{ printf '%s\\037' {name} "$@"; echo; }} >> "$CALLS" """
@@ -76,7 +76,7 @@ class Machine:
         self.environment["WEAKFORMS_IN_IMAGE"] = "1"
 
     def run(self, *args: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-        """Call the script; `cwd` is the tree unless told."""
+        """Call the script; `cwd` is the tree by default."""
         return subprocess.run(
             [self.tree / "run", *args],
             cwd=cwd or self.tree,
@@ -95,7 +95,7 @@ class Machine:
         return [call for call in calls if call[: len(beginning)] == list(beginning)]
 
     def tag(self) -> str:
-        """The image that the last `docker run` took."""
+        """The image used by the last `docker run`."""
         return next(word for word in self.calls("docker", "run")[-1] if word.startswith("weakforms-"))
 
 
@@ -109,7 +109,7 @@ def status_of_run(status: int) -> str:
 
 
 def values(call: list[str], option: str) -> list[str]:
-    """What stands behind each occurrence of an option."""
+    """The values that follow each occurrence of an option."""
     return [after for before, after in pairwise(call) if before == option]
 
 
@@ -328,7 +328,7 @@ def test_exit_status_is_that_of_the_verb(machine, engine, status):
 
 
 def test_an_output_folder_is_made_on_this_side(machine, tmp_path):
-    """What is written into a folder that only the container has is lost with it."""
+    """Files in a folder that exists only in the container are lost when it ends."""
     machine.put("docker", status_of_run(0))
     (tmp_path / "there").mkdir()
     assert machine.run("verify", f"--out={tmp_path}/there/new/deep").returncode == 0

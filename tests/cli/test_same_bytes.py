@@ -1,4 +1,4 @@
-"""Two serial runs, each in a process of its own, write the same bytes."""
+"""Two serial runs in separate processes write the same bytes."""
 
 import json
 import subprocess
@@ -49,7 +49,7 @@ def test_curves(problem, tmp_path):
 
 
 def verified(out: Path) -> dict[str, object]:
-    """What a run of a case stores, but for when it ran and how long."""
+    """The files that a run of a case stores, without dates and durations."""
     command = [sys.executable, "-P", "-m", "weakforms", "verify", "-k", "paper2.fig05", "--out", str(out)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 0, done.stderr

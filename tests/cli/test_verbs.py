@@ -1,4 +1,4 @@
-"""Every verb does what its help says, and ends with the exit status the contract gives it."""
+"""Every command does what its help says and ends with a documented exit status."""
 
 import csv
 import io
@@ -30,7 +30,7 @@ HARD = "solve tube --set alpha=0 --set lf=20 --set u_end=3 --mesh degree=1 --mes
 
 
 def shell(*words: str, before: str = "pass", **options: object) -> subprocess.CompletedProcess:
-    """The console script in a process of its own; ``before`` is run ahead of it."""
+    """The console script in a separate process; ``before`` is Python code that runs first."""
     code = f"import sys; {before}; sys.argv[0] = 'weakforms'; from weakforms.cli import main; main()"
     command = [sys.executable, "-c", code, *words]
     return subprocess.run(command, text=True, timeout=60, check=False, **{"capture_output": True} | options)

@@ -1,4 +1,4 @@
-"""Verify, check and report: solve cases, go on after an interruption, draw again without solving."""
+"""Verify, check and report: solve cases, continue after an interruption, write again without solving."""
 
 import json
 import os
@@ -42,7 +42,7 @@ CASE = Case(
 
 @pytest.fixture
 def tiny(tmp_path, monkeypatch):
-    """A tree whose only case solves in a tenth of a second; returns how to change the case."""
+    """A tree whose only case is solved in a tenth of a second; returns a function that changes the case."""
     path = tmp_path / "cases" / "paper2" / "tiny.py"
     path.parent.mkdir(parents=True)
     find = discovery.find_cases
@@ -61,7 +61,7 @@ def tiny(tmp_path, monkeypatch):
 
 @pytest.fixture
 def solved(monkeypatch):
-    """Specs that are solved in this process."""
+    """Problems that are solved in this process."""
     seen, right = [], solving.solve_spec
 
     def counted(spec: object, states: list) -> object:
@@ -73,7 +73,7 @@ def solved(monkeypatch):
 
 
 def die(*_: object) -> None:
-    """What a solving process does when the machine runs out of memory."""
+    """Make a solving process fail as it does when the machine has no memory left."""
     os._exit(9)
 
 
@@ -194,7 +194,7 @@ def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeyp
     monkeypatch.setattr(solving, "_task", die)
     called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
     assert (called.status, len(called.complaints)) == (4, 1)
-    assert "a process at work died" in called.complaints[0]
+    assert "a worker process ended unexpectedly" in called.complaints[0]
 
 
 # -- an interrupted run --------------------------------------------------------------------------
@@ -217,7 +217,7 @@ CASE = Case(
 
 
 def starter(tree):
-    """How to start ``verify`` of the many branches, the only case of a tree, in a process of its own."""
+    """How to start ``verify`` in a separate process on a tree whose only case has many branches."""
     path = tree / "cases" / "paper2" / "many.py"
     path.parent.mkdir(parents=True)
     path.write_text(MANY)
@@ -238,7 +238,7 @@ def starter(tree):
 
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory):
-    """What a run that nothing interrupts finds."""
+    """The results of an uninterrupted run."""
     tree = tmp_path_factory.mktemp("undisturbed")
     running = starter(tree)("--out", tree / "out")
     _, said = running.communicate(timeout=120)
@@ -247,7 +247,7 @@ def undisturbed(tmp_path_factory):
 
 
 def details(out) -> list[str]:
-    """What the checks found, all digits."""
+    """The results of the checks with all digits."""
     data = json.loads((out / "report" / "report.json").read_text())
     return [v["detail"] for case in data["cases"] for v in case["verdicts"]]
 

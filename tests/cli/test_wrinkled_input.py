@@ -1,4 +1,4 @@
-"""Bad input to the problems of Paper 4: one line says what is allowed, exit 2, before anything is solved."""
+"""Bad input to the problems of Paper 4: exit status 2 and one line, before anything is solved."""
 
 import pytest
 
@@ -26,7 +26,7 @@ pytestmark = pytest.mark.paper4
         (["--at", "p=0.1"], "there is no p"),
         (["--set", "load=gas", "--at", "zw=3"], "there is no zw"),
         (["--at", "zw=-1"], "must be 0 or more"),
-        (["--at", "front=1"], "ask for the state"),
+        (["--at", "front=1"], "request a state"),
         (["--at", "r_max=1"], "cannot ask for a state at 'r_max'"),
         (["--at", "zw=nan"], "not a finite number"),
     ],

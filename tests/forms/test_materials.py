@@ -1,4 +1,4 @@
-"""The material laws: admissible, differentiated rightly, wrinkling alike, and the same as the references'."""
+"""The material laws: admissibility, derivatives, wrinkling, and agreement with the reference codes."""
 
 import math
 import re
@@ -55,7 +55,7 @@ def test_1_energy_is_not_negative(model, a, b):
 @CHECKED
 @given(a=STRETCH, b=STRETCH, turn=st.floats(0, math.pi), rotation=st.floats(0, math.pi))
 def test_2_energy_does_not_depend_on_the_frame(model, a, b, turn, rotation):
-    """The law as a function of F is that of its singular values: frames on both sides drop out."""
+    """The law as a function of F depends on its singular values only: rotations on both sides cancel."""
 
     def q(angle):
         return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
@@ -88,7 +88,7 @@ def test_4_rest_has_no_energy_and_no_stress(model):
 
 @pytest.mark.parametrize("model", INCOMPRESSIBLE)
 def test_5_energy_grows_without_bound(model):
-    """Along stretches to zero and to infinity it grows, or ends at a full extension it cannot pass."""
+    """For stretches to zero and to infinity the energy grows, or ends at a limit of extension."""
     for towards in (np.geomspace(1, 1e-4, 60), np.geomspace(1, 1e4, 60)):
         w = np.array([numbers(model, x, 1.0)[0] for x in towards])
         finite = np.isfinite(w)
@@ -132,7 +132,7 @@ def test_they_are_sound_in_moderate_stretches(model, a, b):
 
 
 def drawn(model: str, data: st.DataObject) -> dict[str, float]:
-    """Constants near the defaults, of any admitted sign."""
+    """Constants near the defaults, of any allowed sign."""
     out = {}
     for name, c in MATERIALS[model].constants.items():
         out[name] = c.default * data.draw(st.floats(0.7, 1.3), label=name)
@@ -252,7 +252,7 @@ def test_elimination_of_the_thickness_is_the_theory_in_space():
 
 
 def test_the_harmonic_sheet_is_no_harmonic_material_in_space():
-    """W11 - W12 is constant for equation 3.26 with any g; the reduced material of 3.25 does not have that."""
+    """W11 - W12 is constant for equation 3.26 with any g, but not for the reduced material of 3.25."""
     differences = []
     for a, b in ((1.1, 1.2), (1.5, 1.3), (0.9, 1.4)):
         _, _, _, w11, w12, _ = numbers("harmonic", a, b)
@@ -317,7 +317,7 @@ def test_the_papers_own_ratio_is_that_laws_constant_only():
     other = validated(tube, {"model": "gent", "jm": 50}, "tube")
     assert "alpha" not in other.model_dump()
     assert other.material == Chosen("gent", (("shear", 2.0), ("jm", 50.0)))
-    with pytest.raises(InputError, match="alpha is no constant"):
+    with pytest.raises(InputError, match="alpha is not a constant"):
         validated(tube, {"model": "gent", "alpha": 0.2}, "tube")
 
 
@@ -334,7 +334,7 @@ def test_every_law_says_where_it_is_from():
 
 @pytest.mark.parametrize("term", [1, 2, 3])
 def test_exponents_of_ogden_have_another_range_than_moduli(term):
-    """An exponent of -1000 leaves no number to compute with; a modulus of -1000 is one of another rubber."""
+    """With an exponent of -1000 no number can be computed; a modulus of -1000 is merely another rubber."""
     constants = MATERIALS["ogden"].constants
     modulus, exponent = constants[f"mu{term}"], constants[f"alpha{term}"]
     assert (exponent.low, exponent.high) == (-100.0, 100.0)

@@ -1,4 +1,4 @@
-"""Material laws on surfaces: in the invariants of the metric, refused where unsound, the papers' own law."""
+"""Material laws on surfaces: by invariants of the metric, refused if unsound, the papers' own law."""
 
 import re
 
@@ -55,7 +55,7 @@ def jet(energy, at):
 
 
 def by_stretches(model, l1, l2):
-    """The same where ``C12 = 0`` from the reference's law in the principal stretches."""
+    """The same at ``C12 = 0`` from the reference's law in the principal stretches."""
     m = law(model)
     w1, w2 = m.slope(l1, l2), m.slope(l2, l1)
     f11 = (m.curvature(l1, l2) - w1 / l1) / (4 * l1**2)
@@ -125,7 +125,7 @@ def test_a_pair_of_powers_has_two_right_derivatives_on_both_branches(p):
 
 
 def test_what_is_not_used_stays_finite():
-    """Gent's rubber beyond what it can bear, where another branch is taken: energy and derivatives are 0."""
+    """Gent's rubber beyond its limit, where another branch of the form is used: all values are 0."""
     gent = surface_law("gent", {"shear": fem.Constant(MESH, 2.0), "jm": fem.Constant(MESH, 5.0)})
     c = fem.Constant(MESH, np.array([4.0, 0.01]))
     v = ufl.variable(c)
@@ -171,12 +171,12 @@ def test_waves_around_a_tube_of_rivlins_series_are_those_of_the_papers_law(load,
     [
         ("fluid_tube", {"model": "three_chain"}, "fluid_tube model three_chain allowed ogden gent"),
         ("fluid_tube", {"model": "gent", "secondary": True}, "secondary model gent allowed mooney_rivlin"),
-        ("fluid_tube", {"model": "gent", "alpha": 0.1}, "alpha is no constant"),
+        ("fluid_tube", {"model": "gent", "alpha": 0.1}, "alpha is not a constant"),
         ("wrinkled_tube", {"model": "harmonic"}, "wrinkled_tube model harmonic allowed three_chain"),
         ("wrinkled_tube", {"model": "three_chain", "n": (5,)}, "waves around model three_chain allowed gent"),
         ("wrinkled_tube_threshold", {"model": "saint_venant_kirchhoff"}, "saint_venant_kirchhoff allowed"),
         ("wrinkled_sheet", {"model": "three_chain"}, "wrinkled_sheet three_chain allowed ogden"),
-        ("hemisphere", {"model": "gent", "c2": 0.1}, "c2 is no constant of model"),
+        ("hemisphere", {"model": "gent", "c2": 0.1}, "c2 is not a constant of model"),
         ("hemisphere", {"model": "harmonic"}, "hemisphere harmonic allowed"),
         ("surface", {"model": "three_chain"}, "surface three_chain allowed gent"),
         ("hemisphere", {"model": "gent", "jm": -1.0}, "jm -1"),
@@ -195,7 +195,7 @@ def test_a_law_without_a_sound_form_is_refused_in_one_line(problem, given_, word
 
 @pytest.mark.parametrize("model", [m for m in BUILDERS if isinstance(law(m), Law)])
 def test_the_references_metric_derivatives_come_from_its_energy(model):
-    """By contours around the stretches: f_i, and f_y as the slope of f between equal stretches."""
+    """f_i by contour integrals around the stretches, and f_y as the slope of f between equal stretches."""
     m = law(model)
     for a, b in ((1.6, 1.2), (1.3, 1.3), (1.3, 1.30001), (0.9, 2.1)):
         found = law_metric.metric(m, a, b)
@@ -223,7 +223,7 @@ def test_the_reference_codes_take_the_papers_law_either_way():
 
 @pytest.mark.parametrize("model", ["ogden", "gent", "arruda_boyce", "varga"])
 def test_the_relaxed_energy_by_the_metric_is_the_state_table(model):
-    """Taut, wrinkled either way and slack, in turned directions: energy and stress of any law."""
+    """Energy and stress of any law in taut, wrinkled and slack states, in rotated directions."""
     given_ = {n: fem.Constant(MESH, float(v)) for n, v in constants(model).items()}
     surface, pair = surface_law(model, given_), fem.Constant(MESH, np.ones(2))
     stretch = ufl.variable(pair)
@@ -246,7 +246,7 @@ def test_the_relaxed_energy_by_the_metric_is_the_state_table(model):
 
 
 def test_a_hemisphere_of_gents_rubber_that_hardly_stiffens_is_the_papers():
-    """Gent's law with a large limit is the neo-Hookean one: the same level and fronts to its reciprocal."""
+    """With a large limit Gent's law gives the neo-Hookean results."""
     found = [
         solve("hemisphere", **law_, numerics={"cells": 4, "levels": 2}, at=[("zw", -0.8)])
         for law_ in ({}, {"model": "gent", "shear": 2.0, "jm": 1e8})

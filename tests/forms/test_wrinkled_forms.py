@@ -1,4 +1,4 @@
-"""Relaxed energies: the state table, the modified gradient and the form by C are one function."""
+"""Relaxed energies: the table of states, the modified gradient and the form in C are one function."""
 
 import numpy as np
 import pytest
@@ -69,7 +69,7 @@ def test_relaxed_mooney_rivlin_is_the_printed_one():
 
 @pytest.mark.parametrize("state", STATES)
 def test_the_form_by_the_metric_has_the_same_energy_and_stress(state):
-    """C of principal stretches in turned directions; its derivative is the stress, turned alike."""
+    """C of principal stretches in rotated directions; its derivative is the stress in these directions."""
     mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
     c = fem.Constant(mesh, np.eye(2))
     tensor = ufl.variable(ufl.as_tensor([[c[0, 0], c[0, 1]], [c[1, 0], c[1, 1]]]))
@@ -94,7 +94,7 @@ def test_the_form_by_the_metric_has_the_same_energy_and_stress(state):
 
 
 def test_liquid_potential_is_the_printed_one_up_to_a_constant():
-    """With the ends held, -int Phi r r' and -int gamma max(zw - z, 0) r^2 z'/2 differ by no variation."""
+    """With fixed ends, -int Phi r r' and -int gamma max(zw - z, 0) r^2 z'/2 have the same variations."""
     mesh = dmesh.create_interval(MPI.COMM_SELF, 40, [0.0, 1.0])
     space = fem.functionspace(mesh, ("Lagrange", 3, (2,)))
     shape = fem.Function(space)

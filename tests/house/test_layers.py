@@ -1,4 +1,4 @@
-"""The house: imports point one way, everything public is documented, nothing tells of a machine."""
+"""Structure of the code: allowed imports, documented public names, no trace of a particular machine."""
 
 import ast
 import re
@@ -77,7 +77,7 @@ def forbidden(path: Path, allowed: set[str], top_only: bool = False) -> list[str
 
 
 def test_zeros_are_sought_in_one_place():
-    """A search without a change of sign ends in scipy's ValueError, which only that place knows."""
+    """Without a change of sign, scipy raises a ValueError; only one module may handle it."""
     users = [path.name for path in files("weakforms") if "brentq" in path.read_text("utf-8")]
     assert users == ["roots.py"]
 
@@ -135,7 +135,7 @@ def test_no_folder_is_crowded():
 
 
 def arrows() -> dict[str, set[str]]:
-    """Which modules of the tree each one imports as it is imported itself, for type checkers too."""
+    """The modules of the tree that each module imports, including imports for type checkers."""
     paths = {dotted(path): path for path in files("weakforms", "reference_data")}
     out = {}
     for name, path in paths.items():
@@ -170,7 +170,7 @@ PAGES = [
 
 @pytest.mark.parametrize("page", PAGES)
 def test_a_page_names_files_that_exist(page):
-    """A file or folder of the tree, written with its path; ``paperN`` and ``*`` stand for any."""
+    """A file or folder of the tree given with its path; ``paperN`` and ``*`` match any name."""
     text = (ROOT / page).read_text("utf-8")
     named = re.findall(r"(?<![\w/.])((?:weakforms|cases|reference_data|tests|docs)/[\w/.*-]*[\w*/])", text)
     lost = {

@@ -1,4 +1,4 @@
-"""The tests themselves: side by side they lose nothing, and a crash or an interrupt is said."""
+"""The tests' own set-up: parallel runs lose nothing, and a crash or an interrupt is reported."""
 
 import os
 import re
@@ -39,7 +39,7 @@ def test_wait():
 
 @pytest.fixture
 def start(tmp_path):
-    """Start pytest with our conftest, on two workers, with its output in a log."""
+    """Start pytest with our conftest and two workers; its output goes to a log."""
     text = CONFTEST.read_text()
     assert "SILENCE = 60.0" in text
     (tmp_path / "tests" / "cases").mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""Solves serially and on several ranks, and holds all the numbers of both against each other."""
+"""Fixtures that solve serially and on several ranks and compare all numbers."""
 
 import json
 import shutil
@@ -21,7 +21,7 @@ if MPI.COMM_WORLD.rank == 0:
 
 
 def run(requests: list[dict], ranks: int) -> list[Result]:
-    """Results of :func:`weakforms.solve` at some requests, in a process of its own."""
+    """Results of :func:`weakforms.solve` for some requests, in a separate process."""
     output = start(["-c", PROGRAM, json.dumps(requests)], ranks)
     line = next(text for text in output.splitlines() if text.startswith("RESULT"))
     *found, size = json.loads(line.removeprefix("RESULT"))
@@ -30,7 +30,7 @@ def run(requests: list[dict], ranks: int) -> list[Result]:
 
 
 def beyond(first: Result, second: Result) -> list[str]:
-    """The numbers of two results that differ by more than they may, the worst first."""
+    """The numbers of two results that differ by more than allowed, the largest difference first."""
     spec = f"contact={first.parameters.get('contact')}, degree={first.numerics.get('degree')}"
     return [
         str(item) for item in differences(first, second) if not item.relative <= allowed(item.place, spec)
@@ -39,7 +39,7 @@ def beyond(first: Result, second: Result) -> list[str]:
 
 @pytest.fixture(scope="session")
 def launcher():
-    """The MPI launcher is here."""
+    """Skip unless the MPI launcher is installed."""
     if shutil.which("mpirun") is None:
         pytest.skip("needs an MPI launcher")
 

@@ -1,4 +1,4 @@
-"""Python on several ranks, and how far its numbers may be apart."""
+"""Run Python on several ranks, and the differences that its numbers may have."""
 
 import os
 import subprocess
@@ -19,7 +19,7 @@ FRICTIONLESS, OF_DEGREE_6 = 2e-7, 1e-6
 
 
 def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
-    """What python prints on several ranks; an error on one of them ends all (mpi4py's runner)."""
+    """Output of Python on several ranks; an error on one rank ends all (mpi4py's runner)."""
     environment = os.environ | {
         "PYTHONPATH": str(ROOT),
         "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -42,7 +42,7 @@ def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
 
 
 def allowed(place: str, spec: str) -> float:
-    """How far a number of a solution may be apart."""
+    """Allowed difference of a number of a solution."""
     name = place.removesuffix(", uncertainty").split()[-1]
     if name in TRACTIONS and "contact=frictionless" in spec:
         return OF_DEGREE_6 if "degree=6" in spec else FRICTIONLESS

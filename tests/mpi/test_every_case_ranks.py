@@ -1,4 +1,4 @@
-"""Every case on several ranks: whatever it stores is what a serial run stores."""
+"""Every case on several ranks stores the same as a serial run."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ CHEAP = ("paper4.fig11", "paper5.fig02", "closed_form.infinite_tube")
 
 @pytest.fixture(scope="module")
 def serial(tmp_path_factory):
-    """A serial run of a case, once for all numbers of ranks."""
+    """A serial run of a case, made once for all numbers of ranks."""
     known: dict[tuple[str, ...], Path] = {}
 
     def once(cases: tuple[str, ...]) -> Path:

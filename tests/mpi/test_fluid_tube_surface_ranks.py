@@ -1,4 +1,4 @@
-"""The surface of the fluid-loaded tube serially and on two ranks: full circle, and the secondary branch."""
+"""The surface of the fluid-loaded tube serially and on two ranks: full circle and secondary branch."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Runs as ``verify`` would leave them, one of them hostile, for the tests of what is made of a run."""
+"""Prepared runs as ``verify`` stores them, one of them hostile, for tests of the report."""
 
 import math
 from dataclasses import replace
@@ -64,7 +64,7 @@ def verdict(check, passed=True, error=3.2e-10, bound=1.3e-9, **more: object):
 
 
 def surface(name="bulge"):
-    """Half a torus-like shell with a field over it."""
+    """Half of a torus-like shell with a field on it."""
     turns, along = np.meshgrid(np.linspace(0, 2 * np.pi, 13), np.linspace(0, 3, 7))
     radius = 1 + 0.3 * np.sin(along)
     x, y, z = radius * np.cos(turns), radius * np.sin(turns), along
@@ -175,7 +175,7 @@ def sample(*cases: CaseOutcome):
 
 
 class Reader(HTMLParser):
-    """Collects tags, attributes and text; complains about elements closed out of order."""
+    """Collect tags, attributes and text; report elements that are closed out of order."""
 
     def __init__(self, text: str) -> None:
         super().__init__()

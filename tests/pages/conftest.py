@@ -1,4 +1,4 @@
-"""The run the tests of the report share, and the folder it was written to."""
+"""The run that the tests of the report share, and the folder of its report."""
 
 from pathlib import Path
 
@@ -22,5 +22,5 @@ def folder(run, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def pages(folder):
-    """Text of every page by its name."""
+    """Text of every page by name."""
     return {path.name: path.read_text(encoding="utf-8") for path in sorted(Path(folder).glob("*.html"))}

@@ -1,4 +1,4 @@
-"""A real browser without a window, spoken to over a pipe (the Chrome DevTools Protocol)."""
+"""A real browser without a window, controlled through a pipe (the Chrome DevTools Protocol)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ CONTRASTS = """(() => {
 
 
 class Browser:
-    """One browser with one page; use it as a context."""
+    """One browser with one page; use it in a ``with`` statement."""
 
     def __init__(self, folder: Path) -> None:
         (there, theirs_out), (theirs_in, self._write) = os.pipe(), os.pipe()
@@ -80,7 +80,7 @@ class Browser:
         os.close(self._read), os.close(self._write)
 
     def call(self, method: str, **parameters: object) -> dict:
-        """The answer to one command; events that come before it are kept."""
+        """The answer to one command; events that arrive before it are stored."""
         self._number += 1
         message = {"id": self._number, "method": method, "params": parameters}
         if self._session:
@@ -108,7 +108,7 @@ class Browser:
         raise TimeoutError("the browser does not answer")
 
     def open(self, page: Path, width: int, scheme: str) -> None:
-        """Show a page at a width in one colour scheme, and wait until it is loaded."""
+        """Show a page at a given width and colour scheme, and wait until it is loaded."""
         phone = width < 500
         self.call(
             "Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=phone
@@ -132,16 +132,16 @@ class Browser:
         return answer["result"].get("value")
 
     def complaints(self) -> list[dict]:
-        """Whatever the page said on the console, and errors, since it was opened."""
+        """Messages on the page's console, and errors, since it was opened."""
         return [event["params"] for event in self.events if event["method"] in TALK]
 
     def requests(self) -> list[str]:
-        """Addresses that were loaded since the page was opened."""
+        """Addresses loaded since the page was opened."""
         sent = [event for event in self.events if event["method"] == "Network.requestWillBeSent"]
         return [event["params"]["request"]["url"] for event in sent]
 
     def unnamed_images(self) -> list[dict]:
-        """Pictures that a screen reader would have nothing to say about."""
+        """Pictures without a description for screen readers."""
         nodes = self.call("Accessibility.getFullAXTree")["nodes"]
         pictures = [n for n in nodes if not n["ignored"] and n.get("role", {}).get("value") == "image"]
         assert pictures or "<svg" not in self.evaluate("document.documentElement.outerHTML")

@@ -1,4 +1,4 @@
-"""Every page in a real browser: both colour schemes, desktop and phone, by eye of the browser itself."""
+"""Every page in a real browser: both colour schemes, on the width of a desktop and of a phone."""
 
 import re
 
@@ -15,7 +15,7 @@ WIDTHS = (1280, 390, 320)
 
 
 def missing() -> bool:
-    """Whether there is no browser here; ``./run test`` brings one."""
+    """Whether a browser is missing; ``./run test`` provides one."""
     try:
         browser()
     except EnvironmentLackError:
@@ -34,7 +34,7 @@ def window(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def opened(tmp_path_factory):
-    """A report with failures and pictures of all kinds, and without the texts meant to break it."""
+    """A report with failures and pictures of all kinds, but without the hostile texts."""
     folder = tmp_path_factory.mktemp("opened")
     write_report(sample(passing_case(), failing_case()), folder)
     return folder

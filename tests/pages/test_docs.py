@@ -1,4 +1,4 @@
-"""The documentation: a page for everything there is, links that arrive, formulas, examples that are right."""
+"""The documentation: complete pages, working links, formulas, correct examples."""
 
 import ast
 import json
@@ -20,7 +20,7 @@ from weakforms.verification.report.pdf import browser
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """The pages, and the picture of one problem that solves at once."""
+    """The pages, with the picture of one problem that is solved in no time."""
     folder = tmp_path_factory.mktemp("docs")
     with pytest.MonkeyPatch.context() as patch:
         right = site.pictures

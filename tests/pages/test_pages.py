@@ -1,4 +1,4 @@
-"""The pages hold every check, stand on their own, lead to one another, and survive hostile texts."""
+"""The pages contain every check, need no other files, are linked, and remain valid with hostile texts."""
 
 import math
 import os

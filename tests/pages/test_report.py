@@ -1,4 +1,4 @@
-"""What is written beside the pages: report.json, junit.xml, shapes; damaged files, and a full disk."""
+"""Files written beside the pages: report.json, junit.xml, shapes; damaged files, and a full disk."""
 
 import json
 import math

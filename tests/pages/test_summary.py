@@ -1,4 +1,4 @@
-"""The run in words: the terminal's table, headlines, numbers and formulas for people."""
+"""The summary of a run: the terminal's table, headlines, readable numbers and formulas."""
 
 import io
 import math
@@ -29,7 +29,7 @@ def test_terminal_summary(run, width, monkeypatch):
 
 
 def test_the_worst_check_and_its_place_where_there_are_any(monkeypatch):
-    """A case may have statements only, and a check no place."""
+    """A case may have statements only, and a check may have no place in the paper."""
     monkeypatch.setenv("NO_COLOR", "1")
     nowhere = replace(passing_case(), verdicts=[verdict("nowhere", where="")])
     stated = replace(passing_case(), verdicts=[v for v in passing_case().verdicts if v.bound is None])

@@ -1,4 +1,4 @@
-"""Parameters within their ranges that an audit found unanswered, on coarse meshes."""
+"""Allowed parameters for which an audit once got no answer, on coarse meshes."""
 
 import pytest
 from mpi4py import MPI
@@ -15,7 +15,7 @@ from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membr
 
 
 def test_a_stiff_balloon_is_inflated_to_its_end():
-    """``P`` passes 1000: steps of 0.05 in it would be more than a trace may have."""
+    """``P`` exceeds 1000: with steps of 0.05 the trace would have too many points."""
     result = solve("sphere", alpha=8.995, lam_end=31.7)
     assert result.failures == []
     columns = result.branches[0].columns
@@ -26,7 +26,7 @@ def test_a_stiff_balloon_is_inflated_to_its_end():
 
 @pytest.mark.parametrize("force", [57.53, -3.0])
 def test_a_tube_under_a_large_force_begins_as_a_strip_in_tension(force):
-    """``F = 2 (lam - lam^-2)(1 + alpha/lam)`` at rest pressure, ``lam2 = lam^(-1/2)``."""
+    """``F = 2 (lam - lam^-2)(1 + alpha/lam)`` without pressure, with ``lam2 = lam^(-1/2)``."""
     alpha = 0.265
     columns = solve("infinite_tube", force=force, alpha=alpha, lam_end=2.5).branches[0].columns
     lam, across = columns["lam1"][0], columns["lam2"][0]
@@ -68,7 +68,7 @@ def test_membranes_on_wide_disks_are_widened_to_them(given):
 
 
 def test_a_membrane_with_nothing_to_perturb_is_refused_in_terms_of_its_parameters():
-    """A state there is, found by way of narrower disks: taut at the lower end."""
+    """A state exists and is found through narrower disks; it is taut at the lower end."""
     given = {"M": 1.764, "delta": 2.778, "c2": 0.7244, "L": 2.985, "Af": 2.238, "gamma": 7.142}
     with pytest.raises(InputError, match="a smaller Af or a larger M or delta wrinkles it"):
         solve("wrinkled_linear", **given, zw=0.05942, numerics={"cells": 8, "degree": 4, "levels": 2})

@@ -1,4 +1,4 @@
-"""The disk's weak form: exact states, balances, energy release, and faults that must be noticed."""
+"""The disk's weak form: exact states, balances, energy release rate, and errors that must be noticed."""
 
 from pathlib import Path
 
@@ -28,7 +28,7 @@ def run():
 
 
 def perturbed(system, state, seed=0):
-    """A state off equilibrium, and a direction that keeps the conditions."""
+    """A state out of equilibrium, and a direction that satisfies the boundary conditions."""
     rng = np.random.default_rng(seed)
     direction = rng.standard_normal(system.size) * 1e-2
     direction[system.bc_dofs] = 0.0
@@ -38,7 +38,7 @@ def perturbed(system, state, seed=0):
 
 
 def gap_to_difference(system, state, direction, value, derivative, h=2e-7):
-    """Central difference of ``value`` along a direction, against a derivative."""
+    """Compare a derivative with the central difference of ``value`` along a direction."""
     found = []
     for sign in (1, -1):
         system.set_state(state.u + sign * h * direction, state.loads)
@@ -119,7 +119,7 @@ def test_the_free_cap_is_in_vertical_balance():
 
 
 def test_a_kept_run_begins_where_a_new_one_does():
-    """Both solves share the discrete disk, which the first leaves far inflated."""
+    """Both solves share the discrete disk, which the first solve leaves inflated."""
     mesh = {"cells": 16, "degree": 3, "levels": 2}
     far, near = (solve("circular", alpha=0, beta=1.2, t_end=t, numerics=mesh) for t in (3.1, 2.0))
     assert far.failures == near.failures == []
@@ -259,7 +259,7 @@ def test_a_fault_in_the_weak_form_fails_named_checks(fault, monkeypatch, tmp_pat
 
 
 def test_with_the_wrong_sign_of_the_pressure_there_is_no_such_inflation(monkeypatch, tmp_path):
-    """The membrane is inflated by suction: no state has the pressure at which deflation begins."""
+    """The membrane is inflated by suction: no state has the pressure at which deflation starts."""
     inflation.cache_clear()
     wrong_pressure_sign(monkeypatch)
     found = FoundCase("paper1.sentinel", 1, Path(__file__), SENTINEL, "")
@@ -287,14 +287,14 @@ def test_states_before_contact_have_no_patch():
 
 @pytest.mark.parametrize(("beta", "alpha"), [(1.3, 0.1), (2.0, 0.0)])
 def test_the_flat_disk_vibrates_as_a_drum(beta, alpha):
-    r"""At vanishing pressure :math:`\mu = t (j_{0,1} \beta)^2`, by the tension of the flat disk."""
+    r"""As the pressure vanishes, :math:`\mu = t (j_{0,1} \beta)^2` with the tension of the flat disk."""
     tension = 2 * (1 - beta**-6) * (1 + alpha * beta**2)
     found = solve("circular", beta=beta, alpha=alpha, at={"p": 1e-4}).states[0].quantities["eigenvalue_1"]
     assert found.value == pytest.approx(tension * (jn_zeros(0, 1)[0] * beta) ** 2, rel=1e-9)
 
 
 def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
-    """Springs that hardly resist leave the free disk's, whatever mesh is used for the state."""
+    """With almost no stiffness the springs leave the free disk's state unchanged, on any mesh."""
     free = solve("circular", p_end=4.0, at={"p": 3.0}).states[0].quantities
     contact = solve("circular", contact="frictionless", k=1e-8, p_end=4.0, at={"p": 3.0}).states[0].quantities
     assert contact["X_contact"].value > 0.4

@@ -1,4 +1,4 @@
-"""Homogeneous bodies: closed forms, limit points, merging ones, coexisting states, and what is refused."""
+"""Homogeneous bodies: closed forms, limit points and their merging, coexisting states, refused input."""
 
 import re
 
@@ -77,7 +77,7 @@ def test_test_pieces_have_their_closed_forms(loading, stress, end):
 
 
 def test_a_wrong_potential_would_be_seen():
-    """The residual of the balloon is not zero where the closed form's pressure is another."""
+    """The balloon's residual is not zero if the pressure differs from the closed form's."""
     system = system_of(closed_body.sphere(), Chosen("neo_hookean", ()))
     solver = ExtendedNewton(system)
     state, _ = solver.solve(State(np.array([1.2]), {"P": 4 * (1 / 1.25 - 1.25**-7)}))

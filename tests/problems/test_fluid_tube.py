@@ -1,4 +1,4 @@
-"""The fluid-loaded tube: its forms against the paper's, its branch, its eigenvalues and critical points."""
+"""The fluid-loaded tube: forms as in the paper, branch, eigenvalues and critical points."""
 
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
@@ -83,7 +83,7 @@ def test_residual_is_the_potentials_gradient(short, partially_filled):
 
 
 def typed_form(model, n, u, beta, w):
-    """The quadratic form of the second variation as derived by hand, per pi (for n = 0 per 2 pi)."""
+    """The quadratic form of the second variation, derived by hand, per pi (for n = 0 per 2 pi)."""
     jacobian = model._jacobian()
     at = model.surface()
     r, z = at.x[0], at.x[2]
@@ -123,7 +123,7 @@ def test_automatic_second_variation_is_the_one_derived_by_hand(short, n, where):
 
 
 def without_rings(variation):
-    """The operator with no condition at the rings."""
+    """The operator without conditions at the rings."""
     form = ufl.derivative(variation.formulation.residual, variation.unknown, variation.trial)
     matrix = fem_petsc.assemble_matrix(fem.form(form))
     matrix.assemble()
@@ -290,7 +290,7 @@ def test_branches_off_the_paper_converge(L, delta, gamma):
 
 
 def judged():
-    """Whether rows of two tables are met within bounds: the branch, and its eigenvalues."""
+    """Whether the branch and its eigenvalues agree with rows of two tables within bounds."""
     branch, spectrum = (reference(3, f"{name}_L_8_delta_2") for name in ("primary", "spectrum"))
     rows = [row for row in (20.0, 40.0, 100.0) if row in branch.columns["V"] and row in spectrum.columns["V"]]
     assert rows
@@ -329,7 +329,7 @@ def volume_change_forgotten(monkeypatch):
 
 
 def load_stiffness_dropped(monkeypatch):
-    """The pressure does not feel the displacement: equilibria are right, eigenvalues are not."""
+    """If the pressure ignores the displacement, equilibria are correct and eigenvalues are wrong."""
 
     def work(self, at, v):
         pressure = fluid_module.hydrostatic(
@@ -360,7 +360,7 @@ def test_a_fault_in_the_weak_form_is_noticed(fault, monkeypatch):
 
 def test_with_the_pressure_reversed_the_tube_does_not_fill(monkeypatch):
     pressure_reversed(monkeypatch)
-    with pytest.raises(InputError, match=r"V = 20 is not met .* ranges over \[-"):
+    with pytest.raises(InputError, match=r"V = 20 is not taken .* ranges over \[-"):
         judged()
 
 
@@ -391,5 +391,5 @@ def test_bad_input_is_refused_before_anything_is_solved(given, message):
 
 
 def test_a_level_above_the_highest_is_refused_with_the_range():
-    with pytest.raises(InputError, match=r"zw = 8.5 is not met .* ranges over \[0, 8.37"):
+    with pytest.raises(InputError, match=r"zw = 8.5 is not taken .* ranges over \[0, 8.37"):
         solve("fluid_tube", at={"zw": 8.5}, numerics=COARSE)

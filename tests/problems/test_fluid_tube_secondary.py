@@ -1,4 +1,4 @@
-"""The secondary branch of the fluid-loaded tube: structure, stability, slopes, profiles, shapes as files."""
+"""The secondary branch of the fluid-loaded tube: structure, stability, slopes, profiles, files of shapes."""
 
 import json
 
@@ -101,7 +101,7 @@ def test_the_turn_of_the_pattern_is_a_zero_eigenvalue(state):
 
 
 def test_the_turns_zero_is_no_negative_eigenvalue_whatever_its_sign(family):
-    """By inertia alone it would be one where round-off makes it negative: it is known by its vector."""
+    """The zero of the turn may be negative by rounding: it is identified by its vector, not counted."""
     solved, stability = family.levels[0].at("zw", ZW), family.levels[0].stability
     values = stability.spectra(solved.state)
     between = values["Lambda_breaking"] / 2
@@ -112,13 +112,13 @@ def test_the_turns_zero_is_no_negative_eigenvalue_whatever_its_sign(family):
         assert stability.spectra(solved.state)["n_negative_breaking"] == 0
         assert stability.spectra(solved.state)["Lambda_rotation"] == sign * 1e-9
     stability.breaks = Turned(stability.model.breaking, -5e-3)
-    with pytest.raises(ConvergenceError, match="is no zero mode"):
+    with pytest.raises(ConvergenceError, match="is not a zero mode"):
         stability.spectra(solved.state)
     stability.breaks = Stability(stability.model.breaking)
 
 
 class Turned(Stability):
-    """With another value for the eigenvalue next to zero."""
+    """The same with another value of the eigenvalue next to zero."""
 
     def __init__(self, system, value):
         super().__init__(system)
@@ -131,7 +131,7 @@ class Turned(Stability):
 
 
 def test_an_instability_that_breaks_the_symmetry_is_counted(family):
-    """Axisymmetric states past the bifurcation have one: a negative eigenvalue, not the turn's zero."""
+    """Axisymmetric states past the bifurcation have a negative eigenvalue, which is not the turn's zero."""
     level = family.fine
     points = np.linspace(0, LENGTH, 121)
     state = PrimaryBranch(MPI.COMM_SELF, 8.0, 2.0).at("V", 140.0, points)
@@ -139,7 +139,7 @@ def test_an_instability_that_breaks_the_symmetry_is_counted(family):
     found, _ = ExtendedNewton(level.model.system).solve(guess)
     _, below = level.stability.breaks.about(found, -1e-4, 3)
     assert below == 1
-    with pytest.raises(ConvergenceError, match="is no zero mode"):
+    with pytest.raises(ConvergenceError, match="is not a zero mode"):
         level.stability.spectra(found)
 
 
@@ -183,7 +183,7 @@ def test_a_state_is_found_at_any_column(family):
 
 
 def enclosed(points, triangles):
-    """Volume between a lateral surface, its disk at ``z = 0`` and that at ``z = 8``, normals outwards."""
+    """Volume between a lateral surface and its disks at ``z = 0`` and ``z = 8``, normals outwards."""
     a, b, c = (points[triangles[:, i]] for i in range(3))
     return np.einsum("ij,ij->", a, np.cross(b, c)) / 6 + np.pi * 8 / 3
 
@@ -222,7 +222,7 @@ def test_a_meridian_is_revolved():
     ("name", "columns", "words"),
     [
         ("a.ply", {"r": [1.0], "z": [0.0]}, "must end in .vtu, .xdmf, .stl"),
-        ("a.vtu", {"p": [1.0]}, "is no surface"),
+        ("a.vtu", {"p": [1.0]}, "is not a surface"),
         ("no/where/a.vtu", {"r": [1.0, 1.0], "z": [0.0, 1.0]}, "cannot write"),
     ],
 )

@@ -1,4 +1,4 @@
-"""The fluid-loaded tube as a surface: meshes, forms against the paper's, symmetry of the circle."""
+"""The fluid-loaded tube as a surface: meshes, forms as in the paper, symmetry of the circle."""
 
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
@@ -54,7 +54,7 @@ def primary():
 
 
 def bulged(z, theta):
-    """No equilibrium: a smooth surface without any symmetry but the mirror's, that meets the rings."""
+    """A smooth surface out of equilibrium, symmetric to the mirror plane only, that meets the rings."""
     t = np.pi * z / (L / DELTA)
     out = 1 + np.sin(t) * (0.6 + 0.3 * np.cos(theta) + 0.1 * np.cos(2 * theta))
     up = DELTA * z - 0.4 * np.sin(t) * (1 + 0.5 * np.cos(theta))
@@ -148,7 +148,7 @@ def test_tangent_is_the_residuals_derivative_and_symmetric(model, zw):
 @pytest.mark.parametrize("zw", [3.37, 6.1, 9.0])
 @pytest.mark.parametrize("full", [False, True])
 def test_potential_has_the_papers_first_variation(zw, full):
-    """Vertical flux against ``w_a.v_Z + w_b.v_Theta - P v.N``, by one rule; the kink's error falls."""
+    """The vertical flux equals ``w_a.v_Z + w_b.v_Theta - P v.N`` by one rule; the kink's error falls."""
     model = SurfaceModel(ONE, data(full=full, alpha=0.1))
     put(model, zw)
     at, v = model.surface(model.unknown), model.surface(ufl.TestFunction(model.space))
@@ -241,7 +241,7 @@ def test_the_map_moves_the_row_and_is_inverted():
 
 
 def test_a_surface_is_the_same_on_a_mesh_that_has_moved():
-    """Position, tangent vectors and integrals do not know where the mesh has its rows."""
+    """Position, tangent vectors and integrals do not depend on where the mesh has its rows."""
     (one, first), (two, _) = fitted(12, 6, 5), fitted(12, 6, 5)
     two.front.put(two.front.fitted(3.55 + 0.02 * np.cos(two.front.angles)))
     for model in (one, two):
@@ -276,7 +276,7 @@ def test_resultants_are_read_more_accurately_than_the_elements_have_them():
 
 
 def test_the_mesh_comes_to_rest_on_the_free_surface_and_keeps_the_order(primary):
-    """Volumes on three meshes: their differences fall faster than by the sixth power of the size."""
+    """Differences of the volumes on three meshes fall faster than the sixth power of the mesh size."""
     state, volumes = primary.at("zw", 7.0, np.linspace(0, L / DELTA, 121)), []
     for cells, around in ((6, 4), (12, 8), (24, 16)):
         model, fitting = fitted(cells, around)
@@ -302,7 +302,7 @@ def test_a_full_tube_has_no_free_surface_to_follow(primary):
 
 
 def test_spectrum_about_an_axisymmetric_state_is_that_of_the_waves(primary):
-    """C1v holds n = 0 and the cos family of each n, the breaking space torsion and the sin family."""
+    """C1v has n = 0 and the cosines of each n; the symmetry-breaking space has torsion and the sines."""
     path = FluidPath(ONE, TubeData(L, DELTA, GAMMA, 0.0, 24, 4), 3)
     solved = path.pieces[1].at("zw", 7.0)
     columns = solved.values
@@ -390,7 +390,7 @@ def test_a_mesh_uneven_around_splits_the_pair():
     [
         ({"extent": "half", "uneven": 0.1}, "uneven = 0.1 needs extent = 'full'"),
         ({"uneven": 0.9}, "uneven = 0.9"),
-        ({"at": {"zw": 7.0}}, "no states to ask for"),
+        ({"at": {"zw": 7.0}}, "it has no states"),
         ({"numerics": {"cells": 10}}, "multiple of 4"),
     ],
 )

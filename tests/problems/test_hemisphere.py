@@ -1,4 +1,4 @@
-"""The hemisphere that holds a liquid: what its results say of one state fits together."""
+"""The hemisphere that holds a liquid: the numbers of one state are consistent."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ COARSE = {"cells": 8, "degree": 3}
 
 
 def test_level_at_the_limit_point_is_where_the_membrane_has_that_height():
-    """The surface is a point of the mesh, which moves with the state on the way to the limit point."""
+    """The surface of the liquid is a point of the mesh and moves with the state up to the limit point."""
     wanted = [StateRequest("limit_point", 1, profile=())]
     given = {"c2": 0.0658, "gamma": 3.1549}
     result = solve_requests("hemisphere", given, COARSE, wanted, branch_uncertainty=False)

@@ -1,4 +1,4 @@
-"""The relaxed membrane on flat triangles: energy, stress and tangent in each state, loads, equilibria."""
+"""The relaxed membrane on flat triangles: energy, stress and tangent of each state, loads, equilibria."""
 
 import basix.ufl
 import numpy as np
@@ -31,7 +31,7 @@ STRETCHES = {
 
 
 def energy_by_stretches(a, b):
-    """The table of states, typed again."""
+    """An independent copy of the table of states."""
 
     def full(x, y):
         return x**2 + y**2 + 1 / (x * y) ** 2 - 3 + C2 * (1 / x**2 + 1 / y**2 + (x * y) ** 2 - 3)
@@ -47,7 +47,7 @@ def rotation(seed):
 
 
 def sheet():
-    """Nine triangles around one another in a tilted plane, none like another."""
+    """Nine different triangles around one another in a tilted plane."""
     rng = np.random.default_rng(3)
     flat = np.array([(i, j) for j in range(4) for i in range(4)], float)
     inner = (flat > 0).all(axis=1) & (flat < 3).all(axis=1)
@@ -65,7 +65,7 @@ def sheet():
 
 
 class Sheet:
-    """Energy of a flat patch whose nodes are put anywhere."""
+    """Energy of a flat patch with nodes at any places."""
 
     def __init__(self, energy=relaxed_energy):
         self.flat, cells, self.inner = sheet()
@@ -92,11 +92,11 @@ class Sheet:
         self.state = fem.form(state(c) * ufl.dx(mesh))
 
     def put(self, positions):
-        """Nodes at positions."""
+        """The model with its nodes at given positions."""
         self.system.set_state(positions[self.node].ravel(), {})
 
     def stretched(self, a, b):
-        """Homogeneous principal stretches in directions askew to the mesh, turned in space."""
+        """Homogeneous principal stretches in directions oblique to the mesh, rotated in space."""
         turn = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
         gradient = rotation(2)[:, :2] @ turn @ np.diag([a, b]) @ turn.T
         return self.flat @ gradient.T
@@ -118,7 +118,7 @@ def slopes(function, u, steps=1e-6):
 
 @pytest.mark.parametrize("name", STRETCHES)
 def test_patch_of_each_state(patch, name):
-    """Energy by the table of states; no force inside a patch stretched alike all over."""
+    """The energy follows the table of states; a patch stretched uniformly has no force inside."""
     a, b, expected = STRETCHES[name]
     patch.put(patch.stretched(a, b))
     assert patch.system.monitor("W") == pytest.approx(9 * energy_by_stretches(a, b), rel=1e-12, abs=1e-12)
@@ -155,7 +155,7 @@ def test_force_and_tangent_by_differences(patch, name):
 
 
 def test_the_energy_is_smooth_where_the_state_changes(patch):
-    """Value and slope across each boundary, the second derivative jumps: relaxation is C1 only."""
+    """Energy and stress are continuous at each boundary, the second derivative is not: the form is C1."""
     for a, b, along in (
         (1.5, 1.5**-0.5, (0, 1)),
         (1.5**-0.5, 1.5, (1, 0)),
@@ -199,7 +199,7 @@ def test_volume_of_the_polyhedron(model):
 @pytest.mark.parametrize("given", [{}, {"rule": 2}, {"rule": 3}, {"rule": 4}])
 @pytest.mark.parametrize("loads", [{"p": 0.4, "zw": 0.0}, {"p": 0.0, "zw": 11.3}])
 def test_the_load_has_this_derivative(given, loads):
-    """Tangent and force of gas and of a liquid whose level cuts triangles: nothing is lost at the level."""
+    """Tangent and force of gas and of a liquid whose level cuts triangles agree with differences."""
     model = SurfaceModel(MPI.COMM_SELF, body(**given))
     system, rng = model.system, np.random.default_rng(7)
     u = system.state().u + 0.02 * rng.normal(size=system.size)
@@ -217,7 +217,7 @@ def test_the_load_has_this_derivative(given, loads):
 
 
 def test_gas_presses_along_the_normal():
-    """Virtual work of a gas by the volume's difference, exact for a polyhedron."""
+    """The virtual work of a gas is the difference of the volume, exactly for a polyhedron."""
     model = SurfaceModel(MPI.COMM_SELF, body(gamma=0.0))
     system, rng = model.system, np.random.default_rng(9)
     u, v = system.state().u, rng.normal(size=system.size)
@@ -263,7 +263,7 @@ def test_wrinkled_cylinder_of_uniform_thickness_is_exact(model):
 
 @pytest.fixture(scope="module")
 def unstable():
-    """A tube whose 48 columns let it be unstable, at a level inside the range."""
+    """A tube with 48 columns of triangles that becomes unstable at a level inside the range."""
     given = {"M": 1.5, "delta": 3.0, "Af": 0.4362, "c2": 0.01, "gamma": 0.0464709}
     runs = [
         SurfaceRun(
@@ -293,7 +293,7 @@ def test_the_other_diagonal_is_the_mirror_image(unstable):
 
 
 def test_inertia_counts_what_waves_count(unstable):
-    """Negative eigenvalues of the whole tangent, and of its blocks by wave number put together."""
+    """The whole tangent has as many negative eigenvalues as its blocks by wave number together."""
     run = unstable[0]
     point = run.at(6.0)
     assert point.n_negative > 0
@@ -321,7 +321,7 @@ def test_inertia_counts_what_waves_count(unstable):
 
 
 def test_lowest_eigenvalues_with_all_their_copies(unstable):
-    """Against a dense solver: a Krylov method alone finds one copy of a double eigenvalue, or both."""
+    """Comparison with a dense solver: a Krylov method may find only one of two equal eigenvalues."""
     run = unstable[0]
     point = run.at(6.0)
     run.system.set_state(point.state.u, point.state.loads)
@@ -355,7 +355,7 @@ def test_hemisphere_of_triangles():
 
 
 def outward(given):
-    """Normal of each triangle times the direction from the axis' middle, per its length."""
+    """Normal of each triangle times the vector from the axis' middle, divided by its length."""
     corners = given.points[given.triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     away = corners.mean(axis=1) * [1, 1, 0 if given.rings else 1]

@@ -1,4 +1,4 @@
-"""Problem ``surface``: a user's own triangles, what is refused, shapes for other tools."""
+"""Problem ``surface``: a user's own triangles, what is refused, shapes for other programs."""
 
 from xml.etree import ElementTree
 
@@ -40,7 +40,7 @@ def rings():
 
 @pytest.mark.parametrize("suffix", [".msh", ".vtu", ".stl"])
 def test_a_file_of_the_tube_gives_the_tube(tmp_path, rings, suffix):
-    """The same mesh by another way: cubic splines and the whole SNES instead of ring-periodic positions."""
+    """The same mesh by another method: cubic splines and SNES on all nodes, without periodic positions."""
     path = write(tmp_path / f"tube{suffix}", *rings)
     own = weakforms.solve("surface", meridional=10, circumferential=12, **TUBE, numerics=FEW).branch()
     read = weakforms.solve("surface", geometry=str(path), **TUBE, numerics=FEW)
@@ -132,11 +132,11 @@ WRONG = {
     twice: "duplicate triangles",
     fin: "not a manifold",
     needle: "without area",
-    closed: "no edge to be clamped",
+    closed: "no edge to clamp",
     two_parts: "2 parts",
     hole: "3 edges",
-    oblique: "no circle about the z axis",
-    oval: "no surface of revolution",
+    oblique: "not a circle about the z axis",
+    oval: "not a surface of revolution",
     nan: "not a finite number",
 }
 
@@ -185,7 +185,7 @@ def test_other_files(tmp_path, rings):
         ({"geometry": "surface.obj"}, "'tube', 'hemisphere' or a file"),
         ({"degree": 2}, "degree = 2"),
         ({"load_start": -0.1}, "allowed with this geometry: 0 to 100"),
-        ({"load_start": 3, "load_end": 3}, "two loads are wanted"),
+        ({"load_start": 3, "load_end": 3}, "they must differ"),
         ({"geometry": "hemisphere", "M": 1.2}, "M = 1.2 has no meaning"),
         ({"geometry": "hemisphere", "load": "gas"}, "hangs full of fluid"),
         ({"geometry": "hemisphere", "load_start": -0.3}, "allowed with this geometry: -1.05 to -0.48"),
@@ -261,7 +261,7 @@ def test_the_width_at_a_node_is_the_mean_of_the_triangles_around(solved):
 
 
 def test_making_a_mesh_says_nothing(capfd):
-    """Standard output is for the result's JSON; gmsh writes there unless it is told not to."""
+    """Only the result's JSON goes to standard output; gmsh writes there unless it is told not to."""
     assert not gmsh.isInitialized()
     hemisphere(0.5)
     flat_sheet(MPI.COMM_SELF, np.linspace(0, 1, 4), 3)

@@ -36,7 +36,7 @@ CELLS = (3, 6)
 
 @pytest.fixture(autouse=True)
 def fresh_models():
-    """Models are kept between solves: a test that changes a form must not find another nor leave its own."""
+    """Models are kept between solves: no test may see a form that another test has changed."""
     caches = (wrinkled_state.model_on, wrinkled_state.solver_of, wrinkled_modes.waves_of)
     for cache in caches:
         cache.cache_clear()
@@ -75,7 +75,7 @@ STATES = {
 
 
 def shapes(t):
-    """Three smooth functions of ``t`` in [0, 1] that vanish at both ends to third order, and derivatives."""
+    """Three smooth functions of ``t`` in [0, 1] with triple zeros at both ends, and their derivatives."""
     bump, bump_t = (t * (1 - t)) ** 3, 3 * (t * (1 - t)) ** 2 * (1 - 2 * t)
     parts = []
     for k, shift in ((3.0, 0.3), (2.0, 1.1), (4.0, 0.7)):
@@ -92,7 +92,7 @@ def base_at(held, s):
 
 
 def gauss(held):
-    """Points and weights in ``S``, the break points between them."""
+    """Points and weights in ``S``, with break points between them."""
     x, w = np.polynomial.legendre.leggauss(10)
     breaks = held.model.breaks
     edges = np.concatenate([np.linspace(a, b, 9)[:-1] for a, b in pairwise(breaks)])
@@ -105,7 +105,7 @@ def gauss(held):
 def whole_energy(held, q, n, e, angles=48):
     """Energy over ``2 pi`` waves of the surface displaced by ``e`` times the shapes, over ``pi``.
 
-    Principal stretches by numpy's eigenvalues, the state chosen anew at each point.
+    Principal stretches are eigenvalues by numpy; each point uses the energy of its own state.
     """
     s, weights = gauss(held)
     base, length = base_at(held, s), held.model.breaks[-1]
@@ -134,7 +134,7 @@ def whole_energy(held, q, n, e, angles=48):
 
 
 def relaxed_energy(x1, x2, c2):
-    """By squared principal stretches, the larger first."""
+    """Relaxed energy as a function of the squared principal stretches, the larger first."""
     full = x1 + x2 + 1 / (x1 * x2) - 3 + c2 * (1 / x1 + 1 / x2 + x1 * x2 - 3)
     lam = np.sqrt(x1)
     folded = lam**2 + 2 / lam - 3 + c2 * (2 * lam + 1 / lam**2 - 3)
@@ -155,7 +155,7 @@ def quadratic_form(held, n):
 @pytest.mark.parametrize("name", STATES)
 @pytest.mark.parametrize(("n", "e"), [(2, 1e-4), (7, 3e-5), (30, 1e-5)])
 def test_second_variation_is_that_of_the_whole_energy(name, n, e):
-    """The step is so small that a front moves over less than the quadrature sees."""
+    """The step is so small that the quadrature does not notice the motion of a front."""
     make, q = STATES[name]
     held = make()
     values = [whole_energy(held, q, n, a) for a in (-e, 0.0, e)]
@@ -177,7 +177,7 @@ def test_operator_is_symmetric(name):
 
 
 def test_axisymmetric_spectrum_is_part_of_that_for_no_waves():
-    """Without waves the angle decouples: torsion, and the tangent the equilibrium was found with."""
+    """Without waves the angle decouples: torsion, and the tangent of the equilibrium."""
     held = cylinder(8.0)
     waves = waves_at(held)
     own = waves.spectrum(0, 4).eigenvalues
@@ -194,7 +194,7 @@ def test_without_pressure_the_lowest_eigenvalue_is_positive_and_the_same_for_all
 
 
 def test_the_full_energy_is_unstable_to_short_waves_even_without_pressure():
-    """Compression makes an ordinary membrane unstable with ``n^2``; the relaxed one is not."""
+    """Compression makes an ordinary membrane unstable as ``n^2``, but not the relaxed one."""
     held = cylinder(0.0, energy="standard")
     found = [waves_at(held).spectrum(n, 1).eigenvalues[0] for n in (20, 40, 80)]
     assert found[2] < found[1] < 0
@@ -251,14 +251,14 @@ def test_the_shells_bending_energy_is_near_that_of_hoops_alone_and_starts_from_t
 
 @pytest.mark.parametrize("n", [1, 2, 3, 7])
 def test_a_ring_bends_by_what_is_known(n):
-    """Inextensible waves of a unit ring change its curvature by ``(n^2 - 1) u``; one wave is a shift."""
+    """Inextensible waves change a unit ring's curvature by ``(n^2 - 1) u``; one wave is a translation."""
     ring = axisymmetric(1.0, 0.0, (0.0, 1.0))
     bent = revolution.hoop_bending(ring, (1.0, -1.0 / n, 0.0), (0.0, 0.0, 0.0), n)
     assert float(bent) == pytest.approx(-(n**2 - 1), abs=1e-14)
 
 
 def test_axisymmetric_eigenvalues_are_the_limit_of_very_long_waves():
-    """The equilibrium's own tangent and mass against the second variation in waves, which has torsion too."""
+    """The second variation in waves, with torsion, agrees with the equilibrium's tangent and mass."""
     waves = waves_at(cylinder(6.0))
     short, long = (np.array(waves.spectrum(n, 6).eigenvalues) for n in (2e-3, 1e-3))
     limits = (4 * long - short) / 3  # what n adds is of order n^2

@@ -1,4 +1,4 @@
-"""The tube's weak form: exact states, invariants, and faults that must be noticed."""
+"""The tube's weak form: exact states, invariants, and errors that must be noticed."""
 
 import re
 from dataclasses import replace
@@ -99,7 +99,7 @@ def test_the_whole_tube_meets_a_symmetry_breaking_point_the_half_does_not_see():
 
 
 def test_a_law_that_gives_way_has_the_same_limit_points_on_all_meshes():
-    """Varga's energy grows linearly: past u_max = 1.9 the mid-plane's stretch has no bound, on no mesh."""
+    """Varga's energy grows linearly: past u_max = 1.9 the mid-plane's stretch is unbounded on any mesh."""
     result = solve("tube", model="varga", delta1=1.011, lf=6.72, numerics={"cells": 96})
     (point,) = result.points("limit_point")
     assert point.uncertainty["p"] < 1e-9
@@ -116,7 +116,7 @@ def test_a_pre_stretch_beyond_the_largest_of_its_law_is_refused():
 
 
 def test_stresses_beyond_the_largest_stretch_are_no_numbers():
-    """They would be finite, of the wrong sign, and Newton's method could converge to them."""
+    """The energies would be finite, but of the wrong sign, and Newton's method could converge there."""
     gent = Chosen("gent", (("shear", 2.0), ("jm", 8.97)))
     system = System(formulation(MPI.COMM_SELF, gent, 4.28, 6.0, TubeMesh(8, 2, 0.0)))
     assert not np.any(np.isfinite(np.delete(system.residual(), system.bc_dofs)))

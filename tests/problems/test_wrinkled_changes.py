@@ -1,4 +1,4 @@
-"""Changes of stability where a zone opens: the eigenvalue leaps within less than any mesh resolves."""
+"""Changes of stability where a zone opens: the eigenvalue jumps within less than a mesh resolves."""
 
 from types import SimpleNamespace
 
@@ -15,7 +15,7 @@ def held(load):
 
 
 class Canned(StabilityChanges):
-    """The eigenvalue is a given function of the load; other meshes find no state."""
+    """The eigenvalue is a given function of the load; the other meshes find no state."""
 
     def __init__(self, lowest, *openings):
         def others(*_):
@@ -65,7 +65,7 @@ def test_without_such_a_zone_it_is_a_failure(lowest, said):
 
 @pytest.mark.slow
 def test_waves_that_vanish_where_a_taut_zone_opens():
-    """Between two points of the trace one zone opens and another closes: as many fronts as before."""
+    """Between two points of the trace one zone opens and another closes: the number of fronts is the same."""
     given = {"M": 1.36, "delta": 2.796, "c2": 0.028, "n": 5, "load_end": 6.5}
     result = solve("wrinkled_tube", **given, numerics={"cells": 8, "degree": 4, "levels": 2})
     assert result.failures == []

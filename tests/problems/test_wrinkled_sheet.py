@@ -1,4 +1,4 @@
-"""The two-dimensional form of the wrinkled cylinder, the thresholds and the material as problems."""
+"""Problems of the wrinkled cylinder's two-dimensional form, of the thresholds and of the material."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The wrinkled cylinder: tangent, exact states, fitted and plain meshes, general bodies, seeded faults."""
+"""The wrinkled cylinder: tangent, exact states, fitted and plain meshes, general bodies, planted errors."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -32,7 +32,7 @@ CELLS = (3, 6)
 
 @pytest.fixture(autouse=True)
 def fresh_models():
-    """Models are kept between solves: a test that changes a form must not find another nor leave its own."""
+    """Models are kept between solves: no test may see a form that another test has changed."""
     caches = (wrinkled_state.model_on, wrinkled_state.meridian_of, wrinkled_state.solver_of)
     for cache in caches:
         cache.cache_clear()
@@ -76,7 +76,7 @@ def test_tangent_is_symmetric_and_the_residuals_derivative(energy):
 
 
 def test_residual_is_the_potentials_gradient():
-    """Of Pi as printed, -P r^2 z'/2, though the form holds the liquid's other potential."""
+    """The residual of Pi as printed, with -P r^2 z'/2; the form uses another potential of the liquid."""
     held = fitted(membrane(radius=0.5568), 7.44)[-1]
     held.put()
     system = held.model.system
@@ -168,7 +168,7 @@ def test_every_block_is_in_the_state_it_is_marked_with(critical):
 
 
 def test_another_body_solves_too():
-    """A tube of uniform thickness and radius 2 is the unit one scaled: r and L by 2, pressure by 1/2."""
+    """A tube of uniform thickness and radius 2 is the unit tube scaled: r and L by 2, pressure by 1/2."""
     wide = Body(
         name="wide",
         parameters=("M", "delta", "L", "Af"),
@@ -299,7 +299,7 @@ def test_a_fault_in_the_weak_form_fails_named_checks(fault, monkeypatch, tmp_pat
 
 @pytest.mark.parametrize("fault", [second_invariant_forgotten_in_folds, wrong_switch])
 def test_a_fault_in_the_folds_leaves_a_branch_that_ends_too_low(fault, monkeypatch, tmp_path):
-    """It turns at half the level of the profile: there is no state to compare, and that is what is said."""
+    """The branch turns at half the level of the profile: the message says that no state can be compared."""
     fault(monkeypatch)
     found = FoundCase("paper4.sentinel", 4, Path(__file__), SENTINEL, "")
     (outcome,) = verify([found], tmp_path, "full", "").cases
@@ -318,7 +318,7 @@ def test_without_a_fault_the_same_checks_hold(tmp_path):
 
 @pytest.mark.parametrize("shift", [4e-15, -4e-15])
 def test_which_blocks_are_halved_does_not_hang_on_round_off(shift):
-    """Four of one length, two of which are to be halved: the same two on any number of ranks."""
+    """Four of equal length, two to be halved: the same two on any number of ranks."""
     breaks = Layout.of(Zones(TAUT, (2.5, 4.0, 5.5)), 8.0).breaks
     moved = Layout.of(Zones(TAUT, (2.5, 4.0 + shift, 5.5)), 8.0).breaks
     assert len(breaks) == BLOCKS + 1

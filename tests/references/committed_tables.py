@@ -1,4 +1,4 @@
-"""Reference tables made again against those committed."""
+"""Compare reference tables computed again with those committed."""
 
 from collections.abc import Mapping
 
@@ -8,7 +8,7 @@ from reference_data.solvers.core.tables import last_digit
 
 
 def assert_same_table(new: Mapping, committed: Mapping, about: Mapping) -> None:
-    """Every column within its stated uncertainty, which holds one rounding; the new one has another."""
+    """Assert that every column agrees within its stated uncertainty plus one rounding of the new column."""
     assert list(new) == list(committed)
     for column, values in committed.items():
         bound = about["columns"][column]["uncertainty"] + last_digit(values)

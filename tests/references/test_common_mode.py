@@ -1,7 +1,7 @@
-"""Formulas that stand on both sides, looked at a third time (docs/common-formulas.md).
+"""Formulas that both sides use, tested by a third, independent method (docs/common-formulas.md).
 
-Each is held against bodies of flat triangles, springs and cones that are summed one by one, or against
-differences of what it is the derivative of.
+Each formula is compared with sums over flat triangles, springs and cones, or with differences of the function
+whose derivative it is.
 """
 
 from types import SimpleNamespace
@@ -53,7 +53,7 @@ def cones(case, p, x, parts=4000):
 
 
 def test_energy_release_is_what_a_sum_over_cones_loses():
-    """Neither the closed form nor the codes' potentials: rings one by one, and a difference of two fronts."""
+    """Compare with a sum over single rings and a difference between two fronts, not with a closed form."""
     case = Case(Disk(0.05, 1.3, 70.0, 0.4), 0.42, 3.4)
     x, p, h = 0.2, 1.4, 0.002
     _, per, rho = cones(case, p, x)
@@ -66,7 +66,7 @@ def test_energy_release_is_what_a_sum_over_cones_loses():
 
 
 def clipped(corners, level):
-    """Triangles (t, 3, 3) cut at a height: the parts below, as triangles again."""
+    """The parts of triangles (t, 3, 3) below a height, again as triangles."""
     order = np.argsort(corners[..., 2], axis=1)
     even = np.linalg.det(np.eye(3)[order]) > 0
     low, middle, high = (np.take_along_axis(corners, order[:, [i], None], 1)[:, 0] for i in range(3))
@@ -87,10 +87,10 @@ def clipped(corners, level):
 
 
 def total_potential(corners, reference, zw, gamma):
-    """Strain energy of flat triangles minus the liquid's: columns from each wet piece up to the level.
+    """Strain energy of flat triangles minus the work of the liquid, by columns up to the level.
 
-    A column of height h carries int P dV = gamma h^2/2 a unit of its cross-section; pieces that look up
-    count against those that look down.
+    A column of height h contributes int P dV = gamma h^2/2 per unit of its cross-section; the sign depends on
+    whether the triangle faces up or down.
     """
     edges = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], -1)
     c = np.swapaxes(edges @ np.linalg.inv(reference), 1, 2) @ (edges @ np.linalg.inv(reference))
@@ -146,7 +146,7 @@ SIZES = 48, 96
 
 @pytest.mark.parametrize("name", ["Lambda_n0", "Lambda_n1", "Lambda_n2"])
 def test_eigenvalues_are_those_of_a_triangulated_body(shape, name):
-    """Triangles err by the square of their size: two sizes give the limit, to 1 % of what they differ by."""
+    """Triangles have errors of second order: two sizes give the limit, to 1 % of their difference."""
     assert shape.elements.dry
     coarse, fine = (rayleigh(shape, modes.FAMILIES[name], n)[0] for n in SIZES)
     value = rayleigh(shape, modes.FAMILIES[name], 4)[1]
@@ -154,7 +154,7 @@ def test_eigenvalues_are_those_of_a_triangulated_body(shape, name):
 
 
 def test_a_term_at_the_free_surface_would_be_seen(shape):
-    """What differentiating the printed potential twice leaves out is far above what was just allowed."""
+    """The terms lost by differentiating the printed potential twice are far above the allowed error."""
     family = modes.FAMILIES["Lambda_n0"]
     _, nodal, _ = modes.galerkin_mode(shape, family)
     w = nodal[shape.elements.wet * shape.elements.degree - 1, -1]
@@ -168,7 +168,7 @@ def test_a_term_at_the_free_surface_would_be_seen(shape):
 
 
 def test_a_spring_on_the_current_radius_is_a_sum_of_springs():
-    """Rings of springs on the cylinder that a deformed meridian of cones shows to the axis, one by one."""
+    """Sum over rings of springs on a cylinder, one ring for each cone of the deformed meridian."""
     k, s = 20.0, 1.3
     t = np.linspace(0, 1, 20001)
     rho, eta = 1.5 + 0.2 * np.sin(2 * t), t + 0.1 * t**2
@@ -193,7 +193,7 @@ def test_a_spring_on_the_current_radius_is_a_sum_of_springs():
 
 
 def test_a_bed_of_springs_is_a_sum_over_the_plan():
-    """Columns over the plan of a deformed disk, one by one."""
+    """Sum over columns above the projection of a deformed disk."""
     k, plane = 50.0, 0.5
     t = np.linspace(0, 1, 20001)
     rho, eta = t + 0.1 * np.sin(t), 0.9 - 0.3 * t**2
@@ -236,7 +236,7 @@ def fundamental(e, n, theta, base, parts):
 
 @pytest.mark.parametrize("n", [0.0, 1.0, 3.0, 10.0])
 def test_incremental_curvatures_are_the_change_of_the_surfaces_own(n):
-    """Complex steps of the moved surface's second fundamental form: no formula for a change of curvature."""
+    """Complex steps of the moved surface's second fundamental form, without a formula for its change."""
     rng = np.random.default_rng(int(n))
     base, parts = rng.uniform(0.5, 1.5, (2, 3)), rng.standard_normal((3, 3))
     (r, r_s, r_ss), (_, z_s, z_ss) = base

@@ -1,4 +1,4 @@
-"""Uncertainties that are constants, not refinement, and tables of one method: docs/reference-methods.md."""
+"""Uncertainties that are constants, and tables with one method only: docs/reference-methods.md."""
 
 import ast
 import importlib
@@ -26,7 +26,7 @@ NAMES = re.compile(r"floor|uncertain|^left$|^loose$|^rest$")
 
 
 def small(node: ast.AST) -> list[ast.Constant]:
-    """Numbers of a size of errors in an expression, but for those that something is compared with."""
+    """Numbers in an expression that are as small as errors, except those in comparisons."""
     compared = {id(m) for n in ast.walk(node) if isinstance(n, ast.Compare) for m in ast.walk(n)}
     return [
         n
@@ -37,14 +37,14 @@ def small(node: ast.AST) -> list[ast.Constant]:
 
 
 def named(target: ast.AST) -> bool:
-    """Whether something that is assigned to holds an uncertainty by its name."""
+    """Whether the name of an assignment's target says that it holds an uncertainty."""
     texts = [n.id for n in ast.walk(target) if isinstance(n, ast.Name)]
     texts += [n.attr for n in ast.walk(target) if isinstance(n, ast.Attribute)]
     return any(NAMES.search(t) for t in texts)
 
 
 def expressions(tree: ast.Module) -> list[ast.AST]:
-    """What ends in an uncertainty."""
+    """Expressions whose value becomes an uncertainty."""
     out: list[ast.AST] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Call):
@@ -69,7 +69,7 @@ def expressions(tree: ast.Module) -> list[ast.AST]:
 
 
 def constants(tree: ast.Module) -> dict[str, list[float]]:
-    """Numbers of a size of errors that a module keeps under names in capitals."""
+    """Constants of a module, with names in capitals, that are as small as errors."""
     out = {}
     for node in tree.body:
         if isinstance(node, ast.Assign) and (found := small(node.value)):
@@ -80,7 +80,7 @@ def constants(tree: ast.Module) -> dict[str, list[float]]:
 
 
 def found_in(text: str, modules: dict[str, set[str]]) -> set[str]:
-    """Names and inline numbers that end in uncertainties; ``modules``: constants of the others."""
+    """Names and literal numbers that become uncertainties; ``modules`` are the others' constants."""
     tree = ast.parse(text)
     own, aliases, kept = set(constants(tree)), {}, {}
     for node in ast.walk(tree):
@@ -103,7 +103,7 @@ def found_in(text: str, modules: dict[str, set[str]]) -> set[str]:
 
 
 def all_found() -> dict[tuple[str, str], str]:
-    """(file, name or number) of every constant that ends in an uncertainty."""
+    """(file, name or number) of every constant that becomes an uncertainty."""
     paths = sorted(p for folder in FOLDERS for p in (ROOT / folder).rglob("*.py"))
     texts = {p: p.read_text() for p in paths}
     dotted = {p: ".".join(p.relative_to(ROOT).with_suffix("").parts) for p in paths}
@@ -116,7 +116,7 @@ def all_found() -> dict[tuple[str, str], str]:
 
 
 def listed() -> set[tuple[str, str]]:
-    """(file, name or number) of every row of the table of constants; files as within their side."""
+    """(file, name or number) of every row of the page's table; files relative to their side."""
     text = PAGE.read_text()
     rows = re.findall(r"^\| `([a-z0-9_/]+\.py)` \| ([^|]+) \|", text, re.MULTILINE)
     named = [(stem, name) for stem, names in rows for name in re.findall(r"`([^`]+)`", names)]
@@ -124,7 +124,7 @@ def listed() -> set[tuple[str, str]]:
 
 
 def ratios() -> dict[str, float]:
-    """Largest difference of two methods over what both allow together, by module of tables."""
+    """Largest difference of two methods divided by both uncertainties, by module of tables."""
     modules = {}
     for info in pkgutil.walk_packages(solvers.__path__, f"{solvers.__name__}."):
         if info.name.rpartition(".")[2].startswith("tables") and ".core." not in info.name:
@@ -167,7 +167,7 @@ def test_constants_are_found_where_they_end_in_an_uncertainty(text, expected):
 
 
 def test_two_methods_differ_by_less_than_constants_and_refinement_allow():
-    """What the page says of each group of tables is what the tables hold."""
+    """The page describes each group of tables as the tables are."""
     measured, rows = ratios(), re.findall(r"two methods, tables of ([^:|]+): ([0-9.]+)", PAGE.read_text())
     assert len(rows) > 10
     for names, said in rows:

@@ -1,4 +1,4 @@
-"""The reference side of contact: both methods, the conditions at the front, and the committed tables."""
+"""Reference codes for contact: both methods, the conditions at the front, and the committed tables."""
 
 import tomllib
 from dataclasses import replace
@@ -41,20 +41,20 @@ def read(path: Path) -> tuple[dict, dict[str, np.ndarray]]:
 
 @pytest.fixture(scope="module")
 def smooth():
-    """Frictionless state."""
+    """A frictionless state."""
     first, _ = st.touch(TUBE, SUBSTRATE, HOW.free)
     return st.frictionless(first, SUBSTRATE, HOW, np.array([P]))[0]
 
 
 @pytest.fixture(scope="module")
 def glued():
-    """Adhesive inflation."""
+    """A state of adhesive inflation."""
     return hist.Inflation(TUBE, SUBSTRATE, HOW, 3.0)
 
 
 @pytest.fixture(scope="module")
 def lowered(glued):
-    """Adhesive deflation, bilateral spring, to p = 1."""
+    """A state of adhesive deflation to p = 1 with a bilateral spring."""
     return hist.bilateral(glued.at(3.0).state, np.array([2.5, 2.0, 1.5, 1.0]))[-1]
 
 
@@ -148,7 +148,7 @@ def potential(state: con.State, rho: list, eta: list) -> complex:
 
 @pytest.mark.parametrize("which", ["smooth", "glued", "lowered"])
 def test_total_potential_is_stationary(which, request):
-    """Against the energy itself: all variations if frictionless, none of eta in a stuck patch."""
+    """The energy is stationary: for all variations without friction, with eta fixed in a stuck patch."""
     given = request.getfixturevalue(which)
     state = given.at(P).state if which == "glued" else given.state
     length, front = state.tube.length, float(state.fronts[0])
@@ -173,7 +173,7 @@ def test_total_potential_is_stationary(which, request):
 
 
 def test_first_integrals_hold_across_the_frictionless_front(smooth):
-    """F = r0 w_1 cos b - g(rho) and H = w - lambda1 w_1 do not vary along the tube."""
+    """F = r0 w_1 cos b - g(rho) and H = w - lambda1 w_1 are constant along the tube."""
     state = smooth.state
     axial, energy = [], []
     for zone, y in zip(state.zones, state.y, strict=True):

@@ -1,4 +1,4 @@
-"""The reference side of paper 1: strong form, both methods, the patch, its energy, the tables."""
+"""Reference codes of paper 1: strong form, both methods, the patch, its energy, the tables."""
 
 import tomllib
 from dataclasses import replace
@@ -56,7 +56,7 @@ def locked():
 
 
 def potential(batch: dl.Batch, moved: list[np.ndarray]) -> complex:
-    """Phi of nodal (rho, eta) per zone, springs where the zone has them."""
+    """Phi of nodal (rho, eta) per zone, with springs in the zones that have them."""
     disk, total = batch.zones[0].disk, 0.0
     for d, zone in enumerate(batch.zones):
         mesh = zone.mesh
@@ -75,7 +75,7 @@ def potential(batch: dl.Batch, moved: list[np.ndarray]) -> complex:
 @pytest.mark.parametrize("mode", [1, 2, 3])
 @pytest.mark.parametrize("component", [0, 1])
 def test_potential_is_stationary(sliding, mode, component):
-    """The first-order system against its origin, Phi with the springs of the flat substrate."""
+    """The first-order system follows from Phi with the springs of the flat substrate."""
     disk, moved = SMALL.disk, []
     for d, zone in enumerate(sliding.zones):
         x = dl.spread(*sliding.edges(d), zone.mesh.x)[0]
@@ -89,8 +89,8 @@ def test_potential_is_stationary(sliding, mode, component):
 def test_appendix_functions_hold_along_a_collocation_solution(sliding):
     """The paper's appendix, v' = F1 and w' = F2, in contact and out of it.
 
-    v and w are differentiated as polynomials of the other method's solution. With the printed
-    factor 2 pi in the numerators both would be wrong by that factor.
+    v and w are differentiated as polynomials of the other method's solution. Both formulas as printed, with 2
+    pi in the numerators, are wrong by this factor.
     """
     disk = SMALL.disk
     for d, zone in enumerate(sliding.zones):
@@ -197,7 +197,7 @@ def test_gas_springs_and_rim_are_in_vertical_balance(kind, sliding, locked, radi
 
 
 def test_front_of_inflation_is_smooth_and_without_release(locked):
-    """lambda1 and slope are continuous at the moving front, so that G = 0 there."""
+    """lambda1 and slope are continuous at the moving front, hence G = 0 there."""
     x, run, _ = locked
     patch = run.history.patch(np.array([x]))
     _, _, l1, th = run.at(x).y[0][0, 0, 0]
@@ -221,7 +221,7 @@ def test_history_forgets_how_it_began():
 
 
 def test_closed_form_is_the_derivative_of_the_potential():
-    """Central differences of Pi approach G with order 2, one-sided ones with order 1."""
+    """Central differences of Pi converge to G with order 2, one-sided ones with order 1."""
     x, p = np.array([0.2]), 1.4
     patch, _ = peel.states_b(SMALL, p, x, 1)
     rate = peel.rates_b(SMALL, p, 1)(patch.rho)[0]

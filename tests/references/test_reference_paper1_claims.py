@@ -1,4 +1,4 @@
-"""What paper 1 says of its curves, held against the reference tables of paper 1."""
+"""The claims of paper 1 about its curves, tested on the reference tables."""
 
 import tomllib
 from pathlib import Path
@@ -110,7 +110,7 @@ def test_frictionless_paths_diverge_without_inflexion(letter):
 
 
 def bulging(case: dc.Case) -> float:
-    """Pressure at which the rim stands upright in frictionless contact."""
+    """Pressure at which the membrane is vertical at the rim in frictionless contact."""
     p = np.arange(np.ceil(onset(case) * 10) / 10 + 0.1, 9.6, 0.1)
     states = dc.sliding_b(case.disk, p, 0)
     upright = [float(s.y[-1][0, -1, -1, 3]) > np.pi / 2 for s in states]
@@ -175,7 +175,7 @@ def test_points_in_the_patch_move_vertically(letter):
     ("letter", "points", "outer"), [("a", (0.4, 0.5, 0.6), (0.7, 0.8, 0.9)), ("b", (0.6, 0.7), (0.8, 0.9))]
 )
 def test_paths_near_the_patch_have_an_inflexion(letter, points, outer):
-    """Their slope falls, then rises; farther out it only falls up to the last printed pressure."""
+    """The slope falls, then rises; farther out it only falls up to the last printed pressure."""
     t = read(f"paths_fig04{letter}")
 
     def bends(X: float) -> np.ndarray:
@@ -313,7 +313,7 @@ def test_stiffer_material_and_substrate_release_more(more, less, pressures):
 
 
 def test_prestretch_releases_more():
-    """At equal p, where the curves of beta = 2 are farther below their first contact."""
+    """At equal p the curves of beta = 2 are farther below their pressure of first contact."""
     stretched, flat = read("fig12b_p_2.4"), read("fig11b_p_2.4")
     rows = np.isin(stretched["rho_contact"], flat["rho_contact"])
     assert np.all(stretched["G"][rows] > flat["G"])

@@ -1,4 +1,4 @@
-"""The reference side of the fluid-loaded tube: both axisymmetric methods, and the states they find."""
+"""Reference codes of the fluid-loaded tube: both axisymmetric methods and their states."""
 
 import numpy as np
 import pytest
@@ -18,14 +18,14 @@ TUBE = FluidTube(8, 2)
 
 @pytest.fixture(scope="module")
 def line():
-    """Primary branch of L = 8, delta = 2, past both crossings of the brim."""
+    """Primary branch of L = 8, delta = 2, beyond both crossings of the brim."""
     out = path.Path(TUBE, HOW)
     out.reach(134.0, 2.0)
     return out
 
 
 def random_point(rng):
-    """An axisymmetric point with tangents, pressure and its slope."""
+    """An axisymmetric point with tangents, pressure and slope of the pressure."""
     r, l1, psi, load, slope = 1 + rng.random(), 1 + rng.random(), rng.random(), rng.random(), -rng.random()
     a = np.array([l1 * np.cos(psi), 0.0, l1 * np.sin(psi)])
     return (r, l1, psi, load, slope), a, np.array([0.0, r, 0.0])
@@ -54,7 +54,7 @@ def test_strain_energy_has_the_fluxes_as_its_gradient():
 
 @pytest.mark.parametrize("n", [0, 1, 2, 5])
 def test_second_variation_of_both_methods_is_one_quadratic_form(n):
-    """The form written out in the paper against the average of the Cartesian tangent."""
+    """The form printed in the paper agrees with the average of the Cartesian tangent."""
     rng = np.random.default_rng(n)
     at, a, b = random_point(rng)
     d = weak.tangent(a, b, np.array(at[3]), np.array(at[4]))
@@ -70,7 +70,7 @@ def test_second_variation_of_both_methods_is_one_quadratic_form(n):
 
 @pytest.mark.parametrize("model", [None, "ogden", "gent", "arruda_boyce"])
 def test_resultants_of_the_axisymmetric_methods_share_no_formula_and_agree(model):
-    """Tensions of the first-order system against complex steps of the energy alone."""
+    """Tensions of the first-order system agree with complex steps of the energy."""
     rng = np.random.default_rng(4)
     l1, r, psi = 1 + rng.random(9), 1 + rng.random(9), rng.random(9)
     a = np.stack([l1 * np.cos(psi), 0 * psi, l1 * np.sin(psi)], -1)
@@ -101,7 +101,7 @@ def test_both_methods_find_the_same_state_and_spectrum(line, volume):
 
 @pytest.mark.parametrize("volume", [6.0, 60.0, 126.0])
 def test_first_integral_and_rings(line, volume):
-    """W - lambda1 s_1 does not vary along the tube; the rings carry the same stresses."""
+    """W - lambda1 s_1 is constant along the tube; the rings carry the same stresses."""
     state = line.at(volume)
     r, _, l1, _, _ = np.moveaxis(state.y, -1, 0)
     energy = (l1**2 + r**2 + 1 / (l1 * r) ** 2 - 3) / 2
@@ -122,7 +122,7 @@ def test_potential_falls_with_the_level_by_the_weight_of_the_fluid(line, volume)
 
 
 def test_volume_has_a_kink_at_the_brim(line):
-    """dV/dz_w loses the area pi of the free surface when the tube is full; the shape goes on smoothly."""
+    """dV/dz_w drops by the area pi of the free surface when the tube is full; the shape stays smooth."""
     states = line.states
     switches = [i for i in range(1, len(states)) if states[i].partial != states[i - 1].partial]
     assert len(switches) == 2

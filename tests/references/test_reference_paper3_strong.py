@@ -1,4 +1,4 @@
-"""The second method of the bent fluid-loaded tube: balance of forces, and what it says about both methods."""
+"""The second method for the bent fluid-loaded tube: balance of forces, and agreement of both methods."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -37,13 +37,13 @@ def critical():
 
 @pytest.fixture(scope="module")
 def pair(critical):
-    """One state of the branch by both methods, each from the axisymmetric state and its mode."""
+    """One state of the branch by both methods, each started from the axisymmetric state and its mode."""
     guess = branch.injected(critical[1], OFFSET, GRID)
     return galerkin.newton(guess, OFFSET), strong.newton(strong.taken(guess, NET), OFFSET)
 
 
 def test_forces_of_both_methods_are_the_gradient_of_one_energy():
-    """Cross products, the metric and complex steps of the energy: three derivations to rounding."""
+    """Cross products, the metric and complex steps of the energy give the same stress, up to rounding."""
     a, b = RNG.standard_normal((2, 20, 3))
     own, other = np.concatenate(strong.forces(a, b), -1), np.concatenate(weak.fluxes(a, b), -1)
     scale = np.abs(own).max(axis=-1, keepdims=True)
@@ -105,7 +105,7 @@ def test_both_methods_find_the_same_eigenvalues(pair):
 
 
 def test_a_wrong_load_or_force_does_not_agree(pair, monkeypatch):
-    """The comparison sees one percent of either physics."""
+    """The comparison notices a change of one percent in either method's physics."""
     right = balance.quantities(pair[1])
     lighter = replace(pair[1], tube=replace(TUBE, gamma=0.99 * TUBE.gamma))
     wrong = balance.quantities(strong.newton(lighter, OFFSET))
@@ -125,7 +125,7 @@ def test_a_column_on_which_the_methods_differ_is_not_written():
 
 
 def test_what_newton_leaves_is_far_below_what_is_allowed_for(pair, monkeypatch):
-    """``LEFT``: the same states, iterated on until a step is a hundred times smaller."""
+    """``LEFT`` compares with the same states after iterations until steps are a hundred times smaller."""
     monkeypatch.setattr(galerkin, "CONVERGED", 2e-12)
     monkeypatch.setattr(strong, "CONVERGED", 2e-12)
     further = galerkin.newton(pair[0], OFFSET), strong.newton(pair[1], OFFSET)
@@ -137,7 +137,7 @@ def test_what_newton_leaves_is_far_below_what_is_allowed_for(pair, monkeypatch):
 
 
 def test_volume_is_that_of_a_triangulated_body(pair):
-    """Neither flux: tetrahedra from the origin over flat triangles, and a cone under the lid."""
+    """Volume without a flux: tetrahedra from the origin over flat triangles, and a cone under the lid."""
     bent, found = pair[1], []
     for n in (48, 96):
         theta = np.linspace(0, np.pi, n + 1)
@@ -160,7 +160,7 @@ def tetrahedra(x):
 
 @pytest.mark.slow
 def test_tables_of_the_branch_are_made_by_both_methods(monkeypatch):
-    """What makes the branch's and the slopes' tables, on coarse grids, against what is stored."""
+    """The programs of the tables of branch and slopes, on coarse grids, agree with the stored tables."""
     monkeypatch.setattr(secondary, "LEVELS", {TUBE: (7.85, 7.89)})
     monkeypatch.setattr(branch, "GRIDS", ((6, 3, 6, 9), (7, 3, 6, 11), (8, 3, 7, 12), (8, 3, 8, 12)))
     monkeypatch.setattr(both, "STEEP_NETS", ((4, 3, 10, 10), (5, 3, 11, 12)))

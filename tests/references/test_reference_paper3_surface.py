@@ -1,4 +1,4 @@
-"""The reference side of the fluid-loaded tube without axial symmetry: the secondary branch."""
+"""Reference codes of the fluid-loaded tube without axial symmetry: the secondary branch."""
 
 from dataclasses import replace
 
@@ -65,7 +65,7 @@ def test_level_and_volume_fall_away_from_the_bifurcation(critical, bent):
 
 
 def test_potential_is_stationary(bent):
-    """The weak form against its origin: Pi in polar terms, never integrated by parts."""
+    """The weak form follows from Pi in polar terms, which is never integrated by parts."""
     rng = np.random.default_rng(0)
     el = GRID.elements
     z = np.concatenate([el.positions(TUBE, bent.front[0])]) / TUBE.length
@@ -81,7 +81,7 @@ def test_potential_is_stationary(bent):
 
 
 def test_level_is_conjugate_to_the_volume(bent):
-    """dPi/dz_w = -gamma V between neighbours on the branch."""
+    """dPi/dz_w = -gamma V between neighbouring states of the branch."""
     h = 2e-3
     pair = [newton(replace(bent, zw=bent.zw + k * h)) for k in (-1, 1)]
     pi = [states.integrals(s)[1] for s in pair]
@@ -98,7 +98,7 @@ def test_stability_of_the_secondary_branch(bent):
 
 
 def test_matrix_is_symmetric_and_exact(bent):
-    """Pressure is a follower load, yet its matrix is symmetric; and it is the residual's derivative."""
+    """Pressure is a follower load, yet its matrix is symmetric and is the residual's derivative."""
     assembly = Assembly(bent)
     el = GRID.elements
     size = assembly.functions * (el.count * el.degree + 1)

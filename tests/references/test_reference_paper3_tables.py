@@ -1,4 +1,4 @@
-"""The committed tables of paper 3: accuracy, regeneration, and what the paper says about the numbers."""
+"""The committed tables of paper 3: accuracy, regeneration, and the paper's claims about the numbers."""
 
 import tomllib
 from pathlib import Path
@@ -45,7 +45,7 @@ def test_axisymmetric_tables_are_accurate(name):
 
 @pytest.mark.parametrize("name", sorted(SECONDARY))
 def test_secondary_tables_are_accurate(name):
-    """At least five times sharper than what is asked of the weak forms: 1e-5, stress resultants 1e-4."""
+    """At least five times more accurate than the weak forms must be: 1e-5, stress resultants 1e-4."""
     about, columns = read(name)
     for column, facts in about["columns"].items():
         sharp = 2e-5 if column.startswith(("T", "lam")) else 1e-4 if column.startswith("Lambda") else 2e-6

@@ -1,4 +1,4 @@
-"""The reference side of paper 4: its relaxed energy, its two solvers, and what ties them to the physics."""
+"""Reference codes of paper 4: its relaxed energy, its two solvers, and physical identities."""
 
 from dataclasses import replace
 from functools import cache
@@ -48,7 +48,7 @@ def tracked(membrane: Membrane, load: float) -> col.State:
 @pytest.mark.parametrize("c2", [0.0, 0.01, 0.4])
 @pytest.mark.parametrize("l1", [1.05, 1.8, 4.0])
 def test_relaxed_energy_and_its_derivatives(c2, l1):
-    """Uniaxial tension: energy, slope and curvature of the full one along l2 = l1^(-1/2)."""
+    """Uniaxial tension: energy, slope and curvature of the full energy along l2 = l1^(-1/2)."""
     natural, h = l1**-0.5, 1j * STEP
     assert relaxed(l1, c2) == pytest.approx(mat.energy(l1, natural, c2), rel=1e-13)
     assert wri.relaxed_slope(l1, c2) == pytest.approx(mat.slope(l1, natural, c2), rel=1e-13)
@@ -88,14 +88,14 @@ def test_both_methods_find_the_same_state(membrane, load):
 
 def test_the_pattern_of_figure_4_is_found_by_all_three():
     state = cas.solved(*THREE_FRONTS)
-    assert state.zones == "wrinkled tense wrinkled tense"
+    assert state.zones == "wrinkled taut wrinkled taut"
     untracked = cas.grid_at(*THREE_FRONTS).fronts
     assert len(untracked) == len(state.shots[1].shot.fronts) == 3
     assert np.abs(untracked - tracked(*THREE_FRONTS).pattern.fronts).max() < 2e-3
 
 
 def potential(state: col.State, r: np.ndarray, z: np.ndarray) -> complex:
-    """Pi = int (eta W - P-potential) ds of nodal radii and heights, from the energies alone."""
+    """Pi = int (eta W - P-potential) ds of nodal radii and heights, computed from the energies only."""
     membrane, rule = state.membrane, state.rule
     width = np.diff(state.edges)[:, None]
     dr, dz = ((x @ rule.deriv.T) / width for x in (r, z))
@@ -113,7 +113,7 @@ def potential(state: col.State, r: np.ndarray, z: np.ndarray) -> complex:
 
 @pytest.mark.parametrize(("membrane", "load"), STATES[:5])
 def test_total_potential_is_stationary(membrane, load):
-    """The strong forms against their origin, with the state table's energies."""
+    """The strong forms follow from Pi with the energies of the table of states."""
     state = tracked(membrane, load)
     r, z, x = state.y[..., 0], state.y[..., 1], state.s / membrane.L
     scale = abs(np.imag(potential(state, r + 1j * STEP * (1 + 0 * x), z))) / STEP
@@ -125,7 +125,7 @@ def test_total_potential_is_stationary(membrane, load):
 
 @pytest.mark.parametrize(("membrane", "load"), STATES)
 def test_first_integrals(membrane, load):
-    """Tension constant in wrinkled zones, axial force N cos b - p r^2/2 along gas, cones where dry."""
+    """Tension constant in wrinkled zones, axial force N cos b - p r^2/2 along gas, cones in dry zones."""
     state = tracked(membrane, load)
     values = msr.profile(state, state.s.ravel())
     r, b = values["r"], state.y[..., 3].ravel()
@@ -154,7 +154,7 @@ def test_gas_solutions_are_mirrored(membrane, load):
 
 @pytest.mark.parametrize(("membrane", "load"), [THREE_FRONTS, (GAS, 0.45), (CASE2, 0.002)])
 def test_jumps_at_fronts(membrane, load):
-    """Second derivatives jump in the ratio r'/z'; lam1' by W12/W11 times a slope of the wrinkled side."""
+    """Second derivatives jump in the ratio r'/z'; lam1' jumps by W12/W11 times a wrinkled slope."""
     state = tracked(membrane, load)
     jumps = jmp.of_state(state)
     assert np.all(np.abs(jumps["jump_z2"]) > 1e-4)
@@ -172,7 +172,7 @@ def test_jumps_at_fronts(membrane, load):
 
 
 def test_newtons_matrix_is_exact():
-    """The slope d load/d V of the bordered system against differences of V, fronts and surface free."""
+    """The slope d load/d V of the bordered system agrees with differences of V, with free fronts."""
     membrane, load = THREE_FRONTS
     state, system = sta.newton(tracked(membrane, load), "load", load)
     _, at_v = sta.newton(state, "V", system.volume)
@@ -186,7 +186,7 @@ def test_newtons_matrix_is_exact():
 
 
 def test_wrong_zones_are_mended():
-    """From the tense pattern, and from one with a zone too many, to the same state."""
+    """The taut pattern and one with a zone too many lead to the same state."""
     membrane, load = THREE_FRONTS
     right = tracked(membrane, load)
     surface = right.pattern.breaks[1:-1][right.pattern.kinds.index("surface")]
@@ -205,7 +205,7 @@ def test_wrong_zones_are_mended():
 
 
 def test_an_event_lies_between_its_patterns():
-    """Merging of the two tense zones: four zones just below the level, two just above."""
+    """The two taut zones merge: four zones just below the level, two just above."""
     event = evt.find(evt.Touch(WATER, 9.25, 6.7, maximum=False))
     level = float(event.x[0].fine)
     assert level == pytest.approx(float(event.x[1].fine), abs=1e-9)
@@ -252,7 +252,7 @@ def test_standard_energy_leaves_no_cylinder():
 
 @pytest.mark.parametrize("fault", ["hoop", "load"])
 def test_a_fault_in_one_method_is_noticed(fault, monkeypatch):
-    """Shooting with a wrong W_2 or a wrong weight of the fluid: no table."""
+    """With a wrong W_2 or a wrong weight of the liquid in shooting, no table is written."""
     if fault == "hoop":
         exact = mat.slope
         monkeypatch.setattr(

@@ -1,4 +1,4 @@
-"""What paper 4 says of its membranes, held against the committed tables."""
+"""The claims of paper 4 about its membranes, tested on the committed tables."""
 
 import tomllib
 from itertools import pairwise
@@ -37,7 +37,7 @@ def only(name: str, **keys: float) -> dict[str, float]:
     [(0.5, 2, "0.5568", False), (1.5, 3, "0.4362", True), (0.99, 2, "0.7046", True), (1, 2, "0.7071", True)],
 )
 def test_table_2_is_reproduced(M, delta, printed, rounds):
-    """To the printed digits; 0.5568 is cut off, since the fifth decimal is a 6 or more."""
+    """Agreement to the printed digits; 0.5568 is cut off, not rounded: the fifth decimal is 6 or more."""
     value = only("table2", M=M, delta=delta)["Af_critical"]
     assert f"{value:.6f}".startswith(printed)
     assert (f"{value:.4f}" == printed) == rounds
@@ -57,17 +57,17 @@ def test_1_unloaded_membrane_is_a_wrinkled_cylinder(fig, M, thin):
 
 def test_2_two_tense_and_two_wrinkled_zones():
     about, _ = read("fig02_M_1.5_zw_7.44")
-    assert about["zones"] == "wrinkled tense wrinkled tense"
+    assert about["zones"] == "wrinkled taut wrinkled taut"
     assert len(about["fronts"]) == 3
-    assert read("fig03_M_1.5_zw_7.44")[0]["zones"] == "wrinkled tense"
+    assert read("fig03_M_1.5_zw_7.44")[0]["zones"] == "wrinkled taut"
 
 
 @pytest.mark.parametrize("fig", ["fig02", "fig03"])
 @pytest.mark.parametrize("level", LEVELS)
 def test_3_thin_end_is_tense_and_thick_end_wrinkled(fig, level):
-    assert read(f"{fig}_M_0.5_zw_{level}")[0]["zones"] == "tense wrinkled"
+    assert read(f"{fig}_M_0.5_zw_{level}")[0]["zones"] == "taut wrinkled"
     zones = read(f"{fig}_M_1.5_zw_{level}")[0]["zones"].split()
-    assert (zones[0], zones[-1]) == ("wrinkled", "tense")
+    assert (zones[0], zones[-1]) == ("wrinkled", "taut")
 
 
 def test_3_second_tense_zone_nucleates_near_one_third():
@@ -85,7 +85,7 @@ def test_3_second_tense_zone_nucleates_near_one_third():
 def test_4_and_5_wrinkled_zone_shrinks_but_stays(name):
     about, fronts = read(f"fronts_{name}")
     _, branch = read(name)
-    assert about["zones"] == "tense wrinkled"
+    assert about["zones"] == "taut wrinkled"
     assert np.all(np.diff(fronts["Z_front_1"]) > 0)
     assert np.all(np.diff(branch["wrinkled_fraction"]) < 0)
     assert branch["wrinkled_fraction"][-1] > 0.1
@@ -129,21 +129,21 @@ def test_9_uniform_thickness_does_not_wrinkle_and_others_do():
         _, branch = read(name)
         assert branch["gw_min"].min() > 1 - 1e-10
         assert np.all(branch["wrinkled_fraction"] == 0)
-    assert read("fig07_M_0.99_zw_4.5")[0]["zones"] == "tense wrinkled"
+    assert read("fig07_M_0.99_zw_4.5")[0]["zones"] == "taut wrinkled"
     _, nearly = read("fluid_M_0.99_delta_2")
     assert np.all(np.diff(nearly["wrinkled_fraction"]) <= 0)
     assert only("zone_events", set=7, event=3)["load"] > 14
     small = paper4_branches.SETS["gas_M_1_delta_2_Af_0.6"][0]
     assert small.Af == 0.6
-    assert read("fronts_gas_M_1_delta_2_Af_0.6")[0]["zones"] == "wrinkled tense wrinkled"
+    assert read("fronts_gas_M_1_delta_2_Af_0.6")[0]["zones"] == "wrinkled taut wrinkled"
 
 
 @pytest.mark.parametrize("Af", ["0.4", "0.5"])
 def test_10_smaller_disks(Af):
     assert read(f"fig08_Af_{Af}_zw_4.5")[0]["zones"] == "wrinkled"
-    assert read("fig02_M_0.5_zw_4.5")[0]["zones"] == "tense wrinkled"
+    assert read("fig02_M_0.5_zw_4.5")[0]["zones"] == "taut wrinkled"
     about, fronts = read(f"fronts_fluid_Af_{Af}")
-    assert about["zones"] == "wrinkled tense wrinkled"
+    assert about["zones"] == "wrinkled taut wrinkled"
     assert fronts["zw"][-1] == 16
     at_half, at_less = (read(f"fig08_Af_{a}_zw_4.5")[1]["r"] for a in ("0.5", "0.4"))
     assert np.abs(at_half - at_less)[1:-1].min() > 0
@@ -166,7 +166,7 @@ def test_11_standard_energy():
 
 
 def test_12_case_2_wrinkles_in_the_middle_only():
-    assert read("fig10a_delta_2_p_0")[0]["zones"] == "tense wrinkled tense"
+    assert read("fig10a_delta_2_p_0")[0]["zones"] == "taut wrinkled taut"
     assert 0.001 < only("case2_vanishing", M=0.5, delta=2, fluid=0)["load"] < 0.005
     assert 6 < only("case2_vanishing", M=0.5, delta=2, fluid=1)["load"] < 12
     assert read("case2_gas_M_0.9_delta_2")[1]["gw_min"].min() > 1
@@ -209,7 +209,7 @@ def test_regenerated_table_equals_the_committed_one(name, tmp_path):
 
 @pytest.mark.parametrize("path", sorted(DATA.glob("*.toml")), ids=lambda p: p.stem)
 def test_fronts_in_the_documentation_rise_and_match_the_profile(path):
-    """Between two fronts gw - 1 has one sign, the one the zones claim."""
+    """Between two fronts gw - 1 has one sign, as the zones claim."""
     about, columns = read(path.stem)
     if "Z" not in columns or "gw" not in columns:
         return
@@ -218,6 +218,6 @@ def test_fronts_in_the_documentation_rise_and_match_the_profile(path):
     assert all(a < b for a, b in pairwise(fronts))
     for i, (low, high) in enumerate(pairwise([-1.0, *fronts, 99.0])):
         gw = columns["gw"][(columns["Z"] > low) & (columns["Z"] < high)]
-        above = words[i] in ("tense", "gw>1")
+        above = words[i] in ("taut", "gw>1")
         room = about["columns"]["gw"]["uncertainty"]
         assert np.all(gw > 1 - room) if above else np.all(gw < 1 + room)

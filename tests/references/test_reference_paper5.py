@@ -1,4 +1,4 @@
-"""The reference side of paper 5: second variations, the hemisphere, and what ties them to the physics."""
+"""Reference codes of paper 5: second variations, the hemisphere, and physical identities."""
 
 from dataclasses import replace
 from functools import cache
@@ -37,7 +37,7 @@ def form(load: float, gas: bool = False) -> sec.Quadratic:
     [(1.7, 1.2, True), (4.0, 0.6, True), (1.3, 1.3, True), (1.7, 0.7, False), (4.0, 0.3, False)],
 )
 def test_derivatives_of_the_energy_in_invariants(x1, x2, tense):
-    """f1..f22 against complex steps of U(x1, x2); f_y against its quotient."""
+    """f1..f22 agree with complex steps of U(x1, x2); f_y agrees with its quotient."""
 
     def slopes(a, b):
         h = 1j * STEP
@@ -82,7 +82,7 @@ def energy(
 ) -> np.ndarray:
     """Integrand of the complete two-dimensional energy, summed over Theta, at the Gauss points.
 
-    Every triangle of stretches picks its own energy; the liquid by Phi and the projected area.
+    Each point uses the energy of its own state; the liquid enters by Phi and the projected area.
     """
     membrane, points = FLUID, 64
     theta = np.arange(points) * 2 * np.pi / n / points
@@ -105,7 +105,7 @@ def energy(
 
 @pytest.mark.parametrize(("load", "n", "rel_error"), [(3.0, 10, 3e-8), (6.6, 10, 2e-3)])
 def test_second_variation_is_that_of_the_complete_energy(load, n, rel_error):
-    """Differences of the energy in two dimensions; first order in the amplitude where a front moves."""
+    """Differences of the energy in two dimensions; of first order in the amplitude at a moving front."""
     f = form(load)
     x = f.state.edges[:-1, None] + np.diff(f.state.edges)[:, None] * f.nodes
     shape = np.sin(np.pi * x / 8)
@@ -129,7 +129,7 @@ def test_second_variation_is_that_of_the_complete_energy(load, n, rel_error):
 
 
 def test_flat_patch():
-    """For x = a X + e sin nX, y = b Y, z = c + e cos nX: the printed pressure energy; stretch b stays."""
+    """For x = a X + e sin nX, y = b Y, z = c + e cos nX: the printed pressure energy; b is constant."""
     a, b, c, n, P, Lx, Ly = 0.6, 1.8, 0.1, 10, 0.3, 1.3, 0.7
     X, w = np.polynomial.legendre.leggauss(200)
     X, w = Lx * (X + 1) / 2, w * Lx / 2
@@ -179,7 +179,7 @@ def test_lowest_eigenvalue_falls_with_n_while_wrinkled_and_tends_to_the_local_ra
 
 
 def test_a_tense_membrane_of_the_full_energy_is_unstable_at_zero_pressure_for_large_n():
-    """With the full energy in the wrinkled state the form is quadratic in n, with compressed hoops."""
+    """With the full energy in the wrinkled state the form is quadratic in n, as hoops are compressed."""
     state = cas.solved(FLUID, 0.0).tracked[0][0]
     full = quadratic(state, all_tense=True)
     assert abs(full.stiffness[2]).max() > 1
@@ -187,7 +187,7 @@ def test_a_tense_membrane_of_the_full_energy_is_unstable_at_zero_pressure_for_la
 
 
 def test_linearised_theory():
-    """Affine in n, B by its closed form, negative eigenvalues beyond n*; both ways of A agree."""
+    """Linear in n, B by its closed form, negative eigenvalues beyond n*; both computations of A agree."""
     f = form(4.5)
     level = f.state.edges[np.nonzero(np.diff(f.state.wet.astype(int)))[0][0] + 1]
     for power in (1, 2):
@@ -201,7 +201,7 @@ def test_linearised_theory():
 
 
 def test_hemisphere_first_integrals():
-    """Tension constant where wrinkled, a straight meridian where dry too; a front near the equator."""
+    """Constant tension in wrinkled zones, a straight meridian in dry ones; a front near the equator."""
     state = rel.WALK.at(-0.9)
     t, y = state.t, state.y
     tension = np.sin(t) * wri.relaxed_slope(y[..., 2], 0.0)
@@ -225,7 +225,7 @@ def test_hemisphere_at_high_levels_is_tense_and_stable():
 
 
 def test_bending():
-    """No beta changes nothing, more beta stiffens, the band of unstable n is finite; both methods agree."""
+    """Without beta nothing changes, larger beta stiffens, the unstable n are bounded; both methods agree."""
     bent, f = ben.Bent(form(5.73)), form(5.73)
     assert bent.first(10, 0.0)[0] == pytest.approx(f.first(10), rel=1e-12)
     values = [bent.first(10, b)[0] for b in (0.0, 1e-5, 1e-4, 1e-3)]
@@ -237,7 +237,7 @@ def test_bending():
 
 
 def test_mass_scales_eigenvalues_only():
-    """The sign of the lowest eigenvalue is that of the stiffness alone."""
+    """The sign of the lowest eigenvalue depends on the stiffness only."""
     f = form(3.75)
     k, m, _ = f.matrices(20)
     heavy = np.linalg.eigvalsh(k.toarray())

@@ -1,4 +1,4 @@
-"""The polyhedral cylinder of paper 5: the reduced matrices against the whole mesh, coded anew."""
+"""The polyhedral cylinder of paper 5: the reduced matrices agree with the whole mesh, coded again."""
 
 from dataclasses import replace
 
@@ -11,7 +11,7 @@ from reference_data.solvers.paper5.waves.cylinder import FLUID
 
 pytestmark = pytest.mark.paper5
 STEP = 1e-30
-LEVEL = 6.6  # wrinkled below, tense above
+LEVEL = 6.6  # wrinkled below, taut above
 
 
 MESHES = [
@@ -103,7 +103,7 @@ def test_load_gradient(mesh):
     [(120, 48, 5.14, 6.81), (80, 96, 4.03, 9.81)],
 )
 def test_printed_ranges(rings, sectors, lower, upper):
-    """Unstable just inside, stable just outside the printed ends (each rounded to a hundredth)."""
+    """Unstable just inside and stable just outside the printed ends (each rounded to a hundredth)."""
     mesh = blo.Polyhedron(FLUID, rings, sectors)
     for inside, outside in ((lower + 0.006, lower - 0.006), (upper - 0.006, upper + 0.006)):
         for level, unstable in ((inside, True), (outside, False)):

@@ -1,4 +1,4 @@
-"""The committed tables of paper 5: accuracy, regeneration, and what the paper says about the numbers."""
+"""The committed tables of paper 5: accuracy, regeneration, and the paper's claims about the numbers."""
 
 import tomllib
 from pathlib import Path
@@ -39,7 +39,7 @@ def changes(name: str) -> dict[tuple[int, int], float]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_tables_are_sharper_than_the_accuracy_asked(name):
-    """Eigenvalues and crossings are asked to 1e-5."""
+    """Eigenvalues and crossings must be accurate to 1e-5."""
     about, columns = read(name)
     assert set(about["columns"]) == set(columns)
     for column, facts in about["columns"].items():
@@ -81,7 +81,7 @@ def test_ends_of_the_unstable_intervals_move_as_the_paper_says():
 
 
 def test_signs_of_the_figures():
-    """Figures 5, 7 and 10: which eigenvalues pass zero within the ranges shown."""
+    """Figures 5, 7 and 10: which eigenvalues cross zero within the ranges shown."""
     for name, negative in (
         ("modes_fluid_n_1", False),
         ("modes_fluid_n_20", True),
@@ -104,7 +104,7 @@ def test_signs_of_the_figures():
 
 
 def test_mode_of_figure_6():
-    """Hardly any meridional motion; circumferential and normal of one sign where they matter."""
+    """Almost no meridional motion; circumferential and normal motion have one sign where they are large."""
     _, c = read("mode_n_100_zw_3")
     assert np.abs(c["meridional"]).max() < 0.01 * np.abs(c["normal"]).max()
     large = np.abs(c["normal"]) > 0.01 * np.abs(c["normal"]).max()
@@ -113,7 +113,7 @@ def test_mode_of_figure_6():
 
 
 def test_printed_ranges_of_the_polyhedra():
-    """The four ends to a hundredth; the meridional mesh matters only where a ring turns tense."""
+    """The four ends to a hundredth; the meridional mesh matters only where a ring turns taut."""
     _, c = read("surface_ranges")
     rows = {
         (int(a), int(b), int(k)): i

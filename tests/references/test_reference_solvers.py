@@ -1,4 +1,4 @@
-"""The independent reference side: its laws, its two solvers, and the tables it has written."""
+"""The independent reference codes: material laws, two solvers, and the tables written by them."""
 
 import ast
 import hashlib
@@ -135,7 +135,7 @@ def test_both_methods_take_a_pressure_that_depends_on_the_radius():
 
 @pytest.mark.parametrize("u", [0.05, 0.8, 3.0])
 def test_first_integrals_are_constant(u):
-    """Axial force r0 w_1 cos b - p rho^2/2 and w - lambda1 w_1 do not vary along the tube."""
+    """Axial force r0 w_1 cos b - p rho^2/2 and w - lambda1 w_1 are constant along the tube."""
     tube = Tube(0.1, 1.0, 6.0)
     steps = np.arange(0.3, u + 0.01, 0.1) if u > 0.3 else np.array([u])
     state = tube_collocation_critical.branch(tube, MESH, "u_max", steps).states[-1]
@@ -149,7 +149,7 @@ def test_first_integrals_are_constant(u):
 
 @pytest.mark.parametrize(("alpha", "delta1"), [(0.1, 1.0), (0.2, 3.0)])
 def test_total_potential_is_stationary(alpha, delta1):
-    """Both strong forms against their origin, Pi = int (r0 w - p rho^2 eta'/2) dz."""
+    """Both strong forms follow from Pi = int (r0 w - p rho^2 eta'/2) dz."""
     tube = Tube(alpha, delta1, 6.0)
     state, mesh = collocation_state(tube, 0.7), MESH
     width = mesh.widths[:, None] * tube.length
@@ -178,7 +178,7 @@ def test_volume_and_displacement_control_meet_the_same_state():
 
 
 def test_taylor_derivatives_along_the_branch():
-    """dp/du against the difference quotient of p, d2p/du2 against that of dp/du."""
+    """dp/du agrees with the difference quotient of p, and d2p/du2 with the quotient of dp/du."""
     tube, mesh, h = Tube(0.0, 1.0, 6.0), tube_collocation_critical.MESHES[0], 1e-4
     found = tube_collocation_critical.branch(tube, mesh, "u_max", 0.8 + h * np.arange(-1, 2))
     state, system = tube_collocation.newton(found.states[1], "u_max", 0.8)
@@ -188,7 +188,7 @@ def test_taylor_derivatives_along_the_branch():
 
 
 def test_limit_point_is_singular_and_stationary():
-    """The extended system's root: smallest singular value zero, p stationary in u_max."""
+    """At the root of the extended system the smallest singular value is zero and p is stationary."""
     tube, grid = Tube(0.1, 1.0, 6.0), tube_fd.Grid(100)
     trace = tube_fd_branch.Trace(tube, grid).run(1.6)
     state = tube_fd_critical.limit_point(tube, grid, next(trace.turning_points()))

@@ -1,4 +1,4 @@
-"""Results go out and come back unchanged, fit their schema or are refused, and appear whole or not at all."""
+"""Results are written and read unchanged, follow their schema or are refused, and are written atomically."""
 
 import copy
 import json
@@ -27,7 +27,7 @@ VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "
 
 
 def full() -> Result:
-    """A result in which everything that can be there is there."""
+    """A result with every optional part."""
     return Result(
         problem="tube",
         parameters={"alpha": 0.1, "contact": "none"},

@@ -1,4 +1,4 @@
-"""All numbers of two solutions are compared, and what differs is named."""
+"""All numbers of two solutions are compared, and all differences are named."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ from weakforms.verification.report.pages import render
 
 
 def solution(**changed: float) -> Result:
-    """A small solution of everything there is; single numbers may be moved."""
+    """A small solution with all kinds of numbers; single numbers may be changed."""
     at = {
         "p": 1.0,
         "rho": 2.0,
@@ -110,7 +110,7 @@ def test_eigenvalues_near_zero_have_the_scale_of_others():
 
 
 def stored(folder: Path, result: Result, passed: bool = True) -> Path:
-    """A run with one case and one solution, as far as it is looked at."""
+    """The parts of a run with one case and one solution that the test needs."""
     (folder / "solutions").mkdir(parents=True)
     (folder / "report").mkdir()
     versions = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")

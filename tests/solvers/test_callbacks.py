@@ -1,4 +1,4 @@
-"""What Python raises while PETSc and SLEPc call it arrives as itself, and after they have returned."""
+"""An exception raised in a callback of PETSc or SLEPc reaches the caller unchanged after they return."""
 
 import numpy as np
 import pytest
@@ -17,13 +17,13 @@ TIMES = [1, 2, 3]
 
 
 class Raises:
-    """In the place of a function: raises at one call, and counts the calls."""
+    """Replacement of a function that raises at one call and counts the calls."""
 
     def __init__(self, function, error, at):
         self.function, self.error, self.at, self.calls = function, error, at, 0
 
     def __call__(self, *given):
-        """As the function would answer."""
+        """Return the value of the original function."""
         self.calls += 1
         if self.calls == self.at:
             raise self.error
@@ -31,7 +31,7 @@ class Raises:
 
 
 def cubic():
-    """``u^3 + u = load``, a Newton iteration of several steps."""
+    """``u^3 + u = load``, for which Newton's method needs several steps."""
     return system_of(lambda u, v, p: (u**3 + u - p) * v)
 
 
@@ -99,7 +99,7 @@ def test_a_subspace_names_what_its_forms_raise(error, part, at, monkeypatch):
 
 
 def whole(system):
-    """All of a system for a subspace: basis and lift."""
+    """The whole space of a system as a subspace: basis and lift."""
     basis = system.tangent().duplicate()
     basis.zeroEntries()
     basis.shift(1.0)

@@ -1,4 +1,4 @@
-"""What is no answer is refused, guard by guard, on stand-ins for what the solvers find."""
+"""Each guard refuses what is not an answer, tested on replacements of the solvers' results."""
 
 from types import SimpleNamespace
 
@@ -30,7 +30,7 @@ def mode(value, vector=1.0):
 
 @pytest.fixture
 def bands(monkeypatch):
-    """Bands whose lowest eigenvalue and needed stiffness are given functions of the wave number."""
+    """Bands whose lowest eigenvalue and required stiffness are given functions of the wave number."""
 
     def make(value=lambda n: n - 3.5, stiffness=lambda n: 0.0):
         monkeypatch.setattr(Bands, "lowest", lambda _self, n, _beta=None: value(n))
@@ -69,7 +69,7 @@ def test_no_stiffness_makes_it_stable(monkeypatch):
 
 
 def test_a_root_that_is_never_reached_is_none():
-    """The eigenvalue jumps from -1 to 1: halving goes on for ever."""
+    """The eigenvalue jumps from -1 to 1: halving never ends."""
     at = lambda x: SimpleNamespace(value=x, lowest=-1.0 if x < 1 / 3 else 1.0, held=None)  # noqa: E731
     changes = bare(StabilityChanges, n=20)
     changes._first_found = lambda a, b, *_: at(a.value + 1e-3 * (b.value - a.value))
@@ -94,14 +94,14 @@ def test_a_bifurcation_that_the_primary_branch_does_not_have():
     told = bare(PrimaryBranch, path=SimpleNamespace(pieces=[piece]))
     refused("has 0 bifurcation points of n = 2, not 1", told.bifurcation, [0.0], 2)
     refused("has 1 bifurcation points of n = 1, not 2", told.bifurcation, [0.0], 1, 2)
-    refused("zw = 5 is not met 1 times", told.at, "zw", 5.0, [0.0])
+    refused("zw = 5 is not taken 1 times", told.at, "zw", 5.0, [0.0])
 
 
 # -- bent states -----------------------------------------------------------------------------------
 
 
 def breaking(eigenvalues, below, turn):
-    """A bent state with these symmetry-breaking eigenvalues; the turn of the pattern among them."""
+    """A bent state with given symmetry-breaking eigenvalues, the turn of the pattern among them."""
     modes = [mode(value) for value in eigenvalues]
     told = bare(bent.BentStability, breaks=SimpleNamespace(about=lambda *_: (modes, below)))
     told._turn = lambda *_: modes[turn]
@@ -114,7 +114,7 @@ def test_bent_states_count_what_breaks_the_symmetry_twice():
 
 
 def test_an_eigenvalue_as_near_to_zero_as_the_turns_has_no_sign():
-    refused("its sign cannot be told", breaking([1e-9, -5e-10, 0.3], 0, 0)._breaking, None)
+    refused("its sign is uncertain", breaking([1e-9, -5e-10, 0.3], 0, 0)._breaking, None)
 
 
 def test_bent_states_below_every_target_are_refused():

@@ -1,4 +1,4 @@
-"""What is compiled once is found again."""
+"""Compiled forms are found again in the cache."""
 
 import basix.ufl
 import numpy as np
@@ -14,7 +14,7 @@ POINTS = np.array([[0.0], [1.0]])
 
 
 def expression(cells: int, variables: int = 1, swapped: bool = False) -> ufl.core.expr.Expr:
-    """Of a new function and new constants on a new mesh, as a problem makes them for each of its meshes."""
+    """A form of a new function and constants on a new mesh, as a problem makes for each mesh."""
     body = mesh.create_unit_interval(MPI.COMM_SELF, cells)
     u = fem.Function(fem.functionspace(body, basix.ufl.element("Lagrange", "interval", 2)))
     loads = [fem.Constant(body, 1.0) for _ in range(2)]
@@ -43,7 +43,7 @@ def test_different_expressions_have_different_names(other):
 
 
 def test_both_compile_to_what_they_say():
-    """The shared module reads the constants of the expression it is given."""
+    """The shared module uses the constants of the expression it is given."""
     for swapped, expected in ((False, 2 * 3.0 * 2 + 5.0**2), (True, 2 * 5.0 * 2 + 3.0**2)):
         body = mesh.create_unit_interval(MPI.COMM_SELF, 1)
         u = fem.Function(fem.functionspace(body, basix.ufl.element("Lagrange", "interval", 1)))
@@ -56,7 +56,7 @@ def test_both_compile_to_what_they_say():
 
 
 def volume_and_moment(cells: int) -> list[ufl.Form]:
-    """Integrals over ``[0, 1]`` of 2 and of ``3 x``, on a new mesh, with a constant of their own."""
+    """Integrals over ``[0, 1]`` of 2 and of ``3 x``, each on a new mesh with a new constant."""
     body = mesh.create_unit_interval(MPI.COMM_SELF, cells)
     x, factors = ufl.SpatialCoordinate(body)[0], [fem.Constant(body, value) for value in (2.0, 3.0)]
     return [factors[0] * ufl.dx(body), factors[1] * x * ufl.dx(body)]

@@ -1,4 +1,4 @@
-"""Meshes that disagree on what there is: no number of such a state or branch is given."""
+"""If meshes disagree on whether a state or branch exists, no number of it is returned."""
 
 from contextlib import nullcontext
 from types import SimpleNamespace
@@ -24,7 +24,7 @@ ANY = SimpleNamespace(state=SimpleNamespace(u=None, loads=None))
 
 
 def bare(kind, **attributes):
-    """An object of a class without what its constructor computes."""
+    """An object of a class without calling its constructor."""
     made = kind.__new__(kind)
     vars(made).update(attributes)
     return made
@@ -122,11 +122,11 @@ def test_pieces_of_the_primary_branch_that_only_some_meshes_have(monkeypatch):
     pieces = iter(([1, 2, 3], [1, 2, 3], [1, 2]))
     monkeypatch.setattr(fluid_tube_problem, "FluidPath", lambda *_: SimpleNamespace(pieces=next(pieces)))
     given = FluidTubeParameters(), FluidTubeNumerics(), None, lambda *_: None
-    refused("pieces of the primary branch depend on the mesh", fluid_tube_problem.primary_family, *given)
+    refused("the parts of the primary branch depend on the mesh", fluid_tube_problem.primary_family, *given)
 
 
 def part(name, values, **fixed):
-    """A piece of a branch: where its column takes a value, and what it says of a state there."""
+    """A part of a branch: where its column has a value, and the state there."""
     columns = {"u": np.array(values)}
     crossings = lambda _name, x: np.flatnonzero(np.diff(np.sign(columns["u"] - x)))  # noqa: E731
     family = SimpleNamespace(
@@ -143,7 +143,7 @@ def part(name, values, **fixed):
 
 
 def test_pieces_are_one_branch_and_count_crossings_together():
-    """Up, down and up again past u = 1.5: in the first piece once, in the second twice."""
+    """Up, down and up again past u = 1.5: once in the first part, twice in the second."""
     whole = PiecewiseFamily([part("a", [0.0, 1.0, 2.0], front=7.0), part("b", [2.0, 1.0, 2.0])])
     branch = whole.branch(with_uncertainty=False)
     assert branch.columns["u"].tolist() == [0.0, 1.0, 2.0, 2.0, 1.0, 2.0]
@@ -152,7 +152,7 @@ def test_pieces_are_one_branch_and_count_crossings_together():
     assert [(s.branch, s.crossing) for s in found] == [("a", 1), ("b", 2), ("b", 3)]
     assert [s.quantities["own"].value for s in found] == [1, 1, 2]
     assert [s.quantities["front"].value for s in found] == [7.0, 9.0, 9.0]
-    with pytest.raises(InputError, match=r"not met 4 times on this branch; u ranges over \[0, 2\]"):
+    with pytest.raises(InputError, match=r"not taken 4 times on this branch; u ranges over \[0, 2\]"):
         whole.state("u", 1.5, 4)
 
 
@@ -160,7 +160,7 @@ def test_pieces_are_one_branch_and_count_crossings_together():
 
 
 class Walk:
-    """A walk of triangles that does not get beyond a load."""
+    """A trace of triangles that does not get beyond a load."""
 
     control = "zw"
 

@@ -1,4 +1,4 @@
-"""What a result says of how it was made is how it was made."""
+"""A result states correctly how it was made."""
 
 import pytest
 

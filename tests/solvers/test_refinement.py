@@ -1,4 +1,4 @@
-"""The uncertainty of a number from meshes holds what it says."""
+"""The uncertainty of a number from several meshes bounds its error."""
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_an_order_known_from_elsewhere_counts_where_a_lower_one_is_observed():
 
 @pytest.mark.parametrize("width", [1.0, 0.1, 0.01])
 def test_a_slow_part_counts_where_it_shows(width):
-    """An error of order 6, and a small one of order 1.5: all that fine meshes leave."""
+    """An error of order 6 and a small one of order 1.5, which alone remains on fine meshes."""
     values = [1.0 + 0.3 * h**6 + 1e-9 * (h / width) ** 1.5 for h in width * 0.5 ** np.arange(3)]
     error, slow = values[-1] - 1.0, Slow(size=1e-8, order=2.0)
     found = estimate(values, 6.0, slow=slow).uncertainty

@@ -1,4 +1,4 @@
-"""How much of the forces a state may leave over follows their size."""
+"""The residual that a state may have is proportional to the forces."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ SIZES = [1e-9, 1.0, 1e9]
 
 
 def bar(size, cells=400):
-    """A bar under its own weight whose stiffness and weight are of a size; cubic, so that Newton iterates."""
+    """A bar under its own weight; stiffness and weight scale together; cubic, so that Newton iterates."""
     return system_of(
         lambda u, v, p: size * ((u.dx(0) + u.dx(0) ** 3) * v.dx(0) - (1 + p) * v),
         "Lagrange",
@@ -22,7 +22,7 @@ def bar(size, cells=400):
 
 
 def solved(system, wrong=0.0):
-    """Solve, with nodal forces that are wrong by a share of themselves on every evaluation."""
+    """Solve with nodal forces that have a given relative error in every evaluation."""
     right = system.residual
     if wrong:
         noise = np.random.default_rng(1).standard_normal(system.size)
@@ -44,7 +44,7 @@ def test_round_off_is_accepted_whatever_the_forces(size):
 
 @pytest.mark.parametrize("size", SIZES)
 def test_forces_that_do_not_balance_are_refused(size):
-    """A ten-thousandth of the load is left over; at small forces that is less than the limit of unit ones."""
+    """A residual of a ten-thousandth of the load; for small forces it is below the limit of unit forces."""
     with pytest.raises(ConvergenceError, match=r"CONVERGED_SNORM_RELATIVE .* residual"):
         solved(bar(size), wrong=1e-4)
 

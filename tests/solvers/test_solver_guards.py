@@ -1,4 +1,4 @@
-"""What the solvers refuse: states and points that look like what was wanted and are not."""
+"""The solvers refuse states and points that only resemble what was wanted."""
 
 from dataclasses import replace
 from math import cos, sin
@@ -25,7 +25,7 @@ from weakforms.solvers.support.roots import root
 
 
 def circle():
-    """``u^2 + load^2 = 1``, from ``u = -1`` on."""
+    """``u^2 + load^2 = 1``, from ``u = -1``."""
     system = system_of(lambda u, v, p: (u**2 + p**2 - 1) * v)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(0.05, 0.2))
     state = system.state()
@@ -39,7 +39,7 @@ def half_circle():
 
 
 def test_a_missed_pair_of_bifurcations_is_named():
-    """One long step along ``u = 0`` of a column under too much load, past two of its buckling loads."""
+    """One long step along ``u = 0`` of an overloaded column, beyond two of its buckling loads."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(60.0, 60.0))
     first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
@@ -50,7 +50,7 @@ def test_a_missed_pair_of_bifurcations_is_named():
 
 
 def test_a_bifurcation_is_where_the_eigenvalue_is_zero():
-    """Euler's first buckling load of the same column, whose branch does not turn there."""
+    """Euler's first buckling load of this column; the primary branch has no limit point there."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(3.0, 3.0))
     first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
@@ -120,7 +120,7 @@ def test_an_unconverged_state_of_a_subspace_is_refused():
 
 
 def test_a_singular_bordered_system_is_refused():
-    """A string held nowhere, pulled to one side."""
+    """An unsupported string pulled to one side."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4)
     factor = Factorization(system)
     factor.update()
@@ -129,7 +129,7 @@ def test_a_singular_bordered_system_is_refused():
 
 
 def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
-    """Two strings in one system: every eigenvalue twice, one copy withheld at the first look."""
+    """Two equal strings in one system: eigenvalues are double; the first search finds one of each."""
     system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
     lowest = Lowest(system)
     exact = [np.pi**2, np.pi**2, 4 * np.pi**2, 4 * np.pi**2]

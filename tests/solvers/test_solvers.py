@@ -1,4 +1,4 @@
-"""Continuation, critical points and stability on problems whose solutions are known exactly."""
+"""Continuation, critical points and stability of problems with known exact solutions."""
 
 from itertools import pairwise
 
@@ -21,7 +21,7 @@ COMM = MPI.COMM_SELF
 
 
 def one_dof(function, load=0.0, second=0.0):
-    """``function(u, load, second) = 0`` for a single degree of freedom."""
+    """``function(u, load, second) = 0`` with a single degree of freedom."""
     domain = mesh.create_unit_interval(COMM, 1)
     space = fem.functionspace(domain, basix.ufl.element("DG", "interval", 0))
     u, v = fem.Function(space), ufl.TestFunction(space)
@@ -122,7 +122,7 @@ def test_functional_is_held_exactly_and_crossings_are_told_apart():
 
 
 def string(spring=0.0, cells=80, fixed=True):
-    """``-u'' + spring u = load`` on the unit interval, fixed at both ends or at none."""
+    """``-u'' + spring u = load`` on the unit interval, fixed at both ends or free."""
     domain = mesh.create_unit_interval(COMM, cells)
     space = fem.functionspace(domain, basix.ufl.element("Lagrange", "interval", 2))
     u, v = fem.Function(space), ufl.TestFunction(space)

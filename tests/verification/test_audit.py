@@ -1,4 +1,4 @@
-"""The audit draws what problems allow, says what became of each set, and outlives a solve that hangs."""
+"""The audit draws allowed parameters, reports each outcome, and survives a solve that hangs."""
 
 import json
 from io import StringIO
@@ -60,7 +60,7 @@ def test_every_way_a_solve_may_end_has_its_name(code, said, result, status, mess
 
 
 class Ranges(Parameters):
-    """One parameter of every sort."""
+    """One parameter of every kind."""
 
     a: float = Field(1.0, gt=0, le=2)
     wide: float = Field(1.0, gt=0, le=1e4)
@@ -73,7 +73,7 @@ class Ranges(Parameters):
 
 
 class Canned:
-    """A problem that refuses what contradicts itself."""
+    """A problem that refuses contradictory parameters."""
 
     name = "canned"
     parameters = Ranges
@@ -194,4 +194,4 @@ def test_the_report_shows_it_when_it_lies_beside_the_results():
     page = render(RunOutcome("quick", "all", "", 0.0, {}), audited=Audited(run))["audit.html"]
     for text in (run.headline, "s = 1.5 is out of reach", run.missed[0].command, "67 %"):
         assert escape(text) in page
-    assert "No audit lies beside" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]
+    assert "There is no audit in the folder" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]

@@ -1,4 +1,4 @@
-"""The rule by which numbers agree: it passes what is within, and nothing else."""
+"""The rule of agreement passes numbers within their bounds, and no others."""
 
 import numpy as np
 import pytest

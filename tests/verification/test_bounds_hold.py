@@ -1,7 +1,7 @@
-"""The stated uncertainties hold what they say: over sets of parameters, against the truth.
+"""The stated uncertainties bound the true errors, over sets of parameters with a known solution.
 
-The rate claimed is that of :mod:`weakforms.verification.audit.coverage`; the few sets solved here by default
-are the first of the many that are solved with ``-m slow``.
+The claimed rate is defined in :mod:`weakforms.verification.audit.coverage`. By default only the first few
+sets are solved; ``-m slow`` solves them all.
 """
 
 from dataclasses import replace
@@ -53,7 +53,7 @@ def test_sets_are_the_same_in_every_run():
 
 
 def test_what_is_within_and_how_much_too_wide():
-    """Errors of 1, 1.9, 3 and 2 uncertainties; a column 5 times, another 40 times as wide as its errors."""
+    """Errors of 1, 1.9, 3 and 2 uncertainties; uncertainties 5 and 40 times as large as the errors."""
     item = Judged("tube", (), "quantity p", "quantity", "p", 1.0, 1.0, 0.0, 1e-10)
     found = [replace(item, error=error) for error in (1.0, 1.9, 3.0, 2.0)]
     assert [one.within for one in found] == [True, False, False, False]

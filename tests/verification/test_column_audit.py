@@ -1,4 +1,4 @@
-"""Every column of a stored solution is judged by something: falsify each, and see that a check fails."""
+"""Every column of a stored solution is judged: if one is falsified, a check fails."""
 
 import os
 from pathlib import Path
@@ -22,7 +22,7 @@ def solved():
 
 
 def test_no_column_is_missed_without_any_table(solved):
-    """Traces and identities see all of these solutions by themselves."""
+    """Traces and identities judge all of these solutions without a case."""
     assert [(m.problem, m.column, m.factor) for m in audit([], solved)] == []
 
 
@@ -51,7 +51,7 @@ def test_what_is_exempt_has_a_reason():
 
 @pytest.mark.slow
 def test_no_column_of_any_stored_solution_is_missed(tmp_path_factory):
-    """On the run that ``WEAKFORMS_RUN`` names, or else on one of the quick cases, solved here."""
+    """On the run named by ``WEAKFORMS_RUN``, or on one of the quick cases, solved here."""
     stored = os.environ.get("WEAKFORMS_RUN")
     cases = [found for found in find_cases() if stored or found.case.quick]
     plan = Plan.of(cases)

@@ -1,4 +1,4 @@
-"""What a verdict on somebody else's curve lets pass, and what not."""
+"""What a verdict on a user's curve accepts and what it does not."""
 
 import json
 from dataclasses import replace
@@ -38,7 +38,7 @@ def verdict_on(which, curve, *more, **how):
 
 
 def stress(lam):
-    """Nominal stress of the neo-Hookean test piece, uniaxial."""
+    """Nominal stress of the neo-Hookean specimen, uniaxial."""
     return 2 * (lam - lam**-2)
 
 
@@ -144,7 +144,7 @@ def test_a_curve_that_jumps_over_the_table_is_told_so():
     verdicts = verdict_on(TUBE, curve)
     assert (verdicts.passed, verdicts.partial) == (True, True)
     assert (verdicts.met_rows, verdicts.table_rows) == (2 + 3 + 2, 100)
-    assert "7 of 100 rows are met" in verdicts.extent
+    assert "7 of 100 rows are covered" in verdicts.extent
     rows = np.linspace(0, 1, 11)
     assert met(rows, rows[::2]) == 11
     assert met(rows, np.array([0.5])) == 3
@@ -312,7 +312,7 @@ def test_a_result_for_other_parameters_is_refused(problem, parameters, said, tmp
 
 
 def result(problem, parameters, columns, branch="primary"):
-    """A result that fits the schema."""
+    """A result that follows the schema."""
     versions = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
     provenance = {**versions, "ranks": 1, "wall_s": 0.0}
     branches = [Branch(branch, "p", columns)]
@@ -320,7 +320,7 @@ def result(problem, parameters, columns, branch="primary"):
 
 
 def test_every_case_fits_its_own_tables_parameters():
-    """Whatever a case draws would not be refused as its own result: the rule knows all parameters."""
+    """The curve of any case would be accepted as its result: the rule knows all parameters."""
     for found in find_cases():
         for panel in found.case.panels:
             for curve in panel.curves:
@@ -365,7 +365,7 @@ def test_every_table_passes_itself_and_no_wrong_row_does(data):
 
 
 def test_hardly_a_table_is_too_coarse_for_its_own_case():
-    """Of all columns of all tables, at the table's own rows, these alone are not known closely enough."""
+    """At the tables' own rows, only these columns are not known accurately enough."""
     left = set()
     for found, name, _ in ALL:
         table = references.load_curve(found.paper, name)

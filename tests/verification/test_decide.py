@@ -1,4 +1,4 @@
-"""The room in which statements are decided: what is wrong, wide, not a number or missing does not hold."""
+"""Statements are decided with a margin: wrong, uncertain, non-finite or missing values do not hold."""
 
 from math import inf, nan
 

@@ -1,4 +1,4 @@
-"""Cases are found by where they lie and chosen by expressions that are read, never run."""
+"""Cases are found by their place and selected by expressions that are parsed, never run."""
 
 import shutil
 from pathlib import Path

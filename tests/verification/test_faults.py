@@ -1,4 +1,4 @@
-"""The catalogue of seeded faults fits the tree, its runner tells caught, surviving and void ones apart."""
+"""The catalogue of seeded faults fits the code; its runner separates caught, surviving and void faults."""
 
 import ast
 import os
@@ -206,17 +206,17 @@ def answer(text, *verdicts, status=None):
 
 
 class Given:
-    """Answers given beforehand, for the unchanged copy and for one with a fault."""
+    """Prepared answers for the unchanged copy and for one with a fault."""
 
     def __init__(self, faulty, unchanged=()):
         self.faulty, self.unchanged, self.calls = faulty, dict(unchanged), []
 
     def __call__(self):
-        """Stands for the class too."""
+        """Return itself, in place of an instance."""
         return self
 
     def run(self, root, texts, _limit, go_on=False):
-        """As the processes would answer."""
+        """Return the answer of the processes."""
         self.calls.append((root.name, tuple(texts)))
         known = self.unchanged if root.name == "unchanged" else self.faulty
         out = []
@@ -229,12 +229,12 @@ class Given:
         return out, ""
 
     def end(self):
-        """Nothing is running."""
+        """Do nothing, since no process runs."""
 
 
 @pytest.fixture
 def run_with(tmp_path, monkeypatch):
-    """Run one fault with given answers, on a tree of one file."""
+    """Run one fault with prepared answers on a tree of one file."""
     monkeypatch.setattr(runner, "tree_digest", lambda: "tree")
     monkeypatch.setattr(runner, "copy_tree", lambda to, *_: to)
 
@@ -321,7 +321,7 @@ def test_resume_takes_over_outcomes_of_the_same_source(run_with, monkeypatch):
 
 
 def test_two_faults_are_really_caught(tmp_path):
-    """One by a comparison of a case, one by a test; through processes and scratch copies."""
+    """One fault is caught by a comparison of a case, one by a test, with processes and scratch copies."""
     before = scratch.tree_digest()
     run = run_faults(select(["thickness-stretch-cubed", "accuracy-not-asked-for"]), tmp_path, jobs=2)
     first, second = run.faults

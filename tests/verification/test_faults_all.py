@@ -1,4 +1,4 @@
-"""Every seeded fault is caught: half an hour."""
+"""Every seeded fault is caught; this takes half an hour."""
 
 import pytest
 

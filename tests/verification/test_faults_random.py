@@ -1,4 +1,4 @@
-"""Random mutants: what is drawn, who sees it, and what is said of what became of it."""
+"""Random mutants: which are drawn, which checks see them, and how their outcome is reported."""
 
 import ast
 from collections import Counter
@@ -87,7 +87,7 @@ def test_a_statement_can_be_left_out():
 
 @pytest.fixture
 def tree(tmp_path):
-    """A tree with a file for each group, and one that is not drawn from."""
+    """A tree with a file for each group, and one file that is never changed."""
     for paths in GROUPS.values():
         path = tmp_path / paths[0] / "a.py" if not paths[0].endswith(".py") else tmp_path / paths[0]
         path.parent.mkdir(parents=True)
@@ -248,7 +248,7 @@ SEEING = [("tests/a.py::one", 1.0), ("tests/a.py::two", 2.0), ("paper2.fig03", 6
 
 @pytest.fixture
 def run_one(tmp_path, monkeypatch):
-    """Run one mutant with given verdicts of what fails with it, on a tree of one file."""
+    """Run one mutant with prepared failures on a tree of one file."""
     calls = []
 
     def run(failing=(), mutant=MUTANT, anyhow=(), **options):
@@ -322,10 +322,10 @@ def test_the_report_shows_them(run_one, tmp_path):
     beside = Seeded.beside(tmp_path / "report")
     assert (beside.run, beside.random) == (None, run)
     page = render(empty, beside)["faults.html"]
-    assert "Faults that nobody chose" in page
+    assert "Random faults" in page
     assert 'id="mutant-x-1-abc"' in page
     assert "3 cases or tests run of 3 that may see it" in page
-    assert "Faults that nobody chose" not in render(empty, Seeded())["faults.html"]
+    assert "Random faults" not in render(empty, Seeded())["faults.html"]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What must hold between the columns of a solution does, and fails where one is off by one percent."""
+"""Identities between the columns of a solution hold, and fail if one column is changed by one percent."""
 
 import copy
 

@@ -1,4 +1,4 @@
-"""Checks fail where they must: each kind of verdict on numbers that are wrong."""
+"""Checks fail where they must: each kind of verdict on wrong numbers."""
 
 from math import radians
 from pathlib import Path
@@ -28,17 +28,17 @@ def point(uncertainty=1e-12, **values):
 
 
 class Solutions:
-    """Special points and one profile, whatever is asked for."""
+    """Special points and one profile, whatever is requested."""
 
     def __init__(self, points=lambda _spec: [], profile=None):
         self._points, self._profile = points, profile
 
     def points(self, spec, _kind):
-        """Those given for a spec."""
+        """The special points given for a problem."""
         return self._points(spec)
 
     def column(self, _spec, _at, name):
-        """That of the profile given."""
+        """The quantities of the profile given."""
         return decide.Number(self._profile.columns[name], self._profile.uncertainty[name])
 
 

@@ -1,4 +1,4 @@
-"""Printed numbers: each is what it is stated to be, and no number proves what it cannot."""
+"""Printed numbers: each is classified as stated, and none proves what it cannot prove."""
 
 from math import inf, nan
 from types import SimpleNamespace
@@ -16,7 +16,7 @@ WRONG = Misprint("0.5569", "the digits are swapped")
 
 
 def entry_of(check, **known):
-    """Verdict and entry of a check on the solutions given."""
+    """Verdict and ledger entry of a check on given solutions."""
     verdict, entry = check.judge(2, SimpleNamespace(**known))
     return verdict.passed, entry.status
 

@@ -1,4 +1,4 @@
-"""Marks of a reference lie on the lines drawn through them, in the report's own figures."""
+"""Marks of a reference lie on the corresponding lines in the report's figures."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_a_panel_without_marks_has_no_verdict():
 
 
 def test_lines_of_long_steps_go_through_states_past_a_limit_point_too():
-    """The trace turns in ``p``; all states of the table lie before the turn."""
+    """The trace turns in ``p``; all states of the table come before the turn."""
     s = np.array([0.0, 1.0, 2.0, 3.0])
     columns = {"p": s * (4 - s), "y": s**3, "n_negative": np.array([0, 0, 0, 1])}
     rows = np.array([0.5, 1.0, 3.5, 3.9])

@@ -1,4 +1,4 @@
-"""Another package's tests assert its curves through the fixture ``weakforms_check``."""
+"""Another package's tests compare its curves by the fixture ``weakforms_check``."""
 
 import json
 
@@ -68,7 +68,7 @@ def test_fixture(project):
             "*lam1_mid *NOT JUDGED*missing*",
             "*p *within*",
             "*lam1_mid *NOT JUDGED*missing*",
-            "*the curve has no column lam1_mid: give it, or name with --column those to be judged",
+            "*the curve has no column lam1_mid: add it, or name the columns to judge with --column",
             "nothing was compared: paper2.fig03: which curve?*",
         ]
     )

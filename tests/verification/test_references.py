@@ -1,4 +1,4 @@
-"""Tables are what their checksums say, and interpolating them claims no more than it knows."""
+"""Tables match their checksums, and interpolation states its own uncertainty."""
 
 import hashlib
 
@@ -27,7 +27,7 @@ ROWS = "x,y\n1,10\n2,20\n3,40\n"
 
 @pytest.fixture
 def stored(tmp_path):
-    """Writes a table with a true checksum; returns what reading it gives."""
+    """Write a table with a correct checksum and return what is read from it."""
     folder = tmp_path / "reference_data" / "paper1"
     folder.mkdir(parents=True)
 

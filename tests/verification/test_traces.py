@@ -1,4 +1,4 @@
-"""The trace that a user takes away is held against states, its own neighbours and tables."""
+"""The trace is compared with states, with its own neighbouring points and with tables."""
 
 from itertools import islice
 
@@ -19,7 +19,7 @@ COLUMNS = {"u_max": U, "p": 2 * np.tanh(U) - 0.1 * U, "V": 1 + U + U**2}
 
 
 def stored(**changed: np.ndarray) -> Solutions:
-    """A trace with two states drawn on it; columns of the trace may differ from the states'."""
+    """A trace through two states; columns of the trace may differ from those of the states."""
     columns = {**COLUMNS, "n_negative": (np.gradient(COLUMNS["p"], U) < 0).astype(int)}
     spread = {name: np.full(len(U), 1e-10) for name in COLUMNS}
     drawn = list(islice(draw(Branch("primary", "p", columns), ["u_max"], 3), 2))
@@ -111,7 +111,7 @@ def test_no_point_is_drawn_where_the_count_of_negative_eigenvalues_jumps():
 
 
 def test_the_whole_of_it_on_a_solved_tube():
-    """What the runner asks of a solve is what the verdicts need; 1 % in one column fails."""
+    """A solve is asked for what the verdicts need; an error of 1 % in one column makes one fail."""
     from weakforms.verification.run.solving import solve_spec
 
     spec = tube(alpha=0.1, delta1=1.1, u_end=1.0)

@@ -1,1 +1,1 @@
-"""The documentation as static pages, from the registry, the docstrings and the folder ``docs``."""
+"""Writes the documentation as static pages, from the registry, the docstrings and the folder ``docs``."""

@@ -14,13 +14,13 @@ from weakforms.docs.prose import docstring
 
 GROUPS = {
     "weakforms": "What is imported from `weakforms`",
-    "weakforms.forms": "What the energy is",
-    "weakforms.problems": "Which physical problem",
-    "weakforms.solvers": "How it is solved",
-    "weakforms.results": "What came out",
-    "weakforms.verification": "Is it right",
+    "weakforms.forms": "Energies",
+    "weakforms.problems": "Physical problems",
+    "weakforms.solvers": "Solvers",
+    "weakforms.results": "Results",
+    "weakforms.verification": "Verification",
 }
-"""Pages of the API: the package itself, then its rooms in the order in which they may import."""
+"""Pages of the API: the package itself, then its subpackages in the order in which they may import."""
 
 
 def modules(group: str) -> list[dict[str, Any]]:
@@ -70,7 +70,7 @@ def _entry(kind: str, name: str, value: Any, methods: list[dict[str, Any]]) -> d
 
 
 def _signature(value: Any) -> str:
-    """As it is written; nothing where there is none to speak of."""
+    """The signature as written in the source; empty where there is none."""
     try:
         written = "" if isinstance(value, property) else str(inspect.signature(value))
         return re.sub(r"(: |-> )'([^']*)'", r"\1\2", written)

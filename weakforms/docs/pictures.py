@@ -1,4 +1,4 @@
-"""One picture a problem, drawn from what its example gives when it is solved."""
+"""One picture for each problem, drawn from the solution of its example."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from weakforms.verification.run.plan import Plan
 from weakforms.verification.run.solving import Solver
 
 MARGIN = 0.05
-"""Of an axis's length, left free at either end."""
+"""Fraction of an axis's length that stays empty at each end."""
 
 
 def pictures(
     folder: Path, jobs: int, names: list[str], progress: WorkProgress | None
 ) -> dict[str, tuple[Markup | None, str]]:
-    """Pictures and captions by problem; one that cannot be solved has a caption that says why.
+    """Pictures and captions by problem; where the example cannot be solved, the caption says why.
 
     Args:
-        folder: Where solutions are kept, so that the same code need not solve them again.
-        jobs: Solves side by side.
+        folder: Folder in which solutions are stored, so that the same code need not compute them again.
+        jobs: Number of processes that solve at the same time.
         names: Problems.
-        progress: Is told what is being solved.
+        progress: Called with what is being solved.
     """
     specs = {name: SHOWN[name].specs(name) for name in names if name in SHOWN}
     plan = Plan({spec: [] for of in specs.values() for spec in of}, {})
@@ -48,7 +48,9 @@ def pictures(
 
 def _caption(shown: Shown) -> str:
     coarse = ", ".join(f"{key} = {value}" for key, value in shown.numerics.items())
-    what = f"{shown.y} over {shown.x}" + (", a solution a mark" if shown.values else ", of this example")
+    what = f"{shown.y} over {shown.x}" + (
+        ", one mark for each solution" if shown.values else ", of this example"
+    )
     return f"Drawn: {what}" + (f" ({coarse})." if coarse else ".")
 
 

@@ -1,4 +1,4 @@
-"""Docstrings, Markdown and formulas as HTML that needs nothing from elsewhere: no scripts, no fonts."""
+"""Docstrings, Markdown and formulas as self-contained HTML, without scripts and fonts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from weakforms.verification.report.figures import drawing, svg
 from weakforms.verification.report.summary import html_tex
 
 SIZE = 13.0
-"""Of formulas, in points; on the page they scale with the text."""
+"""Font size of formulas in points; on the page they scale with the text."""
 PLAIN = {
     r"\!": "",
     r"\Big": "",
@@ -30,7 +30,7 @@ PLAIN = {
     r"\qquad": r"\quad\quad ",
     r"\oint": r"\int",
 }
-"""TeX that matplotlib does not set, and what it does."""
+"""TeX that matplotlib does not know, with replacements that it knows."""
 ARGUMENT = r"\s*(\{(?:[^{}]|\{[^{}]*\})*\}|\\[a-zA-Z]+|[^\s{}\\])"
 FRACTION = re.compile(r"\\([td]?)frac(?![a-zA-Z])" + 2 * ARGUMENT)
 """A fraction with its arguments, in braces or not."""
@@ -41,7 +41,7 @@ MATH = re.compile(r":math:`([^`]*)`", re.S)
 
 
 def markdown(text: str) -> Markup:
-    """Markdown with tables; headings of alternatives (``=== Python``) become headings."""
+    """Markdown with tables as HTML; headings of alternatives (``=== Python``) become ordinary headings."""
     text = re.sub(r"(?m)^=== (.+)$", r"#### \1", text)
     rendered = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
     rendered = re.sub(
@@ -52,7 +52,7 @@ def markdown(text: str) -> Markup:
 
 
 def docstring(text: str | None) -> Markup:
-    """A docstring: paragraphs, formulas, code, and the sections of Google's style."""
+    """A docstring as HTML: paragraphs, formulas, code, and the sections of Google's style."""
     if not text:
         return Markup("")
     out: list[str] = []
@@ -72,7 +72,7 @@ def docstring(text: str | None) -> Markup:
 
 
 def _blocks(text: str) -> Iterable[tuple[str, str]]:
-    """Paragraphs of a docstring with what they are."""
+    """Paragraphs of a docstring, each with its kind."""
     paragraphs = re.split(r"\n\s*\n", text)
     at = 0
     while at < len(paragraphs):
@@ -125,7 +125,7 @@ def _inline(text: str) -> str:
 
 
 def formula(tex: str) -> str:
-    """A displayed formula as pictures of its lines, with its TeX for those who do not see them."""
+    """A displayed formula as pictures of its lines, with its TeX as text for screen readers."""
     source = " ".join(tex.split())
     lines = [line.replace("&", " ").strip() for line in re.split(r"\\\\", source)]
     try:

@@ -1,4 +1,4 @@
-"""The pages: guides from the folder ``docs``, a page a problem, the cases, the API."""
+"""The pages: guides from the folder ``docs``, one page for each problem, the cases, the API."""
 
 from __future__ import annotations
 
@@ -39,16 +39,16 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
     """Write the documentation as static pages.
 
     Args:
-        out: Folder; made when missing. Solutions of the pictures are kept in ``out/solutions``.
-        jobs: Solves side by side.
+        out: Folder; created if missing. Solutions for the pictures are stored in ``out/solutions``.
+        jobs: Number of processes that solve at the same time.
         solve: Whether to solve the problems' examples for their pictures.
-        progress: Is told what is being solved.
+        progress: Called with what is being solved.
 
     Returns:
         The path of the first page.
 
     Raises:
-        InputError: When the folder cannot be written to.
+        InputError: If the folder cannot be written to.
     """
     from weakforms.problems import registry
 
@@ -71,7 +71,7 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
 
 
 class Site:
-    """Pages of one look that know of each other.
+    """Writes pages with the same layout that link to each other.
 
     Args:
         out: Folder.
@@ -111,7 +111,7 @@ class Site:
         write_atomically(self.out / page, text)
 
     def home(self) -> None:
-        """The first page: the README's own words, without the picture that lies beside it."""
+        """The first page: the text of the README without its picture."""
         text = (ROOT / "README.md").read_text("utf-8") if (ROOT / "README.md").exists() else ""
         text = re.sub(r"(?m)^!\[.*\n(\n\*.*(?:\n.+)*)?", "", text.partition("\n")[2])
         text = text.replace("](docs/", "](")
@@ -130,7 +130,7 @@ class Site:
         return Markup(link.sub(r"\1", markdown(text)))
 
     def problem(self, problem: Any, picture: Markup | None, caption: str) -> None:
-        """A problem's page, from the same facts that ``weakforms show`` prints."""
+        """The page of a problem, with the same facts that ``weakforms show`` prints."""
         name = problem.name
         shown = gallery.SHOWN.get(name)
         forms = [
@@ -161,7 +161,7 @@ def _title(path: Path) -> str:
 
 @cache
 def _problems_of_cases() -> dict[str, set[str]]:
-    """Which problems each case solves; none for a case whose tables cannot be read."""
+    """The problems that each case solves; none for a case whose tables cannot be read."""
     from weakforms.verification.run.plan import case_wants
 
     out = {}

@@ -1,1 +1,1 @@
-"""What the energy is. UFL only: no mesh, no solver, no numbers."""
+"""Energies and loads as UFL expressions, without mesh, solver or numbers."""

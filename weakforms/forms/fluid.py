@@ -1,7 +1,7 @@
 """A fluid-loaded membrane as a surface in space: strain energy of two tangent vectors, pressure of a liquid.
 
-Everything is per unit reference area and over ``mu H`` (Patil, Nordmark & Eriksson 2015); vectors are given
-by three components in any right-handed orthonormal frame, fixed or rotating with ``Theta``.
+All quantities are per unit reference area and divided by ``mu H`` (Patil, Nordmark & Eriksson 2015). Vectors
+are given by three components in any right-handed orthonormal frame, fixed or rotating with ``Theta``.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Surface:
     a: Expr
     """Derivative in the meridional coordinate ``Z``."""
     b: Expr
-    """Derivative in the circumferential coordinate ``Theta`` (turning frame vectors included)."""
+    """Derivative in the circumferential coordinate ``Theta``, including the rotation of frame vectors."""
 
     def __add__(self, other: Surface) -> Surface:
         """Sum of a position and a displacement."""
@@ -32,8 +32,8 @@ class Surface:
 def strain_energy(a: Expr, b: Expr, alpha: Expr | float | SurfaceLaw) -> Expr:
     r"""Incompressible Mooney-Rivlin membrane over ``mu H``; ``alpha = 0`` is the paper's neo-Hookean one.
 
-    In place of ``alpha`` another law may stand, :math:`w(\mathrm{tr}\,C, \det C)/2` then: ``mu = 2 S``, twice
-    the stress that law is over, as ``mu = 2 C1``.
+    Another law may replace ``alpha``. The energy is then :math:`w(\mathrm{tr}\,C, \det C)/2`, with ``mu = 2
+    S``, twice the stress by which that law is divided, like ``mu = 2 C1``.
 
     .. math:: w = \tfrac12 \left[ I_1 - 3 + \alpha (I_2 - 3) \right], \quad
               I_1 = g_{11} + g_{22} + 1/J, \quad I_2 = (g_{11} + g_{22})/J + J
@@ -63,19 +63,20 @@ def normal(at: Surface) -> Expr:
 def pressure_work(at: Surface, v: Surface, pressure: Expr) -> Expr:
     r"""First variation of the liquid's potential, :math:`-P\, v \cdot N`: a pressure on the current surface.
 
-    With ``P`` a function of the height alone this is the variation of :math:`-\int P\,\mathrm dV`. It is
-    typed, not derived from the printed potential :math:`-\tfrac12 P(z)\, r^2 z'`: differentiated twice, that
-    one needs the line term of ``P'' = gamma delta(zw - z)`` at the free surface, which UFL leaves out.
+    If ``P`` depends on the height alone, this is the variation of :math:`-\int P\,\mathrm dV`. It is written
+    directly and not derived from the printed potential :math:`-\tfrac12 P(z)\, r^2 z'`. The second derivative
+    of that potential needs a line term from ``P'' = gamma delta(zw - z)`` at the free surface, which UFL
+    leaves out.
     """
     return -pressure * dot(v.x, normal(at))
 
 
 def hydrostatic(z: Expr, zw: Expr, gamma: Expr, wet: Expr | float) -> Expr:
-    r"""Pressure of a liquid of level ``zw``: :math:`P(z) = \gamma\,(z_w - z)` where wet, else none.
+    r"""Pressure of a liquid of level ``zw``: :math:`P(z) = \gamma\,(z_w - z)` where wet, else zero.
 
     Args:
         z: Height.
-        zw: Level of the free surface, or static head over a tube that is full.
+        zw: Level of the free surface, or static head above a full tube.
         gamma: ``rho g A^2/(mu H)``.
         wet: Indicator of the wet part, which ends where ``z = zw``.
     """
@@ -86,20 +87,20 @@ def submerged_flux(at: Surface, zw: Expr, power: int) -> Expr:
     r"""Vertical flux :math:`(z_w - z)_+^m N_z/m` through a surface, for ``m = 1`` and 2.
 
     Its integral is minus the volume of the liquid for ``m = 1``, and :math:`-\int P\,\mathrm dV/\gamma`, the
-    potential of a hydrostatic pressure, for ``m = 2``, both but for what the disks add (divergence theorem).
-    For ``m = 2`` the second derivative in ``z`` is a bounded step: differentiated twice it needs no line term
-    at the free surface.
+    potential of a hydrostatic pressure, for ``m = 2``, both up to the contribution of the disks (divergence
+    theorem). For ``m = 2`` the second derivative in ``z`` is a bounded step, so that no line term arises at
+    the free surface.
 
     Args:
         at: Position.
-        zw: Level of the free surface, or static head over a tube that is full.
+        zw: Level of the free surface, or static head above a full tube.
         power: ``m``.
     """
     return max_value(zw - at.x[2], 0.0) ** power * normal(at)[2] / power
 
 
 def axisymmetric(r: Expr, z: Expr, slopes: tuple[Expr, Expr]) -> Surface:
-    """A surface of revolution in the frame ``(e_r, e_theta, e_z)`` that turns with ``Theta``.
+    """A surface of revolution in the frame ``(e_r, e_theta, e_z)`` that rotates with ``Theta``.
 
     Args:
         r: Radius over ``Z``, or a displacement of it.
@@ -113,7 +114,7 @@ def axisymmetric(r: Expr, z: Expr, slopes: tuple[Expr, Expr]) -> Surface:
 def harmonic(q: Expr, slope: Expr, n: Expr | float, c: float, s: float) -> Surface:
     r"""The displacement :math:`u\cos n\Theta\,e_r + \beta\sin n\Theta\,e_\theta + w\cos n\Theta\,e_z`.
 
-    It is given at one angle, in the frame that turns with ``Theta``.
+    It is given at one angle, in the frame that rotates with ``Theta``.
 
     Args:
         q: ``(u, beta, w)`` over ``Z``.
@@ -139,7 +140,9 @@ def principal_stretches(at: Surface) -> tuple[Expr, Expr]:
 
 
 def principal_resultants(lam1: Expr, lam2: Expr, alpha: Expr | float | SurfaceLaw) -> tuple[Expr, Expr]:
-    r"""Cauchy stress resultants, force per current length over ``mu H``; of another law as above.
+    r"""Cauchy stress resultants, force per current length over ``mu H``.
+
+    :func:`strain_energy` describes the scaling for other laws.
 
     .. math:: T_1 = w_{,1}/\lambda_2, \qquad T_2 = w_{,2}/\lambda_1
     """

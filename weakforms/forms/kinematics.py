@@ -36,7 +36,7 @@ def tube_stretches(rho: Expr, eta: Expr, delta1: Expr, jacobian: Expr | float = 
         rho: Deformed radius over ``Z``.
         eta: Deformed axial position over ``Z``.
         delta1: Axial pre-stretch.
-        jacobian: ``dZ/dx`` where the mesh's own coordinate ``x`` is not ``Z``.
+        jacobian: ``dZ/dx``, if the coordinate ``x`` of the mesh is not ``Z``.
     """
     arc = sqrt(rho.dx(0) ** 2 + eta.dx(0) ** 2)
     return Stretches(
@@ -48,7 +48,7 @@ def tube_stretches(rho: Expr, eta: Expr, delta1: Expr, jacobian: Expr | float = 
 
 
 class Slope:
-    """Stands for a function of which only the derivative enters a form."""
+    """Represents a function that enters a form only by its derivative."""
 
     def __init__(self, slope: Expr) -> None:
         self._slope = slope
@@ -59,13 +59,13 @@ class Slope:
 
 
 def disk_stretches(x: Expr, lam2: Expr, lam2_slope: Expr, eta_slope: Expr) -> Stretches:
-    r"""Stretches of a flat disk deformed into a surface of revolution, with ``lam2`` for an unknown.
+    r"""Stretches of a flat disk deformed into a surface of revolution, with ``lam2`` as an unknown.
 
     .. math:: \rho = x\lambda_2, \qquad \rho' = \lambda_2 + x\lambda_2', \qquad
               \lambda_1 = \sqrt{\rho'^2 + \eta'^2}
 
-    With the circumferential stretch in place of the radius nothing is divided by ``x``: the pole is a
-    point like any other (Patil, DasGupta & Eriksson 2015, section 2, use the same variable).
+    With the circumferential stretch instead of the radius, no division by ``x`` occurs, and the pole needs no
+    special treatment (Patil, DasGupta & Eriksson 2015, section 2, use the same variable).
 
     Args:
         x: Radius in the unstretched disk.

@@ -8,7 +8,7 @@ from ufl.core.expr import Expr
 
 
 def enclosed_volume(rho: Expr, eta: Expr) -> Expr:
-    r"""Volume inside a surface of revolution about the axis, per ``2 pi`` and per meridian coordinate.
+    r"""Volume inside a surface of revolution, per ``2 pi`` and meridional coordinate.
 
     .. math:: V/(2\pi) = \int \tfrac12 \rho^2 \eta' \,\mathrm{d}Z
     """
@@ -16,12 +16,12 @@ def enclosed_volume(rho: Expr, eta: Expr) -> Expr:
 
 
 def gas_potential(rho: Expr, eta: Expr, p: Expr) -> Expr:
-    """Minus pressure times enclosed volume, per ``2 pi``: a gas whose pressure is controlled."""
+    """Potential of a gas with controlled pressure, per ``2 pi``: minus pressure times enclosed volume."""
     return -p * enclosed_volume(rho, eta)
 
 
 def substrate_potential(rho: Expr, eta: Expr, k: Expr, s: Expr, in_contact: Expr) -> Expr:
-    r"""Elastic foundation at radius ``s`` around the axis, per ``2 pi`` and per meridian coordinate.
+    r"""Elastic foundation at radius ``s`` around the axis, per ``2 pi`` and meridional coordinate.
 
     .. math:: \int \tfrac k2\, \chi\, \rho\, (\rho - s)^2\, \eta' \,\mathrm{d}Z
 
@@ -40,7 +40,7 @@ def substrate_potential(rho: Expr, eta: Expr, k: Expr, s: Expr, in_contact: Expr
 
 
 def bed_potential(rho: Expr, rho_slope: Expr, gap: Expr, k: Expr, in_contact: Expr) -> Expr:
-    r"""Bed of springs on a plane across the axis, per ``2 pi`` and per meridian coordinate.
+    r"""Bed of springs on a plane normal to the axis, per ``2 pi`` and meridional coordinate.
 
     .. math:: \int \tfrac k2\, \chi\, g^2 \rho\, \rho' \,\mathrm{d}x
 
@@ -58,14 +58,14 @@ def bed_potential(rho: Expr, rho_slope: Expr, gap: Expr, k: Expr, in_contact: Ex
 
 
 def liquid_potential(rho: Expr, rho_slope: Expr, z: Expr, level: Expr, gamma: Expr, wet: Condition) -> Expr:
-    r"""Liquid of a given level inside a surface of revolution, per ``2 pi`` and per meridian coordinate.
+    r"""Liquid of a given level in a surface of revolution, per ``2 pi`` and meridional coordinate.
 
     .. math:: -\int \Phi(z)\, \rho\, \rho' \,\mathrm{d}S, \qquad
               \Phi = \tfrac12 \gamma \max(z_w - z, 0)^2
 
-    Up to a constant (the ends being held, or on the axis) this is
-    :math:`-\int \gamma\max(z_w - z, 0)\,\tfrac12\rho^2 z'\,\mathrm{d}S`, by parts. It has two derivatives in
-    ``z`` but for a step, so differentiating it twice loses nothing.
+    Up to a constant (if the ends are fixed, or on the axis) this is
+    :math:`-\int \gamma\max(z_w - z, 0)\,\tfrac12\rho^2 z'\,\mathrm{d}S`, by integration by parts. Its second
+    derivative in ``z`` has only a step, so that no line term arises.
 
     Args:
         rho: Deformed radius.
@@ -73,7 +73,7 @@ def liquid_potential(rho: Expr, rho_slope: Expr, z: Expr, level: Expr, gamma: Ex
         z: Deformed height.
         level: Level ``z_w`` of the liquid.
         gamma: Specific weight.
-        wet: Where ``z < z_w``, held fixed when the potential is differentiated.
+        wet: Indicator of ``z < z_w``, held fixed when the potential is differentiated.
     """
     head = conditional(wet, gamma * (level - z) ** 2 / 2, 0.0)
     return -head * rho * rho_slope

@@ -29,10 +29,10 @@ MIDPOINTS = {
     "quadrature_weights": (1 / 6, 1 / 6, 1 / 6),
     "quadrature_degree": 2,
 }
-"""Edge-midpoint rule on a triangle, exact for polynomials of degree 2: metadata of a measure."""
+"""Metadata of a measure: edge-midpoint rule on a triangle, exact for polynomials of degree 2."""
 
 TAUT, WRINKLED, SLACK = 1.0, 0.0, -1.0
-"""What :func:`state` says of a triangle."""
+"""Values of :func:`state`."""
 
 
 @dataclass(frozen=True)
@@ -58,28 +58,28 @@ class Patch:
     def area_vector(self) -> Expr:
         r"""Deformed normal times area per reference area, :math:`N = (x_{,1}\times x_{,2})/\sqrt{\det G}`.
 
-        It points to the side from which the triangle's vertices are seen counterclockwise.
+        It points to the side from which the triangle's vertices appear counterclockwise.
         """
         area = sqrt(det(dot(self.reference.T, self.reference)))
         return cross(self.deformed[:, 0], self.deformed[:, 1]) / area
 
 
 def relaxed_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:
-    r"""Relaxed Mooney-Rivlin energy over ``C1`` per reference volume, all states of the sheet.
+    r"""Relaxed Mooney-Rivlin energy over ``C1`` per reference volume, for all states of the sheet.
 
     .. math:: W = \begin{cases}
         I + 1/D - 3 + c_2 (I/D + D - 3) & \lambda_1 \lambda_2^2 > 1 \text{ (taut)}\\
         \lambda_1^2 + 2/\lambda_1 - 3 + c_2 (2\lambda_1 + \lambda_1^{-2} - 3) & \lambda_1 > 1
         \text{ (wrinkled)}\\ 0 & \text{(slack)} \end{cases}
 
-    with :math:`I = \mathrm{tr}\,C`, :math:`D = \det C` and :math:`\lambda_1 \ge \lambda_2`, whichever way the
-    tension runs. In place of ``c2`` another law may stand, over the stress of its constants.
+    with :math:`I = \mathrm{tr}\,C`, :math:`D = \det C` and :math:`\lambda_1 \ge \lambda_2`, for any direction
+    of tension. Another law may replace ``c2``; its energy is then divided by the stress of its constants.
     """
     return surface_tension_field(c, c2 if isinstance(c2, SurfaceLaw) else mooney_rivlin_surface(c2))
 
 
 def full_energy(c: Expr, c2: Expr | float) -> Expr:
-    """The same without relaxation: compression is borne."""
+    """The same energy without relaxation: the sheet bears compression."""
     return mooney_rivlin_invariants(tr(c), det(c), c2)
 
 
@@ -95,7 +95,7 @@ def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
 
     .. math:: P = p + \gamma (z_w - z)_+, \qquad \Phi = -p z + \tfrac12 \gamma (z_w - z)_+^2
 
-    Its second derivative is a bounded step: differentiated twice, nothing is lost at the level.
+    Its second derivative is a bounded step, so that no line term arises at the fluid level.
     """
     return -p * z + conditional(gt(zw, z), gamma * (zw - z) ** 2 / 2, 0.0)
 
@@ -103,8 +103,9 @@ def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
 def pressure_potential(z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
     r"""Potential :math:`\Phi(z)\,N_z` of gas and liquid inside a surface, per reference area.
 
-    :math:`-\int P\,\mathrm dV = \oint \Phi N_z\,\mathrm dA` as :math:`\nabla\cdot(\Phi e_z) = -P`; what held
-    edges are closed with adds a constant. Exact for a polyhedron under gas; under a liquid up to quadrature.
+    :math:`-\int P\,\mathrm dV = \oint \Phi N_z\,\mathrm dA` as :math:`\nabla\cdot(\Phi e_z) = -P`; the
+    surface that closes fixed edges adds a constant. The potential is exact for a polyhedron under gas, and
+    exact up to quadrature under a liquid.
 
     Args:
         z: Height.
@@ -117,10 +118,10 @@ def pressure_potential(z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) ->
 
 
 def printed_potential(at: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
-    r"""The same by the horizontal flux, :math:`-\tfrac12 P (x N_x + y N_y)`, as the paper writes it.
+    r"""The same potential by the horizontal flux, :math:`-\tfrac12 P (x N_x + y N_y)`, as in the paper.
 
-    The second variation of this one has a line term at the level, which differentiation of the
-    :func:`ufl.conditional` leaves out; it is for the sensitivity of a result to the choice only.
+    The second variation of this form has a line term at the fluid level, which differentiation of the
+    :func:`ufl.conditional` leaves out. Use it only to measure how this choice changes a result.
     """
     pressure = p + conditional(gt(zw, at[2]), gamma * (zw - at[2]), 0.0)
     return -pressure * (at[0] * normal[0] + at[1] * normal[1]) / 2

@@ -1,13 +1,13 @@
 r"""Second variation of a relaxed membrane of revolution, by wave number around its axis.
 
-The energy of the *perturbed* surface is written down, at an angle ``Theta``; everything else is its
-derivative. Being quadratic in ``cos(n Theta)`` and ``sin(n Theta)``, whose squares have the same mean and
-whose product has none, the second variation integrated over ``Theta`` is ``pi`` times the sum of its values
-at the two angles ``n Theta = 0`` and ``pi/2`` (:data:`ANGLES`).
+This module gives the energy of the *perturbed* surface at an angle ``Theta``; everything else is a derivative
+of it. The second variation is quadratic in ``cos(n Theta)`` and ``sin(n Theta)``. Their squares have the same
+mean, and their product has mean zero. The integral over ``Theta`` is therefore ``pi`` times the sum of the
+values at the two angles ``n Theta = 0`` and ``pi/2`` (:data:`ANGLES`).
 
 A perturbation is the vector ``u cos(n Theta) e_r + q sin(n Theta) e_theta + w cos(n Theta) e_z``; with the
-paper's angle ``v``, ``q = r v``. Both have the same second variation at an equilibrium, and this one is
-regular at a pole. Lengths over ``Ao``, energies over ``C1 h Ao^2`` (Patil, Nordmark & Eriksson 2016,
+paper's angle ``v``, ``q = r v``. Both forms have the same second variation at an equilibrium; the form with
+``q`` is regular at a pole. Lengths over ``Ao``, energies over ``C1 h Ao^2`` (Patil, Nordmark & Eriksson 2016,
 J. Mech. Phys. Solids 94, 298-315).
 """
 
@@ -24,7 +24,7 @@ from weakforms.forms.materials import SurfaceLaw
 from weakforms.forms.wrinkling import COALESCENCE, relaxed
 
 ANGLES = ((1.0, 0.0), (0.0, 1.0))
-"""``(cos, sin)`` of the two angles that stand for the mean over ``Theta``."""
+"""``(cos, sin)`` of the two angles whose values give the mean over ``Theta``."""
 
 
 def gradient_tensor(at: Surface, radius: Expr) -> Expr:
@@ -45,15 +45,15 @@ def strain_energy(c: Expr, taut: Condition, law: SurfaceLaw) -> Expr:
 
     .. math:: U_F = w(I, D), \qquad U_R = w(\lambda_1, \lambda_1^{-1/2})
 
-    with ``I = tr C``, ``D = det C``: the taut state needs no principal stretches and is smooth where they
-    coincide. Where a point is taut is *given*: a front that moves with the perturbation changes the energy at
-    third order only, because its first derivatives are continuous there. :data:`COALESCENCE` keeps what is
-    not used finite where the stretches coincide, and changes the rest by its square.
+    with ``I = tr C``, ``D = det C``. The taut energy needs no principal stretches and is smooth where they
+    coincide. The taut part is *given*: a front that moves with the perturbation changes the energy only at
+    third order, because the first derivatives are continuous there. :data:`COALESCENCE` keeps unused
+    expressions finite where the stretches coincide, and changes the others by its square.
 
     Args:
         c: Right Cauchy-Green tensor, :func:`gradient_tensor`.
-        taut: Where it is taut, held fixed.
-        law: Energy as a function of either.
+        taut: Indicator of the taut part, held fixed.
+        law: Energy in both forms.
     """
     area = c[0, 0] * c[1, 1] - c[0, 1] ** 2
     spread = sqrt((c[0, 0] - c[1, 1]) ** 2 + 4 * c[0, 1] ** 2 + COALESCENCE**2)
@@ -69,26 +69,26 @@ def gas_energy(at: Surface, p: Expr) -> Expr:
 
 
 def liquid_energy(at: Surface, level: Expr, gamma: Expr, wet: Condition) -> Expr:
-    r"""Potential of a liquid of a given level, up to a constant (the edges being held).
+    r"""Potential of a liquid of a given level, up to a constant, for fixed edges.
 
     .. math:: \Phi(z)\, N_z, \qquad \Phi = \tfrac12\gamma\,(z_w - z)_+^2,
               \qquad N_z = -r\,(r'\theta_{,\Theta} - r_{,\Theta}\theta')
 
-    It has two derivatives in ``z`` but for a step. The printed form ``-p(z) r^2 z'/2`` has a kink there, and
-    differentiated twice it needs a line term at the free surface, which is lost in the paper's equations 22
-    to 25 as in automatic differentiation.
+    Its second derivative in ``z`` has only a step. The printed form ``-p(z) r^2 z'/2`` has a kink at the free
+    surface, so that its second derivative needs a line term there. The paper's equations 22 to 25 leave this
+    term out, and so does automatic differentiation.
 
     Args:
         at: The deformed surface.
         level: Level ``z_w``.
         gamma: ``rho g Ao^2/(C1 h)``.
-        wet: Where it is wet, held fixed.
+        wet: Indicator of the wet part, held fixed.
     """
     return conditional(wet, gamma, 0.0) * (level - at.x[2]) ** 2 / 2 * normal(at)[2]
 
 
 def around(base: Surface, parts: tuple[Expr, ...], slopes: tuple[Expr, ...], n: Expr) -> list[Surface]:
-    """A surface of revolution displaced by a harmonic, at both of the :data:`ANGLES`.
+    """A surface of revolution with a harmonic displacement, at both :data:`ANGLES`.
 
     Args:
         base: The axisymmetric surface.
@@ -103,8 +103,8 @@ def second_order(energy: Callable[[Expr], Expr], zero: Expr) -> Expr:
     r"""Second derivative at 0 of an energy along a *given* perturbation, :math:`\mathrm d^2/\mathrm de^2`.
 
     Args:
-        energy: Of the amplitude ``e``.
-        zero: A constant that is 0, in the place of ``e``.
+        energy: Energy as a function of the amplitude ``e``.
+        zero: The constant 0, the value of ``e``.
     """
     e = variable(zero)
     return diff(diff(energy(e), e), e)
@@ -116,9 +116,9 @@ def hoop_bending(base: Surface, parts: tuple[Expr, ...], slopes: tuple[Expr, ...
     .. math:: k_{22} = \frac{ z_0'\big[-(n^2+1)u - 2nq + \tfrac{r_0 r_0'}{j^2} u'\big]
               - r_0'\big[-n^2 w + \tfrac{r_0 r_0'}{j^2} w'\big] }{j}, \qquad j = \lambda_1
 
-    times :math:`\cos n\Theta / R^2`, the factor :math:`R^{-2}` left to the caller. It holds first derivatives
-    only. A sheet with the energy :math:`\tfrac12\int D k_{22}^2` of this *incremental* curvature has the
-    membrane's own equilibrium.
+    times :math:`\cos n\Theta / R^2`, the factor :math:`R^{-2}` left to the caller. It contains first
+    derivatives only. A sheet with the energy :math:`\tfrac12\int D k_{22}^2` of this *incremental* curvature
+    has the same equilibrium as the membrane.
 
     Args:
         base: The axisymmetric surface.

@@ -15,14 +15,16 @@ def newton_series(
     .. math:: f(x) = c_0 + (t - t_0)\,\big(c_1 + (t - t_1)\,(c_2 + \dots)\big),
               \qquad t = 4 x/\mathrm{span} - 2
 
-    Each bracket stands in the next one once. The recurrence of Chebyshev polynomials would have two in each,
-    and as many paths through it as Fibonacci's numbers: more than forms of twenty terms can be compiled with.
+    Each bracket occurs once in the next one. The recurrence of Chebyshev polynomials would use two earlier
+    terms each time; the number of paths through the expression would grow like the Fibonacci numbers, and
+    forms with twenty terms could not be compiled.
 
     Args:
         coefficients: Divided differences ``c_m``.
-        nodes: ``t_m`` in ``[-2, 2]``, where they neither grow nor fall with ``m``; in Leja's order.
-        x: Where.
-        span: Right end.
+        nodes: ``t_m`` in ``[-2, 2]``, an interval on which the coefficients neither grow nor decrease with
+            ``m``; in Leja's order.
+        x: Argument.
+        span: Right end of the interval.
     """
     t = 4 * x / span - 2
     value, rate = coefficients[-1], 0

@@ -1,13 +1,14 @@
 r"""Wrinkled membranes: relaxed energies, and the modified deformation gradient, of any principal-stretch law.
 
 A sheet that cannot bear compression folds where a stress would become negative. With a law ``w(l1, l2)`` of
-an isotropic incompressible sheet (:mod:`weakforms.forms.materials`) and the larger stretch ``l1``, the width
-at which uniaxial tension leaves it is the natural one, :math:`l_2 = l_1^{-1/2}`, whatever the law (equal
-transverse stretches), so the energy of the wrinkled state is :math:`w_r(l) = w(l, l^{-1/2})` and the sheet
-is taut where :math:`l_2 > l_1^{-1/2}` (Patil, Nordmark & Eriksson 2015, section 2 and table 1; Pipkin 1986).
+an isotropic incompressible sheet (:mod:`weakforms.forms.materials`) and the larger stretch ``l1``, the
+natural width in uniaxial tension is :math:`l_2 = l_1^{-1/2}` for every law, because both transverse stretches
+are equal. The energy of the wrinkled state is therefore :math:`w_r(l) = w(l, l^{-1/2})` and the sheet is taut
+if :math:`l_2 > l_1^{-1/2}` (Patil, Nordmark & Eriksson 2015, section 2 and table 1; Pipkin 1986).
 
-All energies here have continuous first derivatives; the second ones jump where the state changes. States are
-chosen by ``conditional`` *around* smooth branches: UFL then differentiates the branches only, which is exact.
+All energies here have continuous first derivatives; the second derivatives jump where the state changes. A
+``conditional`` chooses between the smooth expressions of the states. UFL then differentiates only these
+expressions, which is exact.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Width = Callable[[Expr], Expr]
 """Transverse stretch in uniaxial tension as a function of the stretch along it."""
 
 TINY = 1e-6
-"""Stretch below which a branch that is not used is evaluated here instead, to stay finite."""
+"""Lower limit of the stretch at which an unused expression is evaluated, so that it stays finite."""
 
 COALESCENCE = 1e-7
 """Difference of the squared principal stretches below which they count as equal."""
@@ -48,7 +49,7 @@ def relaxed(law: Law, width: Width = natural_width) -> Callable[[Expr], Expr]:
 
     Args:
         law: Full energy.
-        width: Width in uniaxial tension, where the law is not of an incompressible material.
+        width: Width in uniaxial tension, if the material is compressible.
     """
     return lambda l1: law(l1, width(l1))
 
@@ -61,7 +62,7 @@ def taut_state(l1: Expr, l2: Expr, width: Width = natural_width) -> Condition:
 
 
 def tension_field(law: Law, width: Width = natural_width) -> Law:
-    r"""Relaxed energy by the state table: taut, wrinkled either way, or slack.
+    r"""Relaxed energy by the table of states: taut, wrinkled in either direction, or slack.
 
     ===================  =========================================  ===============
     state                criterion                                  energy
@@ -86,19 +87,21 @@ def tension_field(law: Law, width: Width = natural_width) -> Law:
 
 
 def modified_gradient(law: Law, width: Width = natural_width) -> Law:
-    r"""Full energy of a modified deformation gradient that leaves no compression (Roddeman's).
+    r"""Full energy of Roddeman's modified deformation gradient, which removes compression.
 
     :math:`\tilde F = (I + \beta\, n_2\otimes n_2) F` widens the wrinkled direction, ``beta >= 0``, until the
     stress across the wrinkles vanishes; for an isotropic incompressible sheet
 
     .. math:: \tilde l_2 = (1+\beta)\, l_2 = \max(l_2, \tilde l_1^{-1/2}), \qquad \tilde l_1 = \max(l_1, 1)
 
-    with ``l1`` the larger stretch (Patil, Nordmark & Eriksson 2015, section 2.3). The same function as
-    :func:`tension_field` by another way.
+    with ``l1`` the larger stretch (Patil, Nordmark & Eriksson 2015, section 2.3). This is the same function
+    as :func:`tension_field`, computed differently.
     """
 
     def energy(l1: Expr, l2: Expr) -> Expr:
-        first = gt(l1, l2)  # one condition for both: where the stretches are equal, each is one of them
+        first = gt(
+            l1, l2
+        )  # one condition for both: where the stretches are equal, each variable holds one of them
         along = max_value(conditional(first, l1, l2), 1.0)
         across = conditional(first, l2, l1)
         return law(along, max_value(across, width(along)))
@@ -112,8 +115,8 @@ def principal_stretches(c: Expr) -> tuple[Expr, Expr]:
     .. math:: l_{1,2}^2 = \tfrac12\Big(I \pm \sqrt{\max(I^2 - 4D, \epsilon^2)}\Big), \qquad
               I = \mathrm{tr}\,C,\quad D = \det C
 
-    The floor keeps derivatives finite where the stretches coincide; a membrane is taut or slack there, and
-    :func:`surface_tension_field` uses neither stretch then.
+    The lower limit keeps derivatives finite where the stretches coincide. There a membrane is taut or slack,
+    and :func:`surface_tension_field` uses neither stretch.
     """
     trace, area = tr(c), det(c)
     spread = sqrt(max_value(trace**2 - 4 * area, COALESCENCE**2))
@@ -123,13 +126,14 @@ def principal_stretches(c: Expr) -> tuple[Expr, Expr]:
 def surface_tension_field(c: Expr, law: SurfaceLaw) -> Expr:
     r"""Relaxed energy of a membrane without symmetry, from the right Cauchy-Green tensor.
 
-    Taut iff :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`); else wrinkled with :math:`w_r(l_1)` where
-    :math:`l_1 > 1`; else slack.
+    The membrane is taut if :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`); else wrinkled with
+    :math:`w_r(l_1)` where :math:`l_1 > 1`; else slack.
 
     Args:
         c: Right Cauchy-Green tensor in an orthonormal frame of the reference surface, 2 x 2.
-        law: Energy as a function of ``tr C`` and ``det C``, which is smooth where the principal stretches
-            coincide, for the taut state; as a function of the principal stretches for the wrinkled one.
+        law: Energy in both forms: as a function of ``tr C`` and ``det C`` for the taut state, smooth where
+            the principal stretches coincide, and as a function of the principal stretches for the wrinkled
+            state.
     """
     l1, l2 = principal_stretches(c)
     area = max_value(det(c), TINY**2)
@@ -143,7 +147,7 @@ def metric(tangents: Expr, reference: Expr) -> Expr:
 
     Args:
         tangents: ``F``, 3 x 2: derivatives of the deformed position along the two coordinates.
-        reference: ``G^{1/2}``, 2 x 2 diagonal: lengths of the reference surface's own tangents.
+        reference: ``G^{1/2}``, 2 x 2 diagonal: lengths of the tangents of the reference surface.
     """
     scaled = tangents * inv(reference)
     return scaled.T * scaled

@@ -1,4 +1,4 @@
-"""What problems share that are answered by branches traced on a family of meshes."""
+"""Base class of problems whose results are branches, traced on a family of meshes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from weakforms.solvers.support.provenance import provenance
 
 
 class MeshNumerics(Numerics):
-    """A family of meshes: ``cells`` on the finest, halved for each coarser level."""
+    """A family of meshes: ``cells`` on the finest one, half as many on each coarser level."""
 
     degree: int = Field(4, ge=1, le=6, description="polynomial degree of the unknowns")
     cells: int = Field(96, ge=8, le=20_000, description="cells on the finest mesh")
@@ -36,7 +36,7 @@ class MeshNumerics(Numerics):
 
     @property
     def meshes(self) -> list[int]:
-        """Cells of each mesh, coarse to fine."""
+        """Number of cells of each mesh, coarse to fine."""
         return [self.cells // 2**k for k in reversed(range(self.levels))]
 
 
@@ -47,39 +47,39 @@ class Family(Protocol):
 
     @property
     def quadrature_degree(self) -> int:
-        """Read off the form it solves."""
+        """Quadrature degree of the form that is solved."""
 
     @property
     def failures(self) -> list[Failure]:
-        """What did not converge."""
+        """Solves that did not converge."""
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
         """All columns."""
 
     def special_points(self) -> list[SpecialPoint]:
-        """In the order in which the branch meets them."""
+        """Special points in their order along the branch."""
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
-        """A state solved for."""
+        """Solve for a state."""
 
 
 class PathProblem:
-    """A problem whose answers are branches and their states; a subclass says which branches there are."""
+    """A problem whose results are branches and their states; a subclass defines the branches."""
 
     name: ClassVar[str]
     scales: ClassVar[dict[str, str]]
     columns: ClassVar[tuple[str, ...]]
     derived: ClassVar[tuple[str, ...]] = ()
-    """Columns that can be read, not prescribed."""
+    """Columns that cannot be prescribed."""
 
     def families(
         self, parameters: Any, numerics: Any, requests: Requests, comm: MPI.Intracomm, progress: Progress
     ) -> dict[str, Family]:
-        """The branches by name, in the order in which results list them."""
+        """The branches by name, in the order of the results."""
         raise NotImplementedError
 
     def points(self, parameters: Any) -> np.ndarray:
-        """Where fields are sampled by default, from one end of the body to the other."""
+        """Default sample points of fields, from one end of the body to the other."""
         raise NotImplementedError
 
     def solve(
@@ -90,7 +90,7 @@ class PathProblem:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Trace the branches on all meshes, locate their special points, solve for the states wanted."""
+        """Trace the branches on all meshes, locate their special points, solve for the requested states."""
         begun = time.perf_counter()
         result = self._result(parameters, numerics)
         families = self.families(parameters, numerics, requests, comm, progress)
@@ -119,7 +119,7 @@ class PathProblem:
         default_points: np.ndarray,
         progress: Progress,
     ) -> None:
-        """Put branches, special points and the states wanted into a result; what fails is listed there."""
+        """Put branches, special points and the requested states into a result, which also lists failures."""
         degrees = {name: family.quadrature_degree for name, family in families.items()}
         alike = len(set(degrees.values())) == 1
         result.numerics["quadrature_degree"] = next(iter(degrees.values())) if alike else degrees
@@ -147,10 +147,10 @@ class PathProblem:
     def _solve_drawn(
         self, result: Result, name: str, family: Family, count: int, default_points: np.ndarray
     ) -> None:
-        """Solve for states at points of a trace drawn at random, the first with its profile.
+        """Solve for states at random points of a trace, for the first one with its profile.
 
-        What was drawn stands in the result's ``numerics``; a point that has no state on all meshes is listed
-        there with the reason, and another one is drawn.
+        The result's ``numerics`` lists the points. A point without a state on all meshes is listed there with
+        the reason, and another point is drawn.
         """
         if not count:
             return

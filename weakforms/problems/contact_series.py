@@ -1,4 +1,4 @@
-"""Polynomials whose coefficients are constants of the forms: the history of a patch that sticks."""
+"""Polynomials whose coefficients are constants of the forms, for the history of a stuck patch."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from ufl.core.expr import Expr
 from weakforms.forms.series import newton_series
 
 ROOM = 24
-"""Coefficients are kept in multiples of this many."""
+"""The number of stored coefficients is a multiple of this."""
 
 
 class Series:
-    """A Chebyshev series on ``[0, span]``, kept in Newton's form.
+    """A Chebyshev series on ``[0, span]``, stored in Newton's form.
 
-    Series of any length share one form, so that it is compiled once and not for every mesh.
+    Series of any length share one form, which is compiled once for all meshes.
 
     Args:
-        mesh: Of the forms.
-        count: Coefficients there is to be room for.
-        span: Right end, a constant of the forms.
+        mesh: Mesh of the forms.
+        count: Largest number of coefficients.
+        span: Right end of the interval, a constant of the forms.
     """
 
     def __init__(self, mesh: Mesh, count: int, span: fem.Constant) -> None:
@@ -34,17 +34,17 @@ class Series:
         self._known: dict[Expr, tuple[Expr, Expr]] = {}
 
     def __call__(self, x: Expr) -> tuple[Expr, Expr]:
-        """Value and derivative at ``x``; the same expressions each time, which are long."""
+        """Value and derivative at ``x``; the long expressions are kept for further calls."""
         if x not in self._known:
             coefficients = [self._constant[m] for m in range(len(self._nodes))]
             self._known[x] = newton_series(coefficients, self._nodes, x, self._span)
         return self._known[x]
 
     def set(self, coefficients: np.ndarray) -> None:
-        """Give it the coefficients of a Chebyshev series.
+        """Set the coefficients of a Chebyshev series.
 
         Raises:
-            ValueError: For more than there is room for.
+            ValueError: If there are more coefficients than the largest number.
         """
         if len(coefficients) > len(self._nodes):
             raise ValueError(f"{len(coefficients)} coefficients, room for {len(self._nodes)}")
@@ -57,9 +57,9 @@ class Series:
 
 @cache
 def leja_points(count: int) -> tuple[float, ...]:
-    """Chebyshev points of ``[-2, 2]``, each as far as can be from those before it.
+    """Chebyshev points of ``[-2, 2]`` in Leja's order: each as far as possible from those before it.
 
-    Divided differences of many points lose no digits in that order.
+    In this order, divided differences of many points lose no digits.
     """
     left = list(2 * chebyshev.chebpts1(count))
     chosen = [left.pop()]

@@ -1,4 +1,4 @@
-"""Parameters of any problem that choose the law of its membrane: ``model`` and that law's constants."""
+"""The parameters of all problems that choose the material law: ``model`` and the constants of the law."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOONEY_RIVLIN = "mooney_rivlin"
 
 @dataclass(frozen=True)
 class Chosen:
-    """A law with the values of its constants; can be told from others, and kept, as a value."""
+    """A law with the values of its constants, as an immutable value."""
 
     model: str
     constants: tuple[tuple[str, float], ...]
@@ -32,7 +32,7 @@ class Chosen:
         return MATERIALS[self.model]
 
     def on(self, mesh: Mesh) -> dict[str, fem.Constant]:
-        """The constants as those of a form, so that forms are compiled once a law."""
+        """The law with the constants of a form, so that forms are compiled once for each law."""
         return {name: fem.Constant(mesh, value) for name, value in self.constants}
 
     def law(self, mesh: Mesh) -> Callable[[Expr, Expr], Expr]:
@@ -40,20 +40,20 @@ class Chosen:
         return self.material.energy(self.on(mesh))
 
     def surface_law(self, mesh: Mesh) -> SurfaceLaw:
-        """The energy of a surface, by its principal stretches and by the invariants of its metric."""
+        """The energy of a surface: of its principal stretches, and of the invariants of its metric."""
         return surface_law(self.model, self.on(mesh))
 
 
 def mooney_rivlin_of(ratio: float) -> Chosen:
-    """The papers' own law."""
+    """The Mooney-Rivlin law of the papers."""
     return Chosen(MOONEY_RIVLIN, (("alpha", float(ratio)),))
 
 
 class MaterialChoice(Parameters):
-    """``model`` and its constants, which are set by their own names beside the other parameters.
+    """``model`` and its constants, which are parameters with their own names.
 
-    A subclass whose problem has always been that of a Mooney-Rivlin membrane names in ``ratio`` its parameter
-    C2/C1; it stands for that law's constant then. In a result the constants stand among the parameters.
+    If the paper's problem has a Mooney-Rivlin membrane, the subclass gives in ``ratio`` the name of the
+    parameter C2/C1, which then is that law's constant. In a result the constants are among the parameters.
     """
 
     ratio: ClassVar[str] = ""
@@ -65,16 +65,16 @@ class MaterialChoice(Parameters):
 
     @classmethod
     def further(cls) -> frozenset[str]:
-        """The constants of every law."""
+        """Names of the constants of all laws."""
         return frozenset(name for material in MATERIALS.values() for name in material.constants)
 
     @model_validator(mode="before")
     @classmethod
     def _collect(cls, given: Any) -> Any:
-        """Constants by name into one value, each in its range, all admitted together."""
+        """Collect constants by name into one value, and check each range and the whole set."""
         name = given.get("model", MOONEY_RIVLIN) if isinstance(given, Mapping) else None
         if not isinstance(name, str) or name not in MATERIALS:
-            return given  # refused by the field's own check
+            return given  # the field's own check refuses it
         material = MATERIALS[name]
         if "constants" in given:
             raise TogetherError("set the constants by their own names, not by 'constants'")
@@ -84,7 +84,9 @@ class MaterialChoice(Parameters):
         for name in given:
             if name not in own and name not in fields:
                 known = ", ".join(own) or cls.ratio or "none"
-                raise TogetherError(f"{name} is no constant of model = {material.name!r}, which has: {known}")
+                raise TogetherError(
+                    f"{name} is not a constant of model = {material.name!r}, which has: {known}"
+                )
         values = {
             name: _value(name, given.get(name, c.default), c.allowed, c.contains) for name, c in own.items()
         }
@@ -95,7 +97,7 @@ class MaterialChoice(Parameters):
 
     @model_serializer(mode="wrap")
     def _flat(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """As it is given: constants by name, and without the ratio of a law that is not used."""
+        """The parameters as given: constants by name, without the ratio if the law does not use it."""
         data = handler(self)
         constants = dict(data.pop("constants"))
         if self.model != MOONEY_RIVLIN:
@@ -104,35 +106,35 @@ class MaterialChoice(Parameters):
 
     @property
     def other_law(self) -> Chosen | None:
-        """The law chosen, unless it is Mooney and Rivlin's."""
+        """The chosen law, unless it is the Mooney-Rivlin law."""
         return None if self.model == MOONEY_RIVLIN else self.material
 
     @property
     def material(self) -> Chosen:
-        """The law chosen."""
+        """The chosen law."""
         if self.model == MOONEY_RIVLIN and self.ratio:
             return mooney_rivlin_of(getattr(self, self.ratio))
         return Chosen(self.model, self.constants)
 
 
 def require_foldable(what: str, parameters: MaterialChoice, waves: bool) -> None:
-    """Refuse a law that a membrane that wrinkles has no form for.
+    """Refuse a law for which there is no form of a wrinkled membrane.
 
-    Natural width and wrinkling function are those of incompressible laws; waves around the axis need the law
+    Natural width and wrinkling function hold for incompressible laws only; waves around the axis need the law
     as a function of the invariants.
 
     Raises:
-        InputError: Naming the laws that are allowed.
+        InputError: With a message that names the allowed laws.
     """
     allowed = [name for name, m in MATERIALS.items() if m.incompressible and (not waves or name in LAWS)]
     require_model(f"{what}: waves around" if waves else what, parameters, allowed)
 
 
 def require_model(what: str, parameters: MaterialChoice, allowed: Collection[str]) -> None:
-    """Refuse a law that a problem has no sound form for.
+    """Refuse a law for which a problem has no valid form.
 
     Raises:
-        InputError: Naming the laws that are allowed.
+        InputError: With a message that names the allowed laws.
     """
     if parameters.model not in allowed:
         raise InputError(f"{what}: model = {parameters.model!r}; allowed: {', '.join(allowed)}")
@@ -144,5 +146,5 @@ def _value(name: str, given: Any, allowed: str, contains: Callable[[float], bool
     except (TypeError, ValueError):
         value = float("nan")
     if not contains(value):
-        raise TogetherError(f"{name} = {given!r}: a number {allowed} is wanted")
+        raise TogetherError(f"{name} = {given!r}: must be a number {allowed}")
     return value

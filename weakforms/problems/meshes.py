@@ -10,10 +10,10 @@ from mpi4py import MPI
 def graded_interval(
     comm: MPI.Intracomm, cells: int, length: float, grading: float, mirrored: bool = False
 ) -> dmesh.Mesh:
-    r"""Mesh of ``[0, length]``, finer towards the end; or of ``[-length, length]``, finer to both ends.
+    r"""Mesh of ``[0, length]``, finer towards the end, or of ``[-length, length]``, finer towards both ends.
 
     Nodes lie at :math:`Z = L\,[\xi + a\,\xi(1-\xi)]` for equidistant :math:`\xi`: a smooth map, so that
-    doubling the cells refines every one of them and orders of convergence can be observed.
+    doubling the number of cells refines every cell and orders of convergence can be observed.
 
     Args:
         comm: Ranks that share the mesh.
@@ -45,6 +45,6 @@ def tag_points(mesh: dmesh.Mesh, places: dict[int, float]) -> dmesh.MeshTags:
     }
     vertices = np.concatenate(list(found.values())).astype(np.int32)
     tags = np.concatenate([np.full(len(v), tag) for tag, v in found.items()]).astype(np.int32)
-    mesh.topology.create_connectivity(0, mesh.topology.dim)  # conditions are located through it
+    mesh.topology.create_connectivity(0, mesh.topology.dim)  # needed to locate the conditions
     order = np.argsort(vertices)
     return dmesh.meshtags(mesh, 0, vertices[order], tags[order])

@@ -1,4 +1,4 @@
-"""What every problem offers: parameters with ranges, and a solve that answers requests."""
+"""The interface of all problems: parameters with ranges, and a method that solves and answers requests."""
 
 from __future__ import annotations
 
@@ -16,55 +16,55 @@ from weakforms.solvers.continuation.branch import DIAGNOSTICS
 
 
 class Parameters(BaseModel):
-    """Parameters of a problem: names, defaults, ranges; nothing unknown, no NaN, immutable."""
+    """Parameters of a problem with names, defaults and ranges; immutable, without unknown names and NaN."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True)
 
     @classmethod
     def further(cls) -> frozenset[str]:
-        """Names that may be given besides the fields' own."""
+        """Names that may be given in addition to those of the fields."""
         return frozenset()
 
 
 class TogetherError(ValueError):
-    """What is wrong with several parameters together: its text names them and their values."""
+    """A contradiction between several parameters; its text names them and their values."""
 
 
 class Numerics(Parameters):
-    """How a problem is discretised; the defaults are what the accuracy statements were made with."""
+    """Discretisation of a problem; the stated accuracies hold for the defaults."""
 
 
 @dataclass(frozen=True)
 class StateRequest:
-    """A state wanted: a column at a value, on which branch, at which crossing, with which profile."""
+    """A requested state: a column, its value, the branch, the crossing, and the profile."""
 
     name: str
     """A column, or a kind of special point."""
     value: float
-    """Of the column; or which special point of that kind, from 1."""
+    """Value of the column, or number of the special point of that kind, from 1."""
     crossing: int = 1
     branch: str = "primary"
     profile: tuple[float, ...] | None = None
-    """Points at which fields are sampled besides the problem's own; ``None`` for no fields."""
+    """Sample points of fields in addition to the default ones; ``None`` for no fields."""
 
 
 @dataclass(frozen=True)
 class Requests:
-    """All that is wanted of one solve."""
+    """Everything that is requested of one solve."""
 
     states: tuple[StateRequest, ...] = ()
     branch_uncertainty: bool = True
-    """Whether every point of the trace gets an uncertainty (costs a solve a mesh and point)."""
+    """Whether every point of the trace gets an uncertainty (needs a solve for each mesh and point)."""
     drawn: int = 0
-    """Points of each trace, drawn at random, at which states are solved for besides."""
+    """Number of random points of each trace at which states are solved for in addition."""
 
 
 Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how much of it is done, and how much there is."""
+"""Called with the current step, the amount of work done and the total amount."""
 
 
 def silent(_what: str, _done: int, _total: int) -> None:
-    """No progress wanted."""
+    """Report no progress."""
 
 
 class Problem(Protocol):
@@ -75,7 +75,7 @@ class Problem(Protocol):
     paper: ClassVar[int]
     source: ClassVar[str]
     energy: ClassVar[str]
-    """The functional, as text for people."""
+    """The functional as text."""
     scales: ClassVar[dict[str, str]]
     """Scaling of every column and parameter."""
     parameters: ClassVar[type[Parameters]]
@@ -85,7 +85,7 @@ class Problem(Protocol):
     branches: ClassVar[tuple[str, ...]]
 
     def check(self, parameters: Any, requests: Requests) -> None:
-        """Refuse, before anything is solved, what the ranges of single parameters cannot."""
+        """Refuse, before anything is solved, wrong combinations of parameters and requests."""
 
     def solve(
         self,
@@ -113,7 +113,7 @@ class Registry:
         """The problem of that name.
 
         Raises:
-            InputError: When there is none.
+            InputError: If there is none.
         """
         if name not in self.problems:
             known = ", ".join(self.problems)
@@ -125,10 +125,10 @@ registry = Registry()
 
 
 def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
-    """Parameters from names and values.
+    """Validate parameters given by names and values.
 
     Raises:
-        InputError: One line naming each offending parameter, its value and what is allowed.
+        InputError: With one line that names each wrong parameter, its value and the allowed ones.
     """
     unknown = sorted(set(given) - set(model.model_fields) - model.further())
     if unknown:
@@ -148,10 +148,10 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
 
 
 def check_requests(problem: Problem, requests: Requests) -> None:
-    """Refuse states that no solution of the problem could answer.
+    """Refuse requests for states that no solution of the problem has.
 
     Raises:
-        InputError: For an unknown column or branch, a crossing below one, a value that is no number.
+        InputError: If a column or branch is unknown, a crossing is below one, or a value is not a number.
     """
     barred = (*DIAGNOSTICS, *getattr(problem, "derived", ()))
     allowed = [*(c for c in problem.columns if c not in barred), *problem.special_points]
@@ -171,15 +171,15 @@ def check_requests(problem: Problem, requests: Requests) -> None:
         if wanted.name in problem.special_points and wanted.value not in range(1, 1000):
             raise InputError(
                 f"{problem.name}: {wanted.name} = {wanted.value:g} must be a whole number from 1: "
-                "which of them along the branch"
+                "the number of the point along the branch"
             )
 
 
 def sample_points(wanted: tuple[float, ...] | None, default: np.ndarray) -> np.ndarray | None:
-    """Sorted sample points of a request: the default ones and those it names.
+    """Sorted sample points of a request: the default ones and those that it adds.
 
     Raises:
-        InputError: For a point outside the body.
+        InputError: If a point is outside the body.
     """
     if wanted is None:
         return None

@@ -1,4 +1,4 @@
-"""Problems without a branch: solved at two refinements, their quantities with the change between them."""
+"""Problems without a branch, which are solved at two refinements; the differences give uncertainties."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ def solve_twice(
     run: Callable[[int], dict[str, float]],
     order: float,
 ) -> Result:
-    """Result of a problem that is its quantities alone.
+    """Result of a problem that has quantities only.
 
     Args:
-        problem: Whose name and scales the result carries.
-        parameters: As given.
-        numerics: As given.
+        problem: The problem, whose name and scales the result has.
+        parameters: Parameters of the problem.
+        numerics: Discretisation of the problem.
         comm: Ranks.
-        progress: Told which of the two is being solved.
-        run: The quantities, with everything that is refined divided by its argument.
-        order: Largest order of convergence that is trusted.
+        progress: Called with the number of the solve.
+        run: Returns the quantities; its argument divides all mesh sizes and numbers of steps.
+        order: Largest assumed order of convergence.
     """
     begun = time.perf_counter()
     found = []

@@ -1,4 +1,4 @@
-"""What came out: branches, special points, states and fields, in and out of JSON and CSV. numpy only."""
+"""Results: branches, special points, states and fields, to and from JSON and CSV. Needs numpy only."""
 
 from weakforms.results.curves import CurveFile, read_curve
 from weakforms.results.io import load_result, validate, write_atomically

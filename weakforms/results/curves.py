@@ -1,4 +1,4 @@
-"""Curves of others in: CSV with a header row, JSON lists, or a result."""
+"""Reading curves of other codes: CSV with a header row, JSON lists, or a result."""
 
 from __future__ import annotations
 
@@ -17,34 +17,34 @@ from weakforms.errors import InputError
 from weakforms.results.io import BRANCH, load_json, read_text, validate
 
 MAX_CURVE_BYTES = 64 * 2**20
-"""Size up to which a curve file is read."""
+"""Largest size of a curve file, in bytes."""
 
 MAX_ROWS, MAX_COLUMNS = 1_000_000, 1000
-"""Rows and columns up to which a table is read."""
+"""Largest number of rows and columns of a table."""
 
 
 @dataclass(frozen=True)
 class CurveFile:
-    """Somebody's curve, and what it was solved for where it is a result."""
+    """A curve that was read from a file, with its problem and parameters if the file is a result."""
 
     columns: dict[str, np.ndarray]
-    """Numbers; of a result of ours, not a number where a column has no meaning, as before contact."""
+    """Columns of numbers; in a result, NaN where a column has no meaning, as before contact."""
     problem: str = ""
-    """Of a result; empty for a curve of which nothing else is known."""
+    """Problem of a result; empty for any other curve."""
     parameters: dict[str, Any] = field(default_factory=dict)
 
 
 def read_curve(path: Path, branch: str = "") -> CurveFile:
-    """Somebody's curve: a CSV with a header row, a JSON ``{"column": [...]}``, or a result.
+    """Read a curve: a CSV with a header row, a JSON ``{"column": [...]}``, or a result.
 
     Args:
-        path: The file; JSON is told by its suffix.
-        branch: Which branch of a result, or of a CSV with a column ``branch``; by default ``primary``, or
-            the only one there is.
+        path: The file; it is JSON if its suffix says so.
+        branch: Branch of a result, or of a CSV with a column ``branch``; by default ``primary``, or the only
+            one.
 
     Raises:
-        InputError: When the file cannot be read, is no table, holds something that is not a finite number, or
-            has no such branch.
+        InputError: If the file cannot be read, is not a table, contains something that is not a finite
+            number, or has no such branch.
     """
     path = Path(path)
     if path.suffix.lower() != ".json":
@@ -64,7 +64,7 @@ def read_curve(path: Path, branch: str = "") -> CurveFile:
 
 
 def _chosen(path: Path, names: list[str], branch: str) -> str:
-    """The branch wanted, of those a file has."""
+    """The requested one of a file's branches."""
     if not branch and len(names) == 1:
         return names[0]
     if (branch or "primary") not in names:
@@ -91,7 +91,7 @@ def _read_csv(path: Path, branch: str) -> dict[str, np.ndarray]:
 
 
 def _lines(path: Path, text: str) -> Iterator[str]:
-    """Lines, of which none becomes more cells than a table may have columns."""
+    """The lines of a file; a line with too many cells for a table is an error."""
     for line in io.StringIO(text):
         if line.count(",") >= MAX_COLUMNS:
             raise InputError(f"curve file {path} has more than {MAX_COLUMNS} columns")
@@ -99,9 +99,9 @@ def _lines(path: Path, text: str) -> Iterator[str]:
 
 
 def _columns(path: Path, header: list[str], reader: Any, branch: str | None) -> dict[str, np.ndarray]:
-    """Columns of numbers; of one branch, where the table has several, without those that it leaves empty."""
+    """Columns of numbers; if the table has several branches, those of one, without its empty columns."""
     if len(set(header)) != len(header):
-        raise InputError(f"curve file {path}: a column name stands twice in {header}")
+        raise InputError(f"curve file {path}: a column name is repeated in {header}")
     columns = {name: array("d") for name in header}
     absent: set[str] = set()
     count = 0
@@ -137,7 +137,7 @@ def _numbers(path: Path, columns: dict[str, Any], ours: bool = False) -> dict[st
             raise InputError(f"curve file {path} has more than {MAX_ROWS} rows")
         out[str(name)] = np.array([_number(path, name, i, v, ours) for i, v in enumerate(values, start=1)])
     if not out:
-        raise InputError(f"curve file {path} holds no columns")
+        raise InputError(f"curve file {path} has no columns")
     if len({len(values) for values in out.values()}) > 1:
         lengths = {name: len(values) for name, values in out.items()}
         raise InputError(f"curve file {path}: columns differ in length: {lengths}")

@@ -1,4 +1,4 @@
-"""Points of a trace drawn at random, at which its columns are held against states solved for."""
+"""Random points of a trace, at which its columns are compared with states solved for separately."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 from weakforms.results.model import Branch, SpecialPoint
 
 DESCRIBE = ("residual", "iterations")
-"""Columns that describe how a point was solved for, not what it is."""
+"""Columns that describe how a point was solved for, not the state itself."""
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """A point of a trace and the column that tells it from all others."""
+    """A point of a trace and a column whose value identifies it."""
 
     index: int
     column: str
@@ -24,7 +24,7 @@ class Drawn:
 
 
 def seed_of(text: str) -> int:
-    """A seed that is the same in every run of the same solution, and another one in any other."""
+    """A seed that depends on the solution only: the same in every run of it."""
     return zlib.crc32(text.encode())
 
 
@@ -58,20 +58,21 @@ def critical(branch: Branch, points: Sequence[SpecialPoint]) -> set[int]:
 def draw(branch: Branch, columns: Sequence[str], seed: int, without: Container[int] = ()) -> Iterator[Drawn]:
     """Inner points of a branch in random order, each with the first column that can be prescribed there.
 
-    A column will do that has all values of the points before on one side of its value, and all values of
-    those after on the other: the state at it is the point, whatever the column does elsewhere.
+    A column can be prescribed at a point if all its values before the point are on one side of its value
+    there, and all values after it on the other side. The state with that value is then this point.
 
     Args:
         branch: The trace.
         columns: Columns that can be prescribed, the best first.
-        seed: Of the random order.
+        seed: Seed of the random order.
         without: Points that are not drawn.
     """
     inner = np.arange(1, len(branch) - 1)
     left = np.random.default_rng(seed).permutation([i for i in inner if i not in without]).tolist()
     silent = {name for name in branch.columns if name not in DESCRIBE}
     while left:
-        # One at which most columns have something to say that have not had: of contact, of a front.
+        # Prefer a point at which many columns have a value for the first time, such as those of contact or a
+        # front.
         i = max(left, key=lambda at: sum(_speaks(branch.columns[name][at]) for name in silent))
         left.remove(i)
         for name in columns:

@@ -1,4 +1,4 @@
-"""Results and curves in and out: JSON validated against the shipped schema, CSV, files that appear whole."""
+"""Reading and writing results and curves: JSON validated against the shipped schema, CSV, atomic writes."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from weakforms.errors import InputError
 from weakforms.results.model import Result
 
 MAX_JSON_BYTES = 32 * 2**20
-"""Size up to which JSON is read, which takes up to thirty times that of memory; but for ..."""
+"""Largest size of a JSON file, which needs up to thirty times as much memory ..."""
 
 MAX_REPORT_BYTES = 256 * 2**20
-"""... a report of our own."""
+"""... and the largest size of a ``report.json``."""
 
 BRANCH = "branch"
-"""Column of names, not of numbers, in the table that :func:`branch_csv` writes."""
+"""The column with names instead of numbers in the table that :func:`branch_csv` writes."""
 
 
 @cache
@@ -38,10 +38,10 @@ def schema() -> dict[str, Any]:
 
 
 def validate(data: dict[str, Any]) -> None:
-    """Hold a JSON object against the result schema.
+    """Validate a JSON object against the result schema.
 
     Raises:
-        InputError: Naming the first place that does not fit.
+        InputError: If it does not fit; the message names the first place.
     """
     validator = jsonschema.Draft202012Validator(schema())
     try:
@@ -61,22 +61,22 @@ def validate(data: dict[str, Any]) -> None:
 
 
 def first_error(validator: jsonschema.Validator, data: Any) -> jsonschema.ValidationError | None:
-    """What does not fit a schema, of the first few errors the one that stands first; ``None`` if all does."""
+    """The first of a few places that do not fit a schema; ``None`` if there is none."""
     return min(islice(validator.iter_errors(data), 100), key=lambda e: list(map(str, e.path)), default=None)
 
 
 def write_atomically(path: Path, text: str, follow: bool = True) -> None:
-    """Write a file that appears under its name only when complete.
+    """Write a file so that it appears under its name only when it is complete.
 
     A link is followed; a device or pipe is written to, never replaced.
 
     Args:
-        path: The file; folders above it are made.
-        text: What it holds; what UTF-8 has no code for becomes ``?``.
-        follow: Whether a link is followed; otherwise, in a folder of somebody else's, it is replaced.
+        path: The file; missing folders are created.
+        text: The content; characters without a UTF-8 code become ``?``.
+        follow: Whether a link is followed; if not, the file replaces the link.
 
     Raises:
-        InputError: When the place cannot be written to.
+        InputError: If the file cannot be written.
     """
     path = Path(path)
     temporary = None
@@ -106,13 +106,13 @@ def _umask() -> int:
 
 @contextmanager
 def sole_use(folder: Path) -> Iterator[None]:
-    """Keep a folder to oneself while results are put into it; what a killed run left half-written goes.
+    """Lock a folder while results are written to it, and delete incomplete files of a killed run.
 
-    The lock is the system's, on the folder itself: it ends with the process, and leaves no file. Where a
-    file system has no locks, nothing is kept from anybody.
+    The operating system locks the folder itself. The lock ends with the process and leaves no file. On a file
+    system without locks, nothing is locked.
 
     Raises:
-        InputError: When another process has it.
+        InputError: If another process has locked it.
     """
     require_writable(folder)
     handle = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
@@ -135,14 +135,14 @@ def sole_use(folder: Path) -> Iterator[None]:
 
 
 _HALF = re.compile(r"\..+\.(json|html|xml|vtu|svg)\.([a-z0-9_]{8}|[0-9]+\.part)")
-"""Names that files have while they are written."""
+"""Pattern of the names that files have while they are written."""
 
 
 def require_writable(folder: Path, name: str = "") -> None:
-    """Make sure results can be put into a folder, and under a name, before anything is solved.
+    """Make sure, before anything is solved, that results can be written into a folder and under a name.
 
     Raises:
-        InputError: When they cannot.
+        InputError: If they cannot.
     """
     folder = Path(folder)
     try:
@@ -155,31 +155,31 @@ def require_writable(folder: Path, name: str = "") -> None:
 
 
 def require_place_for(path: Path) -> None:
-    """Make sure a file can be written before anything is solved.
+    """Make sure, before anything is solved, that a file can be written.
 
     Raises:
-        InputError: When it cannot, or when the path is a folder.
+        InputError: If it cannot, or if the path is a folder.
     """
     if os.path.isdir(path):
-        raise InputError(f"cannot write {path}: it is a folder, a file name is wanted")
+        raise InputError(f"cannot write {path}: it is a folder, not a file")
     if not os.path.exists(path) or os.path.isfile(path):  # Path.exists raises for a name that is too long
         require_writable(path.parent, path.name)
 
 
 def dumps(data: dict[str, Any]) -> str:
-    """JSON text: no NaN, keys in their order, one newline at the end."""
+    """JSON text without NaN, with keys in their order and one newline at the end."""
     return json.dumps(data, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def load_json(path: Path, what: str, limit: int = MAX_JSON_BYTES) -> dict[str, Any]:
-    """A JSON object from a file of up to ``limit`` bytes.
+    """Read a JSON object from a file of up to ``limit`` bytes.
 
     Raises:
-        InputError: When it is missing, too large, not UTF-8, not JSON or not an object.
+        InputError: If the file is missing, too large, not UTF-8, not JSON or not an object.
     """
     try:
         data = json.loads(read_text(path, what, limit))
-    except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
+    except (ValueError, RecursionError) as error:  # a number with thousands of digits raises a ValueError
         raise InputError(f"{what} {path}: not JSON: {str(error).splitlines()[0]}") from error
     if not isinstance(data, dict):
         raise InputError(f"{what} {path}: must hold a JSON object, not {type(data).__name__}")
@@ -187,10 +187,10 @@ def load_json(path: Path, what: str, limit: int = MAX_JSON_BYTES) -> dict[str, A
 
 
 def load_result(path: Path) -> Result:
-    """A result from a file, validated.
+    """Read a result from a file and validate it.
 
     Raises:
-        InputError: When it cannot be read or does not fit the schema.
+        InputError: If it cannot be read or does not fit the schema.
     """
     data = load_json(path, "result")
     validate(data)
@@ -212,14 +212,14 @@ def branch_csv(result: Result) -> str:
 
 
 def read_text(path: Path, what: str, limit: int) -> str:
-    """UTF-8 text from a file of up to ``limit`` bytes.
+    """Read UTF-8 text from a file of up to ``limit`` bytes.
 
     Raises:
-        InputError: When it is missing, too large or not UTF-8.
+        InputError: If the file is missing, too large or not UTF-8.
     """
     try:
         with Path(path).open("rb") as stream:
-            raw = stream.read(limit + 1)  # a pipe or device does not tell its size
+            raw = stream.read(limit + 1)  # the size of a pipe or device is unknown
     except OSError as error:
         raise InputError(f"cannot read {what} {path}: {error.strerror or error}") from error
     if len(raw) > limit:

@@ -1,6 +1,6 @@
-"""The records a solution is made of, and their JSON form (schema ``weakforms.result/1``).
+"""The records of a solution and their JSON form (schema ``weakforms.result/1``).
 
-Every number here is converged: what did not converge is absent and listed as a :class:`Failure`.
+Every number here is converged. What did not converge is left out and listed as a :class:`Failure`.
 Uncertainties are absolute, in the units of the value, and come from mesh refinement
 (:mod:`weakforms.solvers.uncertainty.refinement`).
 """
@@ -18,12 +18,12 @@ SCHEMA = "weakforms.result/1"
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number with its absolute uncertainty (``None`` where the number is a count or exact)."""
+    """A number with its absolute uncertainty (``None`` if the number is a count or exact)."""
 
     value: float
     uncertainty: float | None = None
     order: float | None = None
-    """Observed order of convergence in the mesh size, where three meshes allow one."""
+    """Observed order of convergence in the mesh size, if there are three meshes."""
 
     def to_json(self) -> dict[str, Any]:
         """JSON object ``{"value", "uncertainty"[, "order"]}``."""
@@ -40,7 +40,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Field:
-    """Columns sampled along the body, with one absolute uncertainty a column."""
+    """Columns sampled along the body, each with one absolute uncertainty."""
 
     name: str
     columns: dict[str, np.ndarray]
@@ -62,13 +62,13 @@ class Field:
 
 @dataclass(frozen=True)
 class Branch:
-    """A curve of equilibria in the order of continuation: one array per column, all of one length."""
+    """A curve of equilibria in the order of continuation: one array per column, all of the same length."""
 
     name: str
     control: str
     columns: dict[str, np.ndarray]
     uncertainty: dict[str, np.ndarray] = field(default_factory=dict)
-    """Per column and point: absolute, at fixed position across the branch."""
+    """Absolute uncertainty for each column and point, in the direction across the branch."""
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values()), ()))
@@ -95,7 +95,7 @@ class Branch:
 
 @dataclass(frozen=True)
 class SpecialPoint:
-    """A point solved for by an extended system, never read off a table.
+    """A point solved for by an extended system, not interpolated in a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
     stability_change, pull_off, zone_opening, zone_closing.
@@ -110,7 +110,7 @@ class SpecialPoint:
     orders: dict[str, float] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
-        """JSON object as the schema has it."""
+        """JSON object as the schema requires."""
         return {
             "kind": self.kind,
             "branch": self.branch,
@@ -137,7 +137,7 @@ class SpecialPoint:
 
 @dataclass(frozen=True)
 class State:
-    """One equilibrium asked for at an exact value of a column of its branch, with its fields."""
+    """One equilibrium, requested at an exact value of a column of its branch, with its fields."""
 
     at: dict[str, float]
     branch: str
@@ -146,7 +146,7 @@ class State:
     crossing: int = 1
 
     def to_json(self) -> dict[str, Any]:
-        """JSON object as the schema has it."""
+        """JSON object as the schema requires."""
         return {
             "at": dict(self.at),
             "branch": self.branch,
@@ -169,7 +169,7 @@ class State:
 
 @dataclass(frozen=True)
 class Failure:
-    """Something asked for that could not be had, and why."""
+    """Something that was requested and could not be computed, with the reason."""
 
     what: str
     reason: str
@@ -181,7 +181,7 @@ class Failure:
 
 @dataclass
 class Result:
-    """All that one ``solve`` gives back; the JSON form is the contract with other programs."""
+    """Everything that one ``solve`` returns; its JSON form is the contract with other programs."""
 
     problem: str
     parameters: dict[str, Any]
@@ -198,7 +198,7 @@ class Result:
         """The branch of that name.
 
         Raises:
-            KeyError: When there is none.
+            KeyError: If there is none.
         """
         for branch in self.branches:
             if branch.name == name:
@@ -206,7 +206,7 @@ class Result:
         raise KeyError(f"no branch {name!r}; there are {[b.name for b in self.branches]}")
 
     def points(self, kind: str, branch: str | None = None) -> list[SpecialPoint]:
-        """Special points of one kind, in the order in which the branch meets them."""
+        """Special points of one kind, in their order along the branch."""
         return [
             point for point in self.special_points if point.kind == kind and branch in (None, point.branch)
         ]

@@ -1,4 +1,4 @@
-"""How it is solved: SNES, continuation, critical points, SLEPc, dolfinx versions. No physics."""
+"""Solvers without physics: SNES, continuation, critical points, SLEPc, dolfinx releases."""
 
 from weakforms.solvers.support import jit_cache
 

@@ -1,1 +1,1 @@
-"""Is it right: cases, references, uncertainties, verdicts, report."""
+"""Verification: cases, references, uncertainties, verdicts, report."""

@@ -1,7 +1,7 @@
-r"""Balloons, long tubes and test pieces: homogeneous states by hand-made derivatives or from energies alone.
+r"""Balloons, long tubes and test pieces: homogeneous states from derivatives by hand or from energies alone.
 
-Every function takes the derivatives it works with, ``d(l1, l2) -> (w, w1, w2, w11, w12, w22)``; given those
-of :func:`by_hand` or of :func:`by_contour` it computes the same number in two ways.
+Every function takes the derivatives of the law, ``d(l1, l2) -> (w, w1, w2, w11, w12, w22)``. With those of
+:func:`by_hand` and of :func:`by_contour` it computes the same number in two ways.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ GAUSS = np.polynomial.legendre.leggauss(48)
 
 
 def by_hand(law: Any) -> Derivatives:
-    """From the law's own derivatives."""
+    """Derivatives that the law gives in closed form."""
     return lambda a, b: (
         law.energy(a, b),
         law.slope(a, b),
@@ -33,12 +33,12 @@ def by_hand(law: Any) -> Derivatives:
 
 
 def by_contour(law: Any) -> Derivatives:
-    """From the law's energy alone."""
+    """Derivatives from the law's energy alone."""
     return lambda a, b: six(law.energy, a, b)
 
 
 def roots(f: Callable[[float], float], low: float, high: float, steps: int) -> list[float]:
-    """All roots told apart by a scan."""
+    """All roots that a scan separates."""
     grid = np.linspace(low, high, steps + 1)
     values = [f(x) for x in grid]
     pairs = zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
@@ -84,7 +84,7 @@ def balloon_merge(make: Callable[[float], Derivatives], guess: tuple[float, floa
 def balloon_merge_from_energy(
     make: Callable[[float], Callable[[Any, Any], Any]], guess: tuple[float, float]
 ) -> tuple[float, ...]:
-    """The same from three derivatives of ``w(lam, lam)``, each by contour."""
+    """The same point from three derivatives of ``w(lam, lam)``, each by contour."""
 
     def jet(z: np.ndarray) -> tuple[float, float, float]:
         w = make(z[1])
@@ -109,7 +109,7 @@ def axial(d: Derivatives, l2: float) -> float:
         _, w1, w2, *_ = d(l1, l2)
         return 2 * l1 * w1 - l2 * w2
 
-    low = 0.5 * l2**-0.5  # less than the width that hoop tension alone leaves
+    low = 0.5 * l2**-0.5  # less than the width in uniaxial hoop tension
     while balance(1.05 * low) < 0:
         low *= 1.05
     return brentq(balance, low, 1.05 * low, xtol=1e-15, rtol=FINE)
@@ -142,7 +142,7 @@ def tube_maxwell(d: Derivatives, turns: list[float], end: float) -> tuple[float,
 
     Args:
         d: Derivatives.
-        turns: Hoop stretches of the two limit points, which part the rising branches.
+        turns: Hoop stretches of the two limit points, which separate the rising branches.
         end: Hoop stretch at which the last one ends.
     """
     pair = _pair_of(d, turns, end)
@@ -158,7 +158,7 @@ def tube_maxwell(d: Derivatives, turns: list[float], end: float) -> tuple[float,
 
 
 def tube_maxwell_by_area(d: Derivatives, turns: list[float], end: float) -> tuple[float, ...]:
-    """The same by Maxwell's rule of equal areas: ``int (p - p_M) dV = 0`` over the loop."""
+    """The same states by Maxwell's rule of equal areas: ``int (p - p_M) dV = 0`` over the loop."""
     pair = _pair_of(d, turns, end)
 
     def rate(l2: float) -> float:

@@ -32,13 +32,13 @@ ABOUT = {
     "lam2_thick": ("1", "hoop stretch of the thick state"),
 }
 LOOSE = (2e-10, 2e-9)
-"""Levels of uncertainty of merging points: second derivatives by differences enter them."""
+"""Uncertainties of merging points, which use second derivatives by differences."""
 FLAT = (1e-11, 2e-9)
-"""Levels of uncertainty of stretches at limit points: where the pressure is stationary."""
+"""Uncertainties of stretches at limit points, where the pressure is stationary."""
 
 SPHERE_END = 4.0
 LIMITED = {"saint_venant_kirchhoff": 1.6, "harmonic": 2.0}
-"""Stretches up to which uniaxial tests of compressible laws are tabulated: they end soon after."""
+"""Stretches up to which uniaxial tests of compressible laws are tabulated; the tests end soon after."""
 MERGES = {
     "mooney_rivlin": ("alpha", (0.2, 1.8)),
     "gent": ("jm", (18.0, 1.9)),
@@ -51,7 +51,7 @@ TUBE_END = {"mooney_rivlin": 6.0, "ogden": 9.0, "gent": 6.0, "arruda_boyce": 6.0
 def make(
     name: str, title: str, model: str, columns: list[Column], constants: dict[str, float], notes: str = ""
 ) -> Table:
-    """A table with what is common to all."""
+    """A table with the documentation common to all of them."""
     return Table(
         name=name,
         paper="closed_form",
@@ -92,7 +92,7 @@ def _level(levels: dict[str, tuple[float, float]], name: str) -> dict[str, tuple
 
 
 def ordered(count: int) -> Column:
-    """Which limit point a row is."""
+    """The column with the number of the limit point."""
     return prescribed("order", np.arange(1, count + 1), ABOUT["order"])
 
 
@@ -116,7 +116,7 @@ def sphere_limits(name: str, model: str) -> Table:
 
 
 def sphere_merge(name: str, model: str) -> Table:
-    """Where the limit points of a balloon merge in a constant of its law."""
+    """The constant of a law at which the limit points of a balloon merge."""
     constant, guess = MERGES[model]
     first = body.balloon_merge(lambda c: body.by_hand(law(model, **{constant: c})), guess)
     second = body.balloon_merge_from_energy(lambda c: law(model, **{constant: c}).energy, guess)

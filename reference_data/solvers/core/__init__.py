@@ -1,1 +1,1 @@
-"""What several reference codes use: collocation, laws, tables."""
+"""Code that several reference codes use: collocation, laws, tables."""

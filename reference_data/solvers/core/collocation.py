@@ -31,7 +31,7 @@ from reference_data.solvers.core.mooney_rivlin import Tube
 
 Array = np.ndarray
 Pressure = Callable[[Any, Any], Any]
-STEP = 1e-30  # complex-step increment: no subtraction, so as small as one likes
+STEP = 1e-30  # complex-step increment, which may be arbitrarily small, because nothing is subtracted
 
 
 def lagrange(nodes: Array, points: Array) -> Array:
@@ -51,7 +51,7 @@ def differentiation(nodes: Array) -> Array:
     weights = 1 / np.prod(gaps, axis=1)
     d = weights[None, :] / weights[:, None] / gaps
     np.fill_diagonal(d, 0.0)
-    # rows sum to zero: the derivative of a constant, to the last bit
+    # rows sum to zero exactly: the derivative of a constant
     return d - np.diag(d.sum(axis=1))
 
 

@@ -4,7 +4,7 @@ For a function analytic in a disk, the trapezoidal rule on a circle is exact to 
 
 .. math:: f^{(k)}(a) = \frac{k!}{N r^k} \sum_{j} f(a + r e^{i\theta_j})\, e^{-i k \theta_j}
 
-so that hand-made derivatives can be held against the energy they came from.
+so that derivatives by hand can be compared with their energy.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 NODES = 48
 RADIUS = 0.08
-"""Radius of the circle over the stretch at its centre."""
+"""Radius of the circle, relative to the stretch at its centre."""
 
 Energy = Callable[[Any, Any], Any]
 

@@ -16,7 +16,7 @@ _BERNOULLI = (1 / 3, -1 / 45, 2 / 945, -1 / 4725, 2 / 93555, -1382 / 638512875)
 
 
 def _apart(y: Any) -> tuple[Any, Any]:
-    """``y`` where it is not small, and small ``y``, each with something harmless elsewhere."""
+    """``y`` where it is not small, and small ``y``, each with harmless values elsewhere."""
     small = np.abs(y) < NEAR
     return np.where(small, 1.0, y), np.where(small, y, 0.0)
 
@@ -50,7 +50,7 @@ def inverse(x: Any) -> Any:
 
 @lru_cache(maxsize=10_000)
 def _one(x: float) -> float:
-    """One number, kept: a law asks for the same one for each of its derivatives."""
+    """The inverse of one number; it is kept, because each derivative of a law needs it."""
     y = x * (3 - x * x) / (1 - x * x)
     for _ in range(7):
         if y < NEAR:
@@ -68,7 +68,7 @@ def _newton(x: Any) -> Any:
     for _ in range(7):
         if np.any(np.abs(y) < NEAR):
             y = y - (langevin(y) - x) / langevin_slope(y)
-        else:  # the same, its exponential taken once
+        else:  # the same, with the exponential computed once
             e = np.exp(-2 * y)
             y = y - ((1 + e) / (1 - e) - 1 / y - x) / (1 / y**2 - 4 * e / (1 - e) ** 2)
     return y[()]

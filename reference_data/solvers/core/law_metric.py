@@ -5,7 +5,7 @@ With :math:`x_i = l_i^2` and ``g_12 = 0`` in the state, the energy of a perturbe
 .. math:: U(x_1 + \delta g_{11},\ x_2 + \delta g_{22}) + f_y\,\delta g_{12}^2, \qquad
           f_y = \frac{f_1 - f_2}{x_1 - x_2}, \qquad f_i = \partial U/\partial x_i
 
-and ``f_y`` is worked out so that equal stretches are nothing special: for a part
+and ``f_y`` is written so that equal stretches need no special treatment: for a part
 :math:`\Phi(I, D)` of the invariants it is :math:`-\Phi_D`, for a part :math:`\sum\varphi(l_i)` it is the
 divided difference of :math:`h = \varphi'/(2 l)` over :math:`l_1 + l_2`, the mean of ``h'`` between the two.
 """

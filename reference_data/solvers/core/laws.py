@@ -1,16 +1,16 @@
-r"""Material laws of sheets, with derivatives worked out by hand; energies over the constants' own stress.
+r"""Material laws of sheets with derivatives by hand; energies are divided by the stress of the constants.
 
 A law of an incompressible isotropic material is here a sum of parts of two kinds,
 
 .. math:: w(l_1, l_2) = \Phi(x, y) + \sum_{i=1}^{3} \varphi(l_i), \qquad
           x = I_1 - 3,\ y = I_2 - 3,\ l_3 = 1/(l_1 l_2)
 
-each given by its own value and first and second derivatives, so that only the chain rule is common:
+each given by its value and its first and second derivatives, so that only the chain rule is common:
 
 .. math:: x_1 = 2(l_1 - l_1^{-3} l_2^{-2}),\quad y_1 = 2(l_1 l_2^2 - l_1^{-3}),\quad
           \partial_1 l_3 = -l_3/l_1
 
-Energies accept complex stretches (see :mod:`core.contour`); derivatives are meant for real ones.
+Energies accept complex stretches (see :mod:`core.contour`); derivatives accept real ones.
 """
 
 from __future__ import annotations
@@ -250,7 +250,7 @@ class Kirchhoff:
 
 @dataclass(frozen=True)
 class Harmonic:
-    """Harmonic material, ``f = 1 + (i-3) + f2 (i-3)^2/2``, without stress across the sheet.
+    """Harmonic material, ``f = 1 + (i-3) + f2 (i-3)^2/2``, in plane stress.
 
     With ``i`` eliminated, ``i - 3 = (J - 1)/f2`` and ``J = l1 l2``, the energy over 2 mu is
     ``1 + m + f2 m^2/2 - J (3 + m - l1 - l2)``, ``m = (J - 1)/f2``, whose slope is ``l2 (l1 - l3)``.
@@ -317,9 +317,9 @@ CONSTANTS: dict[str, dict[str, float]] = {
     "gent": {"shear": 2.0, "jm": 97.2},
     "harmonic": {"shear": 2.0, "f2": 2.0},
 }
-"""Constants the tables are made with."""
+"""Constants of the tables."""
 
 
 def law(model: str, **changed: float) -> Any:
-    """A law with the tables' constants, or some of them changed."""
+    """A law with the constants of the tables, or with some of them changed."""
     return BUILDERS[model](**(CONSTANTS[model] | changed))

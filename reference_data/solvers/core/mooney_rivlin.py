@@ -87,7 +87,7 @@ def resultants(l1: Any, l2: Any, alpha: float) -> tuple[Any, Any]:
 def plain_pressure(rho: Any, p: Any) -> Any:
     """Effective normal pressure of free inflation: P_eff(rho) = p.
 
-    Both solvers take a function of this signature, so that a deformable substrate, which acts
-    as a further normal pressure depending on the radius, is another such function.
+    Both solvers accept a function of this signature. A deformable substrate, which acts as an additional
+    normal pressure that depends on the radius, is another such function.
     """
     return p + 0 * rho

@@ -21,7 +21,7 @@ import numpy as np
 Array = np.ndarray
 DIGITS = 12
 TWO_GRIDS = 3.0
-"""Safety factor on the difference of two grids where no third one shows the order (Roache 1994)."""
+"""Safety factor on the difference of two grids without a third one for the order (Roache 1994)."""
 
 
 class Estimate(Protocol):
@@ -43,9 +43,9 @@ class Column:
         name: Header in the CSV.
         values: One number per row.
         uncertainty: Absolute; 0 for prescribed values.
-        scaling: How the number is made non-dimensional.
-        meaning: What it is.
-        extra: Further metadata, such as the difference between the two methods.
+        scaling: Scaling that makes the number non-dimensional.
+        meaning: Description of the column.
+        extra: Additional metadata, such as the difference between the two methods.
     """
 
     name: str
@@ -98,10 +98,10 @@ def agreed(
     other: str = "finite differences",
     written: str = "collocation",
 ) -> Column:
-    """Column of the values of the written method, once the other method is found to agree.
+    """Column of the values of the written method, after a check that the other method agrees.
 
     Raises:
-        DisagreementError: Naming table, column and worst row.
+        DisagreementError: If it does not; the message names table, column and worst row.
     """
     gap = np.abs(differences.value - collocation.value)
     room = np.hypot(differences.uncertainty, collocation.uncertainty)
@@ -146,7 +146,7 @@ def csv_text(table: Table) -> str:
 
 
 def _toml(value: object) -> str:
-    """A TOML value; JSON's strings, numbers and lists are TOML's too."""
+    """A TOML value; strings, numbers and lists of JSON are valid TOML."""
     if isinstance(value, float):
         return repr(value)
     return json.dumps(value, ensure_ascii=False)
@@ -171,7 +171,9 @@ def toml_text(table: Table, sha256: str) -> str:
     lines += ["", "[parameters]"]
     lines += [f"{key} = {_toml(value)}" for key, value in table.parameters.items()]
     for c in table.columns:
-        key = json.dumps(c.name) if "." in c.name else c.name  # a bare dot would nest
+        key = (
+            json.dumps(c.name) if "." in c.name else c.name
+        )  # a dot without quotes would start a nested table
         lines += ["", f"[columns.{key}]"]
         about = {"scaling": c.scaling, "meaning": c.meaning, "uncertainty": c.uncertainty}
         lines += [f"{key} = {_toml(value)}" for key, value in (about | c.extra).items()]
@@ -179,12 +181,12 @@ def toml_text(table: Table, sha256: str) -> str:
 
 
 def folder_of(paper: int | str) -> str:
-    """Folder of a paper's tables; a group that belongs to no paper is its own."""
+    """Name of the folder of a paper's tables; a group has its own name."""
     return f"paper{paper}" if isinstance(paper, int) else paper
 
 
 def write(table: Table, root: Path) -> Path:
-    """Write NAME.csv and NAME.toml under root/paperN, or its group; each appears only when complete."""
+    """Write NAME.csv and NAME.toml under root/paperN, or its group; each appears only when it is complete."""
     for c in table.columns:
         if not np.all(np.isfinite(c.values)):
             raise ValueError(f"table {table.name}, column {c.name}: not a finite number")

@@ -1,4 +1,4 @@
-"""What tables of material laws and closed forms have in common: two estimates, held against each other."""
+"""Functions of the tables of material laws and closed forms: two estimates that must agree."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import numpy as np
 from reference_data.solvers.core.tables import Array, Column, agreed
 
 HAND, CONTOUR = 2e-13, 2e-11
-"""Uncertainties, relative to one plus the value, of numbers by hand-made derivatives and by contours: about
-ten times the rounding that changing nodes and radius shows."""
+"""Uncertainties, relative to one plus the value, of numbers from derivatives by hand and by contours: about
+ten times the rounding that changes of nodes and radius show."""
 
 
 @dataclass
 class Rounded:
-    """Numbers exact but for rounding."""
+    """Numbers that are exact up to rounding."""
 
     value: Array
     uncertainty: Array
@@ -36,7 +36,7 @@ def both(
     contour: Sequence[float],
     levels: tuple[float, float] = (HAND, CONTOUR),
 ) -> Column:
-    """A column of numbers by hand-made derivatives, once those by contours agree."""
+    """A column of numbers from derivatives by hand, after a check that those by contours agree."""
     first, second = rounded(hand, levels[0]), rounded(contour, levels[1])
     column = agreed(table, name, second, first, about, other="contour integrals")
     column.extra["uncertainty_by_hand"] = column.extra.pop("uncertainty_collocation")

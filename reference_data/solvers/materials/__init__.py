@@ -1,1 +1,1 @@
-"""Tables of material laws, and of the papers' bodies made of them."""
+"""Tables of material laws, and of the papers' problems with these laws."""

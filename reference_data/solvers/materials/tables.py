@@ -41,7 +41,7 @@ def state(material: Any, l1: float, l2: float) -> int:
 
     def wide(x: float, y: float) -> bool:
         with np.errstate(invalid="ignore"):
-            return not y <= material.width(x)[0]  # a law with no width left is never wide enough to fold
+            return not y <= material.width(x)[0]  # a law without a positive width never wrinkles
 
     if wide(l1, l2) and wide(l2, l1):
         return TAUT
@@ -49,7 +49,7 @@ def state(material: Any, l1: float, l2: float) -> int:
 
 
 def by_hand(material: Any, l1: float, l2: float) -> tuple[list[float], list[float]]:
-    """Full and relaxed numbers from derivatives worked out by hand."""
+    """Full and relaxed numbers from derivatives by hand."""
     full = [
         material.energy(l1, l2),
         material.slope(l1, l2),
@@ -70,7 +70,7 @@ def by_hand(material: Any, l1: float, l2: float) -> tuple[list[float], list[floa
 
 
 def by_contour(material: Any, l1: float, l2: float) -> tuple[list[float], list[float]]:
-    """The same from the energy alone."""
+    """The same numbers from the energy alone."""
     full = list(six(material.energy, l1, l2))
     found = state(material, l1, l2)
     if found in (TAUT, SLACK):
@@ -91,7 +91,7 @@ def _placed(found: int, values: tuple[float, float, float]) -> list[float]:
 
 
 def table(name: str, model: str) -> Table:
-    """One law with the tables' constants."""
+    """The table of one law with the constants of the tables."""
     material = law(model)
     points = EVERYWHERE + (() if model in COMPRESSIBLE else FAR)
     hand = [by_hand(material, *p) for p in points]

@@ -1,4 +1,4 @@
-"""Tables of the circular membrane of laws other than Mooney and Rivlin's, by the codes of paper 1."""
+"""Tables of the circular membrane with laws other than Mooney-Rivlin, by the codes of paper 1."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOP = 2.0
 FREE = {"contact": "none", "phase": "inflation", "beta": 1.0}
 WINDOW, NODES = 0.12, 13
 DEEP, IN_CONTACT = 2.8, ("gent", "arruda_boyce")
-"""Pressure at which contact is looked at, and of which laws."""
+"""Pressure of the table of contact, and its laws."""
 TOUCHING = ("t0", "lam_pole", "lam1_rim", "X_contact", "rho_contact", "lam1_contact", "sigma_pole", "V")
 
 
@@ -38,7 +38,7 @@ def walked(model: str, t0: Array, i: int) -> tuple[dict[str, Array], dict[str, A
 
 
 def made(name: str, title: str, model: str, columns: list, **more: object) -> Table:
-    """A table with what is common to all."""
+    """A table with the documentation common to all of them."""
     table = dc.table(name, title, "section 2", {"model": model, **CONSTANTS[model], **FREE}, columns, **more)
     table.paper = "materials"
     return table

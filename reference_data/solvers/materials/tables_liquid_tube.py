@@ -1,7 +1,6 @@
-"""Tables of the fluid-loaded tube of other laws than the neo-Hookean one, by the codes of paper 3.
+"""Tables of the fluid-loaded tube with laws other than neo-Hookean, by the codes of paper 3.
 
-Both codes are given the law's derivatives with respect to the metric (``law_metric``); they share nothing
-else.
+Both codes use the law's derivatives with respect to the metric (``law_metric``); they share nothing else.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ RANGES = {
 }
 """Step and end of the volumes, a little beyond the first bifurcation with one wave."""
 STRIDE = 5
-"""How many steps of the branch are one of the eigenvalues' table."""
+"""Number of steps of the branch for one step of the table of eigenvalues."""
 SOURCE = "the problem of figure 2 with another law"
 
 

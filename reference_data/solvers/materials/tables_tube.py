@@ -1,6 +1,6 @@
-"""Tables of the tube and of the disk of other laws than Mooney and Rivlin's, by the papers' reference codes.
+"""Tables of the tube with laws other than Mooney-Rivlin, by the papers' reference codes.
 
-The codes are those of papers 1 and 2; only the law they are given is another (``material_laws``).
+The codes are those of paper 2, with another law (``core.laws``).
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ MODELS = ("ogden", "gent", "arruda_boyce")
 LF = 6.0
 U_STOP = 4.5
 NEAR = {"ogden": (0.838, 4.293), "gent": (0.857, 3.645), "arruda_boyce": (0.848, 3.61)}
-"""Displacements near which limit points are looked for: anywhere within a window of theirs."""
+"""Displacements at the centres of the windows in which limit points are searched."""
 WINDOW, NODES = 0.12, 12
 
 
 def make(name: str, title: str, model: str, columns: list[Column], source: str, notes: str) -> Table:
-    """A table with what is common to all."""
+    """A table with the documentation common to all of them."""
     return Table(
         name=name,
         paper="materials",
@@ -92,7 +92,7 @@ def tube_limits(name: str, model: str) -> Table:
 
 
 def _turn(u: Array, p: Array, spread: float, centre: float) -> Rounded:
-    """``(p, u)`` where a polynomial turns, and what an error ``spread`` of ``p`` does to it."""
+    """``(p, u)`` at an extremum of a polynomial, and the effect of an error ``spread`` of ``p`` on it."""
     fit = np.polynomial.Chebyshev.fit(u, p, NODES - 1, domain=[centre - WINDOW, centre + WINDOW])
     roots = [r.real for r in fit.deriv().roots() if abs(r.imag) < 1e-9 and abs(r.real - centre) < WINDOW]
     if len(roots) != 1:

@@ -1,7 +1,7 @@
-"""Tables of the wrinkled cylinder of other laws than Mooney and Rivlin's, by the codes of papers 4 and 5.
+"""Tables of the wrinkled cylinder with laws other than Mooney-Rivlin, by the codes of papers 4 and 5.
 
-The codes take a law in the place of C2/C1: its derivatives where taut, those of ``w(l, l^(-1/2))`` where
-wrinkled, and for waves its derivatives with respect to the metric (``law_metric``).
+The codes accept a law instead of C2/C1. They use its derivatives where the membrane is taut, those of ``w(l,
+l^(-1/2))`` where it is wrinkled, and for waves the derivatives with respect to the metric (``law_metric``).
 """
 
 from __future__ import annotations
@@ -32,20 +32,21 @@ NEAR: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
     "gent": ((5.25, 2.84), (8.45, 6.43)),
     "arruda_boyce": ((5.25, 2.85), (8.5, 6.4)),
 }
-"""Level and place near which a taut zone opens in the filled tube, and near which the wrinkled one closes."""
+"""Guesses for level and position at which a taut zone opens in the filled tube, and the wrinkled one
+closes."""
 LIMITS = {"ogden": (0.3, 0.5), "gent": (0.6, 1.0), "arruda_boyce": (0.6, 1.0)}
-"""Pressure from which, and step of the volume in which, the limit load is looked for."""
+"""First pressure and step of the volume of the search for the limit load."""
 WAVES: dict[str, tuple[tuple[int, tuple[float, float]], ...]] = {
     "ogden": ((10, (3.15, 3.3)), (10, (5.68, 5.8)), (20, (2.5, 2.65)), (20, (10.8, 11.1))),
     "gent": ((10, (4.6, 4.7)), (10, (7.4, 7.5)), (20, (3.65, 3.75)), (20, (13.2, 13.35))),
     "arruda_boyce": ((10, (4.65, 4.665)), (10, (7.52, 7.535)), (20, (3.71, 3.725)), (20, (13.6, 13.62))),
 }
-"""Numbers of waves, and levels between which they set in or vanish."""
+"""Wave numbers, and ranges of levels in which waves appear or disappear."""
 
 
 @cache
 def material(model: str) -> object:
-    """A law with the tables' constants; always the same object, by which states are kept."""
+    """A law with the constants of the tables; always the same object, because it is a key of kept states."""
     return law(model)
 
 
@@ -55,7 +56,7 @@ def membrane(model: str, M: float, delta: float, af: float | None = None, load: 
 
 
 def made(name: str, title: str, model: str, given: dict[str, object], columns: list[Column], **more: object):  # noqa: ANN201
-    """A table with what is common to all."""
+    """A table with the documentation common to all of them."""
     facts = {"model": model, **CONSTANTS[model], "L": 8.0, **given}
     table = text.make(name, f"{title}, {model}", "the problem with another law", facts, columns, **more)
     table.paper = "materials"

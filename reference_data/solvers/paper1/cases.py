@@ -23,13 +23,13 @@ from reference_data.solvers.paper1.shooting.equations import LEVELS, Newton
 from reference_data.solvers.paper2.collocation.critical import Resolved, resolved
 
 BOTH = (0, 1)  # coarse and fine
-FLOOR = 1e-12  # relative; what shooting's Newton leaves, and rounding elsewhere
+FLOOR = 1e-12  # relative; remaining error of Newton's method in shooting, and rounding elsewhere
 STEP = 0.1  # of p, in deflation
 
 
 @dataclass(frozen=True)
 class Case:
-    """A membrane, how far its patch is followed, and where deflation starts.
+    """A membrane, the end of its patch, and the start of deflation.
 
     Attributes:
         disk: The membrane and its substrate.
@@ -190,7 +190,7 @@ def rows_of(parts: list[dict[str, Any]]) -> dict[str, Array]:
 
 
 def levels(coarse: Array, fine: Array) -> Resolved:
-    """Values of shooting: the finer ones, the largest change of the column as their uncertainty."""
+    """Values of shooting: the finer ones, with the largest change of the column as uncertainty."""
     coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
     change = float(np.max(np.abs(fine - coarse)))
     return Resolved(fine, change + FLOOR * np.maximum(1.0, np.abs(fine)))
@@ -199,7 +199,7 @@ def levels(coarse: Array, fine: Array) -> Resolved:
 def column(table: str, name: str, a: list[Array], b: list[Array], about: tuple[str, str]) -> Column:
     """A column from two levels of shooting (a) and two resolutions of collocation (b)."""
     fine = resolved(*b)
-    # what another machine's sums may change
+    # possible changes on another machine, by the order of sums
     fine.uncertainty = fine.uncertainty + FLOOR * np.maximum(1.0, np.abs(fine.value))
     return agreed(table, name, levels(*a), fine, about, other="shooting")
 

@@ -1,10 +1,10 @@
 r"""The time-discrete scheme of adhesive inflation: raise the pole, let a ring touch, freeze it.
 
-At each step of size Delta t the patch [0, x_j] is rigid and raised so that eta(0) = t0; the ring
-[x_j, x_(j+1)] that touches anew slides and is pushed by the springs, the rest is free. Unknowns:
-(rho', eta') or (l1, th) at x_j+, p and x_(j+1); conditions: the balance of the patch at x_j,
-eta(x_(j+1)) = l and the rim. Then the ring is frozen too. For Delta t -> 0 this is the continuous
-history of ``disk_shooting_history`` and ``disk_collocation_history``; first order in Delta t.
+At each step of size Delta t the patch [0, x_j] is rigid and raised so that eta(0) = t0; the ring [x_j,
+x_(j+1)] that touches in this step slides under the force of the springs, and the rest is free. Unknowns:
+(rho', eta') or (l1, th) at x_j+, p and x_(j+1); conditions: the balance of the patch at x_j, eta(x_(j+1)) = l
+and the rim. Then the ring is frozen too. For Delta t -> 0 this is the continuous history of
+``disk_shooting_history`` and ``disk_collocation_history``; first order in Delta t.
 
 Source: Patil, DasGupta & Eriksson (2015), the algorithm of section 3.2.
 """
@@ -91,7 +91,7 @@ def shooting(onset: Shot, top: float, count: int) -> float:
     p, (x, rho, _, slope, dip, moment) = first_a(onset, step, Newton())
     width = 0.8 * x
     for _ in range(1, count):
-        # the edge stood at eta = l; raised with the pole
+        # the edge was at eta = l and is raised with the pole
         at = (x, rho, disk.l + step, moment)
         p, width, y = ring_a(disk, onset.how, at, (slope, -dip, width), newton)
         x, moment = x + width, moment + float(y[4])

@@ -1,4 +1,4 @@
-r"""Data of the circular membrane above a deformable substrate, and what its patch weighs.
+r"""Data of the circular membrane above a deformable substrate, and integrals over its patch.
 
 Source: Patil, DasGupta & Eriksson, Int. J. Solids Struct. 67-68 (2015) 250-262. Lengths over the
 clamped radius R_f = beta R_0, x = r/R_f in [0, 1/beta] material radius of the unstretched disk,
@@ -9,8 +9,8 @@ X = beta x, p = P R_f/(C1 h), k = K R_f^2/(C1 h), l = L/R_f, energies over 2 pi 
           + \tfrac{k}{2} \langle \eta - l \rangle^2 \rho \rho' \,]\, dx,
    \qquad \lambda_1 = (\rho'^2 + \eta'^2)^{1/2}, \quad \lambda_2 = \rho/x .
 
-A locked patch [0, x*] moves as a rigid body: rho = rho_c(x), eta = e* + F(x*) - F(x). Of its
-history only these numbers enter the equilibrium and the potential of a later state:
+A locked patch [0, x*] moves as a rigid body: rho = rho_c(x), eta = e* + F(x*) - F(x). Only these numbers of
+its history enter the equilibrium and the potential of a later state:
 
 .. math::
    I = \int_0^{x*} (F_* - F)\, \rho_c \rho_c'\, dx = \int_0^{x*} \tfrac12 \rho_c^2 F'\, dx, \quad
@@ -55,7 +55,7 @@ class Disk:
 
 @dataclass(frozen=True)
 class Patch:
-    """What a later state needs to know of a locked patch [0, x].
+    """The data of a locked patch [0, x] for later states.
 
     Attributes:
         x: Its edge x*.
@@ -84,6 +84,6 @@ class Patch:
 
 
 def toward(at: float, target: float, size: float) -> float:
-    """The end of the next of several equal steps to ``target``, none longer than ``size``."""
+    """The end of the next of several equal steps to ``target``, each at most ``size`` long."""
     count = math.ceil(abs(target - at) / size - 1e-6)
     return target if count <= 1 else at + (target - at) / count

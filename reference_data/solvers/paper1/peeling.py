@@ -64,7 +64,7 @@ def states_b(case: Case, p: float, x: Array, i: int) -> tuple[Patch, Batch]:
 
 
 def widest(case: Case) -> float:
-    """Largest contact radius of the history, with room for the difference quotient."""
+    """Largest contact radius of the history, with a margin for the difference quotient."""
     x = np.array([case.reach / case.disk.beta / (1 + 3 * RELATIVE)])
     return float(dc.inflation_b(case, 1).history.patch(x).rho[0])
 

@@ -6,9 +6,9 @@ At the edge x* (c: locked side, o: free side; the tangents enclose Delta theta)
    G = \frac{1}{\lambda_{1c} \lambda_2} \{ W_c - W_o - W_{1o} [\lambda_{1c} \cos\Delta\theta
        - \lambda_{1o}] \} + \frac{k}{2} (e_* - l)^2 \cos\theta_c ,
 
-which is (dPi/dx*)_p/(2 pi rho* lambda_1c): the first part is the membrane's, the last the energy
-of the springs that are let go. Source: derived from the potential of Patil, DasGupta & Eriksson
-(2015), whose equation for G is its difference quotient.
+which is (dPi/dx*)_p/(2 pi rho* lambda_1c): the first part comes from the membrane, the last is the energy of
+the released springs. Source: derived from the potential of Patil, DasGupta & Eriksson (2015), whose equation
+for G is its difference quotient.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Tables of paper 1 beside the figures: freezing scheme, orders of continuity, change of curvature.
+"""Further tables of paper 1: freezing scheme, orders of continuity, change of curvature.
 
 Patil, DasGupta & Eriksson, Int. J. Solids Struct. 67-68 (2015) 250-262, sections 3.2, 5 and 6.
 """
@@ -26,15 +26,15 @@ from reference_data.solvers.paper1.tables_profiles import drawn_b
 from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.registry import Builder
 
-TOP = 0.57  # pole height at which the freezing scheme is read
+TOP = 0.57  # pole height of the results of the freezing scheme
 STEPS = (7, 14, 28, 56)
 FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2")
 KINDS = (("frictionless", 5.0), ("inflation", 3.2), ("deflation", 2.4))
 HIGHEST = 3  # derivatives of order 0 .. 3 are compared
 NONE = HIGHEST + 1
-JUMP = 5e-3  # relative; those that are there are larger, those that are not much smaller
+JUMP = 5e-3  # relative; actual jumps are larger, and others are much smaller
 NODES = (np.cos(np.pi * (2 * np.arange(10) + 1) / 20)[::-1] + 1) / 2
-WIDTH = 0.08  # in X, of the interval beside the front
+WIDTH = 0.08  # in X, length of the interval next to the front
 
 
 def continuous(case: Case) -> tuple[list[float], list[float]]:

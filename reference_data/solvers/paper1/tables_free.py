@@ -47,7 +47,7 @@ def branch(name: str, disk: Disk, source: str) -> Table:
 
 
 def slope(state: Batch) -> float:
-    """dp/dt0: what Newton's step for one more unit of pole height is to first order."""
+    """dp/dt0, from Newton's step for a unit of pole height to first order."""
     height = state.y[0][:, 0, 0, 1]
     return float(correction(cs.controlled(state, "t0", height + 1))[1][0, 0])
 

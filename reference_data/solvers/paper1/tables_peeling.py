@@ -137,7 +137,7 @@ def pull_off(name: str) -> Table:
 
 
 def release_start(name: str) -> Table:
-    """Where the curves above first contact begin with G = 0: adhesive inflation at that pressure."""
+    """Start of the curves above first contact, with G = 0: adhesive inflation at that pressure."""
     pairs = [(case, p) for case, p in every() if p > dc.touching(case.disk)]
     found = np.array([start(case, p) for case, p in pairs])
     rows = [{"rho_contact": found[:, j, 0], "X_contact": found[:, j, 1]} for j in range(4)]

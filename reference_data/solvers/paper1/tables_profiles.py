@@ -1,7 +1,7 @@
 """Tables of paper 1, profiles and material paths of figures 3-10, and figure 7(b).
 
-Patil, DasGupta & Eriksson, Int. J. Solids Struct. 67-68 (2015) 250-262, section 5. States that
-several figures show are tabulated once, under the first of them.
+Patil, DasGupta & Eriksson, Int. J. Solids Struct. 67-68 (2015) 250-262, section 5. States in several figures
+are tabulated once, under the first figure.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def described(case: Case, kind: str) -> dict[str, object]:
 
 
 def notes(kind: str) -> str:
-    """What is to be said of a kind of state."""
+    """Notes on a kind of state."""
     if kind == "frictionless":
         return text.SLIDING
     return text.LOCKED + (f" {text.DEFLATION}" if kind == "deflation" else "")
@@ -160,7 +160,7 @@ def paths(name: str, case: Case, kind: str, pressures: Array, source: str) -> Ta
 
 
 def equal_stretches(name: str) -> Table:
-    """Figure 7(b): how far from the pole lambda1 = lambda2 within 1e-4."""
+    """Figure 7(b): the radius up to which lambda1 = lambda2 within 1e-4."""
     case, onset = dc.MR_1, dc.touching(dc.MR_1.disk)
     near = [0.01, 0.02, 0.05, *np.round(onset + np.array([-0.02, -0.01, 0.01, 0.02, 0.04, 0.06]), 3)]
     p = np.unique(np.round(np.concatenate([near, steps(0.1, 7.0, 0.1)]), 10))

@@ -1,4 +1,4 @@
-"""What the tables of paper 1 say about themselves."""
+"""Documentation texts of the tables of paper 1."""
 
 from __future__ import annotations
 

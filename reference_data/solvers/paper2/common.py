@@ -1,4 +1,4 @@
-"""What the tables of the inflated tube have in common."""
+"""Functions that the tables of the inflated tube have in common."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from reference_data.solvers.paper2.collocation import critical as col
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences import critical as fdc
 
-U_STOP = 5.0  # limit points are looked for up to this u_max
+U_STOP = 5.0  # limit points are searched up to this u_max
 
 
 def steps(start: float, stop: float, step: float) -> Array:

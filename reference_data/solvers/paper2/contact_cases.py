@@ -54,8 +54,8 @@ SOFT = Substrate(20.0, 1.3)
 PAPER = tuple(Case(Tube(a, d, 6.0), SOFT) for a, d in ((0.0, 1.0), (0.0, 2.0), (0.1, 1.0), (0.1, 2.0)))
 OFF = (Case(Tube(0.05, 1.3, 8.0), Substrate(50.0, 1.2)), Case(Tube(0.05, 1.5, 6.0), SOFT))
 DISTANT = Case(Tube(0.1, 1.5, 6.0), Substrate(100.0, 1.6))
-"""Far from the tube at first: at ``P_END`` the patch is still short. Just after contact finite differences do
-not resolve the traction at its edge well enough for a table of adhesive inflation."""
+"""Substrates far from the tube, so that at ``P_END`` the patch is still short. Just after contact finite
+differences do not resolve the traction at its edge well enough for a table of adhesive inflation."""
 
 
 @lru_cache(maxsize=4)
@@ -161,7 +161,7 @@ def both(
     out = []
     for c in wanted:
         grids, meshes = ([np.array([row[c] for row in rows]) for rows in side] for side in (a, b))
-        # where the largest f_k is inside the patch, its place among the nodes matters
+        # if the largest f_k is inside the patch, its position relative to the nodes matters
         first = cfd.extrapolated(grids, powers, irregular or c == "spring_max", amplified)
         out.append(agreed(name, c, first, resolved(*meshes), text.COLUMNS[c]))
     return out

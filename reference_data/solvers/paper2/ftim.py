@@ -10,10 +10,10 @@ paper's nu = 0.02 and step 0.001. F is the residual of ``tube_fd`` at fixed pres
 gradient of the energy per length, so that with B = 1 this is a descent and converges, if at
 all, only to states stable under pressure control (before the first limit point).
 
-Three variants: the method as published (B = 1, m = 1), whose slowest mode decays as
-(1 + tau)^(-nu lambda_min) and is hopeless; a constant gain B = c, m = 0, c as large as the
-stability limit of the scheme allows; and the frozen tangent, B = -(dF/dx)^{-1} at the first
-guess times 1/(nu step), m = 1, which is a damped chord-Newton method in disguise.
+Three variants: the method as published (B = 1, m = 1), whose slowest mode decays like (1 + tau)^(-nu
+lambda_min), which is far too slow; a constant gain B = c, m = 0, c as large as the stability limit of the
+scheme allows; and the frozen tangent, B = -(dF/dx)^{-1} at the first guess times 1/(nu step), m = 1, which is
+equivalent to a damped chord-Newton method.
 """
 
 from __future__ import annotations

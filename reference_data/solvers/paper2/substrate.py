@@ -1,4 +1,4 @@
-r"""The soft substrate around the tube: its energy, its pressure and what the patch carries.
+r"""The soft substrate around the tube: its energy, its pressure and the forces on the patch.
 
 Source: Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282, equations (8), (9) and
 (20)-(22). Lengths over R_f; k = K R_f^2/(C1 h_o), s = S/R_f. With g' = P_eff rho the potential
@@ -8,7 +8,7 @@ per 2 pi C1 h_o R_f^2 of the half tube of unstretched length L = l_f/(2 delta1) 
    \int_0^L [\, r_0 w(\lambda_1, \lambda_2) - g(\rho)\, \eta' \,]\, dz, \qquad
    g = p \rho^2/2 - \chi\, k\, \rho\, (\rho - s)^2/2,
 
-so that the substrate is one more pressure normal to the deformed membrane,
+so that the substrate acts as an additional pressure normal to the deformed membrane,
 
 .. math:: P_{eff} = p - \chi\, k\, [\, (\rho - s) + (\rho - s)^2/(2 \rho) \,].
 

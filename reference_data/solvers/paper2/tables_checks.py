@@ -1,4 +1,4 @@
-"""Tables of paper 2 beside the figures: the long tube and the paper's own solution method."""
+"""Further tables of paper 2: the long tube and the paper's solution method."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of paper 2 beside the contact figures: Table 1, and the paper's method on a contact state."""
+"""Further tables of paper 2 on contact: Table 1, and the paper's method on a contact state."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from reference_data.solvers.registry import Builder
 FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2")
 HIGHEST = 3  # derivatives of order 0 .. 3 are compared
 NONE = HIGHEST + 1
-JUMP = 5e-3  # relative; those that are there are larger, those that are not much smaller
+JUMP = 5e-3  # relative; actual jumps are larger, and others are much smaller
 PRINTED = {1: None, 2: 2, 3: 1, 4: 0}  # C^i of rho, eta, lam2; lam1, t1, t2 are C^(i-1)
 CASE = cc.PAPER[2]
 
@@ -58,7 +58,7 @@ def relative_jumps(state: State, zone: int) -> dict[str, Array]:
 
 def examined(which: int) -> list[State]:
     """The four kinds of state at the resolutions: 1 free, 2 frictionless, 3 and 4 adhesive."""
-    if which == 1:  # an arbitrary point of a free tube in the place of the front
+    if which == 1:  # an arbitrary point of a free tube instead of the front
         out = []
         for (first, _), how in zip(cc.touching(CASE), st.RESOLUTIONS, strict=True):
             guess = st.frictionless_near_touch(first, CASE.substrate, how, 0.7 * CASE.tube.length)

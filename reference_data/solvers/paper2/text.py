@@ -1,4 +1,4 @@
-"""What the tables of paper 2 say about themselves."""
+"""Documentation texts of the tables of paper 2."""
 
 from __future__ import annotations
 

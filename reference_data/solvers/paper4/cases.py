@@ -1,4 +1,4 @@
-"""States by both methods, from the unloaded membrane on, and the columns they agree upon."""
+"""States by both methods, starting from the unloaded membrane, and the columns on which they agree."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from reference_data.solvers.paper4.methods.collocation import State
 CELLS = 400  # of the untracked search for the pattern
 STEPS = (5, 10)  # Runge-Kutta steps per segment
 SAMPLES = 160  # intervals between the rows of a profile
-ROUNDING = 3e-13  # relative, what Newton's last step leaves
+ROUNDING = 3e-13  # relative, remaining error of Newton's last step
 
 
 @dataclass
@@ -39,12 +39,12 @@ class Pair:
 
 @cache
 def grids(membrane: Membrane) -> dict[float, fd.Grid]:
-    """Finite-difference states met so far, by load."""
+    """Finite-difference states computed so far, by load."""
     return {0.0: fd.unloaded(membrane, CELLS)}
 
 
 def grid_at(membrane: Membrane, load: float) -> fd.Grid:
-    """Finite-difference state at a load, walking up from the nearest below."""
+    """Finite-difference state at a load, in steps from the nearest one below."""
     known = grids(membrane)
     if load not in known:
         known[load] = fd.walk(known[max(x for x in known if x <= load)], load)
@@ -53,7 +53,7 @@ def grid_at(membrane: Membrane, load: float) -> fd.Grid:
 
 @dataclass
 class Solved:
-    """One state by collocation on two rules and, when asked for, by shooting with two steps."""
+    """One state by collocation on two rules and, if requested, by shooting with two steps."""
 
     membrane: Membrane
     load: float
@@ -102,7 +102,7 @@ class Solved:
 
     @property
     def fronts(self) -> tuple[Pair, Pair]:
-        """Positions of the fronts by both methods; rounding is magnified where gw is flat."""
+        """Positions of the fronts by both methods; rounding is amplified where gw is flat."""
         a, b = self.measured
         floor = ROUNDING / a[1].slopes
         return Pair(a[0].fronts, a[1].fronts, floor), Pair(b[0].fronts, b[1].fronts, floor)
@@ -117,8 +117,8 @@ class Solved:
 
 
 def words(signature: tuple[bool, ...]) -> str:
-    """The zones, tense or wrinkled, from the bottom up."""
-    return " ".join("tense" if t else "wrinkled" for t in signature)
+    """The zones, taut or wrinkled, from the bottom up."""
+    return " ".join("taut" if t else "wrinkled" for t in signature)
 
 
 @cache
@@ -128,10 +128,10 @@ def solved(membrane: Membrane, load: float) -> Solved:
 
 
 def agreed(table: str, name: str, a: Pair, b: Pair, about: tuple[str, str]) -> Column:
-    """Column of collocation values, once shooting is found to agree.
+    """Column of collocation values, after a check that shooting agrees.
 
     Raises:
-        DisagreementError: Naming table, column and worst row.
+        DisagreementError: If it does not; the message names table, column and worst row.
     """
     gap, room = np.abs(a.fine - b.fine), np.hypot(a.uncertainty, b.uncertainty)
     if not np.all(gap <= room):
@@ -160,7 +160,7 @@ def stacked(pairs: list[tuple[Pair, Pair]]) -> tuple[Pair, Pair]:
 
 
 def profiles(state: Solved) -> tuple[Array, dict[str, tuple[Pair, Pair]]]:
-    """Rows Z and the columns of a profile by both methods; no row stands on a front."""
+    """Rows Z and the columns of a profile by both methods; no row lies on a front."""
     s = np.linspace(0, state.membrane.L, SAMPLES + 1)
     fronts = state.measured[0][1].fronts
     apart = np.abs(s[:, None] - fronts).min(axis=1, initial=1.0)

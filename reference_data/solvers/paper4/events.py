@@ -1,9 +1,8 @@
-"""Loads (or thicknesses) at which a zone or a crest appears or vanishes, solved for.
+"""Computes loads (or thicknesses) at which a zone or a crest appears or disappears.
 
-At such a load a stationary value of gw - 1, or of the inclination, is zero. It is taken on the
-side without the zone, where it is a smooth function of the load, and continued beyond: there the
-collocation keeps its zones as they are. Shooting knows no zones; it corrects the root once by its
-own values.
+At such a load a stationary value of gw - 1, or of the inclination, is zero. It is evaluated on the side
+without the zone, where it is a smooth function of the load, and continued beyond the event with the zones of
+the collocation unchanged. Shooting has no zones; it corrects the root once by its own values.
 """
 
 from __future__ import annotations
@@ -21,18 +20,18 @@ from reference_data.solvers.paper4.methods import shooting_newton as sho
 from reference_data.solvers.paper4.methods import states as sta
 from reference_data.solvers.paper4.methods.collocation import State
 
-NOISE = 1e-13  # of gw - 1 and of an inclination: what two rules and two methods differ by
+NOISE = 1e-13  # of gw - 1 and of an inclination: difference of two rules and two methods
 TILT = 1e-3  # relative offset of shooting's second value, for the slope only
 
 
 @dataclass(frozen=True)
 class Touch:
-    """What is to be found.
+    """An event to be found.
 
     Attributes:
         membrane: The membrane (for ``parameter`` M: one near the threshold).
         base: Value of the parameter on the side without the zone, near the event.
-        near: Where along the membrane, about; L for the upper end.
+        near: Approximate position along the membrane; L for the upper end.
         field: "gw" or "inclination" (of the meridian to the axis).
         maximum: Whether the stationary value is a maximum.
         parameter: "load", or "M" at zero load.
@@ -47,7 +46,7 @@ class Touch:
 
     @property
     def at_end(self) -> bool:
-        """Whether the value at the upper end is meant, instead of a stationary one."""
+        """Whether it is the value at the upper end, not a stationary value."""
         return self.near == self.membrane.L
 
     def moved(self, value: float) -> tuple[Membrane, float]:
@@ -67,7 +66,7 @@ class Found:
 
 
 def pick(points: list[tuple[float, float, float]], touch: Touch) -> tuple[float, float]:
-    """Position and value of the stationary point meant, out of (s, value, sign of the second slope).
+    """Position and value of the stationary point of the event, from (s, value, sign of the second slope).
 
     Raises:
         RuntimeError: If there is none.

@@ -40,7 +40,7 @@ def rate(system: Linearised) -> float:
 
 
 def climbed(membrane: Membrane, load: float, step: float, most: int = 200) -> tuple[State, float, float]:
-    """The first state past the limit load, raising V from a state at a given load.
+    """The first state past the limit load, by raising V from a state at a given load.
 
     Returns:
         The state, its volume, and the volume one step before.
@@ -75,7 +75,7 @@ def by_collocation(
 
 
 def starts_of(state: State) -> Array:
-    """Values for shooting to start from."""
+    """First values for shooting."""
     membrane = state.membrane
     s = np.arange(sho.SEGMENTS) * membrane.L / sho.SEGMENTS
     r, z, l1, b = np.moveaxis(sta.evaluate(state, s), -1, 0)
@@ -101,7 +101,7 @@ def by_shooting(state: State, v: float, steps: int) -> dict[str, float]:
 
 
 def limit(membrane: Membrane, load: float, step: float) -> Limit:
-    """The first limit load above a given load, V being raised by ``step`` in search of it."""
+    """The first limit load above a given load, searched by raising V in steps of ``step``."""
     past, v1, v0 = climbed(membrane, load, step)
     a = [by_collocation(past, v1, v0, rule) for rule in RULES]
     state, bend, fine = a[1]

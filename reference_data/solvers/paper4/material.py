@@ -28,7 +28,7 @@ GAMMA = 1000.0 * 9.81 * 0.010**2 / (0.2111e6 * 0.1e-3)
 def relaxed_slope(l1: Any, c2: float) -> Any:
     """First derivative of the relaxed energy, W_r'(l1).
 
-    Here and below ``c2`` may be another law in place of C2/C1 (``material_laws``), W_r(l) = w(l, l^(-1/2)).
+    Here and below ``c2`` may be another law instead of C2/C1 (``core.laws``), W_r(l) = w(l, l^(-1/2)).
     """
     if not isinstance(c2, float | int):
         return c2.slope(l1, c2.width(l1)[0])
@@ -46,7 +46,7 @@ def relaxed_curvature(l1: Any, c2: float) -> Any:
 
 @dataclass(frozen=True)
 class Membrane:
-    """A pre-stretched cylinder and what loads it; lengths over Ao, s = Z/Ao in [0, L].
+    """A pre-stretched cylinder and its load; lengths over Ao, s = Z/Ao in [0, L].
 
     Attributes:
         M: Thickness at s = 0 over the mean, eta(s) = M + 2 (1 - M) s/L.
@@ -93,7 +93,7 @@ class Membrane:
         return self.energy == "relaxed" and (self.Af is None or self.Af <= critical_radius(self))
 
     def decided(self, load: float) -> bool:
-        """Whether no sign need be looked at: standard energy, or the unloaded cylinder (gw <= 1)."""
+        """Whether the sign of gw - 1 is not needed: standard energy, or the unloaded cylinder (gw <= 1)."""
         return self.energy == "standard" or (load == 0 and self.cylindrical)
 
     def pressure(self, z: Any, load: Any, wet: Any) -> Any:
@@ -104,14 +104,14 @@ class Membrane:
 
 
 def stiffness(c2: float) -> float:
-    """Of a law at large stretches, to start on the left of a root; infinite where it is not known."""
+    """Stiffness of a law at large stretches, for a start to the left of a root; infinite if unknown."""
     return 2 + 2 * c2 if isinstance(c2, float | int) else np.inf
 
 
 def uniaxial_stretch(force: Any, c2: float) -> Any:
     """Root l of W_r'(l) = force >= 0; W_r' rises and is concave, so Newton cannot overshoot.
 
-    Another law may stiffen: then steps are bounded.
+    For other laws, which may stiffen, steps are limited.
     """
     l1 = np.maximum(1.0, np.real(force) / stiffness(c2)) + 0 * force
     for _ in range(60):
@@ -123,7 +123,7 @@ def uniaxial_stretch(force: Any, c2: float) -> Any:
 
 
 def bounded(step: Any, c2: float) -> Any:
-    """A step of Newton's method in a stretch, at most a fifth where the law is another."""
+    """A step of Newton's method for a stretch, for other laws at most a fifth of it."""
     if isinstance(c2, float | int):
         return step
     return step * np.minimum(1.0, 0.2 / np.maximum(np.abs(step), 1e-300))
@@ -151,7 +151,7 @@ def critical_radius(membrane: Membrane) -> float:
 
 
 def critical_radius_by_parts(membrane: Membrane) -> float:
-    r"""The same by another way: the mean of lam1 integrated by parts over the stretch.
+    r"""The same radius, computed differently: the mean of lam1 integrated by parts over the stretch.
 
     With eta = N/W_r'(l), int l d eta = [l eta] - N int d l/W_r'(l), between the stretches of the
     two ends; the integral over l is adaptive.

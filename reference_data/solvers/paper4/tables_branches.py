@@ -1,4 +1,4 @@
-"""Tables of paper 4 over the load: branches and fronts, those of the figures and others.
+"""Tables of paper 4 over the load: branches and fronts, of the figures and others.
 
 Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids 54 (2015) 1-10.
 """
@@ -34,7 +34,7 @@ def steps(stop: float, step: float, *more: float) -> Array:
 
 
 FLUID = steps(16, 0.5, *paper4.ZW)
-# Where the dry upper part turns tense at once (M = 1.5, delta = 3), and the level of paper 5.
+# Where the dry upper part becomes taut at once (M = 1.5, delta = 3), and the level of paper 5.
 ABRUPT = np.unique(np.concatenate([FLUID, [5.73, 6.2, 6.3, 6.4, 6.45, 6.55, 6.6, 6.65, 6.7, 6.8, 6.9]]))
 GAS = steps(0.55, 0.01, 0.005)
 LOW = steps(0.2, 0.01, 0.001, 0.002, 0.003, 0.004, 0.005)  # case 2 on gas
@@ -78,7 +78,7 @@ OFF: list[tuple[Membrane, Array, tuple[float, ...]]] = [
 
 
 def off_name(membrane: Membrane) -> str:
-    """Name of a set that is not the paper's."""
+    """Name of a set that is not in the paper."""
     radius = "critical" if membrane.Af is None else f"{membrane.Af:g}"
     return (
         f"off_{membrane.load}_M_{membrane.M:g}_delta_{membrane.delta:g}_c2_{membrane.c2:g}"
@@ -107,7 +107,7 @@ def fronts(name: str, membrane: Membrane, loads: Array, source: str) -> Table:
     """Positions of the fronts at loads that all have the same pattern of zones.
 
     Raises:
-        RuntimeError: If they have not.
+        RuntimeError: If the patterns differ.
     """
     found = [cas.solved(membrane, float(x)) for x in loads]
     zones = {x.zones for x in found}

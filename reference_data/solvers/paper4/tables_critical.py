@@ -69,7 +69,7 @@ def rows(name: str, events: list[evt.Found], x: str, about: tuple[str, str]) -> 
 
 
 def zone_events(name: str) -> Table:
-    """Loads at which zones appear and vanish."""
+    """Loads at which zones appear and disappear."""
     events = [found(t) for _, t in EVENTS]
     sets = list(dict.fromkeys(t.membrane for _, t in EVENTS))
     index = np.array([sets.index(t.membrane) for _, t in EVENTS], dtype=float)
@@ -77,7 +77,7 @@ def zone_events(name: str) -> Table:
     about = ("p or zw", "gas pressure P Ao/(C1 h) where fluid = 0, fluid level over Ao where fluid = 1")
     what = (
         "1",
-        "1: a tense zone appears inside a wrinkled one; 2: a wrinkled zone vanishes inside tense ones; "
+        "1: a taut zone appears inside a wrinkled one; 2: a wrinkled zone vanishes inside taut ones; "
         "3: the wrinkled zone at the upper end vanishes",
     )
     fluid = np.array([float(t.membrane.load == "fluid") for _, t in EVENTS])
@@ -95,7 +95,7 @@ def zone_events(name: str) -> Table:
         {},
         columns,
         notes=ROOTS
-        + "Not in the table because it happens at zero load: with the critical radius a tense sliver stands "
+        + "Not in the table because it happens at zero load: with the critical radius a taut sliver stands "
         "at the thin end for every load above 0.",
         extra={"keys": ["set", "event"], "sets": [text.described(m) for m in sets]},
     )
@@ -118,7 +118,7 @@ def case2_vanishing(name: str) -> Table:
     ]
     return text.make(
         name,
-        "Loads above which the membrane of case 2 is tense everywhere",
+        "Loads above which the membrane of case 2 is taut everywhere",
         "section on case 2 and figure 10",
         {"c2": 0.01, "L": 8.0, "Af": 1.0},
         columns,
@@ -141,7 +141,7 @@ THRESHOLDS = (
 
 
 def threshold(delta: float, c2: float, length: float, upper: bool) -> Touch:
-    """Start for the threshold of M, found roughly by finite differences."""
+    """First guess for the threshold of M, by finite differences."""
 
     def membrane(M: float) -> Membrane:
         return Membrane(M, delta, c2, length, 1.0, "gas")
@@ -155,7 +155,7 @@ def threshold(delta: float, c2: float, length: float, upper: bool) -> Touch:
 
 
 def thresholds(name: str) -> Table:
-    """Thicknesses at which case 2 begins to wrinkle at zero load."""
+    """Thicknesses at which case 2 starts to wrinkle at zero load."""
     sets = [(*x, upper) for x in THRESHOLDS for upper in (False, True)]
     events = [evt.find(threshold(*x)) for x in sets]
     columns = [

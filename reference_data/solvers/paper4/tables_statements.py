@@ -1,4 +1,4 @@
-"""Tables of paper 4 behind its statements: jumps at fronts, stretches, the accuracy of its scheme.
+"""Tables of paper 4 for its statements: jumps at fronts, stretches, the accuracy of its scheme.
 
 Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids 54 (2015) 1-10.
 """
@@ -69,7 +69,7 @@ def front_jumps(name: str) -> Table:
         prescribed("order", number, ("1", "1: lowest front")),
         cas.agreed(name, "Z", *fronts, ("1/Ao", "material coordinate of the front")),
     ]
-    # a front's own uncertainty moves the place where slopes are compared
+    # the uncertainty of a front moves the point where slopes are compared
     shift = [f.floor for f in fronts]
     for key in jmp.NAMES:
         pairs = [
@@ -125,7 +125,7 @@ def stretch_change(name: str) -> Table:
 
 
 def r_max_crossing(name: str) -> Table:
-    """Pressure at which the membrane of larger pre-stretch becomes the wider one."""
+    """Pressure at which the membrane with larger pre-stretch becomes wider."""
     here = [[sta.from_grid(cas.grid_at(gas(d), 0.42), sta.RULES[0]) for d in (2, 3)] for _ in sta.RULES]
 
     def gap_of(i: int, p: float) -> float:
@@ -166,7 +166,7 @@ CELLS = (100, 200, 400, 800, 1600)
 
 
 def fd_scheme(name: str, membrane: Membrane, load: float) -> Table:
-    """Errors of the paper's own scheme on uniform grids."""
+    """Errors of the paper's scheme on uniform grids."""
     exact = cas.solved(membrane, load)
     state, fronts = exact.tracked[1][0], exact.measured[0][1].fronts
     rows = []

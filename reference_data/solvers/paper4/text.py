@@ -1,4 +1,4 @@
-"""What the tables of paper 4 say about themselves."""
+"""Documentation texts of the tables of paper 4."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ COLUMNS: dict[str, tuple[str, str]] = {
     "z": ("1/Ao", "height above the lower end"),
     "lam1": ("1", "meridional stretch"),
     "lam2": ("1", "hoop stretch, r"),
-    "gw": ("1", "wrinkling function lam2 sqrt(lam1): tense above 1, wrinkled below"),
+    "gw": ("1", "wrinkling function lam2 sqrt(lam1): taut above 1, wrinkled below"),
     "tension": ("1/(C1 h)", "meridional tension per undeformed hoop length, eta W_1"),
     "M": ("1", "thickness at the lower end over the mean"),
     "delta": ("1", "axial pre-stretch"),
@@ -51,7 +51,7 @@ COLUMNS: dict[str, tuple[str, str]] = {
 
 
 def front(i: int) -> tuple[str, str]:
-    """About column Z_front_i."""
+    """Description of column Z_front_i."""
     return "1/Ao", f"front {i} from the lower end: material coordinate where gw = 1"
 
 

@@ -22,7 +22,7 @@ from reference_data.solvers.paper5.waves.second_variation import Quadratic
 from reference_data.solvers.paper5.waves.transfer import Parts, Transfer, halved
 
 SPLITS = (1, 2)  # of the base state's elements, coarse and fine
-ROUNDING = 5e-10  # of an eigenvalue, relative or absolute: what is seen between resolutions
+ROUNDING = 5e-10  # of an eigenvalue, relative or absolute: differences between resolutions
 SLOPE_STEP = 1e-4
 
 
@@ -68,7 +68,7 @@ def cylinder(membrane: Membrane, load: float) -> Spectrum:
 
 @dataclass
 class Walk:
-    """Hemispheres met so far, by level, on the coarse rule; found by walking from the nearest."""
+    """Hemispheres computed so far, by level, on the coarse rule; each is reached from the nearest one."""
 
     known: dict[float, Hanging] = field(default_factory=dict)
 
@@ -76,7 +76,7 @@ class Walk:
         """The state at a level before the limit point.
 
         Raises:
-            RuntimeError: If the walk fails.
+            RuntimeError: If a step fails.
         """
         if not self.known:
             self.known[-0.6] = hem.start(-0.6)
@@ -138,7 +138,7 @@ class Crossing:
 
     Attributes:
         n: Wave number.
-        direction: 1 if it turns negative as the load rises, -1 if positive.
+        direction: 1 if it becomes negative as the load rises, -1 if it becomes positive.
         pairs: The load by both methods.
         slope: Derivative of the eigenvalue by the load.
     """
@@ -150,7 +150,7 @@ class Crossing:
 
 
 def crossing(spectrum: Callable[[float], Spectrum], n: float, low: float, high: float) -> Crossing:
-    """Root on the fine matrices; the other three values by their own eigenvalues and the slope there."""
+    """Root on the fine matrices; the other three values follow from their eigenvalues and the slope there."""
     x = float(brentq(lambda x: spectrum(float(x)).forms[1].first(n), low, high, xtol=1e-13))
     ends = [spectrum(x + k * SLOPE_STEP).forms[1].first(n) for k in (-1, 1)]
     slope = (ends[1] - ends[0]) / (2 * SLOPE_STEP)

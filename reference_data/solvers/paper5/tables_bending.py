@@ -1,4 +1,4 @@
-"""Tables beyond paper 5: a small bending energy bounds the unstable wave numbers."""
+"""Tables for an extension of paper 5: a small bending energy limits the unstable wave numbers."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def critical(name: str) -> Table:
 
 
 def bands(name: str) -> Table:
-    """Bands of unstable n at the paper's own thickness."""
+    """Bands of unstable n with the paper's thickness."""
     rows: dict[str, list[tuple[Pair, Pair]]] = {"n_minus": [], "n_plus": []}
     for zw, guess in BANDS.items():
         bent = Bent(rel.cylinder(FLUID, zw).forms[1])
@@ -109,7 +109,7 @@ def bands(name: str) -> Table:
 
 
 def window(name: str) -> Table:
-    """Levels between which the sheet with its own bending stiffness is unstable for some real n."""
+    """Range of levels at which the sheet with its bending stiffness is unstable for some real n."""
     rows, numbers = [], []
     for low, high, guess in WINDOW:
         at = [guess]
@@ -140,7 +140,7 @@ def window(name: str) -> Table:
 
 
 def models(name: str) -> Table:
-    """Lowest eigenvalue without bending, with model B1 and with Koiter's whole energy B2."""
+    """Lowest eigenvalue without bending, with model B1 and with Koiter's complete energy B2."""
     plain, hoop, whole = [], [], []
     for zw, n in MODELS:
         spectrum = rel.cylinder(FLUID, zw)
@@ -185,7 +185,7 @@ def hemisphere(name: str) -> Table:
     for zw, n in keys:
         found = rel.hemisphere(zw)
         a = [Bent(f).first(n, beta)[0] for f in found.spectrum.forms]
-        # bending varies faster along the meridian: parts a half and a quarter as long
+        # bending varies faster along the meridian, so that parts are a half and a quarter as long
         parts = [sht.hemisphere_parts(x, n, k) for x, k in zip(found.shots, (2, 4), strict=True)]
         b = [float(Transfer(p, n, beta).lowest(1)[0]) for p in parts]
         pairs.append(tuple(Pair(np.array(v[0]), np.array(v[1]), rel.ROUNDING) for v in (a, b)))

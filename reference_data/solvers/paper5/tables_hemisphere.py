@@ -147,7 +147,7 @@ def of_shot(shot: Shot) -> dict[str, float]:
 
 
 def branch(name: str) -> Table:
-    """The branch up to the limit point, the level prescribed."""
+    """The branch up to the limit point, with prescribed level."""
     found = [rel.hemisphere(x) for x in BRANCH_LOADS]
     a = [[of_state(x) for x in f.tracked] for f in found]
     b = [[of_shot(x) for x in f.shots] for f in found]
@@ -173,12 +173,12 @@ def fronts(name: str) -> Table:
         "Wrinkled zone of the hemisphere",
         "section 3.3 and figure 9",
         columns,
-        notes="Tense below the first and above the second front.",
+        notes="Taut below the first and above the second front.",
     )
 
 
 def past(name: str) -> Table:
-    """The branch around and past the limit point, the pole's height prescribed."""
+    """The branch around and past the limit point, with prescribed height of the pole."""
     a = [[of_state(x) for x in lim.held(z)] for z in PAST]
     b = [[of_shot(x) for x in lim.shots(z)] for z in PAST]
     columns = [prescribed("z_pole", np.array(PAST), text.COLUMNS["z_pole"])]

@@ -1,4 +1,4 @@
-"""Table of paper 5: the linearised theory's wave numbers (section 2.2) against the true ones."""
+"""Table of paper 5: wave numbers of the linearised theory (section 2.2) and the true ones."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LEVELS = (1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.73)
 
 
 def lowest_unstable(form: Quadratic) -> int:
-    """Smallest integer n with a negative eigenvalue: the lowest eigenvalue falls with n here."""
+    """Smallest integer n with a negative eigenvalue; the lowest eigenvalue decreases with n here."""
     low, high = 0, 1
     while form.first(high) >= 0:
         low, high = high, 2 * high

@@ -1,4 +1,4 @@
-"""Table of paper 5: unstable ranges of polyhedra (section 3.2), and the wave numbers they amount to."""
+"""Table of paper 5: unstable ranges of polyhedra (section 3.2), and effective wave numbers."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NAMES = (
 )
 ROWS = ((120, 48, 1), (80, 96, 1), (60, 48, 1), (40, 96, 1), (240, 48, 1), (160, 96, 1),
         *((120, 48, k) for k in range(2, 8)), *((80, 96, k) for k in range(2, 8)))  # fmt: skip
-# where to look for both ends, by N_C
+# ranges of the search for both ends, by N_C
 WINDOWS = {48: ((5.0, 5.3), (6.6, 7.1)), 96: ((3.9, 4.2), (9.0, 11.0))}
 SCAN = 0.02
 WIDTH = 1e-9
@@ -40,7 +40,7 @@ WIDTH = 1e-9
 
 @cache
 def smooth(level: float) -> np.ndarray:
-    """Rings' nodes of a fine mesh at a window's end, to start from."""
+    """Nodes of the rings of a fine mesh at the end of a range, as a first state."""
     return blo.from_profile(Polyhedron(FLUID, 480, 48), level)
 
 
@@ -75,7 +75,7 @@ def end(mesh: Polyhedron, window: tuple[float, float], lower: bool) -> tuple[flo
 
 
 def gaps(mesh: Polyhedron, lower: float, upper: float) -> list[float]:
-    """Levels of a scan between the ends that are stable nevertheless."""
+    """Stable levels of a scan between the ends."""
     ring, out = None, []
     for level in np.arange(round(lower + 0.05, 1), upper, 0.05):
         ring = state(mesh, float(level), ring)
@@ -141,7 +141,7 @@ def surface_ranges(name: str) -> Table:
         notes=(
             "The levels are exact for the mesh and the convention; the spread over conventions shows how "
             "much they mean. Nothing is fitted to the printed ends. With N_C = 96 the upper end comes when "
-            "a ring of triangles turns tense, many n at once, and so depends on N_S; the others hardly do."
+            "a ring of triangles turns taut, many n at once, and so depends on N_S; the others hardly do."
         ),
         extra={"keys": ["N_S", "N_C", "rule"], "stable_levels_between": stable},
     )

@@ -1,4 +1,4 @@
-"""What the tables of paper 5 say about themselves."""
+"""Documentation texts of the tables of paper 5."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ EIGENVALUE = "Lambda Ao/g"
 COLUMNS: dict[str, tuple[str, str]] = {
     "Z": ("1/Ao", "material coordinate from the lower end"),
     "t": ("rad", "material polar angle from the lowest point"),
-    "gw": ("1", "wrinkling function lam2 sqrt(lam1): tense above 1, wrinkled below"),
+    "gw": ("1", "wrinkling function lam2 sqrt(lam1): taut above 1, wrinkled below"),
     "zw": ("1/Ao", "fluid level, in the same z as the membrane"),
     "p": ("P Ao/(C1 h)", "gas pressure"),
     "n": ("1", "wave number"),

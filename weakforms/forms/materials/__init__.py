@@ -1,8 +1,8 @@
 """Strain energies of membranes as functions of two principal stretches.
 
-A law is one function ``w(lam1, lam2)``; stresses follow from it by differentiation, the energy of the
-wrinkled state by :mod:`weakforms.forms.wrinkling`. :data:`MATERIALS` has them by name, with constants and
-ranges.
+A law is one function ``w(lam1, lam2)``. Stresses follow from it by differentiation;
+:mod:`weakforms.forms.wrinkling` derives the energy of the wrinkled state. :data:`MATERIALS` lists the laws by
+name, with constants and ranges.
 """
 
 from __future__ import annotations

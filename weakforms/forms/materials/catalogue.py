@@ -1,4 +1,4 @@
-"""The laws by name, with constants, ranges, defaults, scaling and source."""
+"""The material laws by name, with constants, ranges, defaults, scaling and source."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Constant:
     high: float
     meaning: str
     open_low: bool = False
-    """Whether the lower end itself is not allowed."""
+    """Whether the lower end of the range is excluded."""
 
     @property
     def allowed(self) -> str:
@@ -34,24 +34,24 @@ class Constant:
 
 
 def natural(lam1: Expr, **_constants: Expr) -> Expr:
-    r"""Width in uniaxial tension of every isotropic incompressible law, :math:`\lambda_1^{-1/2}`."""
+    r"""Width in uniaxial tension for every isotropic incompressible law."""
     return lam1**-0.5
 
 
 def admitted(_constants: Mapping[str, float]) -> str:
-    """No condition on constants beyond their own ranges."""
+    """No condition on the constants besides their ranges."""
     return ""
 
 
 @dataclass(frozen=True)
 class Material:
-    """A law ``w(lam1, lam2, **constants)`` with what one needs to use and to cite it."""
+    """A law ``w(lam1, lam2, **constants)`` with its constants, its scaling and its source."""
 
     name: str
     title: str
     law: Callable[..., Expr]
     text: str
-    """The energy, for people."""
+    """The energy as text."""
     source: str
     constants: Mapping[str, Constant]
     scale: str = SCALE
@@ -60,7 +60,7 @@ class Material:
     width: Callable[..., Expr] = natural
     """Transverse stretch in uniaxial tension, ``width(lam1, **constants)``."""
     refusal: Callable[[Mapping[str, float]], str] = field(default=admitted)
-    """Why a set of constants is not admitted though each is in its range; empty when it is."""
+    """Why a set of constants is refused although each is in its range; empty if it is admitted."""
 
     def energy(self, constants: Mapping[str, Expr]) -> Callable[[Expr, Expr], Expr]:
         """The law as a function of the two principal stretches alone."""
@@ -84,7 +84,7 @@ SERIES = {(i, j): f"c{i}{j}" for n in (1, 2, 3) for i, j in zip(range(n, -1, -1)
 
 
 def _rivlin_refusal(c: Mapping[str, float]) -> str:
-    """Sufficient for an energy that is not negative and grows: each invariant's own cubic is not negative."""
+    """Why a series is refused: each invariant's cubic must not be negative, so that the energy grows."""
     if not c["c10"] + c["c01"] > 0:
         return "c10 + c01 must be positive: it is half the shear modulus"
     for linear, square, cube in (("c10", "c20", "c30"), ("c01", "c02", "c03")):
@@ -101,7 +101,7 @@ def _ogden_refusal(c: Mapping[str, float]) -> str:
     for i in (1, 2, 3):
         mu, alpha = c[f"mu{i}"], c[f"alpha{i}"]
         if mu != 0 and not mu * alpha > 0:
-            return f"mu{i} alpha{i} = {mu:g} * {alpha:g} must be positive (a term is left out by mu{i} = 0)"
+            return f"mu{i} alpha{i} = {mu:g} * {alpha:g} must be positive (mu{i} = 0 leaves the term out)"
     return "" if any(c[f"mu{i}"] for i in (1, 2, 3)) else "one of mu1, mu2, mu3 must not be 0"
 
 
@@ -123,8 +123,8 @@ def _rivlin_saunders(lam1: Expr, lam2: Expr, c10: Expr, c01: Expr, q: Expr) -> E
 
 _SERIES_DEFAULTS = {"c10": 1.0, "c01": 0.1, "c20": 0.01, "c11": 0.001, "c30": 1e-4}
 _OGDEN = {"mu": (1.491, 0.003, -0.023), "alpha": (1.3, 5.0, -2.0)}
-_MU = "S; the defaults are of small-strain shear modulus 2 S, as C1 = S is"
-_NKT = "S; by default N K T = 2 S: long chains have the shear modulus 2 S, as C1 = S has"
+_MU = "S; the defaults give the small-strain shear modulus 2 S, as C1 = S does"
+_NKT = "S; by default N K T = 2 S: long chains have the shear modulus 2 S, as for C1 = S"
 _LINKS = Constant(26.5, 1.0, 1e6, "links n of a chain: it is fully stretched at sqrt(n)", open_low=True)
 
 MATERIALS: dict[str, Material] = {
@@ -200,7 +200,7 @@ MATERIALS: dict[str, Material] = {
         ),
         Material(
             "rivlin_saunders",
-            "Rivlin-Saunders, with a slope in I2 that falls",
+            "Rivlin-Saunders, with a slope in I2 that decreases",
             _rivlin_saunders,
             "w = c10 (I1 - 3) + f(I2 - 3), f(x) = c01 q ln(1 + x/q) (forms take any f)",
             "Rivlin & Saunders (1951); thesis, equation 3.5",

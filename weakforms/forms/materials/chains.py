@@ -1,4 +1,4 @@
-r"""Networks of chains that can be stretched only so far, and the inverse Langevin function (section 3.1.3).
+r"""Networks of chains of limited extensibility, and the inverse Langevin function (section 3.1.3).
 
 The Langevin function is :math:`\mathcal{L}(y) = \coth y - 1/y`. Its inverse has no closed form, but the
 energy of a chain is a Legendre transform,
@@ -7,8 +7,8 @@ energy of a chain is a Legendre transform,
           \epsilon'(x) = \mathcal{L}^{-1}(x)
 
 so that a ``y`` with a relative error of :math:`\delta` gives :math:`\epsilon` and its derivatives with one of
-the order :math:`\delta^2`. The ``y`` taken is a rational function fitted to 1.4e-8, hence double precision
-throughout, without iterations that a form compiler would have to differentiate.
+the order :math:`\delta^2`. Here ``y`` is a rational function fitted to 1.4e-8. The energy then has double
+precision, without iterations that a form compiler would have to differentiate.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ DENOMINATOR = (
     -0.00180776493073154,
 )
 r"""Coefficients in :math:`s = 2x^2 - 1` of a rational fit of :math:`(1 - x^2)\,\mathcal{L}^{-1}(x)/x` on
-[0, 1]. Nothing rests on their last digits: what is left of their error is squared."""
+[0, 1]. Their last digits do not matter, because only the square of their error enters."""
 
 SERIES = (
     1 / 6,
@@ -51,7 +51,7 @@ SERIES = (
     43867 / 350813659321125,
     -174611 / 15313294652906250,
 )
-r"""Coefficients of :math:`\ln(\sinh y/y)` in powers of :math:`y^2`, from the first ..."""
+r"""Coefficients of :math:`\ln(\sinh y/y)` in powers of :math:`y^2`, from the first on ..."""
 
 SMALL = 0.5
 """... used below this ``y``, where differences of large numbers would cost digits."""
@@ -68,8 +68,8 @@ def _polynomial(coefficients: tuple[float, ...], x: Expr) -> Expr:
 def _fitted(x: Expr) -> Expr:
     """Inverse Langevin function to 1.4e-8, odd in ``x``; not a number beyond full extension, ``|x| >= 1``."""
     s = 2 * x**2 - 1
-    # 1 - x is exact near full extension, 1 - x^2 is not. A square root squared: beyond x = 1 a negative
-    # denominator would pass for a chain under pressure.
+    # 1 - x is exact near full extension, 1 - x^2 is not. The squared square root is not a number beyond x =
+    # 1, where a negative denominator would describe a chain under pressure.
     left = sqrt(1 - x) ** 2 * (1 + x)
     return x * _polynomial(NUMERATOR, s) / (_polynomial(DENOMINATOR, s) * left)
 
@@ -115,5 +115,5 @@ def arruda_boyce(lam1: Expr, lam2: Expr, nkt: Expr, links: Expr) -> Expr:
 
 
 def eight_chain(square: Expr, nkt: Expr, links: Expr) -> Expr:
-    """The same of the chains' squared stretch, a third of the first invariant."""
+    """The same energy as a function of the chains' squared stretch, a third of the first invariant."""
     return nkt * links * (chain_energy(sqrt(square / links)) - chain_energy(1 / sqrt(links)))

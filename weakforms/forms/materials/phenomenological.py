@@ -1,4 +1,4 @@
-r"""Laws in the invariants or in the principal stretches themselves (sections 3.1.2, 3.1.4 and 3.1.5).
+r"""Laws in the invariants or in the principal stretches (sections 3.1.2, 3.1.4 and 3.1.5).
 
 All are energies per reference volume of an incompressible material,
 :math:`\lambda_3 = 1/(\lambda_1\lambda_2)`, over the stress in which their constants are given.
@@ -47,13 +47,13 @@ def rivlin(lam1: Expr, lam2: Expr, coefficients: Iterable[tuple[int, int, Expr]]
     Args:
         lam1: Principal stretch 1.
         lam2: Principal stretch 2.
-        coefficients: ``(i, j, c_ij)`` of the terms kept.
+        coefficients: ``(i, j, c_ij)`` of each term.
     """
     return series(first_invariant(lam1, lam2), second_invariant(lam1, lam2), coefficients)
 
 
 def series(x: Expr, y: Expr, coefficients: Iterable[tuple[int, int, Expr]]) -> Expr:
-    """The same of ``x = I1 - 3`` and ``y = I2 - 3``."""
+    """The same energy as a function of ``x = I1 - 3`` and ``y = I2 - 3``."""
     return sum(c * x**i * y**j for i, j, c in coefficients)
 
 
@@ -82,7 +82,7 @@ def rivlin_saunders(lam1: Expr, lam2: Expr, c: Expr, f: Callable[[Expr], Expr]) 
 
 
 def falling_slope(slope: Expr, range_: Expr) -> Callable[[Expr], Expr]:
-    r"""A function as Rivlin and Saunders measured it: its slope falls as the invariant grows.
+    r"""A function like the one that Rivlin and Saunders measured: its slope decreases as the invariant grows.
 
     .. math:: f(x) = c_{01}\, q \ln(1 + x/q), \qquad f'(x) = \frac{c_{01}}{1 + x/q}
     """
@@ -90,7 +90,7 @@ def falling_slope(slope: Expr, range_: Expr) -> Callable[[Expr], Expr]:
 
 
 def beda_chevalier(lam1: Expr, lam2: Expr, k1: Expr, k2: Expr, k3: Expr, power: Expr) -> Expr:
-    r"""Beda & Chevalier: Gent and Thomas's law at small, a term of Ogden's at large strains.
+    r"""Beda & Chevalier: Gent and Thomas's law at small strains, a term of Ogden's law at large strains.
 
     .. math:: w = K_1 (I_1 - 3) + K_2 \ln\frac{I_2}{3}
               + \frac{K_3}{\alpha}(\lambda_1^\alpha + \lambda_2^\alpha + \lambda_3^\alpha - 3)
@@ -110,7 +110,7 @@ def gent(lam1: Expr, lam2: Expr, shear: Expr, jm: Expr) -> Expr:
 
 
 def limited(x: Expr, shear: Expr, jm: Expr) -> Expr:
-    """The same of ``x = I1 - 3``; stresses beyond ``jm`` are no numbers either, thanks to the square root."""
+    """The same energy as a function of ``x = I1 - 3``; by the square root, not a number beyond ``jm``."""
     return -shear * jm * ln(sqrt(1 - x / jm))
 
 

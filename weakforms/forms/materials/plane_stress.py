@@ -1,8 +1,8 @@
-r"""Compressible laws of a sheet without stress across it: the thickness stretch is eliminated.
+r"""Compressible laws of a sheet in plane stress, with the thickness stretch eliminated.
 
 From a law in space, ``W(l1, l2, l3)``, the condition :math:`\partial W/\partial\lambda_3 = 0` gives
 :math:`\lambda_3(\lambda_1, \lambda_2)`, and ``w(l1, l2) = W(l1, l2, l3(l1, l2))`` is the energy of the sheet
-(section 3.2). The width left by uniaxial tension is no longer :math:`\lambda_1^{-1/2}`: each law has its own.
+(section 3.2). The width in uniaxial tension is not :math:`\lambda_1^{-1/2}` but depends on the law.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from ufl import max_value, sqrt
 from ufl.core.expr import Expr
 
 FLAT = 1e-6
-"""Square of a width below which a law that gives none is read as this, to stay finite."""
+"""Lower limit of the squared width, so that laws without a positive width stay finite."""
 
 
 def saint_venant_kirchhoff(lam1: Expr, lam2: Expr, shear: Expr, poisson: Expr) -> Expr:
@@ -20,7 +20,7 @@ def saint_venant_kirchhoff(lam1: Expr, lam2: Expr, shear: Expr, poisson: Expr) -
     .. math:: w = \frac{\lambda}{2}(\mathrm{tr} E)^2 + \mu\, \mathrm{tr} E^2, \qquad
               E_i = \tfrac12(\lambda_i^2 - 1), \qquad \lambda = \frac{2\mu\nu}{1 - \nu}
 
-    with the sheet's own ``E``, 2 x 2, and the modified Lame constant of plane stress.
+    with the 2 x 2 strain ``E`` of the sheet and the modified Lame constant of plane stress.
     """
     e1, e2 = (lam1**2 - 1) / 2, (lam2**2 - 1) / 2
     return shear * poisson / (1 - poisson) * (e1 + e2) ** 2 + shear * (e1**2 + e2**2)
@@ -52,13 +52,13 @@ def harmonic_thickness(lam1: Expr, lam2: Expr, f2: Expr) -> Expr:
 
 
 def harmonic(lam1: Expr, lam2: Expr, shear: Expr, f2: Expr) -> Expr:
-    """Harmonic material with ``lam3`` eliminated; not a number where that is negative."""
+    """Harmonic material with ``lam3`` eliminated; not a number where ``lam3`` is negative."""
     lam3 = sqrt(harmonic_thickness(lam1, lam2, f2)) ** 2
     return harmonic_in_space(lam1, lam2, lam3, shear, f2)
 
 
 def harmonic_of_sum(total: Expr, area: Expr, shear: Expr, f2: Expr) -> Expr:
-    """The same of the sum and of the product of the two stretches."""
+    """The same energy as a function of the sum and the product of the two stretches."""
     lam3 = sqrt(3 + (area - 1) / f2 - total) ** 2
     more = total + lam3 - 3
     return 2 * shear * (1 + more + f2 * more**2 / 2 - area * lam3)

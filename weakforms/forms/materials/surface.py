@@ -2,16 +2,17 @@ r"""Laws as functions of the trace and the determinant of a surface's right Cauc
 
 .. math:: I = \mathrm{tr}\,C = \lambda_1^2 + \lambda_2^2, \qquad D = \det C = (\lambda_1\lambda_2)^2
 
-Where a membrane has no symmetry, or loses it by a perturbation, the principal stretches are not smooth where
-they coincide; ``I`` and ``D`` always are. With them
+Where the principal stretches of a surface coincide, they are not smooth functions of ``C``; ``I`` and ``D``
+are. A membrane without symmetry, or with a perturbation that breaks it, therefore needs laws in ``I`` and
+``D``:
 
-* :math:`I_1 = I + 1/D` and :math:`I_2 = I/D + D`: laws in the invariants are written down as they stand;
-* :math:`\lambda_1 + \lambda_2 = (I + 2\sqrt D)^{1/2}`: so are laws in that sum and the product;
-* :math:`\lambda_1^{2p} + \lambda_2^{2p}`, as in Ogden's law, is an analytic function of the mean
-  :math:`m = I/2` and of :math:`s = 1 - D/m^2`, the squared relative half difference, of which near ``s = 0``
-  the series is taken.
+* :math:`I_1 = I + 1/D` and :math:`I_2 = I/D + D`: laws in the invariants need no change;
+* :math:`\lambda_1 + \lambda_2 = (I + 2\sqrt D)^{1/2}`: neither do laws in the sum and the product of the
+stretches; * :math:`\lambda_1^{2p} + \lambda_2^{2p}`, as in Ogden's law, is an analytic function of the mean
+  :math:`m = I/2` and of :math:`s = 1 - D/m^2`, the squared relative half difference, for which a series is
+  used near ``s = 0``.
 
-The 3-chain law has a function of each stretch that is no power, hence no such form.
+The 3-chain law has no such form, because it contains a function of each stretch that is not a power.
 """
 
 from __future__ import annotations
@@ -27,11 +28,11 @@ from weakforms.forms.materials import chains, phenomenological, plane_stress
 from weakforms.forms.materials.catalogue import MATERIALS, SERIES
 
 TERMS = 11
-"""Terms of the series of a pair of powers. Below :data:`NEAR` what is left out is below round-off ..."""
+"""Number of terms of the series for a pair of powers; its remainder is below round-off up to :data:`NEAR`."""
 
 NEAR, STEEP = 0.04, 0.36
-"""... which is where ``s < min(NEAR, STEEP/p^2)``; above, the difference of the two branches' second
-derivatives loses no more than four digits of them."""
+"""The series is used for ``s < min(NEAR, STEEP/p^2)``. Above, the closed form loses at most four digits in
+its second derivatives."""
 
 
 @dataclass(frozen=True)
@@ -43,18 +44,18 @@ class SurfaceLaw:
     invariants: Callable[[Expr, Expr], Expr]
     """Energy as a function of ``tr C`` and ``det C``."""
     bounded: bool = False
-    """Whether it is finite for all positive stretches. One that is not is evaluated at rest where its value
-    is not used: UFL multiplies a branch that is not taken by zero, which does not undo an infinity."""
+    """Whether it is finite for all positive stretches. If not, it is evaluated at rest where its value is
+    not used: UFL multiplies an unused expression by zero, which does not remove an infinity."""
 
     def where(self, taken: Condition, trace: Expr, area: Expr) -> Expr:
-        """Energy of the invariants where a condition holds; elsewhere anything finite."""
+        """Energy as a function of the invariants where a condition holds; any finite number elsewhere."""
         if not self.bounded:
             trace, area = conditional(taken, trace, 2.0), conditional(taken, area, 1.0)
         return self.invariants(trace, area)
 
 
 def spread(trace: Expr, area: Expr) -> tuple[Expr, Expr]:
-    """Mean ``m`` of the squared principal stretches, and ``s``, half their difference over it, squared."""
+    """Mean ``m`` of the squared principal stretches, and ``s = (half their difference / m)^2``."""
     mean = trace / 2
     return mean, 1 - area / mean**2
 
@@ -94,7 +95,7 @@ def mooney_rivlin_invariants(trace: Expr, area: Expr, alpha: Expr) -> Expr:
 
 
 def rivlin(trace: Expr, area: Expr, **c: Expr) -> Expr:
-    """Rivlin's series, and Biderman's part of it."""
+    """Rivlin's series, which includes Biderman's law."""
     terms = [(i, j, c[name]) for (i, j), name in SERIES.items() if name in c]
     return phenomenological.series(_first(trace, area), _second(trace, area), terms)
 
@@ -110,7 +111,7 @@ def ogden(trace: Expr, area: Expr, **c: Expr) -> Expr:
 
 
 def rivlin_saunders(trace: Expr, area: Expr, c10: Expr, c01: Expr, q: Expr) -> Expr:
-    """Rivlin & Saunders with a slope that falls."""
+    """Rivlin & Saunders's law with a decreasing slope."""
     return c10 * _first(trace, area) + phenomenological.falling_slope(c01, q)(_second(trace, area))
 
 
@@ -171,14 +172,14 @@ LAWS: dict[str, Callable[..., Expr]] = {
     "gent": _gent,
     "harmonic": harmonic,
 }
-"""Every law that has such a form, as ``w(tr C, det C, **constants)``."""
+"""All laws with such a form, as ``w(tr C, det C, **constants)``."""
 
 BOUNDED = ("neo_hookean", "mooney_rivlin")
-"""Laws whose forms are left as they are: finite wherever the stretches are positive."""
+"""Laws that are finite for all positive stretches and need no replacement."""
 
 
 def mooney_rivlin_surface(alpha: Expr) -> SurfaceLaw:
-    """The papers' own law with a given ``C2/C1``."""
+    """The Mooney-Rivlin law of the papers with a given ``C2/C1``."""
     return SurfaceLaw(
         lambda lam1, lam2: phenomenological.mooney_rivlin(lam1, lam2, alpha),
         lambda trace, area: mooney_rivlin_invariants(trace, area, alpha),
@@ -189,7 +190,7 @@ def mooney_rivlin_surface(alpha: Expr) -> SurfaceLaw:
 def surface_law(model: str, constants: Mapping[str, Expr]) -> SurfaceLaw:
     """A law of the catalogue for a surface, with given constants.
 
-    One that is not among :data:`LAWS` has no energy of the invariants: a ``KeyError`` where that is used.
+    A law that is not in :data:`LAWS` has no energy in the invariants; using it raises a ``KeyError``.
     """
     return SurfaceLaw(
         MATERIALS[model].energy(constants),

@@ -1,12 +1,13 @@
 r"""Paper 1: the history of a stuck patch, by collocation in the position of its front.
 
-While the patch grows nothing jumps at its front (the energy release rate there is zero), so what is locked
-continues the free part with its slopes:
+While the patch grows, nothing jumps at its front (the energy release rate there is zero). The frozen shape
+therefore continues the free part with its slopes:
 
 .. math:: \rho_c'(x_f) = \rho'(x_f^+), \qquad F'(x_f) = -\eta'(x_f^+) \qquad \text{for every } x_f
 
-with ``rho_c = x Lc(x)``. ``Lc`` and ``F'/x`` are Chebyshev series in ``x``. (Not in ``x**2``, though both are
-even: they hold a term ``x^4 log x``, whose coefficients would fall as ``m^-5`` there; in ``x`` as ``m^-9``.)
+with ``rho_c = x Lc(x)``. ``Lc`` and ``F'/x`` are Chebyshev series in ``x``. Both are even, but they contain a
+term ``x^4 log x``, whose coefficients decrease like ``m^-9`` in series in ``x`` and like ``m^-5`` in series
+in ``x**2``.
 """
 
 from __future__ import annotations
@@ -21,23 +22,24 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import State
 
 SWEEPS = 80
-"""Sweeps over the fronts before the history counts as not converged."""
+"""Largest number of sweeps over the fronts."""
 
 ACCURACY = 2e-11
-"""Largest defect of the two conditions accepted."""
+"""Largest accepted defect of the two conditions."""
 
 
 class History:
-    """Series of a model's bond that satisfy the front's conditions at Chebyshev points of ``(0, span]``.
+    """Series of a model's bond, from the conditions at fronts at Chebyshev points of ``(0, span]``.
 
     Args:
-        model: Model with a bond; its series are written.
+        model: Model with a bond, whose series are set.
     """
 
     def __init__(self, model: DiskModel) -> None:
         self.model, self.bond = model, model.bond
         count, span = self.bond.terms, self.bond.span
-        # Radau points in t = 2 x/span - 1: the end is one, the pole is not (it has no outer problem).
+        # Radau points in t = 2 x/span - 1: they include the end, but not the pole, where there is no free
+        # part.
         t = np.cos(2 * np.pi * np.arange(count) / (2 * count - 1))
         self.fronts = span * (1 + t) / 2
         basis = chebyshev.chebvander(t, count - 1)
@@ -51,9 +53,9 @@ class History:
     def solve(self, guesses: list[State], lam2: np.ndarray, steepness: np.ndarray) -> None:
         """Sweep over the fronts until the conditions hold.
 
-        With ``Lc`` at the front raised by ``d`` the slope ``rho'`` outside falls by about as much (the mode
-        ``1/x`` of the free part), and a plain fixed point would not converge: ``rho' + Lc`` is what a sweep
-        takes over.
+        If ``Lc`` at the front increases by ``d``, the slope ``rho'`` outside decreases by about the same
+        amount (the mode ``1/x`` of the free part), and a plain fixed-point iteration would not converge. Each
+        sweep therefore uses ``rho' + Lc`` of the sweep before.
 
         Args:
             guesses: States of the free part at the fronts.
@@ -61,7 +63,7 @@ class History:
             steepness: First guess of ``F'/x`` there.
 
         Raises:
-            ConvergenceError: When the sweeps do not converge.
+            ConvergenceError: If the sweeps do not converge.
         """
         self._states = list(guesses)
         coefficients = np.linalg.solve(self._value, lam2)
@@ -70,7 +72,7 @@ class History:
             radial, axial = self._outside()
             locked = self._value @ coefficients
             defect = np.abs(radial - self._radial @ coefficients).max()
-            # Of F', not of F'/x: what the round-off of the latter at a small front does is little.
+            # The defect of F', not of F'/x, whose round-off at a small front has little effect.
             defect = max(defect, np.abs(self.fronts * (axial - steepness)).max())
             if defect < ACCURACY:
                 return
@@ -79,7 +81,7 @@ class History:
         raise ConvergenceError(f"history of the stuck patch: defect {defect:.1e} after {SWEEPS} sweeps")
 
     def _outside(self) -> tuple[np.ndarray, np.ndarray]:
-        """``rho'`` and ``-eta'/x`` on the free side at every front, with the series as they stand."""
+        """``rho'`` and ``-eta'/x`` on the free side at every front, with the current series."""
         radial, axial = np.empty(len(self.fronts)), np.empty(len(self.fronts))
         system = self.model.system
         for j, front in enumerate(self.fronts):
@@ -90,7 +92,7 @@ class History:
         return radial, axial
 
     def _write(self, coefficients: np.ndarray, steepness: np.ndarray) -> None:
-        """Series of ``Lc``, ``F`` and ``I`` into the model; ``F`` and ``I`` are integrals of the others."""
+        """Write the series of ``Lc``, ``F`` and ``I`` into the model; the latter two are integrals."""
         span, terms = self.bond.span, self.bond.terms
         lam2 = np.append(coefficients, 0.0)
         x = [span / 2, span / 2]  # as a series in t

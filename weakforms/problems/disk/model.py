@@ -5,10 +5,11 @@ radius ``R_f = beta R_0``, stresses by ``C1 h``; ``x in [0, 1/beta]`` is the rad
 
 The disk is mapped from two fixed intervals: the patch ``s in [0, 1]`` to ``x in [0, x_f]``, the free part
 ``s in [1, 2]`` to ``x = x_f (x_e/x_f)^(s - 1)``, ``x_e = 1/beta``. The front ``x_f`` is a scalar unknown, so
-no element ever holds the kink; the power resolves the boundary layer ``~ x^-2`` around a small patch.
+that the kink is never inside an element. The power resolves the boundary layer ``~ x^-2`` around a small
+patch.
 
-The unknowns are ``lam2`` and ``eta`` (``rho = x lam2``). What has touched and sticks is known: see
-:class:`Bond`.
+The unknowns are ``lam2`` and ``eta`` (``rho = x lam2``). Where points have touched and stick, the shape is
+known: see :class:`Bond`.
 """
 
 from __future__ import annotations
@@ -60,11 +61,12 @@ class DiskData:
 
 @dataclass(frozen=True)
 class Bond:
-    """A patch that sticks, as a function of the radius at which each point touched.
+    """A stuck patch, as a function of the radius at which each point touched.
 
-    ``lam2`` is locked at ``Lc(x)``. With ``rigid`` so is ``lam1``: the patch only moves up and down as a
-    whole, ``eta = e + F(x_f) - F(x)``, ``e`` the height of its edge. All are Chebyshev series in ``x``;
-    ``I(x_f) = int (F(x_f) - F) rho_c rho_c' dx`` is the moment that the springs' sum needs.
+    ``lam2`` is locked at ``Lc(x)``. With ``rigid``, ``lam1`` is locked too, and the patch only moves up and
+    down as a whole: ``eta = e + F(x_f) - F(x)``, where ``e`` is the height of its edge. All are Chebyshev
+    series in ``x``; ``I(x_f) = int (F(x_f) - F) rho_c rho_c' dx`` is the moment that occurs in the sum over
+    the springs.
     """
 
     rigid: bool
@@ -93,7 +95,7 @@ class Geometry:
 
 
 class DiskModel:
-    """Weak form of the disk on the front-fitted mesh, and the constants one may change.
+    """Weak form of the disk on the front-fitted mesh, with constants that can be changed.
 
     Loads: ``p``, ``front`` (``x_f``) and ``k``; ``k = 0`` is the free membrane.
     """
@@ -108,7 +110,7 @@ class DiskModel:
         self.constants = {name: fem.Constant(self.mesh, value) for name, value in values.items()}
         self.loads = {name: (c, ufl.variable(c)) for name, c in self.constants.items()}
         terms = bond.terms if bond else 1
-        # The moment is a product of the other two.
+        # The moment is a product of the other two series.
         lengths = {"lam2": terms + 1, "depth": terms + 1, "moment": 2 * terms}
         span = bond.span if bond else 1.0
         self.law = data.chosen.law(self.mesh)
@@ -128,7 +130,7 @@ class DiskModel:
     # -- geometry ------------------------------------------------------------------------------
 
     def _in_patch(self, inside: Expr | float, outside: Expr | float) -> Expr:
-        """By cell, not by coordinate: at the front itself a coordinate does not tell the sides apart."""
+        """Indicator by cell, because at the front the coordinate does not distinguish the sides."""
         return ufl.conditional(ufl.gt(self.patch, 0.5), inside, outside)
 
     def _side(self, value: Expr, patch: bool) -> Expr:
@@ -147,7 +149,7 @@ class DiskModel:
         self.unknown.interpolate(lambda s: np.vstack([np.full_like(s[0], beta), np.zeros_like(s[0])]))
 
     def _geometry(self) -> Geometry:
-        """Radius, stretch and height; in a stuck patch from the series, lifted to it outside."""
+        """Radius, stretch and height; in a stuck patch from the series, outside continuous with it."""
         s = ufl.SpatialCoordinate(self.mesh)[0]
         front = self.loads["front"][1]
         ratio = ufl.ln(self.end / front)
@@ -178,7 +180,7 @@ class DiskModel:
     # -- the form ------------------------------------------------------------------------------
 
     def _potential(self) -> Expr:
-        r"""Potential per mesh coordinate.
+        r"""Potential per unit of the mesh coordinate.
 
         .. math:: \Pi/2\pi = \int_0^{1/\beta} \Big[ W x + \frac p2 \rho^2\eta'
                   + \frac k2\,\chi\,(\eta - l)^2 \rho\rho' \Big] \mathrm{d}x
@@ -191,7 +193,7 @@ class DiskModel:
         return energy * g.jacobian
 
     def _vertex_potential(self) -> ufl.Form:
-        """Springs under a rigid patch, whose only freedom is the height of its edge (constants dropped)."""
+        """Springs under a rigid patch, which moves only by the height of its edge, up to a constant."""
         front, k = self.loads["front"][1], self.loads["k"][1]
         at_front, _ = self.series["lam2"](front)
         moment, _ = self.series["moment"](front)
@@ -199,11 +201,11 @@ class DiskModel:
         return k * ((front * at_front) ** 2 * above**2 / 4 + moment * above) * self.inner(FRONT)
 
     def _energy(self) -> ufl.Form:
-        """What is made stationary."""
+        """The functional that is made stationary."""
         potential = self._potential()
         if self.bond is None or not self.bond.rigid:
             return potential * self.dx
-        # In a rigid patch the height unknown stands for that of the edge: constant, by its own Laplacian.
+        # In a rigid patch the unknown height is that of the edge; a Laplacian makes it constant.
         _, eta = self.unknown
         return self._in_patch(eta.dx(0) ** 2 / 2, potential) * self.dx + self._vertex_potential()
 
@@ -283,8 +285,8 @@ class DiskModel:
     def _steepness(self, t1: Expr) -> Expr:
         r"""``-eta'/x`` outside the front.
 
-        Under a rigid patch from its vertical balance, ``x W1 eta'/lam1 + p rho^2/2 - k I = 0`` at
-        ``eta = l``: at a small front the derivative itself is all round-off.
+        Next to a rigid patch it comes from the vertical balance, ``x W1 eta'/lam1 + p rho^2/2 - k I = 0`` at
+        ``eta = l``, because at a small front the derivative is dominated by round-off.
         """
         g = self.geometry
         if self.bond is None or not self.bond.rigid:
@@ -294,14 +296,14 @@ class DiskModel:
         return self._side(force * g.stretches.lam1 / (g.x**2 * t1 * g.lam2), patch=False)
 
     def _energy_release_rate(self, t1: Expr) -> Expr:
-        r"""Energy released a unit of deformed area as the edge of the patch peels (closed form).
+        r"""Energy released per deformed area when the edge of the patch peels, in closed form.
 
         .. math:: G = \frac{W_c - W_o - W_{1o}[\lambda_{1c}\cos\Delta\theta - \lambda_{1o}]}
                            {\lambda_{1c}\lambda_2}
                   + \frac k2 (e - l)^2 \cos\theta_c
 
-        ``c`` the patch's side, ``o`` the free one: the jump of the Hamiltonian of the meridian (Long, Shull &
-        Hui 2010) and the energy of the springs released.
+        with ``c`` for the side of the patch and ``o`` for the free side. These are the jump of the
+        Hamiltonian of the meridian (Long, Shull & Hui 2010) and the energy of the released springs.
         """
         g = self.geometry
         energy = self.law(g.stretches.lam1, g.stretches.lam2)
@@ -323,7 +325,7 @@ class DiskModel:
         clamp = [fem.dirichletbc(np.array([self.data.beta, 0.0]), rim, space)]
         if self.bond is None:
             return clamp
-        mesh.topology.create_connectivity(1, 1)  # conditions are located through it
+        mesh.topology.create_connectivity(1, 1)  # needed to locate the conditions
         held = dmesh.locate_entities(mesh, 1, lambda x: x[0] <= 1.0 + 1e-12)
         dofs = fem.locate_dofs_topological(space.sub(0), 1, held)
         return [*clamp, fem.dirichletbc(np.array(0.0), dofs, space.sub(0))]

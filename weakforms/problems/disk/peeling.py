@@ -19,21 +19,21 @@ from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 SMALLEST_FRONT = 0.04
-"""Front at which a peeling curve ends, as a fraction of the radius: ``G`` grows without bound there."""
+"""Front at which a peeling curve ends, as a fraction of the radius; ``G`` becomes unbounded at zero."""
 
 DIFFERENCE = 2e-3
-"""Distance of the fronts between which potentials are compared, as a fraction of the radius."""
+"""Distance of the fronts whose potentials are compared, as a fraction of the radius."""
 
 
 class PeelingBranch(FittedBranch):
     """Equilibria at one pressure whose patch keeps its inflation history, over the front ``x_f``.
 
-    The control is the front; ``n_negative`` counts the front among the freedoms: with an energy of adhesion
-    equal to ``G`` the state is stable against peeling where ``G`` grows with the patch.
+    The control is the front. In ``n_negative`` the front is a degree of freedom too: if the energy of
+    adhesion is ``G``, the state is stable against peeling where ``G`` grows with the patch.
 
     Args:
         run: Inflation on this mesh.
-        p: The pressure.
+        p: Pressure.
     """
 
     def __init__(self, run: DiskRun, p: float) -> None:
@@ -51,7 +51,7 @@ class PeelingBranch(FittedBranch):
             self.end_at("front", lowest)
 
     def columns(self) -> dict[str, np.ndarray]:
-        """Those of any branch, the pressure and the difference of potentials."""
+        """The columns of any branch, the pressure and the difference of potentials."""
         out = super().columns()
         states = [p.state for p in self.points]
         out["p"] = np.full(len(states), self.p)
@@ -61,7 +61,7 @@ class PeelingBranch(FittedBranch):
         return out
 
     def peels(self, state: State) -> bool:
-        """Whether ``G`` falls as the patch grows: the front among the freedoms adds a negative eigenvalue."""
+        """Whether ``G`` decreases as the patch grows; then the front adds a negative eigenvalue."""
         near = min(self.points, key=lambda p: abs(p.state.loads["front"] - state.loads["front"]))
         self.system.set_state(state.u, state.loads)
         return -self.continuation.rate("G", self.continuation.direction_here(near.tangent)) < 0
@@ -76,15 +76,15 @@ class PeelingBranch(FittedBranch):
         return values | {"G_difference": self.difference(state)}
 
     def difference(self, state: State, step: float = DIFFERENCE) -> float:
-        r"""Energy released a unit of deformed area, from potentials at neighbouring fronts and one pressure.
+        r"""Energy released per deformed area, from potentials at neighbouring fronts and one pressure.
 
         .. math:: G = \frac{1}{\rho_* \lambda_{1c}} \frac{\mathrm{d}}{\mathrm{d}x_f} \frac{\Pi}{2\pi}
 
-        by central differences at two distances, extrapolated (order four).
+        by central differences at two distances, with extrapolation to order four.
 
         Args:
             state: An equilibrium.
-            step: Distance of the front to the nearer neighbour, over the radius.
+            step: Distance of the front to the nearer neighbour, divided by the radius.
         """
         distance = step * self._edge / 2
         slopes = [self._slope(state, distance * factor) for factor in (1, 2)]
@@ -104,10 +104,10 @@ class PeelingBranch(FittedBranch):
     # -- pull-off ------------------------------------------------------------------------------
 
     def special(self) -> list[Solved]:
-        """Pull-off: where ``G`` is least over the front.
+        """Pull-off: the minimum of ``G`` over the front.
 
-        None above the pressure of first contact, where ``G`` rises from zero, with zero slope, at the front
-        that inflation reaches.
+        Above the pressure of first contact there is none: ``G`` increases from zero, with zero slope, at the
+        front that inflation reaches.
         """
         if self._above_contact:
             return []
@@ -116,7 +116,7 @@ class PeelingBranch(FittedBranch):
         return [self._root(int(i), self._rate_along(int(i)), "pull_off") for i in turns]
 
     def _release_rate(self, point: CurvePoint) -> float:
-        """``dG/dx_f`` up to a positive factor; the curve runs towards smaller fronts."""
+        """``dG/dx_f`` up to a positive factor; the curve is followed towards smaller fronts."""
         self.system.set_state(point.state.u, point.state.loads)
         return -self.continuation.rate("G", point.tangent)
 
@@ -130,26 +130,26 @@ class PeelingBranch(FittedBranch):
 
 
 def _steps(run: DiskRun) -> StepControl:
-    """Shorter than elsewhere: the curve itself is the result, and it is short."""
+    """Shorter steps than elsewhere, because the curve is short and is the result."""
     return StepControl(first=run.step / 8, largest=run.step / 4)
 
 
 def _lowered(run: DiskRun, p: float) -> State:
-    """The patch reached at ``p_end``, at a lower pressure."""
+    """The state with the patch reached at ``p_end``, at a lower pressure."""
     if p == run.p_end:
         return run.end_of_inflation
     return run.lowered(p).at("p", p).state
 
 
 class PeelingFamily(BranchFamily):
-    """A peeling curve on all meshes; asked for the state at its pressure, it gives the pull-off point."""
+    """A peeling curve on all meshes; a request for the state at its pressure gives the pull-off point."""
 
     located_by: ClassVar[Mapping[str, str]] = {"pull_off": "G"}
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """As of any branch, with the front among the freedoms that ``n_negative`` counts.
+        """As for any branch; in ``n_negative`` the front is a degree of freedom too.
 
-        At pull-off, where the front's own curvature is zero, it does not count as negative.
+        At pull-off the curvature with respect to the front is zero, and the front does not count.
         """
         found = super()._diagnostics(solved, critical)
         if critical:
@@ -165,7 +165,7 @@ class PeelingFamily(BranchFamily):
         """As :meth:`BranchFamily.state`; at ``p`` the pull-off point, or the largest patch if there is none.
 
         Raises:
-            InputError: When the curve has no such state.
+            InputError: If the curve has no such state.
         """
         if name != "p":
             return super().state(name, value, crossing, profile)

@@ -20,35 +20,35 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import State
 
 FIRST_T0 = 0.05
-"""Pole height of the first state of a disk without tension at rest, whose tangent is singular there."""
+"""Pole height of the first state of a disk without pre-stretch, whose tangent at rest is singular."""
 
 TAUT = 1.02
-"""Pre-stretch from which the branch begins at ``p = 0``."""
+"""Pre-stretch above which the branch starts at ``p = 0``."""
 
 FREE_FRONT = 0.5
-"""Where the free membrane's mesh is divided, as a fraction of its radius: anywhere will do."""
+"""Position at which the free membrane's mesh is divided, as a fraction of its radius; it is arbitrary."""
 
 USUAL = 10.0
-"""Pressure up to which the branch has its usual step; at large pre-stretch it is mostly pressure."""
+"""Pressure up to which the usual step is used; at large pre-stretch the pressure dominates the arc length."""
 
 FIRST_FRONT = 0.02
-"""Front at which contact begins to be followed, as a fraction of the radius."""
+"""Smallest front at which contact is followed, as a fraction of the radius."""
 
 LAST_FRONT = 0.97
-"""Front beyond which contact is not followed."""
+"""Largest front at which contact is followed."""
 
 
 class DiskRun:
-    """All phases of the disk on one mesh, each solved when first asked for.
+    """All phases of the disk on one mesh; each is solved when it is first needed.
 
     Args:
         comm: Ranks.
         data: Membrane, substrate and mesh.
-        adhesion: ``locked`` or ``radial``: what sticks.
+        adhesion: ``locked`` (both stretches stick) or ``radial`` (only the radius does).
         p_end: Pressure at which inflation against the substrate ends.
         step: Largest arc-length step.
-        terms: Terms of the stuck patch's series; refined together with the mesh, so that what the series
-            leaves out shows in the uncertainties.
+        terms: Number of terms of the stuck patch's series. It is refined together with the mesh, so that the
+            uncertainties include the truncation error.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class DiskRun:
         self.p_end, self.step, self.terms = p_end, step, terms
         self.slip = DiskModel(comm, data)
         self._flat = self.slip.system.state()
-        """Where every branch begins: a run is kept, and the next finds its system where the last ended."""
+        """Start of every branch; it is kept, because each run changes the state of its system."""
 
     # -- free and frictionless -----------------------------------------------------------------
 
@@ -85,7 +85,7 @@ class DiskRun:
         return np.where(s <= 1, front * s, front * (edge / front) ** (s - 1))
 
     def _moved(self, state: State, front: float) -> State:
-        """A guess for the same membrane with its mesh divided elsewhere: splines through all nodal values."""
+        """A guess for the same membrane on a differently divided mesh, by splines through nodal values."""
         new = State(state.u.copy(), state.loads | {"front": front})
         old, wanted = self._radii(state), self._radii(new)
         for component in (slice(0, None, 2), slice(1, None, 2)):
@@ -107,7 +107,7 @@ class DiskRun:
         """First touch.
 
         Raises:
-            InputError: When it comes after the pressure at which inflation ends.
+            InputError: If it comes after the pressure at which inflation ends.
         """
         last = self.before_contact.points[-1]
         solved = Solved({**last.monitors, "p": last.state.loads["p"]}, last.state, "contact_onset")
@@ -120,11 +120,11 @@ class DiskRun:
 
     @cached_property
     def frictionless(self) -> FittedBranch:
-        """Frictionless contact, the front an unknown beside the pressure."""
+        """Frictionless contact, with the front as an unknown besides the pressure."""
         return self._follow(self.slip, self._small_front(), self.p_end)
 
     def _small_front(self) -> State:
-        """The membrane at first touch, on the mesh of a small patch, its springs in place."""
+        """The membrane at first touch, on the mesh of a small patch, with springs."""
         solver = ExtendedNewton(self.slip.system, ["p"])
         guess = self._moved(self.onset.state, FIRST_FRONT * self.data.edge)
         state, _ = solver.solve(guess, [Held("t0", self.data.l)])
@@ -150,10 +150,10 @@ class DiskRun:
 
     @cached_property
     def stick(self) -> DiskModel:
-        """The model with the bond and its history, up to a front beyond the one at ``p_end``.
+        """The model with the bond and its history, up to a front beyond that at ``p_end``.
 
         Raises:
-            ConvergenceError: When the history does not converge.
+            ConvergenceError: If the history does not converge.
         """
         span = self.frictionless.at("p", self.p_end).state.loads["front"]
         bond = Bond(self.adhesion == "locked", self.terms, span)
@@ -199,7 +199,7 @@ class DiskRun:
         return self.lowered(0.0)
 
     def lowered(self, p: float) -> EquilibriumBranch:
-        """The same down to a pressure."""
+        """Deflation down to a given pressure."""
         solver = ExtendedNewton(self.stick.system, ["p"])
         continuation = Continuation(solver, control=self.steps(4))
         held = Held("p", self.p_end)
@@ -207,16 +207,16 @@ class DiskRun:
         return EquilibriumBranch(continuation, "p", start, lambda point: point.state.loads["p"] < p)
 
     def steps(self, fraction: int) -> StepControl:
-        """Steps that begin with a fraction of the largest."""
+        """Step control that starts with a fraction of the largest step."""
         return StepControl(first=self.step / fraction, largest=self.step, usual_load=USUAL)
 
 
 def parabola(x: np.ndarray, law: Chosen, beta: float) -> tuple[np.ndarray, float]:
-    """A first state of pole height ``FIRST_T0``, slightly stretched, and the pressure its tension carries.
+    """A slightly stretched first state of pole height ``FIRST_T0``, and the pressure it carries.
 
     Args:
         x: Radius of every degree of freedom, ``lam2`` and ``eta`` in turn.
-        law: The membrane's.
+        law: Material law.
         beta: Pre-stretch.
     """
     lam = beta + 0.3 * FIRST_T0**2
@@ -235,7 +235,7 @@ def stick_guess(model: DiskModel, slipped: State, lam2_front: float) -> State:
     stretch = np.arange(len(u)) % 2 == 0
     outside = s > 1 + 1e-12
     u[stretch & ~outside] = 0.0
-    # Lifted by its own stretch at the front, not by the series': the two differ, and a jump would be torn.
+    # Shifted by its own stretch at the front; that of the series differs and would cause a jump.
     u[stretch & outside] -= (lam2_front * (2 - s))[stretch & outside]
     if model.bond.rigid:
         u[~stretch & ~outside] = model.data.l

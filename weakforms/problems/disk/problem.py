@@ -1,4 +1,4 @@
-"""Problem ``circular``: parameters, and the branches that answer requests."""
+"""Problem ``circular``: parameters and branches."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ from weakforms.solvers.uncertainty.refinement import Slow
 SOURCE = "Patil, DasGupta & Eriksson (2015), Int. J. Solids Struct. 67-68, 250-262"
 
 FIRST_TERMS, MORE_TERMS = 10, 3
-"""Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
+"""Number of terms of the stuck patch's series on the coarsest mesh, and the increase for each finer mesh."""
 
 SERIES = Slow(size=6e-9, order=2.0)
-"""What the series leaves out, which falls by little from mesh to mesh."""
+"""Truncation error of the series, which decreases slowly from mesh to mesh."""
 
 SCALES = {
     "length": "R_f, radius of the clamp (= beta R_0)",
@@ -54,7 +54,7 @@ SCALES = {
     "kappa": "meridional curvature of the free part at the contact edge times R_f, positive: bulged outward",
     "t_min": "smallest principal Cauchy resultant anywhere over C1 h",
     "G": "energy release rate at the contact edge over C1 h, closed form",
-    "G_difference": "the same from differences of potentials",
+    "G_difference": "energy release rate from differences of potentials over C1 h",
     "rho": "deformed radius over R_f",
     "eta": "deformed height over R_f",
     "lam1": "meridional stretch, 1",
@@ -87,32 +87,32 @@ NO_PATCH = {
     **dict.fromkeys(("X_contact", "rho_contact", "sigma_pole", "sigma_contact", "G"), 0.0),
     **dict.fromkeys(("lam1_contact", "lam1_contact_outer", "kappa"), float("nan")),
 }
-"""Their values before contact."""
+"""Values of these columns before contact."""
 
 
 TRACES = ("lam1_rim", "lam1_contact", "lam1_contact_outer", "kappa", "lam1", "t1", "t2", "X_iso")
-"""Columns that hold first derivatives at a point: their order is the degree at most."""
+"""Columns with first derivatives at a point, whose order is at most the degree."""
 
 
 MOVING = ("t_min",)
-"""Columns taken where something happens on the mesh: their error depends on where in a cell that is."""
+"""Columns at points that move through the mesh; their error depends on the position in a cell."""
 
 
 OF_EIGENVALUES = 4.0
-"""Order at which the eigenvalues converge, cubic and quartic elements alike: the pole is a singular point."""
+"""Order of the eigenvalues, for cubic and quartic elements; the pole is a singular point."""
 
 
 POLE = ("t0", "lam_pole")
-"""Columns at the pole: a vertex of the mesh, but a singular point, and nothing is superconvergent there."""
+"""Columns at the pole, a vertex of the mesh without superconvergence, because it is a singular point."""
 
 
 def order_at_pole(degree: int) -> float:
-    """Order of values at the pole: that of the first even power that elements miss, the solution is even."""
+    """Order of values at the pole: of the first even power that elements miss (the solution is even)."""
     return 2.0 * (degree // 2 + 1)
 
 
 class CircularNumerics(MeshNumerics):
-    """Meshes of the disk: half the ``cells`` on either side of the front."""
+    """Meshes of the disk: half of the ``cells`` on each side of the front."""
 
     step: float = Field(0.06, ge=0.01, le=0.5, description="largest arc-length step")
 
@@ -128,7 +128,7 @@ class CircularParameters(MaterialChoice):
     l: float = Field(0.5, gt=0.06, le=5, description="height of the substrate L/R_f")  # noqa: E741
     contact: Literal["none", "frictionless", "adhesive"] = Field("none", description="contact law")
     adhesion: Literal["locked", "radial"] = Field(
-        "locked", description="what sticks: both stretches, or the radius only"
+        "locked", description="locked: both stretches stick; radial: the radius sticks"
     )
     phase: Literal["inflation", "deflation", "peeling"] = Field("inflation", description="loading phase")
     p_end: float = Field(3.477, gt=0, le=50, description="pressure at which inflation in contact ends")
@@ -174,8 +174,8 @@ class Circular(PathProblem):
         """Refuse what the ranges of single parameters cannot.
 
         Raises:
-            InputError: For a phase without its history, a peeling request without or beyond its pressure, or
-                a state nobody could solve for.
+            InputError: For a phase without its history, a peeling request without pressure or beyond it, or a
+                state that cannot exist.
         """
         check_requests(self, requests)
         if parameters.phase == "deflation" and parameters.contact != "adhesive":
@@ -185,7 +185,9 @@ class Circular(PathProblem):
         if parameters.phase == "peeling":
             self._check_peeling(parameters, requests)
         elif parameters.p is not None:
-            raise InputError(f"circular: p = {parameters.p:g} is for phase = 'peeling'; else use --at p=...")
+            raise InputError(
+                f"circular: p = {parameters.p:g} is for phase = 'peeling'; for other phases use --at p=..."
+            )
 
     def _check_peeling(self, parameters: CircularParameters, requests: Requests) -> None:
         if parameters.adhesion != "locked":
@@ -235,7 +237,7 @@ class Circular(PathProblem):
             caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
             caps |= dict.fromkeys(POLE, order_at_pole(degree))
             caps["eigenvalue_1"] = min(cap, OF_EIGENVALUES)
-            if of is PeelingFamily:  # where G is not zero it is a jump of such derivatives
+            if of is PeelingFamily:  # where G is not zero, it is a jump of such derivatives
                 caps |= {"G": float(degree), "G_difference": degree + 1.0}
             return of(make, numerics.levels, cap, across=across, caps=caps, slow=slow)
 
@@ -262,10 +264,10 @@ class Circular(PathProblem):
 
 
 def peeling_pressure(parameters: CircularParameters, requests: Requests) -> float:
-    """The pressure of a peeling curve: the parameter ``p``, or that of the states asked for.
+    """The pressure of a peeling curve: the parameter ``p``, or that of the requested states.
 
     Raises:
-        InputError: When there is none, or more than one.
+        InputError: If there is none, or more than one.
     """
     given = {request.value for request in requests.states if request.name == "p"}
     if parameters.p is not None:
@@ -281,7 +283,7 @@ def peeling_pressure(parameters: CircularParameters, requests: Requests) -> floa
 def _onset(runs: list[DiskRun], degree: int) -> SpecialPoint:
     shown = [n for n in runs[-1].before_contact.shown if n not in NO_PATCH]
     caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
-    highest = order_at_pole(degree)  # of all: the height of the pole is what is prescribed
+    highest = order_at_pole(degree)  # for all columns, because the height of the pole is prescribed
     return special_point([run.onset for run in runs], shown, highest, "primary", "p", caps)
 
 
@@ -292,7 +294,7 @@ def _data(parameters: CircularParameters, cells: int, degree: int) -> DiskData:
 
 @lru_cache(maxsize=9)
 def inflation(handle: int, data: DiskData, adhesion: str, p_end: float, step: float, terms: int) -> DiskRun:
-    """Inflation on one mesh, kept: deflation and all peeling curves that begin with it share it."""
+    """Inflation on one mesh; it is kept for deflation and for all peeling curves, which start with it."""
     return DiskRun(MPI.Comm.f2py(handle), data, adhesion, p_end, step, terms)
 
 

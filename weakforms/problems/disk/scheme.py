@@ -1,13 +1,14 @@
-r"""Paper 1's own way through adhesive contact, on a fixed mesh: steps of the pole height, and frozen rings.
+r"""Paper 1's scheme for adhesive contact on a fixed mesh: steps of the pole height, and frozen rings.
 
-The pole is raised by equal steps. Nodes that have touched keep their stretch and their depth below the pole;
-the ring that touches within a step is without friction until its end, and frozen then. The pressure is an
-unknown: the patch as a whole is in vertical balance,
+The pole is raised by equal steps. Nodes that have touched keep their stretch and their depth below the pole.
+A ring that touches within a step moves without friction until the end of the step, and is then frozen. The
+pressure is an unknown, from the vertical balance of the patch as a whole,
 
 .. math:: \delta\Pi(r = 0,\ e = 1 \text{ on the patch}) = 0 .
 
-First order in the step: here to show that it tends to the limit that :mod:`weakforms.problems.disk.phases`
-solves for. The history is per node: each rank runs the whole of this small problem.
+The scheme is of first order in the step. It shows convergence to the limit that
+:mod:`weakforms.problems.disk.phases` solves for. The history is stored per node, and each rank solves the
+whole of this small problem.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ POLE, RIM = 1, 2
 
 
 class CircularSchemeParameters(Parameters):
-    """The disk, its substrate, and where inflation ends."""
+    """The disk, its substrate, and the end of inflation."""
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
@@ -61,7 +62,7 @@ class CircularSchemeParameters(Parameters):
 
 
 class CircularSchemeNumerics(Numerics):
-    """Linear elements; the coarser of the two runs has half the cells and half the steps."""
+    """Linear elements; the coarser of the two runs has half as many cells and steps."""
 
     cells: int = Field(400, ge=32, le=10_000, multiple_of=2, description="cells on the radius, finest")
     steps: int = Field(28, ge=4, le=2000, multiple_of=2, description="steps of the pole height, finest")
@@ -77,7 +78,7 @@ class FixedDisk:
     x: np.ndarray
     """Radii of the nodes from the pole outwards."""
     order: np.ndarray
-    """Degrees of freedom of ``lam2`` at these nodes; ``eta`` follows each."""
+    """Degrees of freedom of ``lam2`` at these nodes; that of ``eta`` follows each."""
 
     @classmethod
     def build(cls, comm: MPI.Intracomm, given: CircularSchemeParameters, cells: int) -> FixedDisk:
@@ -117,7 +118,7 @@ class FixedDisk:
         for t0 in np.linspace(given.l, given.t_end, steps + 1)[1:]:
             nodes = self.order[:stuck]
             self.system.hold(np.concatenate([nodes, nodes + 1]), np.concatenate([lam2, t0 - depth]))
-            # A guess without a tear at the edge: what is free rises in proportion.
+            # A guess without a jump at the edge: the free part rises in proportion.
             state.u[self.order + 1] *= t0 / state.u[self.order[0] + 1]
             state.u[nodes + 1] = t0 - depth
             held = Held("balance", 0.0) if stuck else Held("t0", float(t0))
@@ -142,7 +143,7 @@ class FixedDisk:
         return state
 
     def _edge(self, state: State, given: CircularSchemeParameters) -> dict[str, float]:
-        """Deformed radius of the front, linear between the nodes around it."""
+        """Deformed radius of the front, interpolated linearly between the nodes around it."""
         eta = state.u[self.order + 1] - given.l
         rho = self.x * state.u[self.order]
         last = int(np.flatnonzero(eta > 0)[-1])
@@ -179,10 +180,10 @@ class CircularScheme:
     control: ClassVar[str] = "t0; the quantities p, rho_contact and lam_pole are at t_end"
 
     def check(self, parameters: CircularSchemeParameters, requests: Requests) -> None:
-        """Refuse states: the scheme ends at ``t_end``, which is the only one.
+        """Refuse requests for states; the only state is that at ``t_end``.
 
         Raises:
-            InputError: For a state, or an end below the substrate.
+            InputError: For such a request, or an end below the substrate.
         """
         check_requests(self, requests)
         if parameters.t_end <= parameters.l:
@@ -198,7 +199,7 @@ class CircularScheme:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Run the scheme twice; uncertainties are of first order."""
+        """Run the scheme twice; uncertainties assume first order."""
 
         def run(coarser: int) -> dict[str, float]:
             disk = FixedDisk.build(MPI.COMM_SELF, parameters, numerics.cells // coarser)

@@ -1,7 +1,7 @@
 r"""Bodies that deform homogeneously: their stretches are the only unknowns.
 
-Weak forms all the same: one cell, unknowns constant on it, an energy, a load; so that branches, folds and
-cusps come from the solvers that the boundary-value problems use. Every rank solves the whole of it.
+They are weak forms too, with one cell, constant unknowns, an energy and a load, so that the solvers of the
+boundary-value problems compute branches, folds and cusps. Every rank solves the whole problem.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ Law = Callable[[Expr, Expr], Expr]
 
 @dataclass(frozen=True)
 class Body:
-    """What makes a body: the energy of its unknowns under a load, and what is read off them.
+    """The definition of a body: the energy of its unknowns under a load, and its columns.
 
     Attributes:
         unknowns: Names of the unknown stretches, all 1 at rest.
         load: Name of the load.
         potential: ``(law, unknowns, load) -> Pi`` per reference volume over the law's stress.
         stretches: ``unknowns -> (lam1, lam2)``.
-        extra: Further columns, ``(law, unknowns, load) -> {name: expression}``.
-        force: A dead force on the first unknown, held while the load changes; a load ``force`` of its own.
+        extra: Additional columns, ``(law, unknowns, load) -> {name: expression}``.
+        force: A dead force on the first unknown, constant while the load changes; a separate load ``force``.
     """
 
     unknowns: tuple[str, ...]
@@ -44,14 +44,14 @@ class Body:
 
 
 def system_of(body: Body, chosen: Chosen, vary: str = "", copies: int = 1) -> System:
-    """The body's equilibrium equations.
+    """Equilibrium equations of a body.
 
     Args:
         body: The body.
-        chosen: Its law.
-        vary: A constant of the law that becomes a load too, for a line of folds in it.
-        copies: How many states at once under one load; columns of the second one end in ``_2``, and
-            ``Pi_difference`` is the difference of the potentials of the first two.
+        chosen: Its material law.
+        vary: A constant of the law that becomes a load too, for a fold line.
+        copies: Number of states solved together under one load; names of columns of the second one end in
+            ``_2``, and ``Pi_difference`` is the difference of the potentials of the first two.
     """
     mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
     count = len(body.unknowns)
@@ -116,7 +116,7 @@ def infinite_tube(force: float) -> Body:
     .. math:: \Pi = w(\lambda_1, \lambda_2) - \tfrac12 p\,\lambda_1\lambda_2^2 - F\lambda_1,
               \qquad p = P R_o/(S h_o)
 
-    ``F`` is the axial force of its ends besides the pressure's own, over :math:`2\pi R_o h_o S`; without it
+    ``F`` is the axial force on its ends in addition to the pressure, over :math:`2\pi R_o h_o S`; without it
     the ends are closed and free.
     """
     return Body(

@@ -18,12 +18,12 @@ from weakforms.results import Quantity, Result
 from weakforms.solvers.support.provenance import provenance
 
 ROUND_OFF = 1e-13
-"""Relative uncertainty of an expression evaluated at a point, second derivatives and their cancellation
-included."""
+"""Relative uncertainty of an expression evaluated at a point, including cancellation in second
+derivatives."""
 
 
 SUFFIXES = {"full": "", "relaxed": "_relaxed", "modified_gradient": "_modified"}
-"""What the names of each energy's quantities end in."""
+"""Endings of the names of each energy's quantities."""
 
 
 class MaterialParameters(MaterialChoice):
@@ -34,7 +34,7 @@ class MaterialParameters(MaterialChoice):
 
 
 class MaterialNumerics(Numerics):
-    """Nothing is discretised."""
+    """No numerics: nothing is discretised."""
 
 
 class MaterialProblem:
@@ -64,13 +64,13 @@ class MaterialProblem:
     branches = ("primary",)
     control: ClassVar[str] = "none; the quantities are at l1, l2"
     materials = MATERIALS
-    """What ``show`` lists: the laws, their constants and sources."""
+    """Text for ``weakforms show``: the laws, their constants and sources."""
 
     def check(self, parameters: MaterialParameters, requests: Requests) -> None:
-        """Refuse states, and stretches at which the law is not defined.
+        """Refuse requests for states, and stretches at which the law is not defined.
 
         Raises:
-            InputError: Beyond a law's full extension, or where its thickness would vanish.
+            InputError: If the stretches are beyond a law's full extension, or its thickness would vanish.
         """
         check_requests(self, requests)
         require_defined(self.name, parameters, parameters.l1, parameters.l2, "l1, l2")
@@ -83,7 +83,7 @@ class MaterialProblem:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Evaluate the form's own expressions."""
+        """Evaluate the expressions of the forms."""
         begun = time.perf_counter()
         progress("energy", 0, 1)
         found = {}
@@ -102,10 +102,10 @@ class MaterialProblem:
 
 
 def require_defined(problem: str, parameters: MaterialChoice, l1: float, l2: float, what: str) -> None:
-    """Refuse stretches at which the law chosen is not defined.
+    """Refuse stretches at which the chosen law is not defined.
 
     Raises:
-        InputError: Naming them.
+        InputError: With a message that names them.
     """
     values = evaluated(parameters.material, l1, l2)
     if not all(np.isfinite(values[name]) for name in NAMES):

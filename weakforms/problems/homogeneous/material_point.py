@@ -1,4 +1,4 @@
-"""A law at a point: energy, stresses and tangent at two stretches, by the forms' own expressions."""
+"""A law at a point: energy, stresses and tangent at two stretches, by the expressions of the forms."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from weakforms.problems.material_choice import Chosen
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
 
 STATES = ("slack", "tension along 1", "tension along 2", "taut")
-"""States of a sheet, by their number."""
+"""States of a sheet by number."""
 
 
 class MaterialPoint:
-    """One law, compiled once: constants and stretches are data."""
+    """One law, compiled once; constants and stretches are data."""
 
     def __init__(self, model: str) -> None:
         self._mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
@@ -57,7 +57,7 @@ class MaterialPoint:
         """Energy, first and second derivatives, and the state's number.
 
         Args:
-            constants: Of the law, all of them.
+            constants: All constants of the law.
             l1: Principal stretch 1.
             l2: Principal stretch 2.
             energy: ``full``, ``relaxed`` or ``modified_gradient``.

@@ -1,4 +1,4 @@
-r"""Two states of a long tube that coexist: equal pressure, equal potential (Maxwell's rule).
+r"""Two coexisting states of a long tube: equal pressure and equal potential (Maxwell's rule).
 
 .. math:: \Pi_{,\lambda}(\lambda^{a}; p) = \Pi_{,\lambda}(\lambda^{b}; p) = 0, \qquad
           \Pi(\lambda^{a}; p) = \Pi(\lambda^{b}; p)
@@ -21,16 +21,16 @@ from weakforms.solvers.support.roots import root
 from weakforms.solvers.uncertainty.refinement import ALGEBRAIC
 
 NAMES = {"thin": "", "thick": "_2"}
-"""The two states and what the columns of the second one end in."""
+"""The number of states, and the ending of the columns of the second one."""
 
 
 def maxwell_states(body: Body, chosen: Chosen, traced: Mapping[str, np.ndarray]) -> dict[str, Quantity]:
-    """The pressure and both states, solved for together; empty where the branch does not rise twice.
+    """The pressure and both states, solved for together; empty if the pressure does not rise twice.
 
     Args:
         body: The tube.
         chosen: Its law.
-        traced: Columns of the branch, from which the first guess is read.
+        traced: Columns of the branch, which give the first guess.
     """
     guess = _guess(body, traced)
     if guess is None:
@@ -47,7 +47,7 @@ def maxwell_states(body: Body, chosen: Chosen, traced: Mapping[str, np.ndarray])
 
 
 def _guess(body: Body, traced: Mapping[str, np.ndarray]) -> tuple[float, list[float]] | None:
-    """Where the potential over the pressure crosses itself: on the first and on the last rising part."""
+    """The crossing of the curve of potential over pressure, between its first and its last rising part."""
     p = traced[body.load]
     rising = np.diff(p) > 0
     ends = np.flatnonzero(np.diff(rising.astype(int)))  # turns of the pressure

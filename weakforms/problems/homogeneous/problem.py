@@ -29,21 +29,23 @@ THESIS = "Patil (2016), chapter 3"
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
 
 USUAL = 10.0
-"""Load up to which a branch has its usual step."""
+"""Load up to which the usual step is used."""
 
 ORDER = 2.0
-"""Order of convergence reckoned with: none is at work, solutions on all levels are the same."""
+"""Assumed order of convergence; it has no effect, because solutions on all levels are the same."""
 
 
 class PointNumerics(Numerics):
-    """Nothing is discretised: uncertainties are those of Newton's stopping rule and of round-off."""
+    """Nothing is discretised; uncertainties come from Newton's stopping rule and from round-off."""
 
     step: float = Field(0.05, ge=0.005, le=0.5, description="largest arc-length step")
-    levels: int = Field(2, ge=2, le=4, description="solutions compared (all the same but for round-off)")
+    levels: int = Field(
+        2, ge=2, le=4, description="number of solutions compared (they differ by round-off only)"
+    )
 
 
 class ClosedProblem(PathProblem):
-    """What these problems share: one branch from rest to an end."""
+    """Base class of these problems: one branch from rest to an end."""
 
     numerics = PointNumerics
     paper: ClassVar[str] = "closed_form"
@@ -51,7 +53,7 @@ class ClosedProblem(PathProblem):
     branches: ClassVar[tuple[str, ...]] = ("primary",)
 
     def points(self, _parameters: MaterialChoice) -> np.ndarray:
-        """One point: it is the same everywhere."""
+        """One point, because fields are constant."""
         return np.array([0.5])
 
     def _result(self, parameters: MaterialChoice, numerics: PointNumerics) -> Result:
@@ -65,7 +67,7 @@ class ClosedProblem(PathProblem):
 
 
 def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -> EquilibriumBranch:
-    """Equilibria from rest on, by arc-length, until a column is past its end."""
+    """Equilibria from the state of rest, by arc length, until a column passes its end."""
     system = system_of(body, chosen)
     control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
     begin = _pulled(system, body, control) if body.force else system.state()
@@ -78,10 +80,10 @@ def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -
 
 
 def _pulled(system: System, body: Body, control: StepControl) -> State:
-    """The state under the body's force alone, followed from rest: one step may turn it inside out.
+    """The state under the body's force alone, reached from rest in steps, so that it is not inside out.
 
     Raises:
-        ConvergenceError: When the force is not reached.
+        ConvergenceError: If the force is not reached.
     """
     continuation = Continuation(ExtendedNewton(system, ["force"]), control=control)
     sign = 1.0 if body.force > 0 else -1.0
@@ -95,10 +97,10 @@ def _pulled(system: System, body: Body, control: StepControl) -> State:
 
 
 def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float) -> FoldLine:
-    """The first limit point followed in a constant of the law, until it returns or an end is reached.
+    """The first limit point, followed in a constant of the law until it returns or reaches an end.
 
     Raises:
-        InputError: When there is no limit point to start from.
+        InputError: If there is no limit point to start from.
     """
     system = system_of(body, chosen, vary)
     solver = ExtendedNewton(system, [body.load])
@@ -113,7 +115,7 @@ def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, 
     fold = Fold(body.load, system.mass_times(branch.points[int(turns[0])].tangent.u))
     begin = first.loads[vary]
     size = abs(to - begin)
-    largest = min(max(step, size / 50), size / 4)  # constants have sizes of their own
+    largest = min(max(step, size / 50), size / 4)  # constants have different sizes
     steps = StepControl(first=largest / 8, largest=largest)
     line = Continuation(ExtendedNewton(system, [body.load, vary]), [fold], steps, shift=1e-6)
     start = line.start(first, Held(vary, begin), towards={vary: np.sign(to - begin)})
@@ -130,8 +132,10 @@ class SphereParameters(MaterialChoice):
     """A balloon, and the constant in which its limit point is followed."""
 
     lam_end: float = Field(4.0, gt=1.001, le=50, description="stretch at which inflation ends")
-    vary: str = Field("", description="constant of the model in which the limit point is followed; '': none")
-    vary_end: float | None = Field(None, description="where that ends")
+    vary: str = Field(
+        "", description="constant of the model over which the limit point is followed; '': none"
+    )
+    vary_end: float | None = Field(None, description="value of that constant at which the fold line ends")
 
 
 class Sphere(ClosedProblem):
@@ -153,10 +157,10 @@ class Sphere(ClosedProblem):
     control: ClassVar[str] = "P (past a limit point compare over lam); branch fold: a constant of the model"
 
     def check(self, parameters: SphereParameters, requests: Requests) -> None:
-        """Refuse stretches the law does not reach, and lines in constants it does not have.
+        """Refuse stretches that the law does not reach, and fold lines in constants that it does not have.
 
         Raises:
-            InputError: Saying what is allowed.
+            InputError: With a message that says what is allowed.
         """
         check_requests(self, requests)
         require_defined(self.name, parameters, parameters.lam_end, parameters.lam_end, "lam_end")
@@ -173,7 +177,7 @@ class Sphere(ClosedProblem):
         begin, end = dict(chosen.constants)[parameters.vary], parameters.vary_end
         if end is None or not limits.contains(end) or end == begin:
             raise InputError(
-                f"sphere: vary_end = {end}: a number {limits.allowed}, not {begin:g} itself, is wanted"
+                f"sphere: vary_end = {end}: must be a number {limits.allowed}, other than {begin:g}"
             )
 
     def families(
@@ -184,7 +188,7 @@ class Sphere(ClosedProblem):
         _comm: MPI.Intracomm,
         progress: Progress,
     ) -> dict[str, Family]:
-        """The branch and, in a constant, the line of its limit points."""
+        """The branch and, if a constant varies, the fold line of its limit points."""
         body, chosen, step = closed_body.sphere(), parameters.material, numerics.step
 
         def make(level: int) -> EquilibriumBranch:
@@ -218,13 +222,13 @@ class InfiniteTube(ClosedProblem):
     energy: ClassVar[str] = "Pi = w(lam1, lam2) - (p/2) lam1 lam2^2 - F lam1"
     scales: ClassVar[dict[str, str]] = {
         "p": "P R_o/(S h_o), S the model's stress",
-        "force": "axial force besides the pressure's own over 2 pi R_o h_o S",
+        "force": "axial force in addition to the pressure over 2 pi R_o h_o S",
         "lam1": "axial stretch",
         "lam2": "hoop stretch",
         "V": "volume over its value at rest",
         "Pi": "potential per reference area over S h_o",
-        "p_maxwell": "pressure at which a thin and a thick state have the same Pi, where there is one",
-        "lam1_thin": "axial stretch of the thin state there (and so on)",
+        "p_maxwell": "pressure at which a thin and a thick state have the same Pi, if there is one",
+        "lam1_thin": "axial stretch of the thin state at that pressure (and so on)",
     }
     parameters = InfiniteTubeParameters
     columns = ("p", "lam1", "lam2", "V", "Pi", *DIAGNOSTICS)
@@ -232,7 +236,7 @@ class InfiniteTube(ClosedProblem):
     control: ClassVar[str] = "p (past a limit point compare over lam2)"
 
     def check(self, parameters: InfiniteTubeParameters, requests: Requests) -> None:
-        """Refuse stretches the law does not reach."""
+        """Refuse stretches that the law does not reach."""
         check_requests(self, requests)
         require_defined(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
 
@@ -261,7 +265,7 @@ class InfiniteTube(ClosedProblem):
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """The branch, its limit points, and the Maxwell pressure where there is one."""
+        """Solve for the branch, its limit points, and the Maxwell pressure if there is one."""
         result = super().solve(parameters, numerics, requests, comm, progress)
         body = closed_body.infinite_tube(parameters.force)
         found = maxwell_states(body, parameters.material, result.branches[0].columns)
@@ -274,7 +278,7 @@ class HomogeneousParameters(MaterialChoice):
 
     loading: Literal["uniaxial", "equibiaxial", "pure_shear"] = Field("uniaxial", description="loading")
     lam_end: float = Field(
-        4.0, gt=0.05, le=50, description="stretch at which the test ends; below 1: pressed"
+        4.0, gt=0.05, le=50, description="stretch at which the test ends; below 1: compression"
     )
 
 
@@ -300,10 +304,10 @@ class Homogeneous(ClosedProblem):
     control: ClassVar[str] = "T (past a limit point compare over lam)"
 
     def check(self, parameters: HomogeneousParameters, requests: Requests) -> None:
-        """Refuse stretches the law does not reach."""
+        """Refuse stretches that the law does not reach."""
         check_requests(self, requests)
         if parameters.lam_end == 1:
-            raise InputError("homogeneous: lam_end = 1 is the state of rest; below or above it is allowed")
+            raise InputError("homogeneous: lam_end = 1 is the state of rest; allowed: below or above 1")
         end = parameters.lam_end
         across = {"uniaxial": None, "equibiaxial": end, "pure_shear": 1.0}[parameters.loading]
         if across is None:

@@ -1,1 +1,1 @@
-"""The tube that holds a liquid, Paper 3."""
+"""The fluid-loaded tube of Paper 3."""

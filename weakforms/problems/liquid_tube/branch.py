@@ -1,4 +1,4 @@
-"""Paper 3: the primary branch on one mesh, in pieces: dry, partially filled, full, partially filled again."""
+"""Paper 3: the primary branch on one mesh, in parts: dry, partially filled, full, partially filled again."""
 
 from __future__ import annotations
 
@@ -20,30 +20,29 @@ from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.support.sampling import Peak, Probe, Sampler
 
 EDGE = 1e-4
-"""Fraction of the length within which the front is not followed towards a ring: that part of the mesh would
-be of no length, and its stiffness of no bound. A ring leaves the membrane no room there."""
+"""Smallest distance of the front from a ring, as a fraction of the length. Closer to the ring a part of the
+mesh would have no length and unbounded stiffness, and the ring leaves no room for the membrane."""
 
 NEARLY_FULL = 0.97
-"""Front, as a fraction of the length, from which the tube is filled in steps of equal ratio ..."""
+"""Front, as a fraction of the length, at which filling starts in steps of equal ratio ..."""
 
 TOPPING = 6
-"""... that are one fewer than this."""
+"""... and the number of these states."""
 
 ZW_END, STEP = 0.7, 0.5
-"""Where the branch ends, as a fraction of its highest level, and the largest step, unless told."""
+"""Default end of the branch, as a fraction of its highest level, and default largest step."""
 
 TRANSFER = 257
-"""Points through which a state goes from one position of the front to another, as a guess."""
+"""Number of points by which a state is interpolated to another position of the front, as a guess."""
 
 WALK = 0.05
-"""Largest change of ``delta`` in the walk to a pre-stretch at which a guess of one's own does not
-converge."""
+"""Largest change of ``delta`` per step on the way to a pre-stretch for which no direct guess converges."""
 
 
 class TubeModes:
-    """What is watched along the branch: eigenvalues by wave number, torsion, volume control, the middle.
+    """Quantities along the branch: eigenvalues by wave number, torsion, volume control, values at the middle.
 
-    Eigenvalues are those of the second variation against ``int |dx|^2 dZ dTheta`` (reference area).
+    Eigenvalues are those of the second variation with the mass ``int |dx|^2 dZ dTheta`` (reference area).
     """
 
     def __init__(self, model: TubeModel, n_max: int) -> None:
@@ -63,7 +62,7 @@ class TubeModes:
         self._widest = Peak(model.unknown, 0)
 
     def variation(self, n: int) -> SecondVariation:
-        """The operator of a wave number; of 0 the axisymmetric one without torsion."""
+        """The operator of a wave number; for 0 the axisymmetric one without torsion."""
         if n == 0:
             return self.model.axial
         self.model.wave_number.value = n
@@ -94,7 +93,7 @@ class TubeModes:
 
         With ``R`` the first variation, ``R_zw = -gamma d`` and :math:`A_s = \pi r_f^2` the free surface,
         :math:`K_V = K + (\gamma/A_s)\, d\, d^T` (per radian :math:`K + 2/(\gamma r_f^2)\, R_{zw} R_{zw}^T`);
-        over a full tube the volume allows only :math:`R_{zw}^T x = 0`.
+        for a full tube the fixed volume allows only :math:`R_{zw}^T x = 0`.
         """
         model = self.model
         if not state.loads["low"]:
@@ -107,13 +106,13 @@ class TubeModes:
 
 
 class FluidPath:
-    """The primary branch on one mesh from the dry tube on.
+    """The primary branch on one mesh, starting from the dry tube.
 
     Args:
         comm: Ranks.
         data: Tube, liquid and mesh.
-        n_max: Largest wave number watched.
-        zw_end: The branch ends where the level has fallen to this fraction of the highest one.
+        n_max: Largest wave number whose eigenvalues are computed.
+        zw_end: The branch ends when the level has decreased to this fraction of the highest one.
         step: Largest arc-length step.
     """
 
@@ -131,14 +130,14 @@ class FluidPath:
         self._highest = self._volume = 0.0
 
     def _ends(self, point: CurvePoint) -> bool:
-        """Whether the level has fallen far enough or, where the law stiffens, rises again after that."""
+        """Whether the level has decreased far enough or, for a stiffening law, increases again."""
         level, volume = point.state.loads["zw"], point.monitors["V"]
         if level > self._highest:
             self._highest, self._volume = level, volume
         rises = volume > self._volume and point.tangent.loads["zw"] > 0
         return level < self.zw_end * self._highest or (rises and self.data.material is not None)
 
-    # -- pieces --------------------------------------------------------------------------------
+    # -- parts --------------------------------------------------------------------------------
 
     @cached_property
     def pieces(self) -> list[ModalBranch]:
@@ -216,8 +215,8 @@ class FluidPath:
     def dry(self) -> State:
         """The pre-stretched tube without liquid.
 
-        It is no cylinder: hoop tension pulls it in to the radius ``delta^(-1/2)`` of uniaxial tension. Where
-        a guess with that shape does not converge, the tube is stretched to ``delta`` step by step.
+        It is not a cylinder, because it contracts to the radius ``delta^(-1/2)`` of uniaxial tension. If a
+        guess with that shape does not converge, the tube is stretched to ``delta`` step by step.
         """
         solver, delta = ExtendedNewton(self.model.system), self.data.delta
         try:
@@ -239,7 +238,7 @@ class FluidPath:
         return self.model.state_from(narrow + (1 - narrow) * wall, delta * z, loads)
 
     def transferred(self, state: State, **loads: float) -> State:
-        """A state as a guess for other loads, the position of the front among them."""
+        """A state as a guess for other loads, including another position of the front."""
         points = np.linspace(0.0, self.data.length, TRANSFER)
         r, z = self.sampled(state, points, ("r", "z"))
         given = {**state.loads, **loads}

@@ -1,8 +1,8 @@
 """Problem ``fluid_tube_coincidence``: the pre-stretch at which limit point and first bifurcation coincide.
 
-Between two pre-stretches at which the two come in opposite order there is one at which one state is both. It
-is solved for as such, with ``delta`` one more unknown: the axisymmetric second variation and that with one
-wave are singular at the same state.
+If limit point and first bifurcation have opposite order at two pre-stretches, there is a pre-stretch between
+them at which one state is both. It is solved for with ``delta`` as an additional unknown: at this state both
+the axisymmetric second variation and that with one wave are singular.
 """
 
 from __future__ import annotations
@@ -31,25 +31,25 @@ from weakforms.solvers.support.roots import root
 from weakforms.solvers.uncertainty.refinement import estimate
 
 NEAR = 1e-3
-"""Accuracy of ``delta`` from branches on the coarsest mesh, from which the extended system is solved."""
+"""Accuracy of ``delta`` from branches on the coarsest mesh, the guess for the extended system."""
 
 SHOWN = ("zw", "V", "Pi", "r_mid", "r_max", "Lambda_n2", "Lambda_n3", "Lambda_torsion", "LambdaV_n0")
 
 
 class CoincidenceParameters(MaterialChoice):
-    """The tube, its liquid, and where to look."""
+    """The tube, its liquid, and the range of the search."""
 
     ratio: ClassVar[str] = "alpha"
 
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
     gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
     alpha: float = Field(0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
-    delta_low: float = Field(3.0, gt=1, le=10, description="pre-stretch with one order of the points")
+    delta_low: float = Field(3.0, gt=1, le=10, description="pre-stretch with one order of the two points")
     delta_high: float = Field(5.0, gt=1, le=10, description="pre-stretch with the other order")
 
 
 class FluidTubeCoincidence:
-    """Limit point and first bifurcation with one wave, in one state."""
+    """A state that is both limit point and first bifurcation with one wave."""
 
     name: ClassVar[str] = "fluid_tube_coincidence"
     title: ClassVar[str] = (
@@ -70,11 +70,11 @@ class FluidTubeCoincidence:
         """Refuse what the ranges of single parameters cannot.
 
         Raises:
-            InputError: For a state (there is but one), an empty range, or a law without a form.
+            InputError: For a request for states (there is only one), an empty range, or a law without a form.
         """
         require_model(self.name, parameters, tuple(LAWS))
         if requests.states:
-            raise InputError(f"{self.name}: there are no states to ask for, its one state is the result")
+            raise InputError(f"{self.name}: no states can be requested; its one state is the result")
         if not parameters.delta_low < parameters.delta_high:
             raise InputError(
                 f"{self.name}: delta_low = {parameters.delta_low:g} must be less than "
@@ -89,10 +89,10 @@ class FluidTubeCoincidence:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Look for it on the coarsest mesh, then solve for it on all.
+        """Search on the coarsest mesh, then solve on all meshes.
 
         Raises:
-            InputError: When the points come in the same order at both ends.
+            InputError: If the points have the same order at both ends.
         """
         begun = time.perf_counter()
         find = _Finder(parameters, numerics, comm)
@@ -139,7 +139,7 @@ class _Finder:
         return FluidPath(self.comm, data, 3, step=numerics.step)
 
     def _points(self, path: FluidPath) -> tuple[tuple[ModalBranch, Solved], Solved]:
-        """The limit point with its piece, and the first bifurcation with one wave."""
+        """The limit point, the part of the branch around it, and the first bifurcation with one wave."""
         located = [(piece, solved) for piece in path.pieces for solved in piece.special()]
         limits = [found for found in located if found[1].kind == "limit_point"]
         forks = [solved for _, solved in located if solved.values.get("n") == 1]
@@ -161,7 +161,7 @@ class _Finder:
         gaps = [ahead(delta) for delta in ends]
         if gaps[0] * gaps[1] > 0:
             raise InputError(
-                "fluid_tube_coincidence: limit point and bifurcation come in the same order at "
+                "fluid_tube_coincidence: limit point and bifurcation have the same order at "
                 f"delta = {ends[0]:g} and {ends[1]:g}; allowed: a range over which the order changes"
             )
         return root(ahead, *ends, "delta of equal volumes", xtol=NEAR, rtol=NEAR)

@@ -1,7 +1,7 @@
-"""Paper 3: states and modes of the primary branch as plain arrays, for whoever starts from them.
+"""Paper 3: states and modes of the primary branch as plain arrays, as guesses for the surface.
 
-A model of the whole surface begins where the axisymmetric one bifurcates; it has another mesh and knows
-nothing of this one's. What passes between them are columns over the material coordinate ``Z``, the same on
+The secondary branch on a mesh of the whole surface starts where the axisymmetric branch bifurcates. The two
+meshes are independent. States and modes are passed as columns over the material coordinate ``Z``, the same on
 every rank.
 """
 
@@ -25,12 +25,12 @@ class AxisymmetricState:
     """A state of the primary branch at material points ``Z``, and at a bifurcation point its mode."""
 
     values: dict[str, float]
-    """Columns of the branch: ``zw``, ``V``, ``Pi``, ``r_mid``, eigenvalues ..."""
+    """Columns of the branch: ``zw``, ``V``, ``Pi``, ``r_mid``, eigenvalues and others."""
     Z: np.ndarray
     r: np.ndarray
     z: np.ndarray
     n: int = 0
-    """Wave number of the mode; 0 where there is none."""
+    """Wave number of the mode; 0 if there is none."""
     mode: np.ndarray | None = None
     """Null vector ``(u, beta, w)`` at ``Z``, shape ``(3, len(Z))``: the displacement
     ``u cos(n Theta) e_r + beta sin(n Theta) e_theta + w cos(n Theta) e_z``, of unit norm
@@ -38,7 +38,7 @@ class AxisymmetricState:
 
 
 class PrimaryBranch:
-    """The primary branch on one mesh, read at any state and any ``Z``.
+    """The primary branch on one mesh, evaluated at any state and any ``Z``.
 
     Args:
         comm: Ranks.
@@ -47,8 +47,8 @@ class PrimaryBranch:
         gamma: ``rho g A^2/(mu H)``.
         alpha: Second Mooney-Rivlin constant over the first; 0 is neo-Hookean.
         cells: Cells on each of the two parts of the mesh.
-        degree: Of the elements.
-        n_max: Largest wave number watched.
+        degree: Degree of the elements.
+        n_max: Largest wave number whose eigenvalues are computed.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class PrimaryBranch:
         """The ``order``-th zero of a wave number's eigenvalue along the branch, with its mode.
 
         Raises:
-            ConvergenceError: When the branch has no such point, or it is not converged to.
+            ConvergenceError: If the branch has no such point, or the solve does not converge.
         """
         found = 0
         for piece in self.path.pieces:
@@ -80,10 +80,10 @@ class PrimaryBranch:
         raise ConvergenceError(f"the primary branch has {found} bifurcation points of n = {n}, not {order}")
 
     def at(self, name: str, value: float, points: np.ndarray, crossing: int = 1) -> AxisymmetricState:
-        """The state at which a column has a value, at the ``crossing``-th of them along the branch.
+        """The state at which a column takes a value for the ``crossing``-th time along the branch.
 
         Raises:
-            ConvergenceError: When the branch has no such state.
+            ConvergenceError: If the branch has no such state.
         """
         left = crossing
         for piece in self.path.pieces:
@@ -92,7 +92,7 @@ class PrimaryBranch:
                 solved = piece.at(name, value, left)
                 return self._read(solved, np.asarray(points, dtype=float))
             left -= here
-        raise ConvergenceError(f"{name} = {value:g} is not met {crossing} times on the primary branch")
+        raise ConvergenceError(f"{name} = {value:g} is not taken {crossing} times on the primary branch")
 
     def _read(self, solved: Solved, points: np.ndarray) -> AxisymmetricState:
         r, z = self.path.sampled(solved.state, points, ("r", "z"))
@@ -125,15 +125,15 @@ def first_bifurcation(
     """The first n = 1 bifurcation point of the primary branch: state and mode at material points ``Z``.
 
     Args:
-        comm: Ranks; each gets the same arrays.
+        comm: Ranks; all get the same arrays.
         L: Length of the stretched tube over the radius.
         delta: Pre-stretch; ``Z`` lies in ``[0, L/delta]``.
-        points: ``Z`` at which state and mode are wanted.
+        points: ``Z`` of the points for state and mode.
         gamma: ``rho g A^2/(mu H)``.
         alpha: Second Mooney-Rivlin constant over the first.
         cells: Cells on each of the two parts of the mesh; 48 of degree 5 give ten digits.
 
     Raises:
-        ConvergenceError: When it is not found.
+        ConvergenceError: If it is not found.
     """
     return PrimaryBranch(comm, L, delta, gamma, alpha, cells).bifurcation(points)

@@ -1,16 +1,17 @@
 """Paper 3: a pre-stretched cylindrical membrane that holds a liquid: axisymmetric states, all variations.
 
 Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016. Lengths are divided by the radius ``A`` of
-the stress-free tube, energies by ``mu H A^2`` (``mu = 2 C1``, or twice the stress ``S`` that the constants of
-another law are over); ``Z`` in ``[0, L/delta]`` is measured along the stress-free tube from the lower disk.
+the stress-free tube, energies by ``mu H A^2`` (``mu = 2 C1``, or twice the stress ``S`` by which the
+constants of another law are divided); ``Z`` in ``[0, L/delta]`` is measured along the stress-free tube from
+the lower disk.
 
 The tube is mapped from two fixed intervals: ``x in [0, 1]`` to ``Z in [0, Zf]``, ``x in [1, 2]`` to
-``Z in [Zf, L/delta]``. While the tube is partially filled, ``Zf`` is where the free surface meets the
-membrane, a scalar unknown with the equation ``z(Zf) = zw``: no element holds the kink of the pressure, and
-the order of the elements is kept. Which of the two parts is wet are two more scalars, so that dry, partially
+``Z in [Zf, L/delta]``. While the tube is partially filled, the free surface meets the membrane at ``Zf``, a
+scalar unknown with the equation ``z(Zf) = zw``. The kink of the pressure is then never inside an element, and
+the order of the elements is kept. Two more scalars say which of the two parts are wet, so that dry, partially
 filled and full tubes are states of one system. The unknown is the displacement from the uniformly stretched
-cylinder, ``(r - 1, z - delta Z)``: next to a ring, where a part may be very short, it is small as the part
-is, and its derivative keeps all digits.
+cylinder, ``(r - 1, z - delta Z)``. Next to a ring, where a part of the mesh may be very short, the
+displacement is small too, and its derivative keeps all digits.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ from weakforms.solvers.stability.modes import SecondVariation
 LOWER, FRONT, UPPER = 1, 2, 3
 
 FULL, PART, DRY = {"low": 1.0, "high": 1.0}, {"low": 1.0, "high": 0.0}, {"low": 0.0, "high": 0.0}
-"""Which parts of the mesh are wet."""
+"""Names of the loads that say which parts of the mesh are wet."""
 
 
 @dataclass(frozen=True)
@@ -59,16 +60,16 @@ class TubeData:
     degree: int
     grading: float = 0.6
     material: Chosen | None = None
-    """A law in the place of Mooney and Rivlin's with ``alpha``."""
+    """A law that replaces the Mooney-Rivlin law with ``alpha``."""
 
     @property
     def length(self) -> float:
-        """Of the stress-free tube."""
+        """Length of the stress-free tube."""
         return self.L / self.delta
 
 
 def two_part_mesh(comm: MPI.Intracomm, cells: int, grading: float) -> Mesh:
-    """``cells`` on ``[0, 1]`` and as many on ``[1, 2]``, both finer at their ends."""
+    """Mesh with ``cells`` on ``[0, 1]`` and as many on ``[1, 2]``, both finer at their ends."""
     mesh = dmesh.create_interval(comm, 2 * cells, [0.0, 2.0])
     x = mesh.geometry.x
     part = np.where(x[:, 0] <= 1.0 + 1e-12, 0.0, 1.0)
@@ -80,8 +81,8 @@ def two_part_mesh(comm: MPI.Intracomm, cells: int, grading: float) -> Mesh:
 class TubeModel:
     """Weak form on one mesh, and its second variations in Fourier modes.
 
-    Loads: ``zw``, ``front`` (``Zf`` as a fraction of the length), ``delta``, and ``low``, ``high`` (1 where
-    that part is wet).
+    Loads: ``zw``, ``front`` (``Zf`` as a fraction of the length), ``delta``, and ``low``, ``high`` (1 if that
+        part is wet).
     """
 
     def __init__(self, comm: MPI.Intracomm, data: TubeData) -> None:
@@ -114,7 +115,7 @@ class TubeModel:
     # -- geometry ------------------------------------------------------------------------------
 
     def _by_part(self, low: Expr | float, high: Expr | float) -> Expr:
-        """By cell, not by coordinate: at the front itself a coordinate does not tell the sides apart."""
+        """Indicator by cell, because at the front the coordinate does not distinguish the sides."""
         return ufl.conditional(ufl.gt(self._low, 0.5), low, high)
 
     def _jacobian(self) -> Expr:
@@ -134,7 +135,7 @@ class TubeModel:
         return length * np.where(x <= 1, front * x, front + (1 - front) * (x - 1))
 
     def state_from(self, r: np.ndarray, z: np.ndarray, loads: dict[str, float]) -> State:
-        """A state, as a guess, from radius and height at this rank's nodes (:meth:`nodes`)."""
+        """A state, for use as a guess, from radius and height at this rank's nodes (:meth:`nodes`)."""
         return State(np.column_stack([r - 1, z - loads["delta"] * self.nodes(loads)]).ravel(), dict(loads))
 
     def nodes(self, loads: dict[str, float]) -> np.ndarray:
@@ -157,7 +158,7 @@ class TubeModel:
         return self.unknown[1] + self._fixed["L"] * self._by_part(front * x, front + (1 - front) * (x - 1))
 
     def surface(self) -> Surface:
-        """The axisymmetric surface in the frame that turns with ``Theta``."""
+        """The axisymmetric surface in the frame that rotates with ``Theta``."""
         slope = self.unknown.dx(0) / self._jacobian()
         return axisymmetric(self.radius, self.height, (slope[0], self.loads["delta"][1] + slope[1]))
 
@@ -215,7 +216,7 @@ class TubeModel:
     def _rings(self, space: fem.FunctionSpace) -> list[fem.DirichletBC]:
         """No displacement at the disks."""
         ends = np.concatenate([self.tags.find(LOWER), self.tags.find(UPPER)])
-        # A function, not a constant: of which shape that would be for one component depends on the release.
+        # A function, not a constant, whose shape for one component depends on the dolfinx release.
         return [fem.dirichletbc(fem.Function(space), fem.locate_dofs_topological(space, 0, ends))]
 
     def _variation(
@@ -223,16 +224,17 @@ class TubeModel:
     ) -> SecondVariation:
         r"""Second variation in ``u cos(n Theta) e_r + beta sin(n Theta) e_theta + w cos(n Theta) e_z``.
 
-        The first variation in the displaced state is differentiated in the displacement, automatically.
-        Being quadratic in ``cos`` and ``sin``, with ``cos^2`` and ``sin^2`` of equal mean, its integral over
-        ``Theta`` is that of the two angles ``n Theta = 0`` and ``pi/2`` (times pi, for ``n = 0`` times
-        2 pi; the factor is left out here and in the mass matrix).
+        UFL differentiates the first variation at the displaced state with respect to the displacement. The
+        result is quadratic in ``cos`` and ``sin``, and ``cos^2`` and ``sin^2`` have the same mean. Its
+        integral over ``Theta`` is therefore the sum of its values at the two angles ``n Theta = 0`` and
+        ``pi/2``, times pi (for ``n = 0`` one angle and 2 pi). This factor is left out here and in the mass
+        matrix.
 
         Args:
-            name: What it is called.
-            space: Of as many components as are held.
-            held: Which of ``(u, beta, w)`` it acts on.
-            angles: ``(cos, sin)`` of the angles that enter.
+            name: Name of the operator.
+            space: Space with one component for each entry of ``held``.
+            held: The components of ``(u, beta, w)`` on which it acts.
+            angles: ``(cos, sin)`` of the angles in the sum.
         """
         jacobian = self._jacobian()
         q, test = fem.Function(space, name=name), ufl.TestFunction(space)

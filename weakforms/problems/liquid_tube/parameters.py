@@ -11,11 +11,11 @@ from weakforms.problems.liquid_tube.branch import STEP, ZW_END
 from weakforms.problems.material_choice import MaterialChoice
 
 MOST_WAVES = 6
-"""Largest wave number one may ask for."""
+"""Largest wave number that can be requested."""
 
 
 class FluidTubeNumerics(MeshNumerics):
-    """Meshes of the tube: ``cells`` on the finest, half of them on each side of the front."""
+    """Meshes of the tube: ``cells`` on the finest one, half of them on each side of the front."""
 
     degree: int = Field(5, ge=2, le=6, description="polynomial degree of the unknowns")
     cells: int = Field(128, ge=16, le=20_000, description="cells on the finest mesh")
@@ -23,10 +23,15 @@ class FluidTubeNumerics(MeshNumerics):
     step: float = Field(STEP, ge=0.02, le=1, description="largest arc-length step")
     secondary_cells: int = Field(24, ge=6, le=96, description="cells along the surface")
     secondary_around: int | None = Field(
-        None, ge=2, le=96, description="cells around its half; by default two thirds of those along"
+        None,
+        ge=2,
+        le=96,
+        description="cells around half the circumference; by default two thirds of those along",
     )
     secondary_degree: int = Field(5, ge=2, le=6, description="polynomial degree on the surface")
-    secondary_levels: int = Field(3, ge=2, le=4, description="meshes of the surface, each twice as fine")
+    secondary_levels: int = Field(
+        3, ge=2, le=4, description="meshes of the surface, each twice as fine as the one before"
+    )
     secondary_step: float = Field(0.1, ge=0.01, le=0.5, description="largest step on the secondary branch")
     secondary_end: float = Field(
         0.9, ge=0.8, lt=1, description="fraction of the level at the bifurcation at which that branch ends"
@@ -59,4 +64,4 @@ class FluidTubeParameters(MaterialChoice):
     zw_end: float = Field(
         ZW_END, ge=0.3, lt=1, description="fraction of the highest level at which the branch ends"
     )
-    secondary: bool = Field(False, description="solve the secondary branch too")
+    secondary: bool = Field(False, description="also solve for the secondary branch")

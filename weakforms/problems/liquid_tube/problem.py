@@ -1,4 +1,4 @@
-"""Problem ``fluid_tube``: parameters, and a solve that answers requests."""
+"""Problem ``fluid_tube``: parameters and branches."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SCALES = {
     "L": "stretched length over A",
     "delta": "axial pre-stretch, 1; the stress-free tube is L/delta long",
     "gamma": "rho g A^2/(mu H), H the thickness of the stress-free tube",
-    "mu": "2 C1; of another model 2 S, twice the stress its constants are over",
+    "mu": "2 C1; for another model 2 S, twice the stress by which its constants are divided",
     "alpha": "second Mooney-Rivlin constant over the first; 0 is neo-Hookean",
     "zw": "level of the free surface above the lower disk, or static head over a full tube, over A",
     "V": "volume of the liquid over A^3",
@@ -49,7 +49,7 @@ SCALES = {
         + ("axisymmetric without torsion" if n == 0 else f"{n} wave{'s' if n > 1 else ''} around")
         for n in range(MOST_WAVES + 1)
     },
-    "Lambda_torsion": "the same for axisymmetric torsion",
+    "Lambda_torsion": "lowest eigenvalue at fixed level, axisymmetric torsion",
     "LambdaV_n0": "lowest axisymmetric eigenvalue at fixed volume",
     "Z": "axial coordinate on the stress-free tube from the lower disk over A",
     "r": "radius over A",
@@ -64,24 +64,24 @@ SCALES = {
 
 ENERGY = (
     "Pi/(mu H A^2) = int_0^{L/delta} int_0^{2 pi} [ (I1 - 3 + alpha (I2 - 3))/2 - P(z) (x e_x + y e_y).N/2 ] "
-    "dTheta dZ,  P = gamma max(zw - z, 0),  N = x_Theta x x_Z;  typed as its first variation, "
+    "dTheta dZ,  P = gamma max(zw - z, 0),  N = x_Theta x x_Z;  written as its first variation, "
     "w_a.v_Z + w_b.v_Theta - P v.N;  another model (weakforms show material) has w/2 for the first term"
 )
 
 CAPS = {"r_mid": 4.0, "r_max": 4.0, **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 2.0)}
-"""Highest orders of convergence that uncertainties reckon with at material points of a partially filled tube,
-which lie now here, now there in a cell that follows the front: the order is the elements', the error's size
-is any."""
+"""Highest assumed orders of convergence at material points of a partially filled tube. Because cells follow
+the front, the position of such a point in its cell varies: the order is that of the elements, but the size of
+the error varies."""
 
 MATERIAL = {"r_mid": "r", "r_max": "r", "T1_mid": "T1", "T2_mid": "T2"}
-"""The columns at such points, and of which field they are values."""
+"""The columns at such points, and the fields of which they are values."""
 
 TORN = "Z_front", "r_front"
-"""Columns of a partially filled tube only."""
+"""Columns that only a partially filled tube has."""
 
 
 class FluidTube(PathProblem):
-    """A pre-stretched cylindrical membrane that holds a liquid, under level control."""
+    """A pre-stretched cylindrical membrane filled with a liquid, under level control."""
 
     name: ClassVar[str] = "fluid_tube"
     title: ClassVar[str] = "Fluid-loaded pre-stretched cylindrical membrane"
@@ -115,13 +115,15 @@ class FluidTube(PathProblem):
     derived = DERIVED_COLUMNS
     special_points = ("limit_point", "bifurcation_point")
     branches = ("primary", "secondary")
-    control: ClassVar[str] = "zw (past its maximum compare over V, which rises all along the primary branch)"
+    control: ClassVar[str] = (
+        "zw (past its maximum compare over V, which increases along the whole primary branch)"
+    )
 
     def check(self, parameters: FluidTubeParameters, requests: Requests) -> None:
         """Refuse what the ranges of single parameters cannot.
 
         Raises:
-            InputError: For a state nobody could solve for.
+            InputError: For a state that cannot exist.
         """
         check_requests(self, requests)
         require_model(self.name, parameters, tuple(LAWS))
@@ -136,7 +138,7 @@ class FluidTube(PathProblem):
                     f"fluid_tube: {wanted.name} is not computed; allowed: n up to n_max = {parameters.n_max}"
                 )
             if wanted.branch == "secondary" and not parameters.secondary:
-                raise InputError("fluid_tube: the secondary branch is solved with secondary = true only")
+                raise InputError("fluid_tube: the secondary branch is solved for only with secondary = true")
 
     def families(
         self,
@@ -146,7 +148,7 @@ class FluidTube(PathProblem):
         comm: MPI.Intracomm,
         progress: Progress,
     ) -> dict[str, Family]:
-        """The primary branch on all meshes, and the secondary one if it is wanted."""
+        """The primary branch on all meshes, and the secondary one if it is requested."""
         found: dict[str, Family] = {"primary": primary_family(parameters, numerics, comm, progress)}
         if parameters.secondary:
             found["secondary"] = secondary_family(parameters, numerics, comm, progress)
@@ -164,7 +166,7 @@ class FluidTube(PathProblem):
         default_points: np.ndarray,
         progress: Progress,
     ) -> None:
-        """As for any problem; with the secondary branch, a state is given on every branch that has it."""
+        """As for any problem; with the secondary branch, a state is computed on every branch that has it."""
         super()._answer(result, families, replace(requests, states=()), default_points, progress)
         for i, wanted in enumerate(requests.states):
             progress("states", i, len(requests.states))
@@ -204,14 +206,14 @@ def primary_family(
         paths.append(FluidPath(comm, data, parameters.n_max, parameters.zw_end, numerics.step))
     counts = [len(path.pieces) for path in paths]
     if len(set(counts)) > 1:
-        raise ConvergenceError(f"fluid_tube: pieces of the primary branch depend on the mesh: {counts}")
+        raise ConvergenceError(f"fluid_tube: the parts of the primary branch depend on the mesh: {counts}")
 
     def family(k: int) -> ModalFamily:
         def make(level: int) -> ModalBranch:
             return paths[level].pieces[k]
 
         still = {name: numerics.degree + float(name.startswith("r")) for name in CAPS}
-        caps = CAPS if k % 2 else still  # without a front the mesh stays where it is
+        caps = CAPS if k % 2 else still  # without a front the mesh does not move
         moving = MATERIAL if k % 2 else {}
         return ModalFamily(
             make, numerics.levels, 2 * numerics.degree, across=("zw", "V"), caps=caps, points_of=moving

@@ -17,16 +17,16 @@ from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Mode, Stability
 
 HALVINGS = 8
-"""Times a step of the load is halved before it is given up."""
+"""Largest number of times that a step of the load is halved."""
 
 ONTO, OFF = 1.0, -1.0
-"""Direction of a stability change as the load rises along the walk: to unstable, back to stable."""
+"""Values that say whether a stability change along the branch is to unstable or back to stable."""
 
 SOLVED = 1e-9
-"""Error of an eigenvalue on either side of a stability change."""
+"""Error of an eigenvalue on each side of a stability change."""
 
 BINS = 24
-"""Bands along the meridian in which waves of a mode are counted on an unstructured mesh."""
+"""Number of bands along the meridian in which waves of a mode are counted on an unstructured mesh."""
 
 
 @dataclass
@@ -37,28 +37,28 @@ class Point:
     state: State
     record: SolveRecord
     symmetric: State
-    """The equilibrium among the positions that turn with ``Theta``; on a tube of rings the same."""
+    """The equilibrium among surfaces of revolution; on a structured tube it is the equilibrium itself."""
     residual: float
-    """Norm of the whole surface's residual."""
+    """Norm of the residual of the whole surface."""
     departure: float
-    """Largest distance of a node from where the symmetric equilibrium has it."""
+    """Largest distance of a node from its position in the symmetric equilibrium."""
     n_negative: int = -1
     lowest: Mode | None = None
-    """The lowest mode, once it has been asked for."""
+    """The lowest mode, if it has been computed."""
     values: dict[str, float] = field(default_factory=dict)
 
 
 class SurfaceRun:
-    """One discrete membrane, walked over its load.
+    """Equilibria of one discrete membrane over its load.
 
-    On a tube of rings the equilibrium is the ring-periodic one, found among ring-periodic positions; that the
-    whole residual vanishes too is checked at every state. On any other mesh SNES goes on from the equilibrium
-    among surfaces of revolution to that of the whole discrete surface.
+    On a structured tube the equilibrium is found among ring-periodic positions, and the residual of the whole
+    surface is checked at every state. On any other mesh, SNES starts from the equilibrium among surfaces of
+    revolution and finds that of the whole discrete surface.
 
     Args:
         model: The discrete equations.
         control: Name of the load, ``zw`` or ``p``.
-        loads: Values of the loads to begin with.
+        loads: First values of the loads.
     """
 
     def __init__(self, model: SurfaceModel, control: str, loads: dict[str, float]) -> None:
@@ -75,10 +75,10 @@ class SurfaceRun:
     # -- equilibria ------------------------------------------------------------------------------
 
     def at(self, load: float) -> Point:
-        """Equilibrium at a load, reached from the nearest one known; counted by inertia.
+        """Equilibrium at a load, reached from the nearest known one, with its number of negative eigenvalues.
 
         Raises:
-            ConvergenceError: When it is not reached, or is none of the whole surface.
+            ConvergenceError: If it is not reached, or is not an equilibrium of the whole surface.
         """
         if not self._known:
             return self._keep(self._point(load, self._begin))
@@ -107,8 +107,8 @@ class SurfaceRun:
         residual = float(np.sqrt(self.system.dot(r, r)))
         if not residual <= residual_limit(self.system):
             raise ConvergenceError(
-                f"{self.control} = {load:g}: the ring-periodic equilibrium is none of the whole surface, its "
-                f"residual is {residual:.1e}"
+                f"{self.control} = {load:g}: the ring-periodic equilibrium is not one of the whole surface, "
+                f"its residual is {residual:.1e}"
             )
         away = np.linalg.norm(self.model.nodal(state.u - symmetric.u), axis=1).max()
         return Point(load, state, record, symmetric, residual, float(away))
@@ -125,13 +125,13 @@ class SurfaceRun:
         self._known.append(point)
         return point
 
-    # -- what a state shows ----------------------------------------------------------------------
+    # -- columns of a state ----------------------------------------------------------------------
 
     def columns(self, point: Point, count: int) -> dict[str, float]:
-        """Columns of a state; its ``count`` lowest eigenvalues by SLEPc, complete by the inertia.
+        """Columns of a state, with its ``count`` lowest eigenvalues, complete according to the inertia.
 
         Raises:
-            ConvergenceError: When SLEPc does not find as many as the inertia counts.
+            ConvergenceError: If SLEPc does not find as many as the inertia counts.
         """
         if not point.values:
             self.system.set_state(point.state.u, point.state.loads)
@@ -158,7 +158,7 @@ class SurfaceRun:
         return point.lowest
 
     def waves(self, vector: np.ndarray) -> int:
-        """Number of waves around the axis that a displacement has most of."""
+        """The dominant number of waves around the axis in a displacement."""
         given = self.model.body.triangles
         x, y, z = self.model.nodal(vector).T
         c, s = np.cos(given.angle), np.sin(given.angle)
@@ -182,18 +182,19 @@ class SurfaceRun:
     # -- stability changes -----------------------------------------------------------------------
 
     def changes(self, loads: np.ndarray, tolerance: float) -> Iterator[SpecialPoint]:
-        """Loads between those given at which a first negative eigenvalue appears or the last one goes.
+        """Loads between given ones where the first negative eigenvalue appears or the last disappears.
 
-        Bracketed by the inertia of the whole tangent and halved down to ``tolerance``; the uncertainty is
-        half of the bracket that is left. The lowest eigenvalue passes through zero, or it jumps: where a ring
-        of triangles goes from one state to another the second derivative of the relaxed energy does.
+        They are bracketed by the inertia of the whole tangent, and the interval is halved down to
+        ``tolerance``; the uncertainty is half of the last interval. The lowest eigenvalue passes through
+        zero, or it jumps, because the second derivative of the relaxed energy jumps when a ring of triangles
+        changes its state.
 
         Args:
-            loads: In the order of the walk.
-            tolerance: Width of the bracket.
+            loads: Loads in their order along the branch.
+            tolerance: Width of the last interval.
 
         Raises:
-            ConvergenceError: When a state in a bracket is not reached.
+            ConvergenceError: If a state in an interval is not reached.
         """
         for before, after in pairwise(self.at(float(load)) for load in loads):
             if (before.n_negative > 0) != (after.n_negative > 0):

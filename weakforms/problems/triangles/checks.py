@@ -1,4 +1,4 @@
-"""Whether a triangulation is a surface that a membrane of revolution can be made of."""
+"""Checks that a triangulation is a surface suitable for a membrane of revolution."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from weakforms.errors import InputError
 Refuse = Callable[[str], None]
 
 COINCIDENT = 1e-6
-"""Distance, over the size of the surface, within which two nodes are the same point."""
+"""Distance, relative to the size of the surface, within which two nodes are the same point."""
 
 FLAT = 1e-12
-"""Area of a triangle, over the square of the surface's size, that is none."""
+"""Largest area, relative to the square of the surface's size, of a degenerate triangle."""
 
 ROUND = 1e-3
-"""Spread of radius and height of an edge, over the size of the surface, up to which it is a circle."""
+"""Largest spread of radius and height of a circular edge, relative to the size of the surface."""
 
 
 def edges_of(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Edges as pairs of nodes in ascending order, ``(k, 2)``, and how many triangles each has."""
+    """Edges as pairs of nodes in ascending order, ``(k, 2)``, and the number of triangles of each."""
     return np.unique(np.sort(_directed(triangles), axis=1), axis=0, return_counts=True)
 
 
@@ -33,15 +33,15 @@ def _directed(triangles: np.ndarray) -> np.ndarray:
 
 
 def require_surface(points: np.ndarray, triangles: np.ndarray, name: str) -> None:
-    """Refuse what is no connected, oriented surface whose edges are circles about the ``z`` axis.
+    """Refuse a mesh unless it is a connected, oriented surface whose edges are circles about the ``z`` axis.
 
     Args:
         points: Nodes, ``(n, 3)``, each of them used.
         triangles: ``(m, 3)``.
-        name: Of the file, for the message.
+        name: Name of the file, for the message.
 
     Raises:
-        InputError: Naming what is wrong, where, and what is allowed.
+        InputError: With a message that says what is wrong, where, and what is allowed.
     """
 
     def refuse(what: str) -> None:
@@ -66,13 +66,13 @@ def require_surface(points: np.ndarray, triangles: np.ndarray, name: str) -> Non
     if times.max() > 1:
         a, b = directed[np.argmax(times)]
         refuse(
-            f"{np.sum(times > 1)} edges are passed in the same direction by both their triangles, the first "
+            f"{np.sum(times > 1)} edges have the same direction in both their triangles, the first "
             f"{_at(points[a])}; orient all triangles alike"
         )
     graph = coo_matrix((np.ones(len(edges)), edges.T), shape=(len(points),) * 2)
     parts, _ = connected_components(graph, directed=False)
     if parts > 1:
-        refuse(f"it has {parts} parts that do not hang together; allowed: 1")
+        refuse(f"it has {parts} parts that are not connected; allowed: 1")
     _require_clamped(points, edges[count == 1], size, refuse)
 
 
@@ -88,9 +88,9 @@ def _require_triangles(points: np.ndarray, triangles: np.ndarray, size: float, r
 
 
 def _require_clamped(points: np.ndarray, boundary: np.ndarray, size: float, refuse: Refuse) -> None:
-    """Every edge of the surface is a circle about the axis, and there are one or two."""
+    """Refuse a surface unless it has one or two edges, which are circles about the axis."""
     if not len(boundary):
-        refuse("it is closed and has no edge to be clamped at; allowed: one or two edges")
+        refuse("it is closed and has no edge to clamp; allowed: one or two edges")
     nodes, ends = np.unique(boundary, return_inverse=True)
     graph = coo_matrix((np.ones(len(boundary)), ends.reshape(-1, 2).T), shape=(len(nodes),) * 2)
     parts, which = connected_components(graph, directed=False)
@@ -101,7 +101,7 @@ def _require_clamped(points: np.ndarray, boundary: np.ndarray, size: float, refu
         spread = max(np.ptp(np.hypot(x, y)), np.ptp(z)) / size
         if spread > ROUND:
             refuse(
-                f"an edge is no circle about the z axis: its radius or height varies by {spread:.1e} "
+                f"an edge is not a circle about the z axis: its radius or height varies by {spread:.1e} "
                 f"of the size; allowed: {ROUND:g}"
             )
 

@@ -12,9 +12,10 @@ def fields(run: SurfaceRun, point: Point) -> tuple[Field, Field]:
     """Nodes and triangles of a state.
 
     Nodes: reference ``Z`` and ``Theta``, position ``x, y, z``, lowest mode ``u_x, u_y, u_z`` (largest length
-    1) and ``gw`` averaged over the triangles around. A tube's nodes are in rows of ``Z``, the first meridian
-    repeated at ``Theta = 2 pi``. Triangles: rows ``a, b, c`` of their nodes in that table, counted from 0 and
-    counterclockwise from outside, ``lam1 >= lam2``, and ``state`` (1 taut, 0 wrinkled, -1 slack).
+    1) and ``gw`` averaged over the triangles around. The nodes of a tube are in rows of ``Z``; the first
+    meridian is repeated at ``Theta = 2 pi``. Triangles: the rows ``a, b, c`` of their nodes in that table,
+    counted from 0 and counterclockwise as seen from outside, ``lam1 >= lam2``, and ``state`` (1 taut, 0
+    wrinkled, -1 slack).
     """
     run.system.set_state(point.state.u, point.state.loads)
     given = run.model.body.triangles
@@ -37,7 +38,7 @@ def fields(run: SurfaceRun, point: Point) -> tuple[Field, Field]:
 def _closed(
     columns: dict[str, np.ndarray], triangles: np.ndarray, rings: tuple[int, int]
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The first meridian again at the end of every row, and the last column's triangles reaching it."""
+    """Repeat the first meridian at the end of every row, and connect the last column's triangles to it."""
     around = rings[1]
     out = {}
     for name, values in columns.items():

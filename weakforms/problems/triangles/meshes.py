@@ -1,4 +1,4 @@
-"""Triangulated membranes of revolution: the structured tube, a hemisphere by gmsh, a user's own file."""
+"""Triangulated membranes of revolution: the structured tube, a hemisphere by gmsh, a file of the user."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from weakforms.problems.triangles.checks import edges_of, require_surface
 from weakforms.solvers.support import compat
 
 SUFFIXES = (".msh", ".vtu", ".stl")
-"""Files a surface is read from."""
+"""Suffixes of files for surfaces."""
 
 MAX_BYTES = 512 * 2**20
-"""Size up to which they are."""
+"""Largest size of such a file, in bytes."""
 
 
 @dataclass(frozen=True)
 class Triangulation:
-    """Flat triangles in space, the same on every rank; seen from outside their vertices turn left."""
+    """Flat triangles in space, the same on every rank; their vertices are counterclockwise from outside."""
 
     points: np.ndarray
     """Reference position of the nodes, ``(n, 3)``; the axis is that of ``z``."""
     triangles: np.ndarray
     """Nodes of the triangles, ``(m, 3)``."""
     rings: tuple[int, int] | None = None
-    """Rows and columns of quadrilaterals where nodes are numbered ring by ring; each has one diagonal."""
+    """Rows and columns of quadrilaterals, each with one diagonal, if nodes are numbered ring by ring."""
 
     @property
     def held(self) -> np.ndarray:
@@ -61,7 +61,7 @@ class Triangulation:
         return float(np.linalg.norm(np.diff(self.points[edges], axis=1)[:, 0], axis=1).mean())
 
     def mesh(self, comm: MPI.Intracomm) -> dmesh.Mesh:
-        """The mesh on all ranks: a manifold in space, its own reference surface."""
+        """The mesh on all ranks: a manifold in space, which is the reference surface."""
         element = basix.ufl.element("Lagrange", "triangle", 1, shape=(3,))
         first = comm.rank == 0
         cells = self.triangles if first else np.empty((0, 3), dtype=np.int64)
@@ -72,19 +72,19 @@ class Triangulation:
 
 
 def tube(length: float, meridional: int, circumferential: int, mirrored: bool = False) -> Triangulation:
-    """A cylinder of radius 1: nodes uniform in ``(S, Theta)``, all diagonals in the same direction.
+    """A cylinder of radius 1 with uniform nodes in ``(S, Theta)`` and all diagonals in the same direction.
 
     The nodes lie on the cylinder and the triangles are flat, so that the metric is that of the inscribed
-    prism, as any finite element code has it.
+    prism, as in any finite element code.
 
     Args:
-        length: Of the cylinder.
-        meridional: Quadrilaterals along it.
-        circumferential: Quadrilaterals around it.
-        mirrored: The other diagonal of every quadrilateral.
+        length: Length of the cylinder.
+        meridional: Number of quadrilaterals along it.
+        circumferential: Number of quadrilaterals around it.
+        mirrored: Whether quadrilaterals have the other diagonal.
 
     Raises:
-        InputError: When fewer than three columns are to close.
+        InputError: If there are fewer than three columns.
     """
     if circumferential < 3:
         raise InputError(
@@ -106,7 +106,7 @@ def tube(length: float, meridional: int, circumferential: int, mirrored: bool = 
 
 
 def hemisphere(size: float) -> Triangulation:
-    """The lower half of the unit sphere, unstructured, by gmsh on four octants; a node at the pole.
+    """The lower half of the unit sphere, unstructured, by gmsh on four octants, with a node at the pole.
 
     Args:
         size: Length of the edges.
@@ -145,10 +145,10 @@ def from_file(path: Path) -> Triangulation:
     """A user's triangulated surface of revolution about the ``z`` axis.
 
     Args:
-        path: A file meshio reads; lines and single nodes in it are passed over.
+        path: A file that meshio reads; lines and single nodes in it are ignored.
 
     Raises:
-        InputError: When it cannot be read or is no surface a membrane can be made of; says what is wrong.
+        InputError: If it cannot be read or is not a suitable surface; the message says what is wrong.
         EnvironmentLackError: Without meshio.
     """
     try:
@@ -161,9 +161,9 @@ def from_file(path: Path) -> Triangulation:
         raise InputError(f"surface: geometry = {path} is larger than {MAX_BYTES >> 20} MiB")
     said = io.StringIO()
     try:
-        with redirect_stderr(said), redirect_stdout(said):  # to say it in one line, or not at all
+        with redirect_stderr(said), redirect_stdout(said):  # warnings of meshio become one line, or none
             read = meshio.read(path)
-    except (Exception, SystemExit) as error:  # a damaged file raises whatever its reader stumbles over
+    except (Exception, SystemExit) as error:  # readers raise any exception for a damaged file
         reason = " ".join((said.getvalue() if isinstance(error, SystemExit) else str(error)).split())
         reason = reason[:200] or type(error).__name__
         raise InputError(f"surface: geometry = {path} cannot be read: {reason}") from None
@@ -175,19 +175,19 @@ def from_file(path: Path) -> Triangulation:
         raise InputError(f"surface: geometry = {path} has no triangles")
     points, triangles = compact(np.asarray(read.points, float), np.vstack(blocks).astype(np.int64))
     if points.shape[1] != 3:
-        raise InputError(f"surface: geometry = {path} lies in a plane; a surface in space is wanted")
+        raise InputError(f"surface: geometry = {path} lies in a plane; allowed: a surface in space")
     require_surface(points, triangles, str(path))
     return outwards(Triangulation(points, triangles))
 
 
 def compact(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes that some triangle has, and the triangles in their numbers."""
+    """The nodes that triangles use, and the triangles with renumbered nodes."""
     used, inverse = np.unique(triangles, return_inverse=True)
     return points[used], inverse.reshape(triangles.shape)
 
 
 def outwards(given: Triangulation) -> Triangulation:
-    """The same surface, oriented consistently already, with its normals away from the axis."""
+    """The same consistently oriented surface, with normals away from the axis."""
     corners = given.points[given.triangles]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     middle = corners.mean(axis=1)

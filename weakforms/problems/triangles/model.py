@@ -3,7 +3,7 @@ r"""Weak form of a relaxed membrane on flat three-node triangles, without any sy
 .. math:: \Pi = \int H\, W(C)\,\mathrm dA + \int \Phi(z)\, N_z\,\mathrm dA, \qquad
           \Phi = -p z + \tfrac12 \gamma (z_w - z)_+^2
 
-over the mesh as reference surface; the unknown is the position of the nodes. ``W`` is the relaxed energy of
+with the mesh as reference surface. The unknown is the position of the nodes. ``W`` is the relaxed energy of
 :mod:`weakforms.forms.relaxed_surface`, ``H`` the thickness at a triangle's centroid. Lengths are divided by
 the radius, thicknesses by their mean ``h``, energies by ``C1 h`` (Patil, Nordmark & Eriksson 2016).
 """
@@ -42,7 +42,7 @@ RULES = {
 """Quadrature of the load on a triangle: edge midpoints, its centroid, three inner points, degree 6."""
 
 SAG = {1: 0.02, 2: 0.05}
-"""Departure of the first guess from the stretched reference surface, by its number of held edges."""
+"""Displacement of the first guess from the stretched reference surface, by its number of clamped edges."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +51,11 @@ class Body:
 
     Attributes:
         triangles: The reference surface.
-        M: Thickness over its mean at the lowest node; ``2 - M`` at the highest, linear between.
-        delta: Stretch of the heights of the held edges, from the lowest node.
-        Af: Radius of the held edges over that in the reference surface.
+        M: Thickness over its mean at the lowest node; it is ``2 - M`` at the highest, and linear between.
+        delta: Stretch of the heights of the clamped edges, from the lowest node.
+        Af: Radius of the clamped edges over that in the reference surface.
         c2: ``C2/C1``.
-        material: An incompressible law in the place of Mooney and Rivlin's.
+        material: An incompressible law that replaces the Mooney-Rivlin law.
         gamma: Weight of the liquid.
         rule: Quadrature of the load, see :data:`RULES`.
         potential: ``vertical``: the flux of ``Phi`` through the surface; ``horizontal``: the printed one.
@@ -72,15 +72,15 @@ class Body:
     material: Chosen | None = None
 
     def start(self) -> np.ndarray:
-        """First guess of the nodes' positions; its values at the held nodes are the prescribed ones.
+        """First guess of the nodes' positions; its values at the clamped nodes are the prescribed ones.
 
-        The reference surface with the supports' radius and stretch; bowls a little deeper than at rest.
+        It is the reference surface with the radius and stretch of the supports; bowls are a little deeper.
         """
         x, held = self.triangles.points.copy(), self.triangles.held
         z = x[:, 2]
         low, high = z.min(), z.max()
         s = (z - low) / (high - low)
-        if np.ptp(z[held]) > 0.5 * (high - low):  # both ends held
+        if np.ptp(z[held]) > 0.5 * (high - low):  # both ends clamped
             x[:, :2] *= self.Af
             x[:, 2] = low + self.delta * (z - low) * (1 + SAG[2] * (1 - s))
         else:
@@ -166,7 +166,7 @@ class SurfaceModel:
         blocks = np.flatnonzero(held[self.node]).astype(np.int32)
         return fem.dirichletbc(values, blocks)
 
-    # -- what is read off ------------------------------------------------------------------------
+    # -- values by node and triangle ------------------------------------------------------------------------
 
     def nodal(self, values: np.ndarray) -> np.ndarray:
         """A vector of owned degrees of freedom by node of the triangulation, ``(n, 3)``, on every rank."""
@@ -176,7 +176,7 @@ class SurfaceModel:
         return comm.allreduce(out, op=MPI.SUM) if comm.size > 1 else out
 
     def owned_of(self, nodal: np.ndarray) -> np.ndarray:
-        """The inverse: this rank's degrees of freedom of values by node."""
+        """The inverse of :meth:`nodal`: this rank's degrees of freedom from values by node."""
         return nodal[self.node[: self.owned]].ravel()
 
     def by_triangle(self) -> dict[str, np.ndarray]:
@@ -196,7 +196,7 @@ class SurfaceModel:
         return dict(zip(("lam1", "lam2", "state"), out.T, strict=True))
 
     def symmetric(self) -> Subspace:
-        """The equations among the positions that turn with ``Theta``."""
+        """The equations in the subspace of surfaces of revolution."""
         meridian = Meridian.of(self.body.triangles)
         nodes = self.node[: self.owned]
         basis, lift = subspace_of(meridian, self.body.start(), nodes, self.mesh.comm)

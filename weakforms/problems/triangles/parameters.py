@@ -1,4 +1,4 @@
-"""Parameters of the problem ``surface``: what each geometry takes, and the paper's values for it."""
+"""Parameters of the problem ``surface``, with the paper's values for each geometry."""
 
 from __future__ import annotations
 
@@ -19,22 +19,23 @@ DEFAULTS: dict[str, dict[str, Any]] = {
     "hemisphere": {"c2": 0.0, "gamma": 100 * PAPER_GAMMA},
     "file": {"M": 1.0, "delta": 1.0, "Af": 1.0, "c2": 0.0, "gamma": PAPER_GAMMA},
 }
-"""What each geometry takes, and its values where none are given: the paper's."""
+"""Parameters of each geometry with their default values, which are the paper's."""
 
 WALK = {
     ("tube", "fluid"): (0.5, 0.5, 10.5),
     ("tube", "gas"): (0.0, 0.0, 0.38),
     ("hemisphere", "fluid"): (-0.6, -0.5, -0.95),
 }
-"""Load at which the first state is solved for; first and last load shown where none are given."""
+"""Load of the first solve, and default first and last load of the branch."""
 
 ALLOWED = {("tube", "fluid"): (0.0, 100.0), ("hemisphere", "fluid"): (-1.05, -0.48)}
-"""Levels. A hemisphere has no state above its limit point near -0.478, and is all but empty below -1."""
+"""Fluid levels of a hemisphere: it has no state above its limit point near -0.478, and is almost empty below
+-1."""
 
 
 def _known(geometry: str) -> str:
     if geometry not in ("tube", "hemisphere") and Path(geometry).suffix.lower() not in SUFFIXES:
-        raise ValueError(f"'tube', 'hemisphere' or a file ending in {', '.join(SUFFIXES)} is wanted")
+        raise ValueError(f"'tube', 'hemisphere' or a file ending in {', '.join(SUFFIXES)} is required")
     return geometry
 
 
@@ -45,7 +46,7 @@ def _closes(columns: int) -> int:
 
 
 class SurfaceParameters(MaterialChoice):
-    """The membrane, its mesh (which is part of the question here) and its load."""
+    """The membrane, its mesh (on which results depend here) and its load."""
 
     ratio: ClassVar[str] = "c2"
 
@@ -67,9 +68,9 @@ class SurfaceParameters(MaterialChoice):
     c2: float | None = Field(None, ge=0, le=1, description="C2/C1 of mooney_rivlin (tube: 0.01, else 0)")
     L: float | None = Field(None, ge=1, le=40, description="tube: undeformed length (8)")
     Af: float | None = Field(
-        None, gt=0, le=3, description="radius of the held edges over the undeformed (tube: 0.4362)"
+        None, gt=0, le=3, description="radius of the clamped edges over the undeformed one (tube: 0.4362)"
     )
-    load: Literal["fluid", "gas"] = Field("fluid", description="what the membrane is filled with")
+    load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float | None = Field(None, gt=0, le=100, description="weight of the fluid; by default the paper's")
     rule: int = Field(1, ge=1, le=4, description="quadrature of the load: 1 edge midpoints, 2 centroid, ...")
     potential: Literal["vertical", "horizontal"] = Field(
@@ -89,7 +90,7 @@ class SurfaceParameters(MaterialChoice):
         return CONTROL[self.load]
 
     def filled(self) -> SurfaceParameters:
-        """The same with every default in place."""
+        """The same parameters with every default value."""
         start = WALK.get((self.kind, self.load), (None, None, None))
         own = DEFAULTS[self.kind] | {"load_start": start[1], "load_end": start[2]}
         missing = {name: value for name, value in own.items() if getattr(self, name) is None}
@@ -99,7 +100,7 @@ class SurfaceParameters(MaterialChoice):
         """The mesh.
 
         Raises:
-            InputError: For a file that holds no such surface.
+            InputError: If a file does not contain such a surface.
         """
         if self.kind == "tube":
             return tube(self.L or DEFAULTS["tube"]["L"], self.meridional, self.circumferential)
@@ -107,13 +108,13 @@ class SurfaceParameters(MaterialChoice):
 
 
 class SurfaceNumerics(Numerics):
-    """How the branch is walked; the mesh stands among the parameters."""
+    """Steps along the branch; the mesh is a parameter."""
 
     scan: int = Field(
         50, ge=1, le=2000, description="intervals of the load between states counted by inertia"
     )
-    shown: int = Field(5, ge=1, le=2000, description="every how many of them stand in the branch")
-    eigenvalues: int = Field(3, ge=0, le=20, description="lowest eigenvalues of the states shown")
+    shown: int = Field(5, ge=1, le=2000, description="interval between those that are points of the branch")
+    eigenvalues: int = Field(3, ge=0, le=20, description="number of lowest eigenvalues at each point")
     tolerance: float = Field(
-        1e-6, ge=1e-10, le=1e-2, description="bracket of a stability change, of the load"
+        1e-6, ge=1e-10, le=1e-2, description="load interval to which a stability change is narrowed"
     )

@@ -1,8 +1,8 @@
 """Problem ``surface`` (Paper 5): the relaxed membrane on flat triangles in space, its range of instability.
 
 Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315, print the unstable ranges that a finite
-element code found on the tube. Here such meshes are assembled in three dimensions, and stability is read off
-the inertia of the whole tangent: nothing is decomposed into waves.
+element code found on the tube. Here such meshes are assembled in three dimensions, and the inertia of the
+whole tangent decides on stability, without decomposition into waves.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ SCALES = {
     "M": "thickness at the lowest point over its mean (2 - M at the highest)",
     "delta": "axial pre-stretch",
     "c2": "C2/C1",
-    "C1": "of another model the stress S its constants are over (weakforms show material)",
+    "C1": "for another model the stress S by which its constants are divided (weakforms show material)",
     "L": "L_o/Ao",
-    "Af": "radius of the held edges over their undeformed one",
+    "Af": "radius of the clamped edges over their undeformed one",
     "gamma": "rho g Ao^2/(C1 h)",
     "rule": "of the load on a triangle: 1 edge midpoints, 2 centroid, 3 three inner points, 4 of degree 6",
     "zw": "level of the fluid over Ao, in the coordinate z of the reference surface",
@@ -56,16 +56,16 @@ SCALES = {
     "departure": "largest distance of a node from the equilibrium among surfaces of revolution over Ao",
     "Lambda_1": "lowest eigenvalue against the membrane's mass (density C1/(Ao g)) over g/Ao; 2, 3 alike",
     "n_negative": "negative eigenvalues of the whole tangent, by inertia",
-    "lower": "load at which a negative eigenvalue first appears along the walk",
-    "upper": "load at which the last one goes for good",
+    "lower": "load at which a negative eigenvalue first appears along the branch",
+    "upper": "load at which the last one disappears",
     "gaps": "stable intervals between them",
-    "n_lower": "waves around the axis of the critical mode at the lower end, as the mesh shows them",
-    "n_upper": "the same at the upper end",
-    "direction": "1 where instability begins along the walk, -1 where it ends",
-    "n": "waves around the axis of the critical mode, as the mesh shows them",
+    "n_lower": "waves around the axis of the critical mode at the lower end, on this mesh",
+    "n_upper": "waves around the axis of the critical mode at the upper end",
+    "direction": "1 if instability starts there along the branch, -1 if it ends",
+    "n": "waves around the axis of the critical mode, on this mesh",
     "Lambda_1_stable": "of a stability change: lowest eigenvalue at the stable end of its bracket (Lambda_1 "
     "is that at the unstable one); both near zero unless it jumps",
-    "unknowns": "degrees of freedom, held ones included",
+    "unknowns": "degrees of freedom, including prescribed ones",
 }
 
 
@@ -95,10 +95,10 @@ class Surface:
     control: ClassVar[str] = "zw (load = fluid) or p (gas)"
 
     def check(self, parameters: SurfaceParameters, requests: Requests) -> None:
-        """Refuse what the ranges of single parameters cannot; a file is read and looked at.
+        """Refuse wrong combinations of parameters; a file is read and checked.
 
         Raises:
-            InputError: Naming the value and what is allowed.
+            InputError: With a message that names the value and the allowed ones.
         """
         check_requests(self, requests)
         require_foldable(self.name, parameters, waves=True)
@@ -112,9 +112,9 @@ class Surface:
                 "surface: load = 'gas' is for the tube or a file; the hemisphere hangs full of fluid"
             )
         if full.load_start is None or full.load_end is None:
-            raise InputError("surface: a file needs load_start and load_end, the loads to walk between")
+            raise InputError("surface: a file needs load_start and load_end, the ends of the branch")
         if full.load_start == full.load_end:
-            raise InputError(f"surface: load_start = load_end = {full.load_end:g}; two loads are wanted")
+            raise InputError(f"surface: load_start = load_end = {full.load_end:g}; they must differ")
         _require_loads(full, requests)
         if kind == "file":
             given = parameters.triangles()
@@ -128,9 +128,9 @@ class Surface:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Walk the load, count negative eigenvalues, locate the ends of the unstable range.
+        """Follow the load, count negative eigenvalues, locate the ends of the unstable range.
 
-        The numbers are the mesh's own: only what is located carries an uncertainty.
+        The numbers belong to the mesh; only located points have an uncertainty.
         """
         begun = time.perf_counter()
         full = parameters.filled()
@@ -164,7 +164,7 @@ class Surface:
 
 
 def _require_loads(full: SurfaceParameters, requests: Requests) -> None:
-    """Loads within what the geometry has states for."""
+    """Refuse loads for which the geometry has no state."""
     low, high = ALLOWED.get((full.kind, full.load), (0.0, 100.0) if full.load == "gas" else (-1e6, 1e6))
     asked = [("load_start", full.load_start), ("load_end", full.load_end)]
     asked += [(r.name, r.value) for r in requests.states if r.name in CONTROL.values()]
@@ -179,7 +179,7 @@ def _require_loads(full: SurfaceParameters, requests: Requests) -> None:
 
 
 def _run(full: SurfaceParameters, comm: MPI.Intracomm) -> SurfaceRun:
-    """The discrete membrane, its walk begun at the load where a first guess is known to lead."""
+    """The discrete membrane, with a first state at a load for which the first guess converges."""
     own = {name: getattr(full, name) for name in ("M", "delta", "Af") if name in DEFAULTS[full.kind]}
     gamma = full.gamma if full.load == "fluid" else 0.0
     own |= {"c2": full.c2, "gamma": gamma, "rule": full.rule, "potential": full.potential}
@@ -190,7 +190,7 @@ def _run(full: SurfaceParameters, comm: MPI.Intracomm) -> SurfaceRun:
 
 
 def _walk(run: SurfaceRun, loads: np.ndarray, result: Result, progress: Progress) -> list[Point]:
-    """States at the loads as far as they are reached."""
+    """States at the loads, as far as they can be reached."""
     out = []
     for i, load in enumerate(loads):
         progress("equilibria", i, len(loads))
@@ -207,7 +207,7 @@ def _walk(run: SurfaceRun, loads: np.ndarray, result: Result, progress: Progress
 def _branch(
     run: SurfaceRun, reached: list[Point], numerics: SurfaceNumerics, result: Result, progress: Progress
 ) -> None:
-    """Columns of every so many states; one whose eigenvalues are not found is left out and listed."""
+    """Columns of a part of the states; a state whose eigenvalues are not found is left out and listed."""
     rows, points = [], reached[:: numerics.shown]
     for i, point in enumerate(points):
         progress("eigenvalues", i, len(points))
@@ -234,7 +234,7 @@ def _quantities(run: SurfaceRun, found: list[SpecialPoint], control: str) -> dic
 
 
 def _state(run: SurfaceRun, wanted: StateRequest, found: list[SpecialPoint], count: int) -> State:
-    """A state at a load, or at the ``value``-th stability change, with its fields where they are wanted."""
+    """A state at a load, or at the ``value``-th stability change, with its fields if requested."""
     load = wanted.value
     if wanted.name == "stability_change":
         if not wanted.value <= len(found):

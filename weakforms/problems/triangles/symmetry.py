@@ -1,9 +1,10 @@
-r"""Positions of a triangulated surface that turn with ``Theta``: :math:`x = Q(\Theta)\, \xi(S)`.
+r"""Positions of a triangulated surface that are surfaces of revolution: :math:`x = Q(\Theta)\, \xi(S)`.
 
-``Q`` is the rotation about the axis, ``xi`` the radial, hoop and axial position along one meridian. On a tube
-of rings, with a value of ``xi`` a ring, these are the ring-periodic positions: the rotation by one column of
-quadrilaterals maps the mesh onto itself, so that an equilibrium among them is one of the whole surface. On an
-unstructured mesh ``xi`` is a cubic spline, and an equilibrium among them is where Newton's method starts.
+``Q`` is the rotation about the axis, ``xi`` the radial, hoop and axial position along one meridian. On a
+structured tube, with one value of ``xi`` for each ring, these are the ring-periodic positions. A rotation by
+one column of quadrilaterals maps the mesh onto itself, so that an equilibrium among them is one of the whole
+surface. On an unstructured mesh ``xi`` is a cubic spline, and an equilibrium among these positions is the
+guess for Newton's method.
 """
 
 from __future__ import annotations
@@ -20,18 +21,18 @@ from weakforms.errors import InputError
 from weakforms.problems.triangles.meshes import Triangulation
 
 POLE = 1e-6
-"""Distance from the axis, over the largest radius, at which a node lies on it."""
+"""Largest distance from the axis, relative to the largest radius, of a node on the axis."""
 
 FINENESS = 1.5
-"""Length of a spline's interval over that of an edge, roughly."""
+"""Approximate length of a spline's interval over that of an edge."""
 
 ALIKE = 0.02
-"""Distance of the nodes from one meridian, over the height, up to which the surface is one of revolution."""
+"""Largest distance of the nodes from one meridian, relative to the height, for a surface of revolution."""
 
 
 @dataclass(frozen=True)
 class Meridian:
-    """Splines along the meridian, over a parameter in [0, 1] that every node has."""
+    """Splines along the meridian, over a parameter in [0, 1] of each node."""
 
     given: Triangulation
     parameter: np.ndarray
@@ -41,17 +42,17 @@ class Meridian:
 
     @classmethod
     def of(cls, given: Triangulation) -> Meridian:
-        """One value a ring, or cubic splines about as fine as the mesh.
+        """Splines for a mesh: one value for each ring, or cubic splines about as fine as the mesh.
 
-        The parameter is the height ``s`` over the lowest node; from a pole ``arccos(1 - s)``, which on a
-        hemisphere is the arc length.
+        The parameter is the height ``s`` above the lowest node; with a pole it is ``arccos(1 - s)``, which on
+        a hemisphere is the arc length.
 
         Raises:
-            InputError: For a flat surface.
+            InputError: If the surface is flat.
         """
         z, radius = given.points[:, 2], given.radius
         if np.ptp(z) < 1e-3 * radius.max():
-            raise InputError("surface: it is flat; a membrane whose meridian rises all along is wanted")
+            raise InputError("surface: it is flat; allowed: a membrane whose meridian rises everywhere")
         s = np.clip((z - z.min()) / np.ptp(z), 0.0, 1.0)
         if given.rings:
             nodes = np.arange(given.rings[0] + 1) / given.rings[0]
@@ -67,7 +68,7 @@ class Meridian:
         return csr_matrix(BSpline.design_matrix(self.parameter, self.knots, self.degree))
 
     def positions(self) -> csr_matrix:
-        """``Q(Theta) B``: positions node by node over radial, then hoop, then axial coefficients."""
+        """``Q(Theta) B``: positions of the nodes from radial, then hoop, then axial coefficients."""
         b = self._splines
         angle = self.given.angle[:, None]
         c, s = b.multiply(np.cos(angle)), b.multiply(np.sin(angle))
@@ -75,10 +76,10 @@ class Meridian:
         return by_component[np.arange(3 * b.shape[0]).reshape(3, -1).T.ravel()]
 
     def prescribed(self, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Which coefficients are prescribed, and all of them with zero for the others.
+        """Which coefficients are prescribed, and their values, with zero for the others.
 
         Args:
-            start: Positions of the nodes; those of the held ones count.
+            start: Positions of the nodes; only those of clamped nodes matter.
         """
         count = len(self.knots) - self.degree - 1
         fixed, values = np.zeros((3, count), dtype=bool), np.zeros((3, count))
@@ -94,10 +95,10 @@ class Meridian:
         return fixed.ravel(), values.ravel()
 
     def require_revolved(self, name: str) -> None:
-        """Refuse a surface whose nodes do not lie on one meridian turned about the ``z`` axis.
+        """Refuse a surface whose nodes do not lie on one meridian rotated about the ``z`` axis.
 
         Raises:
-            InputError: When they are further from the best one than :data:`ALIKE`.
+            InputError: If they are further from the best meridian than :data:`ALIKE`.
         """
         b = self._splines
         wrong = 0.0
@@ -107,7 +108,7 @@ class Meridian:
         share = wrong / np.ptp(self.given.points[:, 2])
         if share > ALIKE:
             raise InputError(
-                f"surface: geometry = {name} is no surface of revolution about the z axis with a rising "
+                f"surface: geometry = {name} is not a surface of revolution about the z axis with a rising "
                 f"meridian: nodes lie {share:.1e} of its height off one meridian; allowed: {ALIKE:g}"
             )
 
@@ -119,16 +120,17 @@ def _clamped(breaks: np.ndarray, degree: int) -> np.ndarray:
 def subspace_of(
     meridian: Meridian, start: np.ndarray, nodes: np.ndarray, comm: object
 ) -> tuple[PETSc.Mat, np.ndarray]:
-    """Basis and lift of the positions ``lift + P q`` that turn with ``Theta`` and keep the held nodes.
+    """Basis and lift of the surfaces of revolution ``lift + P q`` with prescribed clamped nodes.
 
     Args:
         meridian: The splines.
-        start: Positions of all nodes; those of the held ones are kept.
-        nodes: Nodes this rank owns.
+        start: Positions of all nodes; those of clamped nodes are prescribed.
+        nodes: Nodes that this rank owns.
         comm: Ranks.
 
     Returns:
-        ``P``, its rows this rank's degrees of freedom and zero where they are held; the lift there.
+        ``P``, with a row for each of this rank's degrees of freedom, zero where they are prescribed; and the
+        lift.
     """
     fixed, values = meridian.prescribed(start)
     rows = (3 * nodes[:, None] + np.arange(3)).ravel()
@@ -138,7 +140,7 @@ def subspace_of(
     free = csr_matrix(basis[:, ~fixed].multiply(~held[:, None]))
     free.eliminate_zeros()
     csr = (free.indptr.astype(PETSc.IntType), free.indices.astype(PETSc.IntType), free.data)
-    # Columns are spread evenly: PETSc decides.
+    # PETSc distributes the columns evenly.
     matrix = PETSc.Mat().createAIJ(((len(rows), None), (None, free.shape[1])), csr=csr, comm=comm)
     matrix.assemble()
     return matrix, lift

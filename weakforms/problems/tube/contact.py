@@ -2,7 +2,7 @@
 
 The half tube is mapped from two fixed intervals: the patch ``x in [0, 1]`` to ``Z in [0, z_f]``, the free
 part ``x in [1, 2]`` to ``Z in [z_f, l_f/2]``. The front ``z_f`` is a scalar unknown with the equation
-``rho(z_f) = s``, so no element ever holds the kink and the order of the elements is kept.
+``rho(z_f) = s``, so that the kink is never inside an element and the order of the elements is kept.
 
 In a stuck patch the axial position is not an unknown: ``eta = E(Z)``, where ``E'`` is a Chebyshev series
 (:class:`StuckHistory`). The unknown of the free part is then ``q = eta - E(z_f) (2 - x)``, zero at the front.
@@ -34,11 +34,11 @@ from weakforms.solvers.equilibrium.system import Formulation, System
 MIDPLANE, FRONT, DISK = 1, 2, 3
 
 UNILATERAL_QUADRATURE = 160
-"""Degree of quadrature where a unilateral spring's force has a kink inside a cell: what few points leave of
-it is most of what such a solution errs by on fine meshes, and falls with the square of their number."""
+"""Degree of quadrature where a unilateral spring's force has a kink inside a cell. The quadrature error at
+the kink dominates on fine meshes, and decreases with the square of the number of points."""
 
 FIRST_FRONT = 0.004
-"""Front at which contact begins to be followed, as a fraction of the half length; the patch opens at once."""
+"""Smallest front at which contact is followed, as a fraction of the half length."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class ContactData:
     span: float = 1.0
     """The series is over ``Z`` in ``[0, span]``."""
     unilateral: bool = False
-    """The spring of a stuck patch pushes only."""
+    """Whether the spring of a stuck patch only pushes."""
     material: Chosen | None = None
     """Law of the membrane; by default the paper's, with ``alpha``."""
 
@@ -77,7 +77,7 @@ def two_part_mesh(comm: MPI.Intracomm, cells: int, grading: float) -> Mesh:
 
 
 class ContactModel:
-    """Weak form of the tube with a front-fitted mesh, and the constants one may change.
+    """Weak form of the tube with a front-fitted mesh, with constants that can be changed.
 
     Loads: ``p``, ``front`` (``z_f``), ``k`` and ``delta1``; ``k = 0`` is the free tube.
     """
@@ -110,7 +110,7 @@ class ContactModel:
         return self.data.terms > 0
 
     def _in_patch(self, inside: Expr | float, outside: Expr | float) -> Expr:
-        """By cell, not by coordinate: at the front itself a coordinate does not tell the sides apart."""
+        """Indicator by cell, because at the front the coordinate does not distinguish the sides."""
         return ufl.conditional(ufl.gt(self.patch, 0.5), inside, outside)
 
     def locate(self, z: np.ndarray, loads: dict[str, float]) -> np.ndarray:
@@ -134,13 +134,13 @@ class ContactModel:
     # -- the stuck patch -----------------------------------------------------------------------
 
     def set_history(self, coefficients: np.ndarray) -> None:
-        """Give ``E'`` its series; ``E`` is its integral, zero at the mid-plane."""
+        """Set the series of ``E'``; ``E`` is its integral, zero at the mid-plane."""
         self.history = coefficients
         self.axial_slope.set(coefficients)
         self.axial.set(chebyshev.chebint(coefficients, lbnd=-1.0) * self.data.span / 2)
 
     def axial_position(self) -> tuple[Expr, Expr]:
-        """``(eta, deta/dx)``; in a stuck patch not the unknown's."""
+        """``(eta, deta/dx)``, in a stuck patch from the history."""
         x = ufl.SpatialCoordinate(self.mesh)[0]
         q = self.unknown[1]
         if not self.stuck:
@@ -208,8 +208,9 @@ class ContactModel:
                 "contact_length": 2 * ufl.avg(eta) * inner(FRONT),
             },
             maxima={"spring_max": abs(f_k), "t2_max_negative": -t2},
-            # |f_t| is largest at the front. It is taken there, one-sidedly, and not over all cells: where a
-            # unilateral spring lets go, second derivatives of the solution jump inside a cell.
+            # |f_t| is largest at the front. Its one-sided value there is used, not the maximum over all
+            # cells: where a unilateral spring goes slack, second derivatives of the solution jump inside a
+            # cell.
             derived={
                 "traction_max": lambda v: abs(v["f_t_front"]),
                 "line_force": lambda v: abs(v["jump"]),
@@ -243,7 +244,7 @@ class ContactModel:
         )
 
     def _one_sided(self, value: Expr) -> ufl.Form:
-        """Value at the front of something that is zero on the other side."""
+        """One-sided value at the front of an expression that is zero on the other side."""
         inner = ufl.Measure("dS", self.mesh, subdomain_data=self.tags)
         return (value("+") + value("-")) * inner(FRONT)
 
@@ -252,7 +253,7 @@ class ContactModel:
         disk = fem.locate_dofs_topological(space, 0, self.tags.find(DISK))
         axial = space.sub(1)
         if self.stuck:
-            mesh.topology.create_connectivity(1, 1)  # conditions are located through it
+            mesh.topology.create_connectivity(1, 1)  # needed to locate the conditions
             held = dmesh.locate_entities(mesh, 1, lambda x: x[0] <= 1.0 + 1e-12)
             dofs = fem.locate_dofs_topological(axial, 1, held)
         else:

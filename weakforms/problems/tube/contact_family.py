@@ -1,4 +1,4 @@
-"""Constrained inflation of the tube on a family of meshes: pieces, special points, failures."""
+"""Constrained inflation of the tube on a family of meshes: parts, special points, failures."""
 
 from __future__ import annotations
 
@@ -18,27 +18,28 @@ from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 from weakforms.solvers.uncertainty.refinement import Slow
 
 FIRST_TERMS, MORE_TERMS = 14, 4
-"""Terms of the stuck patch's series on the coarsest mesh, and how many each finer mesh adds."""
+"""Number of terms of the stuck patch's series on the coarsest mesh, and the increase for each finer mesh."""
 
 SERIES = Slow(size=6e-8, order=2.0)
-"""What the series leaves out, which falls by little from mesh to mesh."""
+"""Truncation error of the series, which decreases slowly from mesh to mesh."""
 
 LET_GO = Slow(size=1e-7, order=2.0)
-"""The same with what quadrature leaves of the kink of a unilateral spring's force, inside a cell."""
+"""The same with the quadrature error at the kink of a unilateral spring's force inside a cell."""
 
 TRACES = ("line_force", "line_force_membrane")
 SECOND = ("traction_front", "traction_max", "f_t")
-"""Columns that hold first derivatives at the edge of the patch: their order is the degree at most; and second
-derivatives. The curvature there follows from the balance of forces at a vertex: one order below energies."""
+"""Columns with first derivatives at the edge of the patch, whose order is at most the degree, and with second
+derivatives. The curvature there follows from the balance of forces at a vertex, with an order one below that
+of energies."""
 
 KINKED = (
     dict.fromkeys(("rho", "lam2"), 3.0)
     | dict.fromkeys(("lam1", "t1", "t2", "F_axial", "H", "f_k"), 2.0)
     | {"f_t": 1.0, "eigenvalue_1": 1.0}
 )
-"""Highest orders where a unilateral spring lets go inside a cell: at a point of profiles whose third
-derivative jumps there, and of eigenvalues, whose stiffness jumps itself: quadrature errs at first order, by
-where the place lies in its cell."""
+"""Highest orders if a unilateral spring goes slack inside a cell. Profiles have a jump in the third
+derivative there. For eigenvalues the stiffness itself jumps, and the quadrature error is of first order and
+depends on the position in the cell."""
 
 NO_PATCH = {
     name: 0.0
@@ -52,11 +53,11 @@ NO_PATCH = {
         "spring_max",
     )
 }
-"""Columns of the free part, where there is no patch."""
+"""Values of columns on the free part, where there is no patch."""
 
 
 class LettingGo(BranchFamily):
-    """That of a tube with a unilateral spring, which lets go inside a cell."""
+    """The family of a tube with a unilateral spring, which goes slack inside a cell."""
 
     least: ClassVar[Mapping[str, float]] = {"eigenvalue_1": 1.0}
 
@@ -64,7 +65,7 @@ class LettingGo(BranchFamily):
 def contact_family(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> PiecewiseFamily:
-    """The branch of a constrained tube: free and in contact, or deflating."""
+    """The branch of a constrained tube: free and in contact, or in deflation."""
     free = 2 * numerics.degree
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 

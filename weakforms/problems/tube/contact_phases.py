@@ -19,25 +19,25 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import State
 
 SWEEPS = 60
-"""Sweeps over the fronts before the history counts as not converged; about 15 are needed."""
+"""Largest number of sweeps over the fronts; about 15 are needed."""
 
 HISTORY_ACCURACY = 2e-11
-"""Largest defect of ``E'(z_f) = eta'(z_f+)`` accepted."""
+"""Largest accepted defect of ``E'(z_f) = eta'(z_f+)``."""
 
 LAST_FRONT = 0.999
-"""Front, as a fraction of the half length, beyond which contact is not followed."""
+"""Largest front, as a fraction of the half length, up to which contact is followed."""
 
 
 class ContactRun:
-    """All phases of the constrained tube on one mesh, each solved when first asked for.
+    """All phases of the constrained tube on one mesh; each is solved when it is first needed.
 
     Args:
         comm: Ranks.
         data: Tube, substrate and mesh.
         p_end: Pressure at which inflation ends and deflation begins.
         step: Largest arc-length step.
-        terms: Terms of the stuck patch's axial stretch. Refined together with the mesh, so that what the
-            series leaves out shows in the uncertainties.
+        terms: Number of terms of the stuck patch's axial stretch. It is refined together with the mesh, so
+            that the uncertainties include the truncation error.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class ContactRun:
         """Free inflation up to first touch.
 
         Raises:
-            ConvergenceError: When the branch ends before.
+            ConvergenceError: If the branch ends before.
         """
         branch = free_branch(self.slip.system, self.data.delta1, self._touch, self.step)
         last = branch.points[-1]
@@ -73,7 +73,7 @@ class ContactRun:
         """First touch.
 
         Raises:
-            InputError: When it comes after the pressure at which inflation ends.
+            InputError: If it comes after the pressure at which inflation ends.
         """
         last = self.free.points[-1]
         values = {**last.monitors, "p": last.state.loads["p"]}
@@ -87,7 +87,7 @@ class ContactRun:
 
     @cached_property
     def frictionless(self) -> FittedBranch:
-        """Frictionless contact, the front an unknown beside the pressure."""
+        """Frictionless contact, with the front as an unknown besides the pressure."""
         start = self.onset.state.copy()
         start.loads["k"] = self.data.k
         return self._follow(self.slip, start, self.p_end)
@@ -117,7 +117,7 @@ class ContactRun:
         branch = FittedBranch(continuation, "p", start, stop)
         end = branch.points[-1]
         if end.state.loads["p"] < p_end:
-            why = branch.stalled or f"there the patch holds {LAST_FRONT:g} of the tube's length"
+            why = branch.stalled or f"there the patch covers {LAST_FRONT:g} of the tube's length"
             branch.stalled = (
                 f"contact was followed up to p = {end.state.loads['p']:.6g}, not p_end = {p_end:g}: "
                 f"{yielding(end) if yields(end) else why}"
@@ -131,12 +131,12 @@ class ContactRun:
         r"""The stuck model with its history.
 
         While the patch grows there is no line force at its front, so the position frozen there continues
-        the free part with its slope: :math:`E'(z_f) = \eta'(z_f^+)` at every front. Collocated at Chebyshev
-        points ``z_j`` of the patch at ``p_end``, the condition is iterated: each sweep solves one
-        front-fitted problem a ``z_j`` with the last ``E`` and takes the slopes found for the next.
+        the free part with its slope: :math:`E'(z_f) = \eta'(z_f^+)` at every front. This condition is
+        collocated at Chebyshev points ``z_j`` of the patch at ``p_end``, and iterated: each sweep solves one
+        front-fitted problem for each ``z_j`` with the last ``E``, and uses the slopes for the next sweep.
 
         Raises:
-            ConvergenceError: When the sweeps do not converge.
+            ConvergenceError: If the sweeps do not converge.
         """
         span = self._reached(self.frictionless).state.loads["front"]
         model = ContactModel(self.comm, replace(self.data, terms=self.terms, span=span))
@@ -158,7 +158,7 @@ class ContactRun:
         raise ConvergenceError(f"history of the stuck patch: defect {defect:.1e} after {SWEEPS} sweeps")
 
     def _slipped(self, front: float) -> Solved:
-        """Frictionless contact with the edge of the patch at a place, before the first point traced too."""
+        """Frictionless contact with the edge of the patch at a position, even before the traced ones."""
         trace = self.frictionless
         first = trace.points[0].state
         return trace.near(first, "front", front) if front < first.loads["front"] else trace.at("front", front)
@@ -167,7 +167,7 @@ class ContactRun:
         """The state at ``p_end``.
 
         Raises:
-            ConvergenceError: When the branch ends before.
+            ConvergenceError: If the branch ends before.
         """
         if len(branch.crossings("p", self.p_end)):
             return branch.at("p", self.p_end)
@@ -197,7 +197,7 @@ class ContactRun:
         solver = ExtendedNewton(model.system, ["p"])
         continuation = Continuation(solver, control=self._steps(4))
         start = continuation.start(state, Held("p", self.p_end), towards={"p": -1.0})
-        # With a spring that does not pull, a tube without pre-stretch goes slack, as a free one does.
+        # With a unilateral spring, a tube without pre-stretch goes slack, as a free tube does.
         slack = FIRST_U if self.data.unilateral and self.data.delta1 < TAUT else -np.inf
 
         def stop(point: CurvePoint) -> bool:
@@ -216,6 +216,6 @@ def stick_guess(model: ContactModel, slipped: Solved) -> State:
     axial = np.arange(len(u)) % 2 == 1
     outside = axial & (x > 1 + 1e-12)
     u[axial & ~outside] = 0.0
-    # Lifted by its own position of the front, not by E: the two differ, and a jump would be torn there.
+    # Shifted by its own position of the front; E differs from it and would cause a jump.
     u[outside] -= slipped.values["contact_length"] / 2 * (2 - x[outside])
     return State(u, dict(slipped.state.loads))

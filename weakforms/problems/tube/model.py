@@ -34,21 +34,22 @@ from weakforms.solvers.equilibrium.system import Formulation, State, System
 MIDPLANE, DISK, FAR_DISK = 1, 2, 3
 
 WALK_FROM = 1.3
-"""Pre-stretch at which the walk to a first state begins. At ``delta1 = 1`` and ``p = 0`` the tube is slack
-(its tangent singular), and a guess of one's own may converge to a folded state."""
+"""Pre-stretch at which the steps to a first state start. At ``delta1 = 1`` and ``p = 0`` the tube is slack
+and its tangent singular, and a direct guess may converge to a folded state."""
 
 FIRST_U = 0.02
-"""Mid-plane displacement of the first state of a tube that is slack without pressure, or nearly so."""
+"""Mid-plane displacement of the first state, if the tube without pressure is slack or nearly slack."""
 
 TAUT = 1.02
-"""Pre-stretch from which the branch begins at ``p = 0`` (the layer at the disk is then resolved)."""
+"""Pre-stretch above which the branch starts at ``p = 0`` (the layer at the disk is then resolved)."""
 
 STEEPEST = 1 - 1e-6
-"""Share of the pressure in the direction of the branch beyond which the membrane counts as inextensible: a
-law of limited stretch is nearly at its limit, and the branch goes on to any pressure."""
+"""If the pressure's share in the direction of the branch exceeds this, the membrane is nearly inextensible: a
+law of limited stretch is nearly at its limit, and the branch continues to any pressure."""
 
 LEAST_RESISTANCE = 0.02
-"""``lam1 w,11 / w,1`` at the mid-plane below which no mesh resolves the meridional stretch there."""
+"""Lower limit of ``lam1 w,11 / w,1`` at the mid-plane; below it no mesh resolves the meridional stretch
+there."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class TubeMesh:
 
 
 def potential(rho: Expr, eta: Expr, p: Expr, law: Law, delta1: Expr) -> Expr:
-    r"""Total potential per meridian coordinate ``Z`` and per :math:`2\pi C_1 h_o R_f^2`.
+    r"""Total potential per unit of ``Z`` and over :math:`2\pi C_1 h_o R_f^2`.
 
     .. math:: \Pi/2\pi = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
               - \frac p2 \rho^2 \eta_{,Z} \Big] \mathrm{d}Z
@@ -79,7 +80,7 @@ def formulation(
 ) -> Formulation:
     """Weak form of free inflation, with the pressure and the pre-stretch as loads.
 
-    A number for a material is the C2/C1 of the paper's own.
+    If the material is a number, it is C2/C1 of the paper's Mooney-Rivlin law.
     """
     half = lf / 2
     mesh = graded_interval(comm, at.cells, half, at.grading, mirrored=at.full)
@@ -117,11 +118,12 @@ def formulation(
 
 
 def resistance(law: Law, stretches: Stretches) -> Expr:
-    r"""``λ₁ w,₁₁ - LEAST_RESISTANCE w,₁``: negative where the law hardly resists more meridional stretch.
+    r"""``λ₁ w,₁₁ - LEAST_RESISTANCE w,₁``: negative if the law hardly resists more meridional stretch.
 
-    Of free inflation :math:`H = w - \lambda_1 w_{,1}` is constant, and :math:`dH = -\lambda_1 w_{,11}` per
-    stretch: where that is nearly nothing (a law of linear growth, as Varga's), the stretch of the mid-plane
-    grows without bound at a finite displacement, and beyond it there is no solution of finite stretch.
+    In free inflation :math:`H = w - \lambda_1 w_{,1}` is constant, and its derivative with respect to the
+    stretch is :math:`-\lambda_1 w_{,11}`. If this is nearly zero (for laws of linear growth, such as
+    Varga's), the stretch of the mid-plane becomes unbounded at a finite displacement, and beyond it there is
+    no solution of finite stretch.
     """
     l1 = ufl.variable(stretches.lam1)
     slope = ufl.diff(law(l1, stretches.lam2), l1)
@@ -129,7 +131,7 @@ def resistance(law: Law, stretches: Stretches) -> Expr:
 
 
 def _profile(unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr, law: Law) -> dict[str, Expr]:
-    r"""Columns along the meridian, among them the two first integrals of free inflation.
+    r"""Columns along the meridian, including the two first integrals of free inflation.
 
     .. math:: F = r_0 w_{,1}\cos\beta - \tfrac12 p\rho^2, \qquad H = w - \lambda_1 w_{,1}
     """
@@ -150,7 +152,7 @@ def _profile(unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr,
 
 
 def _midplane(mesh: Mesh, full: bool) -> Callable[[Expr], ufl.Form]:
-    """Point evaluation at ``Z = 0`` as a form: every rank gets it by the same reduction as an integral."""
+    """Value at ``Z = 0`` as a form, so that every rank gets it like an integral."""
     tags = tag_points(mesh, {MIDPLANE: 0.0})
     if full:
         inner = ufl.Measure("dS", mesh, subdomain_data=tags)
@@ -175,12 +177,12 @@ def _clamps(space: fem.FunctionSpace, half: float, full: bool) -> list[fem.Diric
 
 
 def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
-    """First state of the branch and what holds it: unloaded where the tube is taut, else slightly inflated.
+    """First state of the branch and its condition: unloaded if the tube is taut, else slightly inflated.
 
-    The latter is reached by walking down in the pre-stretch from a taut tube.
+    The latter is reached from a taut tube by decreasing the pre-stretch in steps.
 
     Raises:
-        InputError: For a pre-stretch beyond the largest stretch of the law.
+        InputError: If the pre-stretch is beyond the largest stretch of the law.
     """
     system = solver.system
     state = system.state()
@@ -200,7 +202,7 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
 
 
 def free_branch(system: System, delta1: float, u_end: float, step: float) -> EquilibriumBranch:
-    """Free inflation at fixed pre-stretch by arc-length, up to ``u_max = u_end``."""
+    """Free inflation at fixed pre-stretch by arc length, up to ``u_max = u_end``."""
     solver = ExtendedNewton(system, ["p"])
     continuation = Continuation(solver, control=StepControl(first=step / 4, largest=step))
     state, held = first_state(solver, delta1)
@@ -214,7 +216,7 @@ def free_branch(system: System, delta1: float, u_end: float, step: float) -> Equ
     if yields(last):
         branch.stalled = f"free inflation ends: {yielding(last)}"
     elif last.monitors["u_max"] < u_end:
-        why = branch.stalled or "there the membrane is all but inextensible"
+        why = branch.stalled or "there the membrane is nearly inextensible"
         branch.stalled = (
             f"free inflation was followed up to u_max = {last.monitors['u_max']:.6g}, "
             f"p = {last.state.loads['p']:.6g}: {why}"
@@ -223,12 +225,12 @@ def free_branch(system: System, delta1: float, u_end: float, step: float) -> Equ
 
 
 def yields(point: CurvePoint) -> bool:
-    """Whether the law hardly resists the meridional stretch of the mid-plane (:func:`resistance`)."""
+    """Whether the law hardly resists more meridional stretch at the mid-plane (:func:`resistance`)."""
     return point.monitors["resistance"] < 0
 
 
 def yielding(point: CurvePoint) -> str:
-    """What happens there, for people."""
+    """Explanation of this end of the branch, as text."""
     return (
         f"at u_max = {point.monitors['u_max']:.6g} the law hardly resists meridional stretch any more "
         f"({point.monitors['lam1_mid']:.3g} at the mid-plane), which grows without bound from there on"
@@ -236,11 +238,11 @@ def yielding(point: CurvePoint) -> str:
 
 
 def fold_line(branch: EquilibriumBranch, ends: tuple[float, float], step: float) -> FoldLine:
-    """The first limit point of a branch followed in ``delta1``, until it returns or reaches an end.
+    """The first limit point of a branch, followed in ``delta1`` until it returns or reaches an end.
 
     Args:
         branch: Free inflation at one of the ends.
-        ends: Pre-stretches between which the line is followed.
+        ends: Range of pre-stretches of the line.
         step: Largest arc-length step.
     """
     begin = branch.special()[0].state

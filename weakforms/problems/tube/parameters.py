@@ -11,7 +11,7 @@ from weakforms.problems.material_choice import MaterialChoice
 
 
 class TubeNumerics(MeshNumerics):
-    """Meshes of the tube: ``cells`` on the half length of the finest, halved for each coarser level."""
+    """Meshes of the tube: ``cells`` on the finest half length, half as many on each coarser level."""
 
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
 
@@ -35,11 +35,11 @@ class TubeParameters(MaterialChoice):
 
 
 class TubeFoldParameters(MaterialChoice):
-    """Free tube whose limit points are followed in the pre-stretch."""
+    """A free tube, whose limit points are followed over the pre-stretch."""
 
     ratio: ClassVar[str] = "alpha"
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
     lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
     delta1_end: float = Field(3.0, gt=1, le=5, description="pre-stretch at which the line ends")
-    u_end: float = Field(5.0, gt=0.05, le=10, description="u_max up to which a first fold is looked for")
+    u_end: float = Field(5.0, gt=0.05, le=10, description="u_max up to which a first limit point is searched")

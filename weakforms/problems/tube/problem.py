@@ -1,4 +1,4 @@
-"""Problems ``tube`` and ``tube_fold``: parameters, and solves that answer requests."""
+"""Problems ``tube`` and ``tube_fold``: parameters and branches."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ SCALES = {
     "contact_length": "deformed length of the whole patch over R_f",
     "lam2_mid": "circumferential stretch at the mid-plane, 1",
     "line_force": "axial line force at the edge of the patch over C1 h_o (equation 22)",
-    "line_force_membrane": "the same without the jump of the spring's term",
+    "line_force_membrane": "axial line force without the jump of the spring's term over C1 h_o",
     "traction_front": "|f_t| at the front, inside, times R_f/(C1 h_o)",
     "traction_max": "largest axial traction |f_t| of the substrate times R_f/(C1 h_o)",
     "spring_max": "largest radial spring density |f_k| times R_f/(C1 h_o)",
@@ -72,18 +72,18 @@ DERIVED_COLUMNS = (
     "spring_max",
     "t2_min",
 )
-"""Columns of constrained inflation that can be read, not prescribed."""
+"""Columns of constrained inflation that cannot be prescribed."""
 
 CONTACT_COLUMNS = ("Z_front", "contact_length", "lam2_mid", "kappa", *DERIVED_COLUMNS)
 """Columns of constrained inflation only."""
 
 
 SCANNED = 17
-"""Pre-stretches at which a limit point is looked for before a fold line counts as absent."""
+"""Number of pre-stretches at which a limit point is searched."""
 
 
 class Tube(PathProblem):
-    """Inflation of a pre-stretched cylindrical membrane (contact law ``none``)."""
+    """Inflation of a pre-stretched cylindrical membrane, free or constrained by a substrate."""
 
     name: ClassVar[str] = "tube"
     title: ClassVar[str] = "Inflation of a pre-stretched cylindrical membrane"
@@ -108,13 +108,15 @@ class Tube(PathProblem):
     derived = DERIVED_COLUMNS
     special_points = ("limit_point", "bifurcation_point", "contact_onset")
     branches = ("primary",)
-    control: ClassVar[str] = "p (past a limit point compare over u_max, which rises all along the branch)"
+    control: ClassVar[str] = (
+        "p (past a limit point compare over u_max, which increases along the whole branch)"
+    )
 
     def check(self, parameters: TubeParameters, requests: Requests) -> None:
-        """Refuse what the ranges of single parameters cannot.
+        """Refuse wrong combinations of parameters and requests.
 
         Raises:
-            InputError: For a contact law or phase that is not there, or a state nobody could solve for.
+            InputError: If phase or extent do not fit the contact, or a state cannot exist.
         """
         check_requests(self, requests)
         if parameters.contact == "none" and parameters.phase == "deflation":
@@ -187,10 +189,10 @@ class TubeFold(PathProblem):
     columns = ("delta1", *(c for c in Tube.columns if c not in CONTACT_COLUMNS))
     special_points = ("cusp_point",)
     branches = ("primary",)
-    control: ClassVar[str] = "delta1 (past the cusp compare over u_max, which rises all along the line)"
+    control: ClassVar[str] = "delta1 (past the cusp compare over u_max, which increases along the whole line)"
 
     def check(self, parameters: TubeFoldParameters, requests: Requests) -> None:
-        """Refuse states nobody could solve for."""
+        """Refuse requests for states that cannot exist."""
         check_requests(self, requests)
 
     def families(
@@ -230,10 +232,10 @@ class TubeFold(PathProblem):
 
 
 def _fold_start(parameters: TubeFoldParameters, has_limit_point: Callable[[float], bool]) -> float:
-    """Pre-stretch at which a fold line is begun: 1, or else ``delta1_end``.
+    """Pre-stretch at which a fold line starts: 1, or else ``delta1_end``.
 
     Raises:
-        InputError: When no limit point is there; says what was searched.
+        InputError: If there is no limit point; the message says which range was searched.
     """
     low, high = 1.0, parameters.delta1_end
     for delta1 in (low, high):
@@ -254,7 +256,7 @@ def _fold_start(parameters: TubeFoldParameters, has_limit_point: Callable[[float
 
 
 def _named(chosen: Chosen) -> str:
-    """A law and its constants, for people."""
+    """A law and its constants as text."""
     model = () if chosen.model == MOONEY_RIVLIN else (f"model = {chosen.model}",)
     return ", ".join((*model, *(f"{name} = {value:g}" for name, value in chosen.constants)))
 

@@ -1,17 +1,16 @@
-"""Paper 2's own way through contact, on a fixed mesh: pressure steps, and the front from node to node.
+"""Paper 2's schemes for contact on a fixed mesh: pressure steps, and the front from node to node.
 
-Here the contact indicator is ``rho > s`` itself, a conditional in the residual whose derivative jumps
-(semi-smooth Newton), and sticking nodes keep their axial position. Three schemes:
+Here the contact indicator is ``rho > s``, a conditional in the residual whose derivative jumps (semi-smooth
+Newton). Sticking nodes keep their axial position. There are three schemes:
 
 - ``semismooth``: frictionless contact at the last pressure, by pressure steps;
-- ``pressure_steps``: the printed rule: after each converged pressure step every node with ``rho > s`` keeps
+- ``pressure_steps``: the printed rule; after each converged pressure step every node with ``rho > s`` keeps
   its axial position in all later steps. Nodes that touch within a step move without friction until its end;
-- ``front_nodes``: the pressure is an unknown; each node in turn is made to touch, ``rho(z_i) = s``, and
-  stick.
+- ``front_nodes``: the pressure is an unknown; one node after the other touches, ``rho(z_i) = s``, and sticks.
 
-All are of first order or so where the fitted mesh of :mod:`weakforms.problems.tube.contact` is not; they
-are here to show that they tend to the same limit. The history is per node: each rank runs the whole of this
-small problem.
+All are of about first order, unlike the fitted mesh of :mod:`weakforms.problems.tube.contact`. They show
+convergence to the same limit. The history is stored per node, and each rank solves the whole of this small
+problem.
 """
 
 from __future__ import annotations
@@ -52,7 +51,7 @@ MIDPLANE, DISK = 1, 2
 
 
 class SchemeParameters(Parameters):
-    """Constrained tube and the scheme that carries it through contact."""
+    """Constrained tube and the scheme for its contact."""
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")
@@ -61,7 +60,7 @@ class SchemeParameters(Parameters):
     s: float = Field(1.3, gt=1, le=20, description="substrate radius S/R_f")
     p_end: float = Field(3.0, gt=0, le=20, description="pressure at which inflation ends")
     scheme: Literal["semismooth", "pressure_steps", "front_nodes"] = Field(
-        "front_nodes", description="how contact is advanced"
+        "front_nodes", description="scheme for the contact"
     )
 
 
@@ -80,7 +79,8 @@ class FixedMesh:
 
     system: System
     radial: np.ndarray
-    """Degrees of freedom of ``rho`` this rank owns, from the mid-plane outwards; ``eta`` follows each."""
+    """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; that of ``eta`` follows
+    each."""
     parameters: SchemeParameters
     _held: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     _at: np.ndarray = field(default_factory=lambda: np.empty(0))
@@ -148,7 +148,7 @@ class FixedMesh:
         return state
 
     def front_nodes(self, state: State) -> State:
-        """Node after node made to touch and stuck, then the last pressure."""
+        """One node after the other touches and sticks; then the last pressure is solved for."""
         solver = ExtendedNewton(self.system, ["p"], max_iterations=60)
         for i in range(len(self.radial) - 1):
             row = np.zeros(self.system.size)
@@ -168,7 +168,7 @@ class FixedMesh:
         self.system.hold(self._held, self._at)
 
     def outcome(self, state: State) -> dict[str, float]:
-        """``u_max`` and contact length, the front linear between the nodes around it."""
+        """``u_max`` and contact length, with linear interpolation of the front between nodes."""
         rho, eta = state.u[self.radial], state.u[self.radial + 1]
         last = int(np.flatnonzero(rho > self.parameters.s)[-1])
         share = (rho[last] - self.parameters.s) / (rho[last] - rho[last + 1])
@@ -177,7 +177,7 @@ class FixedMesh:
 
 
 class TubeScheme:
-    """The constrained tube carried through contact on a fixed mesh."""
+    """The constrained tube in contact, on a fixed mesh."""
 
     name: ClassVar[str] = "tube_scheme"
     title: ClassVar[str] = "Contact of the tube by the paper's schemes on a fixed mesh"
@@ -193,7 +193,7 @@ class TubeScheme:
     control: ClassVar[str] = "p; the quantities u_max and contact_length are at p_end"
 
     def check(self, parameters: SchemeParameters, requests: Requests) -> None:
-        """Refuse states: the scheme ends at ``p_end``, which is the only one."""
+        """Refuse requests for states; the only state is that at ``p_end``."""
         check_requests(self, requests)
 
     def solve(
@@ -204,7 +204,7 @@ class TubeScheme:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Run the scheme on two meshes (and numbers of steps); uncertainties are of first order."""
+        """Run the scheme on two meshes (and numbers of steps); uncertainties assume first order."""
         alone = MPI.COMM_SELF if comm.size > 1 else comm
 
         def run(coarser: int) -> dict[str, float]:

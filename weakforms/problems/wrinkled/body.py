@@ -10,19 +10,19 @@ from typing import Any
 import ufl
 
 SHARED = ("p", "zw", "gamma", "c2", "residual_stiffness")
-"""Parameters every body has: gas pressure, level and weight of the liquid, C2/C1, the homotopy's ``eps``."""
+"""Parameters of every body: gas pressure, level and weight of the liquid, C2/C1, ``eps`` of the homotopy."""
 
 Values = Mapping[str, Any]
-"""Parameters by name: numbers, or expressions in a form."""
+"""Parameters by name: numbers, or expressions of a form."""
 
 
 @dataclass(frozen=True)
 class Body:
-    """A membrane of revolution and how it is held; all functions work on numbers and on expressions."""
+    """A membrane of revolution and its supports; all functions accept numbers and expressions."""
 
     name: str
     parameters: tuple[str, ...]
-    """Names of its own parameters, beside :data:`SHARED`."""
+    """Names of its parameters besides :data:`SHARED`."""
     length: Callable[[Values], Any]
     """Meridional length of the reference surface."""
     radius: Callable[[Any, Values], Any]
@@ -30,11 +30,11 @@ class Body:
     thickness: Callable[[Any, Values], Any]
     """Thickness ``H(S)`` over its mean."""
     shape: Callable[[Any, Values], tuple[Any, Any]]
-    """``(r/R, z)`` that the unknowns are counted from; it has the values prescribed at the ends."""
+    """Shape ``(r/R, z)`` from which the unknowns are measured; it has the prescribed values at the ends."""
     held: tuple[tuple[bool, bool], tuple[bool, bool]] = ((True, True), (True, True))
-    """Whether ``r`` and ``z`` are held at the first and at the last end; at a pole ``r`` is 0 anyhow."""
+    """Whether ``r`` and ``z`` are prescribed at the first and at the last end; at a pole ``r`` is 0."""
     easy: tuple[tuple[str, float], ...] = ()
-    """Parameters at which the shape is near an unloaded state: where the walk to any other begins."""
+    """Parameters at which the shape is near an unloaded state, the start of the steps to other parameters."""
     pole: bool = False
     """Whether the first end lies on the axis."""
 
@@ -45,8 +45,8 @@ def _cylinder_thickness(s: Any, q: Values) -> Any:
 
 
 SAG = 0.05
-"""Departure of the cylinder's shape from the stretched one: no state has a displacement of zero, to which no
-Newton step could be relative."""
+"""Difference between the cylinder's shape and the stretched one. Without it a state could have zero
+displacement, and a Newton step could not be relative to that."""
 
 
 def _cylinder_shape(s: Any, q: Values) -> tuple[Any, Any]:
@@ -62,10 +62,11 @@ CYLINDER = Body(
     shape=_cylinder_shape,
     easy=(("M", 1.0),),
 )
-"""Paper 4: lengths over the undeformed radius; both ends held at radius ``Af`` and stretched by ``delta``."""
+"""Paper 4: lengths over the undeformed radius; both ends are clamped at radius ``Af`` and stretched by
+``delta``."""
 
 DEEPER = 1.02
-"""Depth of the hemisphere's shape: no Newton step could be relative to a displacement of zero."""
+"""Depth of the hemisphere's shape, so that no state has zero displacement."""
 
 HEMISPHERE = Body(
     name="hemisphere",
@@ -77,5 +78,5 @@ HEMISPHERE = Body(
     held=((False, False), (True, True)),
     pole=True,
 )
-"""Paper 5: hangs from its equator, lengths over its radius; ``S = t`` is the angle from the pole, ``z``
-counts from the equator's plane upwards."""
+"""Paper 5: it hangs from its equator. Lengths are divided by its radius, ``S = t`` is the angle from the
+pole, and ``z`` is measured upwards from the plane of the equator."""

@@ -1,4 +1,4 @@
-"""A branch of wrinkled states: traced on a plain mesh, its states solved on meshes fitted to their zones."""
+"""A branch of wrinkled states: traced on a plain mesh, with states on meshes fitted to their zones."""
 
 from __future__ import annotations
 
@@ -22,27 +22,29 @@ from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.uncertainty.family import CRITICAL
 
 NEAR_TURN = 2
-"""Points around a limit load at which the volume is held in place of the load."""
+"""Number of points around a limit load at which the volume is prescribed instead of the load."""
 
 PAST_LIMIT = 0.8
-"""A branch ends past a limit load when the load has fallen to this share of it."""
+"""After a limit load a branch ends when the load has decreased to this fraction of it."""
 
 MARGIN = 0.1
-"""How much farther than its neighbours on the trace a limit load is looked for, over their distance."""
+"""The search for a limit load extends beyond its neighbours on the trace by this fraction of their
+distance."""
 
 PREDICTOR = 2e-2
-"""Distance of predictor and solution aimed at on the plain mesh: the tangent jumps where zones change."""
+"""Target distance between predictor and solution on the plain mesh, where the tangent jumps when zones
+change."""
 
 
 class WrinkledBranch:
-    """States of a membrane over its load, from none to an end, on a family of meshes.
+    """States of a membrane over its load, from zero to an end, on a family of meshes.
 
     Args:
-        membrane: Solves for single states.
+        membrane: Object that solves for single states.
         load_end: Load at which the branch ends.
-        volume_end: Volume, over the unloaded one, at which it ends if the load does not get there.
+        volume_end: Volume, relative to the unloaded one, at which it ends if it does not reach this load.
         step: Largest arc-length step of the trace.
-        readings: What is read off its states; the wave numbers whose stability is judged.
+        readings: Post-processing of its states, with the wave numbers of the stability analysis.
     """
 
     name = "primary"
@@ -55,13 +57,13 @@ class WrinkledBranch:
         self._settings = (load_end, volume_end, step)
         self._failures: list[Failure] = []
         self.fronts: list[SpecialPoint] = []
-        """Fronts of the states asked for so far, on the way."""
+        """Fronts of the states requested so far."""
 
     # -- the trace on the plain mesh -----------------------------------------------------------
 
     @cached_property
     def trace(self) -> SolutionCurve:
-        """The branch on the finest plain mesh, by arc-length from the unloaded state."""
+        """The branch on the finest plain mesh, by arc length from the unloaded state."""
         load_end, volume_end, step = self._settings
         steps = StepControl(first=step / 8, largest=step, predictor_error=PREDICTOR)
         continuation = Continuation(solver_of(self.membrane.plain_model, (self.control,)), control=steps)
@@ -78,18 +80,18 @@ class WrinkledBranch:
         return SolutionCurve(continuation, self.control, start, stop)
 
     def _is_past_limit(self, load: float, peak: float) -> bool:
-        """Whether the load has fallen so far from its largest that the branch ends."""
+        """Whether the load has decreased so far from its largest value that the branch ends."""
         return load < PAST_LIMIT * peak
 
     def _start(self, continuation: Continuation) -> CurvePoint:
-        """Where the trace begins: without load."""
+        """The start of the trace: no load."""
         state, _ = self.membrane.by_homotopy(0.0)
         unloaded = fixed.Held(self.control, 0.0)
         return continuation.start(state, unloaded, towards={self.control: 1.0})
 
     @property
     def failures(self) -> list[Failure]:
-        """What did not converge."""
+        """Solves that did not converge."""
         stalled = self.trace.stalled
         return [*([Failure(f"branch {self.name}", stalled)] if stalled else []), *self._failures]
 
@@ -97,14 +99,14 @@ class WrinkledBranch:
 
     @property
     def quadrature_degree(self) -> int:
-        """Of the residual, as it is solved."""
+        """Quadrature degree of the residual."""
         return quadrature_degree(self.membrane.plain_model.system.formulation.residual)
 
     def near(self, name: str, value: float, crossing: int = 1) -> Solved:
         """The state of the plain mesh at a value of a column.
 
         Raises:
-            InputError: When the column does not take the value that often.
+            InputError: If the column does not take the value that often.
         """
         trace = self.trace
         self.membrane.prepare()
@@ -118,7 +120,7 @@ class WrinkledBranch:
 
     @cached_property
     def _fine(self) -> list[tuple[int, Held]]:
-        """Fitted states at the points of the trace; one that fails is listed and left out."""
+        """Fitted states at the points of the trace; a failed one is listed and left out."""
         kept = []
         for i, (solved, name) in enumerate(self._prescribed()):
             try:
@@ -130,7 +132,7 @@ class WrinkledBranch:
         return kept
 
     def _fine_state(self, solved: Solved, name: str, before: Held | None) -> Held:
-        """A state on the finest mesh, from the plain mesh's or else from the one before it."""
+        """A state on the finest mesh, from that on the plain mesh or else from the state before it."""
         try:
             return self._fitted(solved, name, fine_only=True)[0]
         except ConvergenceError:
@@ -139,7 +141,7 @@ class WrinkledBranch:
             return self.membrane.fitted(before, fixed.Held(name, solved.values[name]), fine_only=True)[0]
 
     def _prescribed(self) -> list[tuple[Solved, str]]:
-        """What is held at each point of the trace: its load, or past a limit load its volume."""
+        """The column prescribed at each point of the trace: its load, or near a limit load its volume."""
         turns, out = self.trace.turns(), []
         first = turns[0] if len(turns) else len(self.trace.points)
         for i, point in enumerate(self.trace.points):
@@ -148,7 +150,7 @@ class WrinkledBranch:
         return out
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
-        """All columns over the points of the trace, each number with its uncertainty if wanted."""
+        """All columns over the points of the trace, with uncertainties if requested."""
         fine = [(i, self._all_columns(held) | self.readings.diagnostics(held)) for i, held in self._fine]
         names = list(fine[0][1])
         columns = {n: np.array([row[n] for _, row in fine]) for n in names}
@@ -171,7 +173,7 @@ class WrinkledBranch:
         return self.readings.without_fronts(held) | self.readings.eigenvalues(held)
 
     def _levels(self, i: int, held: Held) -> list[Held]:
-        """A point of the branch on all meshes, its thinnest zone left out where a coarse one needs that."""
+        """A point of the branch on all meshes, without its thinnest zone if a coarse mesh needs that."""
         solved, name = self._prescribed()[i]
         try:
             return [*self.membrane.others(held, fixed.Held(name, solved.values[name])), held]
@@ -181,7 +183,7 @@ class WrinkledBranch:
     # -- special points ------------------------------------------------------------------------
 
     def special_points(self) -> list[SpecialPoint]:
-        """Limit loads, loads at which zones open or close and waves set in or vanish, in order."""
+        """Limit loads, openings and closings of zones, appearance and disappearance of waves, in order."""
         out = [(i, self._limit(i)[0]) for i in self.trace.turns().tolist()]
         out += [(e.after, self._point(self._event_values(e), e.kind, ("state",))) for e in self._events]
         for change in self.changes:
@@ -192,7 +194,7 @@ class WrinkledBranch:
         return self.readings.point([Solved(values, None, kind) for values in same], self.name, exact)
 
     def _changed(self, change: Change) -> SpecialPoint:
-        """A change of stability; where a zone's event stands for it, its distance adds to the bounds."""
+        """A change of stability; if a zone's event replaces it, their distance adds to the uncertainty."""
         read = self.readings.without_fronts
         exact = {"n": float(change.n), "direction": change.direction}
         point = self._point([read(held) | exact for held in change.levels], "stability_change", tuple(exact))
@@ -205,7 +207,7 @@ class WrinkledBranch:
 
     @cached_property
     def changes(self) -> list[Change]:
-        """Where waves set in or vanish, for each wave number in turn."""
+        """Points where waves appear or disappear, for each wave number."""
         prescribed = self._prescribed()
         points = [(i, prescribed[i][1], prescribed[i][0].values[prescribed[i][1]], h) for i, h in self._fine]
         found = []
@@ -233,7 +235,7 @@ class WrinkledBranch:
         ]
 
     def _limit(self, turn: int) -> tuple[SpecialPoint, list[Held]]:
-        """The limit load after a point of the trace, on every mesh."""
+        """The limit load after a point of the trace, on all meshes."""
         before, after = (self.trace.points[i].monitors["V"] for i in (turn, turn + 1))
         margin = MARGIN * (after - before)
         starts = self._fitted(self.near("V", before - margin), "V")
@@ -241,7 +243,7 @@ class WrinkledBranch:
         return self._point([self.readings.without_fronts(held) for held in found], "limit_point"), found
 
     def _limit_from(self, held: Held, low: float, high: float) -> Held:
-        """The limit load between two volumes by arc-length, the zones' fronts unknowns as the load is."""
+        """The limit load between two volumes by arc length, with fronts and load as unknowns."""
         model = held.model
         held.put()
         model.system.update_mass()
@@ -265,11 +267,11 @@ class WrinkledBranch:
     # -- states --------------------------------------------------------------------------------
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
-        """A state with a column at exactly a value, its fronts, and its profile if wanted.
+        """The state at which a column has exactly a value, with its fronts, and its profile if requested.
 
         Raises:
-            InputError: When the branch has no such state.
-            ConvergenceError: When it is not solved on all meshes.
+            InputError: If the branch has no such state.
+            ConvergenceError: If the solve fails on some mesh.
         """
         levels = self._special_state(name, value)
         if levels is None:

@@ -1,4 +1,4 @@
-"""Numbers of the unloaded cylinder: critical radius of its disks, thicknesses at which it wrinkles at all."""
+"""Numbers of the unloaded cylinder: critical radius of its disks, thickness ratios at which it wrinkles."""
 
 from __future__ import annotations
 
@@ -17,14 +17,13 @@ from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 
 SLIM = 0.05
-"""A radius of the disks at which the unloaded membrane is wrinkled all over."""
+"""A radius of the disks at which the whole unloaded membrane is wrinkled."""
 
 ROUND_OFF, GROWTH = 1e-12, 2e-3
-"""Error that round-off may leave in ``gw``, and how fast the least ``gw`` changes with the thickness
-ratio."""
+"""Round-off error of ``gw``, and the rate at which the smallest ``gw`` changes with the thickness ratio."""
 
 SEARCH, LAST = 0.05, 0.05
-"""Steps of the thickness ratio in which a threshold is looked for, and the ratio at which that ends."""
+"""Step of the thickness ratio in the search for a threshold, and the ratio at which the search ends."""
 
 
 def critical_radii(
@@ -34,15 +33,15 @@ def critical_radii(
     degree: int,
     material: Chosen | None = None,
 ) -> list[float]:
-    r"""Largest radius of the disks with ``gw <= 1`` everywhere at zero load, as each mesh has it.
+    r"""Largest radius of the disks with ``gw <= 1`` everywhere at zero load, on each mesh.
 
     .. math:: (A_f)_c = \lambda_1(\text{thin end})^{-1/2}
 
-    The meridional stretch of the unloaded, wrinkled membrane does not depend on the radius, so it is taken
-    from a slim one (Patil, Nordmark & Eriksson 2015, section 4.1 and table 2).
+    The meridional stretch of the unloaded, wrinkled membrane does not depend on the radius, so that a small
+    radius is used (Patil, Nordmark & Eriksson 2015, section 4.1 and table 2).
 
     Raises:
-        ConvergenceError: When the unloaded state is not found.
+        ConvergenceError: If the unloaded state is not found.
     """
     membrane = Membrane(comm, CYLINDER, {**values, "Af": SLIM}, False, cells, degree, "relaxed", (), material)
     found = []
@@ -61,21 +60,21 @@ def threshold(
     towards: int,
     material: Chosen | None = None,
 ) -> tuple[Estimate, Estimate]:
-    """Thickness ratio ``M`` beyond which the unloaded membrane wrinkles, and where it does first.
+    """Thickness ratio ``M`` beyond which the unloaded membrane wrinkles, and the first wrinkled point.
 
-    The root of ``min gw = 1`` on the wholly taut state: ``gw = 1`` and ``gw' = 0`` at a point of the mesh
-    that is an unknown, as ``M`` is.
+    It solves ``min gw = 1`` for the taut state: ``gw = 1`` and ``gw' = 0`` at a point of the mesh; this point
+    and ``M`` are unknowns.
 
     Args:
         comm: Ranks.
-        values: Parameters other than ``M``; the disks' radius ``Af`` among them.
-        cells: Cells a block on each mesh, coarse to fine.
-        degree: Of the elements.
-        towards: -1 for the threshold below the uniform thickness, 1 for that above it.
-        material: A law in the place of Mooney and Rivlin's.
+        values: Parameters other than ``M``, including the radius ``Af`` of the disks.
+        cells: Cells of a block on each mesh, coarse to fine.
+        degree: Degree of the elements.
+        towards: -1 for the threshold below the uniform thickness, 1 for the one above it.
+        material: A law that replaces the Mooney-Rivlin law.
 
     Raises:
-        ConvergenceError: When the membrane is taut, or wrinkled, in the whole range looked at.
+        ConvergenceError: If the membrane is taut, or wrinkled, in the whole range of the search.
     """
     membrane = Membrane(comm, CYLINDER, {**values, "M": 1.0}, False, cells, degree, "relaxed", (), material)
     held = _first_wrinkled(membrane, len(cells) - 1, towards)

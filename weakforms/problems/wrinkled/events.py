@@ -1,4 +1,4 @@
-"""Loads at which zones of a wrinkled membrane open or close, solved for."""
+"""Computation of the loads at which zones of a wrinkled membrane open or close."""
 
 from __future__ import annotations
 
@@ -16,18 +16,17 @@ from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
 
 HALVINGS = 24
-"""Times an interval of the load is halved until only one zone opens or closes in it."""
+"""Largest number of times that a load interval is halved until only one zone opens or closes in it."""
 
 LEAP = 0.1
-"""Distance, over the length, that a front moves between neighbours without a look at the states between."""
+"""If a front moves by more than this fraction of the length, the states in between are examined."""
 
 SLACK = 1e-6
-"""Relative distance from its bracket at which an event is accepted: a new zone is seen when it has some
-width."""
+"""Largest relative distance of an event from its interval, because a new zone is detected only when it has
+some width."""
 
 VERGE = 1e-9
-"""Deviation of ``gw`` from 1 at an end of the unloaded membrane that is none: a zone is there from the
-start."""
+"""If ``gw`` differs from 1 by less at an end of the unloaded membrane, a zone exists there from the start."""
 
 
 @dataclass(frozen=True)
@@ -37,15 +36,15 @@ class Event:
     kind: str
     """``zone_opening`` or ``zone_closing``."""
     state: float
-    """Of the zone: 1 taut, -1 wrinkled."""
+    """State of the zone: 1 taut, -1 wrinkled."""
     after: int
-    """Point of the branch it comes after."""
+    """Index of the point of the branch before it."""
     levels: tuple[Held, ...]
-    """The state on every mesh, coarse to fine; ``touched`` is where the zone is."""
+    """The state on every mesh, coarse to fine; ``touched`` is the position of the zone."""
 
 
 def events(membrane: Membrane, points: Sequence[tuple[int, Held]]) -> tuple[list[Event], list[Failure]]:
-    """All events between neighbours of a branch, in order, and what could not be located."""
+    """All events between neighbours of a branch, in order, and the failures."""
     found: list[Event] = []
     failures: list[Failure] = []
     at_ends = points[0][1].sampled(np.array([0.0, membrane.length]))["gw"]
@@ -66,7 +65,7 @@ def _fronts(held: Held) -> tuple[float, int]:
 def _between(
     membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
 ) -> list[Event]:
-    """Events between two states, by halving until one zone is all that differs."""
+    """Events between two states, by halving until they differ by one zone."""
     if _fronts(a) == _fronts(b):
         if not halvings or not _leaps(a, b, membrane.length):
             return []
@@ -88,14 +87,14 @@ def _between(
 
 
 def _leaps(a: Held, b: Held, length: float) -> bool:
-    """Whether a front is so far from where it was that it may be another: one zone opened, and one closed."""
+    """Whether a front has moved so far that it may be another one: one zone opened and another closed."""
     return any(abs(x - y) > LEAP * length for x, y in zip(a.zones.fronts, b.zones.fronts, strict=True))
 
 
 def _in_halves(
     membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
 ) -> list[Event]:
-    """Events between two states, in one half of the load between them and then in the other."""
+    """Events between two states, in one half of the load interval and then in the other."""
     low, high = (held.state.loads[membrane.control] for held in (a, b))
     middle = membrane.fitted(a, fixed.Held(membrane.control, (low + high) / 2))[-1]
     return [
@@ -105,7 +104,7 @@ def _in_halves(
 
 
 def _at_both_ends(membrane: Membrane, absent: Held, present: Held, after: int, opening: bool) -> list[Event]:
-    """Zones that open or close at both ends at once, as they do where the membrane is symmetric."""
+    """Zones that open or close at both ends at once, as in a symmetric membrane."""
     fewer, more = absent.zones, present.zones
     if len(more.fronts) != len(fewer.fronts) + 2 or more.first == fewer.first:
         raise ConvergenceError("several zones change at once")
@@ -115,7 +114,7 @@ def _at_both_ends(membrane: Membrane, absent: Held, present: Held, after: int, o
 
 
 def _extra_zone(absent: Zones, present: Zones, length: float) -> tuple[float, float, float] | None:
-    """Ends and state of the one zone that ``present`` has and ``absent`` has not."""
+    """Ends and state of the one zone that ``present`` has and ``absent`` does not have."""
     fewer, more = len(absent.fronts), len(present.fronts)
     edges = [0.0, *present.fronts, length]
     if more == fewer + 1:
@@ -123,7 +122,7 @@ def _extra_zone(absent: Zones, present: Zones, length: float) -> tuple[float, fl
             return edges[0], edges[1], present.first
         return edges[-2], edges[-1], -absent.first if fewer % 2 == 0 else absent.first
     if more == fewer + 2 and absent.first == present.first:
-        # The zone whose removal leaves the other fronts nearest to where they are.
+        # The zone whose removal moves the other fronts least.
         best = min(
             range(1, more),
             key=lambda k: (
@@ -151,7 +150,7 @@ def _located(
     after: int,
     opening: bool,
 ) -> list[Event]:
-    """The event by ``gw = 1`` at an end, or ``gw = 1, gw' = 0`` inside, with the zone absent."""
+    """The event, from ``gw = 1`` at an end, or ``gw = 1, gw' = 0`` inside, without the zone."""
     low, high, state = zone
     at_end = low == 0.0 or high == membrane.length
     place = 0.0 if low == 0.0 else high if at_end else (low + high) / 2

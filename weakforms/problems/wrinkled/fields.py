@@ -1,4 +1,4 @@
-"""Fields of a wrinkled membrane along its meridian: samples, extremes, the zones they show."""
+"""Fields of a wrinkled membrane along its meridian: samples, extreme values, zones."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from weakforms.problems.wrinkled.model import TAUT, WRINKLED, WrinkledModel
 from weakforms.solvers.support.sampling import Interpolant
 
 PER_CELL = 9
-"""Points of each cell at which zones are looked for."""
+"""Number of points of each cell at which zones are searched."""
 
 NEAR_ENDS = 10.0 ** -np.arange(1.0, 11.0)
-"""Distances from the ends, over the length, at which thin zones are looked for besides."""
+"""Distances from the ends, relative to the length, at which thin zones are searched in addition."""
 
 INSIDE_OUT = 1e-9
-"""Negative radius, over the length, that is round-off (at a pole)."""
+"""Largest negative radius, relative to the length, that is round-off (at a pole)."""
 
 FINE, ZOOMS, CANDIDATES = 24, 6, 3
-"""Points of each cell among which an extreme is located, times one looks closer, cells looked at closer."""
+"""For extreme values: number of points of each cell, number of refinements, number of refined cells."""
 
 
 class Meridian:
-    """Expressions of a model's unknown as polynomials on each cell, sampled the same on every rank.
+    """Expressions of a model's unknown as polynomials on each cell; samples are the same on every rank.
 
     Args:
-        model: Whose.
-        expressions: Which; by default the unknown's components ``u``, ``w`` and the profile.
+        model: The model.
+        expressions: The expressions; by default the unknown's components ``u``, ``w`` and the profile.
     """
 
     def __init__(self, model: WrinkledModel, expressions: Mapping[str, Expr] | None = None) -> None:
@@ -89,7 +89,7 @@ class Meridian:
             column = sign * nodes[:, :, self.names.index(name)]
             grid = np.linspace(0.0, 1.0, FINE + 1)
             peaks = (column @ _lagrange(places, grid).T).max(axis=1)
-            # Of two cells that share the best sample the top may be in either.
+            # If two cells share the best sample, the maximum may be in either.
             best = _top(places, column[np.argsort(peaks)[-CANDIDATES:]])
         return sign * float(self._comm.allreduce(best, op=MPI.MAX))
 
@@ -112,7 +112,7 @@ def _lagrange(nodes: np.ndarray, t: np.ndarray) -> np.ndarray:
     gaps = nodes[:, None] - nodes[None, :]
     np.fill_diagonal(gaps, 1.0)
     distance = t[..., None] - nodes
-    # The product of all but one distance: of those before it and of those after it.
+    # The product of all distances but one: of those before it and those after it.
     before, after = np.ones_like(distance), np.ones_like(distance)
     before[..., 1:] = np.cumprod(distance[..., :-1], axis=-1)
     after[..., :-1] = np.cumprod(distance[..., :0:-1], axis=-1)[..., ::-1]
@@ -121,20 +121,20 @@ def _lagrange(nodes: np.ndarray, t: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Zones:
-    """Taut and wrinkled zones of a state, and where the liquid's surface cuts the meridian."""
+    """Taut and wrinkled zones of a state, and the point where the liquid's surface cuts the meridian."""
 
     first: float
     """State of the zone at the first end."""
     fronts: tuple[float, ...]
-    """Where the state changes."""
+    """Material points where the state changes."""
     surface: float | None = None
-    """Material point at the level of the liquid; ``None`` where it is all wet or all dry."""
+    """Material point at the fluid level; ``None`` if the membrane is all wet or all dry."""
     wet: bool = False
-    """Whether it is all wet, or with a surface, wet up to it."""
+    """Whether the membrane is all wet or, with a surface, wet up to it."""
 
     @property
     def kind(self) -> tuple:
-        """What does not change while fronts move."""
+        """The pattern of zones, which does not change while fronts move."""
         return self.first, len(self.fronts), self.surface is None, self.wet
 
     def states(self, s: np.ndarray) -> np.ndarray:
@@ -142,19 +142,19 @@ class Zones:
         return np.where(np.searchsorted(self.fronts, s) % 2 == 0, self.first, -self.first)
 
     def left_out_of(self, others: Zones) -> tuple[float, ...]:
-        """Fronts of others that have none of these nearest to them."""
+        """Fronts of another state that are not the nearest one to any front of this state."""
         left = list(others.fronts)
         for front in self.fronts:
             left.remove(min(left, key=lambda f, front=front: abs(f - front)))
         return tuple(left)
 
     def share(self, state: float, length: float) -> float:
-        """Share of the length in a state."""
+        """Fraction of the length in a state."""
         widths = np.diff([0.0, *self.fronts, length])
         return float(widths[(0 if self.first == state else 1) :: 2].sum() / length)
 
     def without_thinnest(self, length: float) -> Zones:
-        """The same with the thinnest zone given to its neighbours."""
+        """The same zones without the thinnest one, which joins its neighbours."""
         edges = np.array([0.0, *self.fronts, length])
         k = int(np.argmin(np.diff(edges)))
         drop = {k - 1, k} if 0 < k < len(edges) - 2 else {0} if k == 0 else {k - 1}
@@ -163,16 +163,16 @@ class Zones:
 
 
 def zones(meridian: Meridian, loads: Mapping[str, float], flat: float, liquid: bool) -> Zones:
-    """Zones of the state a model holds.
+    """Zones of the state that a model holds.
 
     Args:
-        meridian: Its fields.
-        loads: Its loads.
-        flat: Deviation of ``gw`` from 1 that does not count (a membrane on the verge is called taut).
-        liquid: Whether there is a level.
+        meridian: Fields of the state.
+        loads: Loads of the state.
+        flat: Deviations of ``gw`` from 1 up to this count as taut.
+        liquid: Whether there is a liquid.
 
     Raises:
-        ConvergenceError: When the surface crosses the axis: an equilibrium of the equations only.
+        ConvergenceError: If the surface crosses the axis, which is not a physical equilibrium.
     """
     model = meridian.model
     breaks = model.breaks_of(loads)
@@ -185,7 +185,7 @@ def zones(meridian: Meridian, loads: Mapping[str, float], flat: float, liquid: b
     s = np.unique(s)
     found = meridian.sampled(s, loads)
     if found["r"].min() < -INSIDE_OUT * length:
-        raise ConvergenceError("the equilibrium found is turned inside out")
+        raise ConvergenceError("the equilibrium is turned inside out")
     excess = found["gw"] - 1.0
     sign = np.where(np.abs(excess) > flat, np.sign(excess), 0.0)
     known = np.flatnonzero(sign)

@@ -23,35 +23,35 @@ from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.system import State
 
 THINNEST, SLIVER = 1e-8, 1e-6
-"""Zones thinner than this fraction of the length are left out; the second where round-off in a thin zone's
-block keeps Newton's method from converging. Nothing else feels them."""
+"""Zones thinner than this fraction of the length are left out; the second value applies if round-off in a
+thin zone's block prevents convergence. Such zones have no effect on other quantities."""
 
 COARSE, PASSES = 1e-3, 2
-"""Zones thinner than this fraction of the length get no break points before the fronts are unknowns; and how
-often break points are put where the last solution shows fronts before that."""
+"""Before the fronts are unknowns, zones thinner than this fraction of the length get no break points; and the
+number of solves before that in which break points follow the fronts of the last solution."""
 
 ATTEMPTS = 8
-"""Patterns of zones tried for one state."""
+"""Largest number of patterns of zones that are tried for one state."""
 
 FLAT = 1e-8
-"""Relative Newton step accepted where a minimum of ``gw`` is located: its place may be known no better, and
-what is asked for is not sensitive to it."""
+"""Accepted relative Newton step for the position of a minimum of ``gw``, which is less accurate than other
+unknowns and has little effect on them."""
 
 PLACE = 1e-7
-"""What that may leave in the place."""
+"""Resulting error of the position."""
 
 
 class Membrane(PlainMembrane):
-    """One membrane at given parameters; its states on a plain mesh and on fitted ones."""
+    """One membrane at given parameters, with its states on a plain mesh and on fitted meshes."""
 
     def fitted(self, start: Held, constraint: Constraint, fine_only: bool = False) -> list[Held]:
-        """The state selected by a constraint on the control, on every mesh, coarse to fine, or on the finest.
+        """The state given by a constraint on the control, on every mesh, coarse to fine, or the finest.
 
         Raises:
-            ConvergenceError: When no pattern of zones is found that the solution shows itself.
+            ConvergenceError: If no pattern of zones agrees with that of its solution.
         """
         ways = [(THINNEST, True), (SLIVER, True)]
-        if start.layout is not None:  # fitted already: its own zones may do where a plain mesh does not
+        if start.layout is not None:  # fitted already: its own zones may suffice if a plain mesh does not
             ways.append((THINNEST, False))
         for thinnest, adapt in ways:
             try:
@@ -73,7 +73,7 @@ class Membrane(PlainMembrane):
         return out
 
     def _pattern(self, start: Held, constraint: Constraint, thinnest: float, adapt: bool) -> Held:
-        """Solve on the finest mesh with the zones the last solution shows until they are its own."""
+        """Solve on the finest mesh with the zones of the last solution until they do not change."""
         held = self._adapted(start, constraint) if adapt else start
         wanted, last = self._thick(held.zones, thinnest), "none tried"
         for _ in range(ATTEMPTS):
@@ -92,12 +92,12 @@ class Membrane(PlainMembrane):
                 held.slivers = found.left_out_of(shown)
                 return held
             wanted = found
-        raise ConvergenceError(f"no pattern of zones is its own solution's ({last})")
+        raise ConvergenceError(f"no pattern of zones agrees with its own solution ({last})")
 
     def _adapted(self, start: Held, constraint: Constraint) -> Held:
-        """A plain state solved again, by state, with break points where the last solution shows fronts.
+        """A plain state solved again, with break points at the fronts of the last solution.
 
-        What a front inside a cell does to the solution is gone then, but for the front's own error.
+        This removes the error of a front inside a cell, except for the error of the front itself.
         """
         held = start
         for _ in range(PASSES):
@@ -131,17 +131,17 @@ class Membrane(PlainMembrane):
         """Solve on one mesh with its break points at the fronts and at the surface.
 
         Args:
-            level: Which mesh.
-            start: A state to interpolate from.
-            wanted: The zones.
-            constraints: One a free load, besides those that ``touch`` brings.
+            level: Number of the mesh.
+            start: A state, which is interpolated as a guess.
+            wanted: Zones of the state.
+            constraints: One for each unknown load, besides those from ``touch``.
             free: Unknown loads besides the break points; by default the control.
-            touch: A point where ``gw`` just touches 1, an equation more.
-            same: Keep the blocks of the state to start from: meshes of one state are to be nested.
-            graded: Make blocks short near fronts.
+            touch: A point where ``gw`` just touches 1, an additional equation.
+            same: Keep the blocks of the start, so that the meshes of one state are nested.
+            graded: Use short blocks near fronts.
 
         Raises:
-            ConvergenceError: When it does not converge, or break points pass each other.
+            ConvergenceError: If it does not converge, or break points change their order.
         """
         extra = () if touch is None or touch.at_end else (touch.at,)
         layout = Layout.of(wanted, self.length, extra, self.near_fronts if graded else ())
@@ -169,11 +169,11 @@ class Membrane(PlainMembrane):
         except ConvergenceError:
             if not (sharp and self.near_fronts and layout.fronts):
                 raise
-            # A front at which ``gw`` passes 1 at a flat angle, as where a zone has just opened.
+            # The slope of ``gw`` at the front is small, as when a zone has just opened.
             state, record = solver_of(model, scalars, FLAT).solve(guess, [*constraints, *own])
         breaks = model.breaks_of(state.loads)
         if np.diff(breaks).min() <= 0:
-            raise ConvergenceError("fronts passed each other")
+            raise ConvergenceError("fronts changed their order")
         fronts = tuple(float(breaks[k]) for k in layout.fronts)
         surface = None if layout.surface is None else float(breaks[layout.surface])
         found = Zones(wanted.first, fronts, surface, wanted.wet)

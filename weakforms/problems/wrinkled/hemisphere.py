@@ -2,7 +2,7 @@
 
 Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315. Lengths are divided by the radius
 ``Ao``, energies by ``2 pi C1 h Ao^2``; ``t`` in ``[0, pi/2]`` is the reference angle from the pole, heights
-count from the equator's plane upwards, so the level ``zw`` is negative.
+are measured upwards from the plane of the equator, so that the level ``zw`` is negative.
 """
 
 from __future__ import annotations
@@ -32,31 +32,31 @@ from weakforms.solvers.equilibrium import constraints as fixed
 SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
 
 GAMMA = 100 * PAPER_GAMMA
-"""The paper's: ten times the cylinder's radius, everything else the same."""
+"""The paper's weight of the liquid: ten times the cylinder's radius, with all other data the same."""
 
 START = -0.8
-"""Level at which the trace is begun, above and below which it is stable."""
+"""Level at which the trace starts, in a stable range."""
 
 LOWEST_LEVEL, LOW_END = -1.18, -1.1
-"""Lowest level one may ask for, and that at which the branch begins unless a lower one is asked for. The
-empty sheet can hang as a cone of depth ``sqrt(pi^2/4 - 1) = 1.2114``, the taut zone at the pole a point."""
+"""Lowest level that can be requested, and default level at which the branch starts. The empty sheet can hang
+as a cone of depth ``sqrt(pi^2/4 - 1) = 1.2114``, whose taut zone is a point at the pole."""
 
 NEAR_FRONTS = (0.004, 0.02, 0.08)
-"""Distances from fronts within which cells are smaller, ``Ao``."""
+"""Distances from fronts, in ``Ao``, within which cells are smaller."""
 
 SHARED_SCALES = (
     *("c2", "C1", "gw_max", "gw_min", "n", "beta", "direction", "meridional", "circumferential", "normal"),
     *("lam1", "lam2", "gw", "tension", "axial", "eigenvalue_1"),
 )
-"""Those of the cylinder that mean the same here."""
+"""Scales that are the same as for the cylinder."""
 
 HEMISPHERE_SCALES = {
     **{name: SCALES[name] for name in SHARED_SCALES},
     "length": "Ao, radius of the undeformed hemisphere",
     "gamma": "rho g Ao^2/(C1 h)",
     "zw": "level of the liquid above the equator's plane over Ao: negative",
-    "low_end": "level at which the branch begins",
-    "past": "how far below its highest level the branch ends past it",
+    "low_end": "level at which the branch starts",
+    "past": "decrease of the level below its maximum at the end of the branch",
     "t": "angle from the pole in the reference, rad",
     "t_front_1": "front 1 from the pole (and so on): reference angle where gw = 1",
     "t_level": "reference angle at the level of the liquid",
@@ -66,8 +66,8 @@ HEMISPHERE_SCALES = {
     "Pi": "total potential over 2 pi C1 h Ao^2",
     "N": "meridional tension per reference angle around the axis at the equator over C1 h Ao",
     "r_max": "largest radius over Ao",
-    "wrinkled_fraction": "part of the meridian's reference length with gw < 1",
-    "state": "of the zone that opens or closes: 1 taut, -1 wrinkled",
+    "wrinkled_fraction": "fraction of the meridian's reference length with gw < 1",
+    "state": "state of the zone that opens or closes: 1 taut, -1 wrinkled",
     "r": "deformed radius over Ao",
     "z": "height over Ao",
     "Lambda": "Lambda_nN_k: k-th lowest eigenvalue for N waves, d2Pi = Lambda M, M = int H R |dx|^2, over "
@@ -96,20 +96,22 @@ class HemisphereParameters(MaterialChoice):
     c2: float = Field(
         0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean, as in the paper"
     )
-    n: WaveNumbers = Field((), description="numbers of waves around whose stability is judged, such as 10,50")
+    n: WaveNumbers = Field((), description="wave numbers for which stability is computed, such as 10,50")
     beta: float = Field(
-        0.0, ge=0, le=1, description="bending stiffness that waves meet besides, over C1 h Ao^2"
+        0.0, ge=0, le=1, description="additional bending stiffness against waves, over C1 h Ao^2"
     )
-    low_end: float = Field(LOW_END, ge=LOWEST_LEVEL, le=START, description="level at which the branch begins")
+    low_end: float = Field(LOW_END, ge=LOWEST_LEVEL, le=START, description="level at which the branch starts")
 
-    past: float = Field(0.01, ge=0.002, le=0.3, description="fall of the level past its highest at the end")
+    past: float = Field(
+        0.01, ge=0.002, le=0.3, description="decrease of the level below its maximum at the end of the branch"
+    )
 
 
 class HemisphereBranch(WrinkledBranch):
-    """From a low level up to the highest one, a limit point, and a little past it."""
+    """Branch from a low level through the highest one, a limit point, to an end shortly after it."""
 
     def _start(self, continuation: Continuation) -> CurvePoint:
-        """The low end: down along the branch from a level at which the membrane is easily found."""
+        """The low end, reached along the branch from a level at which the membrane is easy to solve for."""
         low = self.low_end
         state = self.membrane.by_gas(START)
         begin = continuation.start(state, fixed.Held(self.control, START), towards={self.control: -1.0})
@@ -118,17 +120,17 @@ class HemisphereBranch(WrinkledBranch):
         return continuation.start(lowest.state, fixed.Held(self.control, low), towards={self.control: 1.0})
 
     low_end = LOW_END
-    """Level at which the branch begins."""
+    """Level at which the branch starts."""
     past = 0.01
-    """How far below its highest level the branch ends past it."""
+    """Decrease of the level below its maximum at the end of the branch."""
 
     def _is_past_limit(self, load: float, peak: float) -> bool:
-        """Whether the load has fallen so far."""
+        """Whether the load has decreased so far."""
         return load < peak - self.past
 
 
 class Hemisphere(PathProblem):
-    """A hemisphere of uniform thickness, held at its equator, under the liquid in it."""
+    """A hemisphere of uniform thickness, clamped at its equator, under the liquid in it."""
 
     name: ClassVar[str] = "hemisphere"
     title: ClassVar[str] = "Wrinkling and stability of a hemispherical membrane that holds a liquid"
@@ -157,20 +159,22 @@ class Hemisphere(PathProblem):
     derived = ("wrinkled_fraction", "r_max", "gw_max", "gw_min", "t_level")
     special_points = ("limit_point", "zone_opening", "zone_closing", "stability_change", "front")
     branches = ("primary",)
-    control: ClassVar[str] = "zw, from low levels up to its largest; past that compare over V, which rises"
+    control: ClassVar[str] = (
+        "zw, from low levels up to its maximum; past that compare over V, which increases"
+    )
 
     def check(self, parameters: HemisphereParameters, requests: Requests) -> None:
-        """Refuse what the ranges of single parameters cannot.
+        """Refuse wrong combinations of parameters and requests.
 
         Raises:
-            InputError: For a state nobody could solve for.
+            InputError: For a state that cannot exist.
         """
         check_requests(self, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
         for wanted in requests.states:
             if wanted.name == "front":
                 raise InputError(
-                    "hemisphere: a front belongs to a state; ask for the state, its fronts come with it"
+                    "hemisphere: a front cannot be requested; request a state, which has its fronts"
                 )
             if wanted.name == "zw" and not LOWEST_LEVEL <= wanted.value < 0:
                 raise InputError(
@@ -205,7 +209,7 @@ class Hemisphere(PathProblem):
 def hemisphere_membrane(
     parameters: HemisphereParameters, numerics: HemisphereNumerics, comm: MPI.Intracomm
 ) -> Membrane:
-    """The membrane of some parameters, whose states can be solved for one by one."""
+    """The membrane for given parameters, for solving for single states."""
     values = {"c2": parameters.c2, "gamma": parameters.gamma}
     near = NEAR_FRONTS if parameters.n else ()
     kind = "relaxed", near, parameters.other_law

@@ -1,13 +1,13 @@
 r"""Wrinkled membranes of revolution: one weak form for any thickness law and surface, fitted to its zones.
 
 The meridian is cut into blocks at break points ``b_0 < b_1 < ... < b_n``; each block is a fixed interval of
-the mesh, mapped to ``S in [b_k, b_{k+1}]``. A block can be marked taut or wrinkled, wet or dry: then every
-block is smooth, and a front or the surface of the liquid is a break point, a scalar unknown with its own
-equation. Unmarked, the state is chosen point by point by a ``conditional``. Both are the same compiled
-form.
+the mesh, mapped to ``S in [b_k, b_{k+1}]``. A block can be marked taut or wrinkled, and wet or dry. Then the
+solution is smooth on every block, and a front or the surface of the liquid is a break point, a scalar unknown
+with its own equation. In unmarked blocks a ``conditional`` chooses the state at each point. Both use the same
+compiled form.
 
-The unknown is the departure of ``(r/R, z)`` from a given shape: Dirichlet values are zero, every parameter is
-a constant of the form, and nothing is divided by ``R``, which is 0 at a pole.
+The unknown is the difference between ``(r/R, z)`` and a given shape. Dirichlet values are then zero, every
+parameter is a constant of the form, and no division by ``R``, which is 0 at a pole, occurs.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ from weakforms.solvers.equilibrium.system import Formulation, System
 LOWER, UPPER, BREAK = 1, 2, 3
 
 ON_THE_VERGE = 1e-9
-"""Where no block is marked, ``gw`` this much below 1 counts as taut: a uniform membrane has ``gw = 1``
-without load, and round-off must not choose its state. The energy has continuous slopes: nothing else
-changes."""
+"""In unmarked blocks ``gw`` below 1 by up to this counts as taut. A uniform membrane has ``gw = 1`` without
+load, and round-off must not choose its state. Because the energy has continuous slopes, this has no other
+effect."""
 
 BY_STATE = 0.0
 TAUT = WET = 1.0
@@ -44,7 +44,7 @@ WRINKLED = DRY = -1.0
 
 
 class _Entry:
-    """A break point as the solvers see a load: a number that can be set."""
+    """A break point with the interface of a load: a number that can be set."""
 
     def __init__(self, model: WrinkledModel, index: int) -> None:
         self._model, self._index = model, index
@@ -60,7 +60,7 @@ class _Entry:
 
 
 class WrinkledModel:
-    r"""Weak form on ``blocks`` blocks of ``cells`` cells each, and all that one may change of it.
+    r"""Weak form on ``blocks`` blocks of ``cells`` cells each, with parameters that can be changed.
 
     .. math:: \Pi/2\pi = \int \Big[ H R\, W(\lambda_1, \lambda_2) - \tfrac12 P r^2 z' \Big]\, \mathrm{d}S,
               \qquad P = p + \gamma \max(z_w - z, 0)
@@ -68,18 +68,18 @@ class WrinkledModel:
     with ``W`` the full energy where ``gw = lam2 sqrt(lam1) > 1`` and the relaxed one elsewhere; lengths over
     the reference radius, energies over ``C1 h`` (Patil, Nordmark & Eriksson 2015, equations 10 to 13).
 
-    Loads (settable; any may be an unknown): the body's parameters, :data:`SHARED`, and ``b1`` .. the inner
-    break points. Marks, one number a block: see :meth:`mark`.
+    Loads (each can be set and can be an unknown): the body's parameters, :data:`SHARED`, and ``b1``, ``b2``
+    and so on for the inner break points. Marks, one for each block: see :meth:`mark`.
 
     Args:
         comm: Ranks.
         body: The membrane.
-        values: Parameters to begin with.
-        blocks: Blocks of the meridian.
-        cells: Cells a block.
-        degree: Of the elements.
-        energy: ``relaxed``, ``modified_gradient`` (the same by another form) or ``standard`` (no wrinkling).
-        material: An incompressible law in the place of Mooney and Rivlin's with ``c2``.
+        values: First values of the parameters.
+        blocks: Number of blocks of the meridian.
+        cells: Number of cells of each block.
+        degree: Degree of the elements.
+        energy: ``relaxed``, ``modified_gradient`` (the same in another form) or ``standard`` (no wrinkling).
+        material: An incompressible law that replaces the Mooney-Rivlin law with ``c2``.
     """
 
     def __init__(
@@ -120,18 +120,18 @@ class WrinkledModel:
     # -- geometry ------------------------------------------------------------------------------
 
     def mark(self, taut: np.ndarray, wet: np.ndarray) -> None:
-        """Mark every block: :data:`TAUT`, :data:`WRINKLED` or :data:`BY_STATE`; wet or dry alike."""
+        """Mark every block as :data:`TAUT`, :data:`WRINKLED` or :data:`BY_STATE`, and as wet or dry."""
         self._by_cell["taut"].x.array[:] = np.asarray(taut, dtype=float)[self._block_of]
         self._by_cell["wet"].x.array[:] = np.asarray(wet, dtype=float)[self._block_of]
 
     def move(self) -> None:
-        """Put the break points into the form, the last one at the body's end."""
+        """Write the break points into the form, with the last one at the end of the body."""
         self.breaks[-1] = self.body.length({k: float(self.loads[k][0].value) for k in self.body.parameters})
         self._by_cell["left"].x.array[:] = self.breaks[self._block_of]
         self._by_cell["width"].x.array[:] = np.diff(self.breaks)[self._block_of]
 
     def aim(self, name: str) -> None:
-        """Make derivatives in the break points' rate those in one of them."""
+        """Select one break point for derivatives with respect to break points."""
         rates = np.zeros(self.blocks + 1)
         if name[0] == "b" and name[1:].isdigit():
             rates[int(name[1:])] = 1.0
@@ -139,11 +139,11 @@ class WrinkledModel:
         self._by_cell["width_rate"].x.array[:] = np.diff(rates)[self._block_of]
 
     def look_at(self, node: int, after: bool = False) -> None:
-        """Choose where :meth:`point` functionals are taken: a break point or end, from which side.
+        """Choose the break point or end, and the side, at which :meth:`point` evaluates functionals.
 
         Args:
             node: Index of the break point, 0 and ``blocks`` for the ends.
-            after: From the block after it instead of the one before.
+            after: Whether the block after it is used instead of the one before.
         """
         after = after or node == 0
         side = node + (0.5 if after else -0.5) / self.cells
@@ -162,20 +162,20 @@ class WrinkledModel:
         return breaks[k] + np.diff(breaks)[k] * (x - k)
 
     def breaks_of(self, loads: Mapping[str, float]) -> np.ndarray:
-        """All break points of a state, the ends included."""
+        """All break points of a state, including the ends."""
         inner = [loads[f"b{k}"] for k in range(1, self.blocks)]
         return np.array([0.0, *inner, float(self.body.length(loads))])
 
     # -- the form ------------------------------------------------------------------------------
 
     def marked(self, name: str, by_state: Expr) -> Expr:
-        """Positive where a block is marked so, or by the state where it is not marked."""
+        """Positive where a block is marked so or, in unmarked blocks, where the state is so."""
         mark = self._by_cell[name]
         return ufl.gt(mark + (1 - abs(mark)) * by_state, 0.0)
 
     @cached_property
     def expressions(self) -> dict[str, Expr]:
-        """Position, stretches and what else follows from the unknown; see the keys."""
+        """Position, stretches and other expressions of the unknown, by name."""
         cell, q = self._by_cell, self.q
         x = ufl.SpatialCoordinate(self.mesh)[0]
         width = cell["width"] + self._rate * cell["width_rate"]
@@ -208,21 +208,21 @@ class WrinkledModel:
 
     @cached_property
     def full(self) -> SurfaceLaw:
-        """The law without wrinkling, over ``C1`` or the stress of its constants."""
+        """The law without wrinkling, divided by ``C1`` or the stress of its constants."""
         if self.other_law is not None:
             return self.other_law.surface_law(self.mesh)
         return mooney_rivlin_surface(self.q["c2"])
 
     def law(self, lam1: Expr, lam2: Expr) -> Expr:
-        """Energy per reference volume in the state each point is in."""
+        """Energy per reference volume, in the state of each point."""
         full = self.full.stretches
         if self.energy == "standard":
             return full(lam1, lam2)
         taut = self.marked("taut", wrinkling_function(lam1, lam2) - 1 + ON_THE_VERGE)
         eps = self.q["residual_stiffness"]
         if not self.full.bounded:
-            # Wrinkled, the law may be infinite at the stretches themselves: it is only looked at where the
-            # hoops are as wide as they would be, and the stiffness left to them on the way is another law's.
+            # In wrinkled parts the law may be infinite at the actual stretches. It is therefore evaluated
+            # only at the natural width, and the residual stiffness of the homotopy comes from another law.
             across = ufl.conditional(taut, lam2, natural_width(lam1))
             return full(lam1, across) + eps * (neo_hookean(lam1, lam2) - neo_hookean(lam1, across))
         if self.energy == "modified_gradient":
@@ -238,7 +238,7 @@ class WrinkledModel:
         return e["weight"] * ufl.diff(self.law(lam1, lam2), lam1)
 
     def point(self, value: Expr) -> ufl.Form:
-        """Value where :meth:`look_at` looks, as a form: every rank gets it by the same reduction."""
+        """Value at the point chosen by :meth:`look_at`, as a form, so that every rank gets it."""
         seen = self._by_cell["here"] * value
         inner = ufl.Measure("dS", self.mesh, subdomain_data=self._break_tags)
         ends = ufl.Measure("ds", self.mesh)
@@ -252,7 +252,7 @@ class WrinkledModel:
     def _formulation(self) -> Formulation:
         e, q = self.expressions, self.q
         r, z, r_s, z_s, width = (e[name] for name in ("r", "z", "r_s", "z_s", "width"))
-        # Products of the unknown and the load are integrated exactly: no spurious asymmetry.
+        # Products of the unknown and the load are integrated exactly, without spurious asymmetry.
         dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 4 * self.degree})
         strain = e["weight"] * self.law(e["lam1"], e["lam2"])
         volume = r**2 * z_s / 2
@@ -307,7 +307,7 @@ class WrinkledModel:
 
 
 def _inner_points(mesh: dmesh.Mesh, blocks: int) -> dmesh.MeshTags:
-    """Vertices between blocks, all with one tag."""
+    """Tags of the vertices between blocks, all equal."""
     found = dmesh.locate_entities(
         mesh,
         0,

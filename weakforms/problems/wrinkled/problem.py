@@ -1,9 +1,9 @@
 """Problem ``wrinkled_tube`` (Papers 4 and 5).
 
-Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10; its stability to waves around the axis,
-the same authors (2016), J. Mech. Phys. Solids 94, 298-315. Lengths are divided by the undeformed
-radius ``Ao``, the thickness by its mean ``h``, energies by ``2 pi C1 h Ao^2``; ``Z`` in ``[0, L]`` is the
-material coordinate from the lower end.
+Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10; stability with respect to waves around the
+axis: the same authors (2016), J. Mech. Phys. Solids 94, 298-315. Lengths are divided by the undeformed radius
+``Ao``, the thickness by its mean ``h``, energies by ``2 pi C1 h Ao^2``; ``Z`` in ``[0, L]`` is the material
+coordinate from the lower end.
 """
 
 from __future__ import annotations
@@ -33,48 +33,48 @@ from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 SOURCE = "Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10"
 
 DENSITY, GRAVITY, RADIUS, THICKNESS, SHEAR = 1000.0, 9.81, 0.010, 0.1e-3, 0.2111e6
-"""The paper's water, cylinder and ``C1`` in SI units."""
+"""The paper's data for water, cylinder and ``C1`` in SI units."""
 
 PAPER_GAMMA = DENSITY * GRAVITY * RADIUS**2 / (SHEAR * THICKNESS)
 """Weight of the liquid ``rho g Ao^2/(C1 h)`` with the paper's data."""
 
 LOAD = {"fluid": "zw", "gas": "p"}
 LOAD_END = {"fluid": 16.0, "gas": 0.6}
-"""Loads at which branches end unless more is asked for."""
+"""Default loads at which branches end."""
 
 SCALES = {
     "length": "Ao, undeformed radius",
     "M": "thickness at the lower end over its mean h (2 - M at the upper end)",
     "delta": "axial pre-stretch L_f/L_o",
     "c2": "C2/C1",
-    "C1": "of another model the stress S its constants are over (weakforms show material)",
+    "C1": "for another model the stress S by which its constants are divided (weakforms show material)",
     "L": "L_o/Ao",
     "Af": "radius of the disks over Ao",
     "gamma": "rho g Ao^2/(C1 h)",
     "zw": "level of the fluid above the lower end over Ao",
     "p": "P Ao/(C1 h)",
-    "V": "volume of the whole inside over 2 pi Ao^3",
+    "V": "enclosed volume over 2 pi Ao^3",
     "Pi": "total potential over 2 pi C1 h Ao^2",
     "r_max": "largest radius over Ao, the disks included",
     "N": "meridional tension per undeformed hoop length at Z = 0 over C1 h",
     "gw_max": "largest value of the wrinkling function lam2 sqrt(lam1); taut above 1",
-    "gw_min": "least value of the wrinkling function",
-    "wrinkled_fraction": "part of the material length with gw < 1",
+    "gw_min": "smallest value of the wrinkling function",
+    "wrinkled_fraction": "fraction of the material length with gw < 1",
     "Z": "material coordinate from the lower end over Ao",
     "Z_front_1": "front 1 from the lower end (and so on): material coordinate where gw = 1",
-    "state": "of the zone that opens or closes: 1 taut, -1 wrinkled",
+    "state": "state of the zone that opens or closes: 1 taut, -1 wrinkled",
     "r": "deformed radius over Ao",
     "z": "height above the lower end over Ao",
     "lam1": "meridional stretch, 1",
     "lam2": "hoop stretch, 1",
     "gw": "wrinkling function, 1",
     "tension": "meridional tension per undeformed hoop length over C1 h",
-    "axial": "N cos(phi) - P r^2/2 over C1 h: constant under gas, and where a fluid does not reach",
+    "axial": "N cos(phi) - P r^2/2 over C1 h: constant under gas, and above the fluid",
     "slope": "dr/dz of the meridian",
     "eigenvalue_1": "lowest eigenvalue of the second variation at fixed load, axisymmetric, against the mass",
     "n": "waves around the axis",
     "beta": "bending stiffness over H^3 and C1 h Ao^2: (2/3)(1 + c2)(h/Ao)^2 for an isotropic sheet",
-    "direction": "of a change of stability: 1 where waves set in along the branch, -1 where they vanish",
+    "direction": "of a change of stability: 1 if waves appear there along the branch, -1 if they disappear",
     "Lambda": "Lambda_nN_k: k-th lowest eigenvalue for N waves, d2Pi = Lambda M, M = int H R |dx|^2, over "
     "C1/(rho_m Ao^2)",
     "meridional": "mode along the meridian, int H R |dx|^2 dS = 1",
@@ -92,15 +92,15 @@ ENERGY = (
 
 
 def _radius(value: object) -> object:
-    """``critical``, or a positive number; text that is a number counts as one."""
+    """``critical``, or a positive number, also as text."""
     if value == "critical":
         return value
     try:
         radius = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise ValueError("'critical' or a number above 0 and up to 3 is wanted") from None
+        raise ValueError("must be 'critical' or a number above 0 and up to 3") from None
     if not 0 < radius <= 3:
-        raise ValueError("'critical' or a number above 0 and up to 3 is wanted")
+        raise ValueError("must be 'critical' or a number above 0 and up to 3")
     return radius
 
 
@@ -108,15 +108,15 @@ Radius = Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=3)], Be
 """Parameter ``Af``."""
 
 NEAR_FRONTS = (0.02, 0.1, 0.4)
-"""Distances from fronts, over Ao, within which cells are smaller where short waves are judged: they decay
-from the front into a taut zone over ``1/n``."""
+"""Distances from fronts, over Ao, within which cells are smaller for short waves, which decay from the front
+into a taut zone over ``1/n``."""
 
 
 class WrinkledNumerics(MeshNumerics):
     """Meshes of the membrane: ``cells`` in each block of the finest one (there are ten blocks or more)."""
 
     degree: int = Field(6, ge=2, le=6, description="polynomial degree of the unknowns")
-    cells: int = Field(12, ge=4, le=400, description="cells a block on the finest mesh")
+    cells: int = Field(12, ge=4, le=400, description="cells of each block on the finest mesh")
     step: float = Field(0.5, ge=0.01, le=1, description="largest arc-length step")
 
 
@@ -133,21 +133,21 @@ class WrinkledParameters(MaterialChoice):
         "critical",
         description="radius of the disks: 'critical' (Case 1), or a number above 0, such as 1 (Case 2)",
     )
-    load: Literal["fluid", "gas"] = Field("fluid", description="what the membrane is filled with")
+    load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float | None = Field(None, gt=0, le=10, description="weight of the fluid; by default the paper's")
     energy: Literal["relaxed", "modified_gradient", "standard"] = Field(
-        "relaxed", description="treatment of wrinkling: two forms of the same, or none"
+        "relaxed", description="treatment of wrinkling: two forms of the same energy, or none"
     )
     load_end: float | None = Field(None, gt=0, le=100, description="load at which the branch ends")
-    n: WaveNumbers = Field((), description="numbers of waves around whose stability is judged, such as 20,50")
+    n: WaveNumbers = Field((), description="wave numbers for which stability is computed, such as 20,50")
     beta: float = Field(
         0.0,
         ge=0,
         le=1,
-        description="bending stiffness that waves meet besides, over C1 h Ao^2 H^3 (beyond the paper)",
+        description="additional bending stiffness against waves, over C1 h Ao^2 H^3 (not in the paper)",
     )
     volume_end: float = Field(
-        30.0, gt=1, le=1000, description="volume over the unloaded one at which it ends at the latest"
+        30.0, gt=1, le=1000, description="volume over the unloaded one at which the branch ends at the latest"
     )
 
     @property
@@ -184,13 +184,13 @@ class WrinkledTube(PathProblem):
     derived = ("wrinkled_fraction", "r_max", "gw_max", "gw_min")
     special_points = ("limit_point", "zone_opening", "zone_closing", "stability_change", "front")
     branches = ("primary",)
-    control: ClassVar[str] = "zw (load = fluid) or p (gas); past a limit load compare over V, which rises"
+    control: ClassVar[str] = "zw (load = fluid) or p (gas); past a limit load compare over V, which increases"
 
     def check(self, parameters: WrinkledParameters, requests: Requests) -> None:
-        """Refuse what the ranges of single parameters cannot.
+        """Refuse wrong combinations of parameters and requests.
 
         Raises:
-            InputError: For a state nobody could solve for, or a load the membrane does not have.
+            InputError: For a state that cannot exist, or a load that the membrane does not have.
         """
         check_requests(self, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
@@ -203,13 +203,13 @@ class WrinkledTube(PathProblem):
                 )
             if wanted.name == "front":
                 raise InputError(
-                    "wrinkled_tube: a front belongs to a state; ask for the state, its fronts come with it"
+                    "wrinkled_tube: a front cannot be requested; request a state, which has its fronts"
                 )
             if wanted.name == control and wanted.value < 0:
                 raise InputError(f"wrinkled_tube: {control} = {wanted.value:g} must be 0 or more")
         if parameters.gamma is not None and parameters.load == "gas":
             raise InputError(
-                f"wrinkled_tube: gamma = {parameters.gamma:g} weighs a fluid; allowed with load = 'fluid'"
+                f"wrinkled_tube: gamma = {parameters.gamma:g} is for a fluid; allowed with load = 'fluid'"
             )
 
     def solve(
@@ -220,7 +220,7 @@ class WrinkledTube(PathProblem):
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Critical radius, then branch, special points and the states wanted with their fronts."""
+        """Solve for the critical radius, then for the branch and the requested states with fronts."""
         begun = time.perf_counter()
         result = self._result(parameters, numerics)
         result.numerics["cells"] = numerics.cells
@@ -279,13 +279,13 @@ def wrinkled_membrane(
     comm: MPI.Intracomm,
     critical: Sequence[float] | None = None,
 ) -> Membrane:
-    """The membrane of some parameters, whose states can be solved for one by one.
+    """The membrane for given parameters, for solving for single states.
 
     Args:
-        parameters: Of the problem.
+        parameters: Parameters of the problem.
         numerics: Meshes.
         comm: Ranks.
-        critical: The critical radius on each mesh, where it is known already.
+        critical: The critical radius on each mesh, if it is known already.
     """
     values: dict[str, Any] = _cylinder(parameters)
     radii: Sequence[float] = ()
@@ -307,7 +307,7 @@ def wrinkled_membrane(
 
 
 def quantity(found: Estimate) -> Quantity:
-    """An estimate as results state it."""
+    """An estimate as a quantity of a result."""
     order = float(found.order)
     return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
 

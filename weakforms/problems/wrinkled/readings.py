@@ -1,4 +1,4 @@
-"""What is read off states of a wrinkled membrane, and its uncertainty from the same state on other meshes."""
+"""Columns and fields of states of a wrinkled membrane, with uncertainties from several meshes."""
 
 from __future__ import annotations
 
@@ -19,30 +19,29 @@ from weakforms.solvers.uncertainty.family import special_point
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate, estimate_in_norm
 
 ROUND_OFF = 1e-10
-"""Relative error that round-off may leave: of derivatives, and of fronts, on blocks of very different
-length."""
+"""Relative round-off error of derivatives and of fronts, on blocks of very different length."""
 
 EVENTS = ("zone_opening", "zone_closing")
 
 VALUES = ("V", "Pi", "N")
 
 LOWEST = 3
-"""Eigenvalues of each wave number that are shown."""
+"""Number of eigenvalues in results for each wave number."""
 
 POLE = ("z_pole", "lam_pole", "gw_max")
-"""Columns of a body with a pole that are values there: its ``gw`` is largest there."""
+"""Columns that are values at the pole, if the body has one; ``gw`` is largest there."""
 
 
 @dataclass(frozen=True)
 class Readings:
-    """Readings of one membrane's states.
+    """Post-processing of the states of one membrane.
 
     Args:
-        membrane: Whose.
-        cap: Highest order of convergence to reckon with.
-        waves: Wave numbers whose stability is judged.
+        membrane: The membrane.
+        cap: Highest assumed order of convergence.
+        waves: Wave numbers for which stability is computed.
         abscissa: Name of the material coordinate.
-        beta: Bending stiffness that waves meet besides.
+        beta: Additional bending stiffness against waves.
     """
 
     membrane: Membrane
@@ -54,7 +53,7 @@ class Readings:
     # -- one mesh ------------------------------------------------------------------------------
 
     def columns(self, held: Held) -> dict[str, float]:
-        """Columns of a state, and its fronts."""
+        """Columns of a state, including its fronts."""
         meridian = held.put()
         monitors = held.model.system.monitors()
         zones = held.all_zones(self.membrane.length)
@@ -75,7 +74,7 @@ class Readings:
         }
 
     def without_fronts(self, held: Held) -> dict[str, float]:
-        """Columns of a state only."""
+        """Columns of a state without its fronts."""
         found = self.columns(held)
         return {name: value for name, value in found.items() if not self._is_front(name)}
 
@@ -91,7 +90,7 @@ class Readings:
         return out
 
     def diagnostics(self, held: Held) -> dict[str, float]:
-        """Negative eigenvalues in the symmetric space, and how the solve ended."""
+        """Number of negative eigenvalues in the symmetric space, and the record of the solve."""
         held.put()
         factor = solver_of(held.model, held.scalars).factor
         factor.update()
@@ -104,26 +103,26 @@ class Readings:
     # -- all meshes ----------------------------------------------------------------------------
 
     def order(self, name: str) -> float:
-        """Highest order of convergence to reckon with: of energies, or of stretches, which all else holds.
+        """Highest assumed order of convergence: that of energies, or that of stretches for all other columns.
 
-        All else too where a radius follows from the stretches, and energies from that.
+        If a radius follows from the stretches, energies depend on it and have the order of stretches too.
         """
         if self.membrane.on_meshes[-1]:
             return self.cap / 2
         energetic = name in (self.membrane.control, "load", "V", "Pi", "eigenvalue_1")
-        # Nodal values are as exact as energies; the level is a node at which one of them is known.
+        # Nodal values have the order of energies; the level is a nodal value.
         nodal = self.membrane.body.pole and name in (*POLE, f"{self.abscissa}_level")
         return self.cap if energetic or nodal or name.startswith("Lambda") else self.cap / 2
 
     def _resolved(self, name: str) -> bool:
-        """Fronts of a state, and what follows from them, where waves are judged: cells are graded there."""
+        """Columns that depend on fronts, if cells are graded towards fronts for waves."""
         return bool(self.waves) and (self._is_front(name) or name in ("wrinkled_fraction", "r_max", "gw_min"))
 
     def estimate(self, name: str, values: list[float] | list[np.ndarray], resolved: bool = False) -> Estimate:
         """Value and uncertainty from values on meshes, coarse to fine.
 
-        Where what is around a front is resolved, its place is as exact as energies, and never less than
-        stretches are.
+        If the mesh resolves the surroundings of a front, its position has the order of energies, and at least
+        that of stretches.
         """
         order = self.order(name)
         found = estimate(values, self.cap, order, order) if resolved else estimate(values, order)
@@ -131,20 +130,20 @@ class Readings:
         return replace(found, uncertainty=found.uncertainty + left)
 
     def quantity(self, name: str, values: list[float]) -> Quantity:
-        """The same as results state it."""
+        """The same as a quantity of a result."""
         found = self.estimate(name, values, self._resolved(name))
         order = float(found.order)
         return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
 
     def quantities(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
-        """All columns of a state, its spectra too.
+        """All columns of a state, including its spectra.
 
         Args:
             levels: The state on every mesh.
-            critical: Magnitude below which an axisymmetric eigenvalue does not count as negative.
+            critical: An axisymmetric eigenvalue below this magnitude does not count as negative.
 
         Raises:
-            ConvergenceError: When meshes disagree on fronts or on stability.
+            ConvergenceError: If meshes disagree on fronts or on stability.
         """
         values = [self.columns(held) for held in levels]
         if any(set(v) != set(values[-1]) for v in values):
@@ -158,10 +157,11 @@ class Readings:
         return found | {n: self.quantity(n, [v[n] for v in waves]) for n in waves[-1]}
 
     def _sliver_error(self, held: Held, most: float) -> float:
-        """What thin zones leave in the largest ``gw``, which is reached in them.
+        """Error of the largest ``gw`` from thin zones, in which it is reached.
 
-        In one without a block of its own the other state's law was used: ``gw - 1`` is right there to its
-        order only. In one with a block, positions known to round-off are differentiated over tiny cells.
+        In a thin zone without a block the law of the other state was used, so that only the order of ``gw -
+        1`` is correct there. In a thin zone with a block, positions with round-off are differentiated over
+        tiny cells.
         """
         if held.slivers:
             return abs(most - 1)
@@ -194,7 +194,7 @@ class Readings:
         """
         shown = list(same[-1].values)
         caps = {name: self.order(name) for name in shown}
-        if same[-1].kind in EVENTS:  # where stretches at one place have a value: all is of their order
+        if same[-1].kind in EVENTS:  # located by stretches at one point: everything has their order
             caps = dict.fromkeys(shown, self.cap / 2)
         point = special_point(same, shown, self.cap, branch, self.membrane.control, caps)
         left = {n: ROUND_OFF * max(1.0, abs(v)) for n, v in point.values.items()}
@@ -215,7 +215,7 @@ class Readings:
     # -- fields --------------------------------------------------------------------------------
 
     def fields(self, levels: Sequence[Held], points: np.ndarray) -> tuple[Field, ...]:
-        """The profile, and the lowest mode of every wave number but 0."""
+        """The profile, and the lowest mode of every wave number except 0."""
         shown = levels[-1].model.system.formulation.profile
         profile = self._field("profile", [held.sampled(points) for held in levels], shown, points)
         modes = (self._modes(n, levels, points) for n in self.waves if n)

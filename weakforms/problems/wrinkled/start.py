@@ -1,4 +1,4 @@
-"""States of a wrinkled membrane to begin with: on a plain mesh, and unloaded."""
+"""First states of a wrinkled membrane: on a plain mesh, and unloaded."""
 
 from __future__ import annotations
 
@@ -19,31 +19,31 @@ from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord
 from weakforms.solvers.equilibrium.system import State
 
 HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)
-"""Residual hoop stiffness of wrinkled zones on the way to none."""
+"""Residual hoop stiffness of wrinkled zones, in steps to zero."""
 
 EXCHANGE = ((0.5, 0.0), (0.5, 0.5), (0.5, 1.0), *((p, 1.0) for p in (0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)))
-"""Gas pressure, and share of the liquid's weight, on the way from a gas to a liquid."""
+"""Gas pressure and fraction of the liquid's weight, in steps from a gas to a liquid."""
 
 VERGE, VERGE_FITTED = 1e-7, 1e-10
-"""Deviation of ``gw`` from 1 that is none, on a plain mesh and on a fitted one."""
+"""Deviation of ``gw`` from 1 that counts as zero, on a plain mesh and on a fitted mesh."""
 
 WALK = 0.1
-"""Largest step of a parameter on the way from an easy membrane to the one wanted."""
+"""Largest step of a parameter on the way from an easy membrane to the requested one."""
 
 
 class PlainMembrane:
-    """One membrane at given parameters; its states on a plain mesh.
+    """One membrane at given parameters, with its states on a plain mesh.
 
     Args:
         comm: Ranks.
         body: Geometry and thickness.
         values: Parameters: the body's, ``c2``, ``gamma``.
-        liquid: Whether ``zw`` is the load, or ``p``.
-        cells: Cells a block on each mesh, coarse to fine.
-        degree: Of the elements.
+        liquid: Whether the load is ``zw``; else it is ``p``.
+        cells: Cells of each block on each mesh, coarse to fine.
+        degree: Degree of the elements.
         energy: See :class:`WrinkledModel`.
-        near_fronts: Distances from fronts at which blocks end besides, for short waves.
-        material: A law in the place of Mooney and Rivlin's.
+        near_fronts: Distances from fronts at which further blocks end, for short waves.
+        material: A law that replaces the Mooney-Rivlin law.
     """
 
     def __init__(
@@ -65,18 +65,18 @@ class PlainMembrane:
         self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy, material) for n in cells]
         self.control = "zw" if liquid else "p"
         self.on_meshes: list[dict[str, float]] = [{} for _ in cells]
-        """Parameters that are results themselves, as each mesh has them: what they err then shows in the
-        differences of meshes. Those of the finest stand in ``values`` too."""
+        """Parameters that are results themselves, for each mesh, so that differences between meshes include
+        their errors. Those of the finest mesh are also in ``values``."""
 
     # -- plain mesh ----------------------------------------------------------------------------
 
     @property
     def plain_model(self) -> WrinkledModel:
-        """The finest mesh with equal blocks; its state is put into it before anything is done with it."""
+        """The finest mesh with equal blocks; every use first writes a state into it."""
         return model_on(self.meshes[-1], BLOCKS)
 
     def prepare(self) -> State:
-        """Undisplaced state of the plain mesh, its model made ready for solves on it (models are shared)."""
+        """Undisplaced state of the plain mesh; the shared model is set up for solves on it."""
         model = self.plain_model
         breaks = np.linspace(0.0, self.length, BLOCKS + 1)
         model.mark(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
@@ -87,13 +87,13 @@ class PlainMembrane:
         return State(np.zeros(model.system.size), loads)
 
     def by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
-        """State of the plain mesh at a load, from the unloaded membrane wrinkled all over.
+        """State of the plain mesh at a load, from the completely wrinkled unloaded membrane.
 
-        The hoop stiffness of wrinkled zones is left in place at first and taken away step by step. Without
-        that Newton's method finds nothing, or an equilibrium turned inside out.
+        Wrinkled zones first keep a hoop stiffness, which is removed step by step. Otherwise Newton's method
+        does not converge, or finds an equilibrium that is turned inside out.
 
         Raises:
-            ConvergenceError: When a step does not converge, nor any from disks that are less wide.
+            ConvergenceError: If a step does not converge, also not from smaller disks.
         """
         try:
             return self._by_homotopy(load)
@@ -104,11 +104,11 @@ class PlainMembrane:
 
     @property
     def _easy_radius(self) -> float:
-        """Of disks between which a cylinder in uniaxial tension is an equilibrium, or nearly."""
+        """Radius of disks for which a cylinder in uniaxial tension is nearly an equilibrium."""
         return self.values.get("delta", 1.0) ** -0.5
 
     def _widened(self, load: float) -> tuple[State, SolveRecord]:
-        """The state of wide disks, from disks that leave the unloaded membrane its natural width."""
+        """The state for large disks, from disks at which the unloaded membrane has its natural width."""
         goal, low = self.values["Af"], self._easy_radius
         steps = int(np.ceil((goal - low) / WALK))
         try:
@@ -132,7 +132,7 @@ class PlainMembrane:
         if self.energy == "standard":
             return solver.solve(state)
         if load == 0.0:
-            with suppress(ConvergenceError):  # on disks that are not too large this is the solution already
+            with suppress(ConvergenceError):  # for disks that are not too large this is already the solution
                 return solver.solve(state)
         for eps in HOMOTOPY:
             state.loads["residual_stiffness"] = eps
@@ -140,12 +140,12 @@ class PlainMembrane:
         return state, record
 
     def by_gas(self, load: float) -> State:
-        """State of the plain mesh at a level, from the body's shape, which a gas keeps taut at first.
+        """State of the plain mesh at a level, from the body's shape, which a gas first keeps taut.
 
-        The liquid comes in its place step by step: without either there is nothing to hold the membrane.
+        The liquid replaces the gas step by step, because without both the membrane has no stiffness.
 
         Raises:
-            ConvergenceError: When a step does not converge.
+            ConvergenceError: If a step does not converge.
         """
         state = self.prepare()
         state.loads[self.control] = load
@@ -156,7 +156,7 @@ class PlainMembrane:
         return state
 
     def plain(self, state: State) -> Held:
-        """A state of the plain mesh with the zones it shows."""
+        """A state of the plain mesh with its zones."""
         model = self.plain_model
         wet = np.full(BLOCKS, BY_STATE if self.liquid else DRY)
         held = Held(model, state, Zones(TAUT, ()), None, np.full(BLOCKS, BY_STATE), wet)
@@ -164,16 +164,16 @@ class PlainMembrane:
         return held
 
     def unloaded(self, level: int, state: float) -> Held:
-        """The unloaded membrane on one mesh, taken for taut or for wrinkled all over.
+        """The unloaded membrane on one mesh, either completely taut or completely wrinkled.
 
-        Walks there from the parameters the body calls easy, in steps of at most :data:`WALK`.
+        It starts from the body's easy parameters and takes steps of at most :data:`WALK`.
 
         Args:
-            level: Which mesh.
+            level: Number of the mesh.
             state: ``TAUT`` or ``WRINKLED``.
 
         Raises:
-            ConvergenceError: When a step does not converge.
+            ConvergenceError: If a step does not converge.
         """
         easy = dict(self.body.easy)
         goal = {name: self.values[name] for name in easy}
@@ -199,7 +199,7 @@ class PlainMembrane:
     def _own(self, state: State) -> dict[str, float]:
         return {name: value for name, value in state.loads.items() if name in self.values}
 
-    # -- what fitted meshes add ----------------------------------------------------------------
+    # -- methods of fitted meshes ----------------------------------------------------------------
 
     def fit(
         self,

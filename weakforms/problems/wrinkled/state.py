@@ -1,4 +1,4 @@
-"""One state of a wrinkled membrane: its zones as blocks of a mesh, its equations at break points."""
+"""One state of a wrinkled membrane: its zones as blocks of a mesh, and its equations at break points."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord
 from weakforms.solvers.equilibrium.system import State
 
 BLOCKS = 10
-"""Blocks of a mesh; more where more break points need them."""
+"""Smallest number of blocks of a mesh; more break points need more."""
 
 GROWTH = 4.0
-"""How many times as long as its neighbour a block may be where meshes are graded to fronts."""
+"""Largest ratio of the lengths of neighbouring blocks in meshes that are graded towards fronts."""
 
 ALIKE = 1e-6
 """Relative difference of two blocks' lengths below which they are equal."""
 
 NEAR_DISKS = (1 / 32, 1 / 8, 7 / 8, 31 / 32)
-"""Shares of the length at which blocks end besides, to resolve the layers at the ends."""
+"""Fractions of the length at which further blocks end, to resolve the layers at the ends."""
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """What a model is built on."""
+    """The mesh of a model."""
 
     comm: MPI.Intracomm = field(compare=False)
     ranks: int
-    """Handle of the communicator: models are kept by it."""
+    """Handle of the communicator, part of the key of kept models."""
     body: Body
     cells: int
-    """Cells a block."""
+    """Cells of each block."""
     degree: int
     energy: str
     material: Chosen | None = None
@@ -46,14 +46,14 @@ class Mesh:
 
 @dataclass(frozen=True)
 class AtBreak:
-    """A field at a break point or end has a value: ``gw = 1`` at a front, ``z = zw`` at the surface."""
+    """Condition for a field at a break point or end: ``gw = 1`` at a front, ``z = zw`` at the surface."""
 
     model: WrinkledModel
     functional: str
     node: int
     target: float = 1.0
     minus: str = ""
-    """Load the field is counted from."""
+    """Load from which the field is measured."""
     after: bool = False
 
     def value(self, solver: ExtendedNewton) -> float:
@@ -63,7 +63,7 @@ class AtBreak:
         return known - (solver.system.load(self.minus) if self.minus else self.target)
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """Of the functional, less the load."""
+        """Gradient of the functional minus the load."""
         self.model.look_at(self.node, self.after)
         row, loads = solver.system.monitor_gradient(self.functional, solver.scalars)
         if self.minus in loads:
@@ -73,7 +73,7 @@ class AtBreak:
 
 @lru_cache(maxsize=64)
 def model_on(mesh: Mesh, blocks: int) -> WrinkledModel:
-    """A model and its compiled forms serve all parameters: those are constants of the form."""
+    """The model on a mesh; it is kept for all parameters, which are constants of its forms."""
     values = {name: 1.0 for name in mesh.body.parameters}
     kind = mesh.energy, mesh.material
     return WrinkledModel(mesh.comm, mesh.body, values, blocks, mesh.cells, mesh.degree, *kind)
@@ -93,7 +93,7 @@ def solver_of(model: WrinkledModel, scalars: tuple[str, ...], stol: float = 1e-1
 
 @dataclass
 class Held:
-    """A state of a model: put back into it whenever something is read from it."""
+    """A state of a model, which is written into the model before each evaluation."""
 
     model: WrinkledModel
     state: State
@@ -104,20 +104,20 @@ class Held:
     scalars: tuple[str, ...] = ()
     constraints: tuple[AtBreak, ...] = ()
     touched: float | None = None
-    """Where ``gw`` touches 1, if that was asked for."""
+    """Position where ``gw`` touches 1, if requested."""
     layout: Layout | None = None
-    """Of a fitted mesh."""
+    """Break points and marks of a fitted mesh."""
     slivers: tuple[float, ...] = ()
-    """Fronts of zones too thin for a block of their own, as the solution without them shows them."""
+    """Fronts of zones that are too thin for a block, from the solution without these zones."""
 
     def put(self) -> Meridian:
-        """Put the state into its model; the fields to read from."""
+        """Write the state into its model and return its fields."""
         self.model.mark(self.taut, self.wet)
         self.model.system.set_state(self.state.u, self.state.loads)
         return meridian_of(self.model)
 
     def all_zones(self, length: float) -> Zones:
-        """Zones, the slivers included (which lie at the ends)."""
+        """All zones, including the thin ones without a block (which lie at the ends)."""
         first = -self.zones.first if any(z < length / 2 for z in self.slivers) else self.zones.first
         return replace(self.zones, first=first, fronts=tuple(sorted([*self.zones.fronts, *self.slivers])))
 
@@ -128,14 +128,14 @@ class Held:
 
 @dataclass(frozen=True)
 class Touch:
-    """A point where ``gw = 1`` is just reached: at an end, or inside where its slope is zero."""
+    """A point where ``gw`` just reaches 1: at an end, or inside with zero slope."""
 
     at: float
     at_end: bool
 
 
 def _graded(breaks: list[float]) -> list[float]:
-    """The same with blocks divided so that none is longer than :data:`GROWTH` times a neighbour."""
+    """Break points with blocks divided so that none is longer than :data:`GROWTH` times a neighbour."""
     breaks = list(breaks)
     k = 0
     while k < len(breaks) - 1:
@@ -156,7 +156,7 @@ def _graded(breaks: list[float]) -> list[float]:
 
 @dataclass(frozen=True)
 class Layout:
-    """Break points of a fitted mesh, which of them are unknowns, and the marks of its blocks."""
+    """Break points of a fitted mesh, the unknown ones among them, and the marks of its blocks."""
 
     breaks: np.ndarray
     fronts: tuple[int, ...]
@@ -168,13 +168,13 @@ class Layout:
     def of(
         cls, found: Zones, length: float, extra: Sequence[float] = (), near_fronts: Sequence[float] = ()
     ) -> Layout:
-        """Fronts, surface and further points, the longest blocks halved until there are enough.
+        """Layout with fronts, surface and further points; the longest blocks are halved if needed.
 
         Args:
-            found: Zones.
-            length: Of the meridian.
-            extra: Points that are to be break points.
-            near_fronts: Distances from fronts at which blocks end besides, ascending.
+            found: Zones of the state.
+            length: Length of the meridian.
+            extra: Further break points.
+            near_fronts: Distances from fronts at which further blocks end, ascending.
         """
         given = [*found.fronts, *([] if found.surface is None else [found.surface]), *extra]
         breaks = [0.0, *sorted(given), length]
@@ -190,7 +190,8 @@ class Layout:
                 breaks = sorted([*breaks, point])
         while len(breaks) < BLOCKS + 1:
             widths = np.diff(breaks)
-            # Of equal ones the first: which is longest only round-off would say, and so the number of ranks.
+            # Take the first of equal ones, so that round-off, which depends on the number of ranks, does not
+            # decide.
             k = int(np.argmax(widths > widths.max() * (1 - ALIKE)))
             breaks.insert(k + 1, (breaks[k] + breaks[k + 1]) / 2)
         points = np.array(breaks)

@@ -18,7 +18,7 @@ from weakforms.solvers.support.provenance import provenance
 
 
 class ThresholdParameters(MaterialChoice):
-    """Unloaded membrane whose disks were attached before it was stretched."""
+    """Unloaded membrane with disks attached before stretching."""
 
     ratio: ClassVar[str] = "c2"
 
@@ -26,14 +26,14 @@ class ThresholdParameters(MaterialChoice):
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
     Af: float = Field(1.0, gt=0, le=3, description="radius of the disks; 1 is Case 2")
-    upper: bool = Field(False, description="the threshold above the uniform thickness, not that below it")
+    upper: bool = Field(False, description="which threshold: above the uniform thickness, not below it")
 
 
 class WrinkledTubeThreshold:
     """Thickness ratio beyond which the unloaded membrane wrinkles."""
 
     name: ClassVar[str] = "wrinkled_tube_threshold"
-    title: ClassVar[str] = "Thickness ratio at which the unloaded cylindrical membrane begins to wrinkle"
+    title: ClassVar[str] = "Thickness ratio at which the unloaded cylindrical membrane starts to wrinkle"
     paper: ClassVar[int] = 4
     source: ClassVar[str] = SOURCE
     energy: ClassVar[str] = ENERGY
@@ -43,12 +43,10 @@ class WrinkledTubeThreshold:
     columns = ()
     special_points = ()
     branches = ("primary",)
-    control: ClassVar[str] = (
-        "none; the quantity M is the root of min gw = 1 at zero load, Z where it is reached"
-    )
+    control: ClassVar[str] = "none; the quantity M is the root of min gw = 1 at zero load, Z its position"
 
     def check(self, parameters: ThresholdParameters, requests: Requests) -> None:
-        """Refuse states: there is only the unloaded one."""
+        """Refuse requests for states, because there is only the unloaded one."""
         check_requests(self, requests)
         require_foldable(self.name, parameters, waves=False)
 
@@ -60,7 +58,7 @@ class WrinkledTubeThreshold:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """The threshold ``M`` and the place ``Z`` where the membrane wrinkles first."""
+        """Solve for the threshold ``M`` and the point ``Z`` where the membrane wrinkles first."""
         begun = time.perf_counter()
         progress("threshold", 0, 1)
         result = Result(

@@ -1,1 +1,1 @@
-"""Branches of solutions and what is located along them."""
+"""Branches of solutions and special points on them."""

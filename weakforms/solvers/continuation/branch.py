@@ -1,4 +1,4 @@
-"""A solution curve on one mesh: traced, its special points located, any of its states solved for."""
+"""A solution curve on one mesh: its trace, its special points, and the state at any value of a column."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.roots import root
 
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
-"""Columns that describe the solve: they can be read, not prescribed."""
+"""Columns that describe the solve; they cannot be prescribed."""
 
 
 BETWEEN = (0.25, 0.5, 0.75)
-"""Where between two points of a trace eigenvalues are looked at once more."""
+"""Fractions of the interval between two points of a trace at which eigenvalues are counted again."""
 
 NODES = 8
-"""States from which a bifurcation point is interpolated."""
+"""Number of states from which a bifurcation point is interpolated."""
 
 
 @dataclass(frozen=True)
 class Solved:
-    """A state solved for on a branch: its columns and its degrees of freedom."""
+    """A state that was solved for on a branch: its columns and its degrees of freedom."""
 
     values: dict[str, float]
     state: State
     kind: str = ""
-    """Of the special point it is; empty for any other state."""
+    """Kind of the special point; empty for any other state."""
 
 
 class SolutionCurve:
@@ -42,13 +42,13 @@ class SolutionCurve:
 
     Args:
         continuation: Follows the curve.
-        control: The load the curve is drawn over and turns in.
+        control: The load over which the curve is drawn; limit points are its extrema.
         start: First point.
-        stop: True at the last point wanted.
+        stop: True at the last requested point.
 
     Attributes:
         points: The converged points in order.
-        stalled: Why the trace ended early; ``None`` if it did not.
+        stalled: The reason why the trace ended early; ``None`` if it did not.
     """
 
     def __init__(
@@ -85,22 +85,22 @@ class SolutionCurve:
 
     @property
     def shown(self) -> list[str]:
-        """Columns that results show, diagnostics apart."""
+        """Columns that results show, without diagnostics."""
         names = [*self.loads, *self.points[0].monitors]
         return [name for name in names if name not in self.system.formulation.internal]
 
     def _values(self, state: State) -> dict[str, float]:
-        """Columns of a state the system holds."""
+        """Columns of the state that the system holds."""
         return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
 
     # -- states on demand --------------------------------------------------------------------
 
     def at(self, name: str, value: float, crossing: int = 1) -> Solved:
-        """The state at which a column takes a value, at its ``crossing``-th crossing along the branch.
+        """Solve for the state at which a column takes a value for the ``crossing``-th time along the branch.
 
         Raises:
-            InputError: When the column cannot be prescribed or never takes the value that often.
-            ConvergenceError: When the state was bracketed but not converged to.
+            InputError: If the column cannot be prescribed or does not take the value that often.
+            ConvergenceError: If the state was bracketed but Newton's method did not converge to it.
         """
         hits = self.crossings(name, value)
         if len(hits) < crossing:
@@ -115,21 +115,21 @@ class SolutionCurve:
         return solved
 
     def near(self, guess: State, name: str, value: float) -> Solved:
-        """The state at which a column takes a value, from a state near it, such as an end of the branch."""
+        """Solve for the state at which a column takes a value, from a state near it."""
         return self._solve(guess, Held(name, value))
 
     def _fraction(self, i: int, name: str, value: float) -> float:
-        """Where between two neighbours a column has a value; a load by its own cubic, next to a turn too."""
+        """Fraction of the interval between two neighbours where a column (a load: its cubic) has a value."""
         if name in self.loads:
             return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
         before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
         return before / (before - after)
 
     def crossings(self, name: str, value: float) -> np.ndarray:
-        """Indices of the points after which a column passes a value.
+        """Indices of the points after which a column crosses a value.
 
         Raises:
-            InputError: When the column cannot be prescribed.
+            InputError: If the column cannot be prescribed.
         """
         if name not in (*self.loads, *self.system.formulation.monitors):
             known = ", ".join((*self.loads, *self.system.formulation.monitors))
@@ -140,12 +140,12 @@ class SolutionCurve:
         return np.concatenate([[0], hits]) if distance[0] == 0 else hits
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
-        """The state of this mesh that lies across the branch from a point of another mesh.
+        """Solve for the state of this mesh in the plane across the branch through a point of another mesh.
 
         Args:
-            like: The other mesh's point.
-            rates: Direction of that branch in some columns; fixes the line across it.
-            near: Its arclength there as a fraction of this branch's.
+            like: The point of the other mesh.
+            rates: Direction of that branch in some columns; the plane is normal to it.
+            near: Position along the branch, as a fraction of the arc length.
         """
         target = sum(rate * self._column(like, name) for name, rate in rates.items())
         places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
@@ -183,7 +183,7 @@ class SolutionCurve:
         return State(u, {**a.state.loads, **loads})
 
     def _require_within(self, i: int, solved: Solved, what: str) -> None:
-        """Refuse a solution that Newton's method found somewhere else than between its brackets."""
+        """Refuse a solution outside of the interval in which Newton's method should find it."""
         a, b = self.points[i], self.points[i + 1]
         length = b.arclength - a.arclength
         for end in (a, b):
@@ -192,7 +192,7 @@ class SolutionCurve:
                 raise ConvergenceError(f"{what}: converged {gap:.2g} away from where it was bracketed")
 
     def _root(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
-        """Where a function of the state is zero between two neighbours, over planes across the curve."""
+        """Solve for the state between two neighbours where a function is zero, over planes across it."""
         tangent = self.points[i].tangent
         last: list[Solved] = []
 
@@ -211,10 +211,10 @@ class SolutionCurve:
         return {name: self.continuation.rate(name, point.tangent) for name in names}
 
     def end_at(self, name: str, value: float) -> None:
-        """Replace the last point by the one at which a column has a value, reached just before it.
+        """Replace the last point by the point at which a column has a value, which lies just before it.
 
         Raises:
-            ConvergenceError: When the trace ended before it.
+            ConvergenceError: If the trace ended before it.
         """
         crossings = len(self.crossings(name, value))
         if not crossings:
@@ -227,7 +227,7 @@ class SolutionCurve:
         )
 
     def extend_to(self, load: str, value: float) -> None:
-        """One more point at the end, at a value of a load that is near enough for a linear guess."""
+        """Add a point at the end, at a value of a load that is near enough for a linear guess."""
         last, continuation = self.points[-1], self.continuation
         step = (value - last.state.loads[load]) / last.tangent.loads[load]
         guess = continuation.predict(None, last, step)
@@ -236,18 +236,18 @@ class SolutionCurve:
         self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
 
     def require_nothing_between(self) -> None:
-        """Make sure that no special point hides between neighbours that look alike.
+        """Make sure that there is no special point between neighbours with the same inertia.
 
         Raises:
-            ConvergenceError: Where eigenvalues change sign between two points and change it back.
+            ConvergenceError: If eigenvalues change sign between two points and change it back.
         """
 
     def _require_same_between(self, counts: np.ndarray, count: Callable[[State], int], what: str) -> None:
-        """Compare the inertia of neighbours that agree with that of states interpolated between them.
+        """Where neighbours have the same inertia, compare it with the inertia of states between them.
 
-        Two eigenvalues that cross zero in opposite directions within a step, or one that crosses it and
-        returns, leave the count at the ends as it was. What is interpolated is near the branch, not on it: a
-        count that differs is believed once the state is solved for.
+        If two eigenvalues cross zero in opposite directions within a step, or one crosses it and returns, the
+        count at both ends is the same. An interpolated state is near the branch, not on it. If its count
+        differs, the state is solved for and counted again.
         """
         for i in np.flatnonzero(np.diff(counts) == 0).tolist():
             for fraction in BETWEEN:
@@ -273,10 +273,10 @@ class SolutionCurve:
 
 
 class FittedBranch(SolutionCurve):
-    """Solutions with more unknown loads than the control, such as a front that the mesh follows."""
+    """Solutions with further unknown loads besides the control, such as a front that the mesh follows."""
 
     def special(self) -> list[Solved]:
-        """Limit points of the control: roots of its rate along the curve."""
+        """Limit points of the control: zeros of its rate along the curve."""
         return [self._root(int(i), self._control_rate(int(i)), "limit_point") for i in self.turns()]
 
     def _control_rate(self, i: int) -> Callable[[Solved], float]:
@@ -296,12 +296,12 @@ class EquilibriumBranch(SolutionCurve):
     def special(self) -> list[Solved]:
         """Limit points and bifurcation points in order.
 
-        Limit points are bracketed where ``dλ/ds`` changes sign, which must also be where the inertia
-        changes by one, and located by the extended system of :class:`Fold`. Where the inertia changes and
-        the load does not turn, another branch crosses.
+        Limit points are bracketed where ``dλ/ds`` changes sign; there the inertia must also change by one.
+        The extended system of :class:`Fold` locates them. Where the inertia changes without a limit point,
+        another branch crosses.
 
         Raises:
-            ConvergenceError: When slope and inertia disagree, or a point is not converged to.
+            ConvergenceError: If slope and inertia disagree, or the solve for a point does not converge.
         """
         counts = np.array([p.n_negative for p in self.points])
         turns = self.turns().tolist()
@@ -319,7 +319,7 @@ class EquilibriumBranch(SolutionCurve):
         return [self._fold(i) if i in turns else self._bifurcation(i) for i in changes]
 
     def require_nothing_between(self) -> None:
-        """As said there, of the eigenvalues of ``K``."""
+        """Check the eigenvalues of ``K`` as in the base class."""
         factor = self.solver.factor
 
         def count(state: State) -> int:
@@ -337,11 +337,11 @@ class EquilibriumBranch(SolutionCurve):
         return solved
 
     def _bifurcation(self, i: int) -> Solved:
-        """Where the eigenvalue that changes sign is zero, by interpolation from states to both sides.
+        """The point where the eigenvalue that changes sign is zero, interpolated from states on both sides.
 
-        At the point itself even the bordered matrix is singular (the null vector breaks the symmetry the
-        branch has), so nothing is solved there: eigenvalue, columns and state are smooth along the branch
-        and interpolated from :data:`NODES` states solved for at Chebyshev nodes.
+        At the point even the bordered matrix is singular, because the null vector breaks the symmetry of the
+        branch. Nothing is therefore solved there. Eigenvalue, columns and state are smooth along the branch,
+        and are interpolated from :data:`NODES` states at Chebyshev nodes.
         """
         stability, tangent = Stability(self.system), self.points[i].tangent
         index = min(self.points[i].n_negative, self.points[i + 1].n_negative)
@@ -367,15 +367,15 @@ class EquilibriumBranch(SolutionCurve):
 
 
 class FoldLine(SolutionCurve):
-    """Limit points in one load followed in a second one, the control."""
+    """Limit points in one load, followed over a second load, the control."""
 
     kind = "cusp_point"
 
     def special(self) -> list[Solved]:
-        """Cusps in order: where the two folds that bound an unstable stretch merge.
+        """Cusps in order: points where two limit points, the ends of an unstable part of the branch, merge.
 
-        Bracketed where the control turns; located as the root of the fold's curvature
-        (:meth:`Fold.curvature`) over planes across the line.
+        Cusps are bracketed where the control has an extremum. They are located as zeros of the fold's
+        curvature (:meth:`Fold.curvature`) over planes across the line.
         """
         return [self._cusp(int(i)) for i in self.turns()]
 

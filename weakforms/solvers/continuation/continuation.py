@@ -22,7 +22,7 @@ class Tangent:
     u: np.ndarray
     loads: dict[str, float]
     dual: np.ndarray | None = None
-    """``M u`` where it is known already: what projects on this direction."""
+    """``M u`` if it is known already; its inner product projects on this direction."""
 
 
 @dataclass
@@ -39,43 +39,47 @@ class CurvePoint:
 
 @dataclass(frozen=True)
 class StepControl:
-    """Lengths of arc-length steps, and what makes them change."""
+    """Lengths of arc-length steps, and the rules for changing them."""
 
     first: float = 0.05
     largest: float = 0.1
     smallest: float = 1e-7
     predictor_error: float = 2e-3
-    """Distance of predictor and solution aimed at; cubic extrapolation makes it ~ step⁴."""
+    """Target distance between predictor and solution; with cubic extrapolation it grows like step⁴."""
     max_turn: float = 0.85
-    """Cosine of the turn within a step below which the step is repeated shorter (a jump of branch)."""
+    """If the cosine of the turn within a step is smaller, the step may have changed branch and is repeated
+    shorter."""
     max_aside: float = 0.1
-    """Sine of the angle between a step's chord and the mean of its tangents above which it is repeated.
+    """If the sine of the angle between a step's chord and the mean of its tangents is larger, the step is
+    repeated shorter.
 
-    Of a smooth curve it is of second order in the step (below 0.05 for all of the papers'); a jump to a
-    branch beside it, however parallel, makes it as large as the jump over the step.
+    For a smooth curve this sine is of second order in the step (below 0.05 for all curves of the papers).
+    After a jump to a neighbouring branch, even a parallel one, it is the length of the jump divided by the
+    length of the step.
     """
     max_points: int = 3000
     usual_load: float = inf
-    """Load above which the largest step is longer in proportion: a stiff law's branch is mostly load."""
+    """Above this load the largest step grows in proportion to the load, which dominates the arc length of
+    stiff laws."""
 
     def most(self, state: State, loads: Sequence[str]) -> float:
-        """The largest step from a state."""
+        """The largest allowed step from a state."""
         return self.largest * max(1.0, *(abs(state.loads[name]) / self.usual_load for name in loads))
 
 
 class Continuation:
     """Follows ``R(U, λ) = 0`` plus ``m - 1`` fixed constraints along its one-dimensional solution curve.
 
-    Two factorisations a step: one at the predictor, kept for all Newton iterations of the step, and one at
-    the solution, which gives tangent and inertia.
+    Each step needs two factorisations: one at the predictor, kept for all Newton iterations, and one at the
+    solution, which gives tangent and inertia.
 
     Args:
         solver: Newton solver whose ``m`` scalars are the unknown loads.
-        fixed: Constraints that hold all along (a fold, for a fold line).
+        fixed: Constraints that hold along the whole curve (the fold condition, for a fold line).
         control: Step lengths.
-        shift: Inertia is counted of ``K + shift M``: on a fold line, where ``K`` is singular by definition,
+        shift: The inertia is that of ``K + shift M``. On a fold line, where ``K`` is singular by definition,
             a small shift leaves the critical eigenvalue out of the count.
-        allowed: True of states that make sense; a step that leads to another is repeated shorter.
+        allowed: True for admissible states; a step to another state is repeated shorter.
     """
 
     def __init__(
@@ -103,7 +107,7 @@ class Continuation:
         return self._length(self._chord(a, b))
 
     def _chord(self, a: State, b: State) -> Tangent:
-        """From one state to another, of its own length."""
+        """The vector from one state to another, not normalised."""
         return Tangent(b.u - a.u, {name: b.loads[name] - a.loads[name] for name in self.solver.scalars})
 
     def _length(self, chord: Tangent) -> float:
@@ -117,7 +121,7 @@ class Continuation:
         return self.system.dot(a.u, self._dual(b)) + loads
 
     def plane(self, through: State, tangent: Tangent, offset: float = 0.0) -> Plane:
-        """Plane across the curve at a distance along its tangent."""
+        """Plane normal to the curve's tangent at a distance along it."""
         row = self._dual(tangent)
         weights = tangent.loads
         target = self.system.dot(row, through.u)
@@ -125,13 +129,13 @@ class Continuation:
         return Plane(row, weights, target)
 
     def _tangent(self, along: Tangent) -> Tangent:
-        """Direction at the state the system holds (factorised), oriented as ``along``."""
+        """Direction of the curve at the state that the system holds (factorised), oriented like ``along``."""
         plane = Plane(self._dual(along), along.loads, 0.0)
         bordered = self.solver.border([*self.fixed, plane])
         return self._unit(*self._along(bordered))
 
     def _along(self, bordered: BorderedMatrix) -> tuple[np.ndarray, dict[str, float]]:
-        """Rate of the state where all of a bordered system's equations hold and the last one changes."""
+        """Rate of the state if only the last equation of a bordered system changes."""
         goal = [0.0] * (len(self.solver.scalars) - 1) + [1.0]
         u, values = bordered.solve(None, goal)
         return u, dict(zip(self.solver.scalars, values.tolist(), strict=True))
@@ -142,7 +146,7 @@ class Continuation:
         return Tangent(u * factor, {name: v * factor for name, v in loads.items()}, dual * factor)
 
     def direction_here(self, along: Tangent) -> Tangent:
-        """Direction of the curve at the state the system holds, oriented as another."""
+        """Direction of the curve at the state that the system holds, oriented like another direction."""
         self.solver.factor.update()
         return self._tangent(along)
 
@@ -167,12 +171,12 @@ class Continuation:
         return factor.negative_count() if negative is None else negative
 
     def start(self, guess: State, constraint: Constraint, towards: dict[str, float]) -> CurvePoint:
-        """First point of a curve: solved with ``constraint`` in place of an arc-length step.
+        """First point of a curve, solved for with ``constraint`` instead of an arc-length step.
 
         Args:
             guess: Initial guess.
-            constraint: What selects the point, such as a functional held.
-            towards: Sign wanted for the change of one functional or load along the curve.
+            constraint: Equation that selects the point, such as a prescribed functional.
+            towards: Requested sign for the change of one functional or load along the curve.
         """
         state, record = self.solver.solve(guess, [*self.fixed, constraint])
         self.system.set_state(state.u, state.loads)
@@ -185,7 +189,7 @@ class Continuation:
         return self.point(state, record, along, 0.0)
 
     def rate(self, name: str, tangent: Tangent) -> float:
-        """Derivative of a functional or load along a direction at the state the system holds."""
+        """Derivative of a functional or load along a direction at the state that the system holds."""
         if name in tangent.loads:
             return tangent.loads[name]
         row, rates = self.system.monitor_gradient(name)
@@ -204,10 +208,10 @@ class Continuation:
         return _combine(self.solver.scalars, list(zip(weights, parts, strict=True)))
 
     def advance(self, before: CurvePoint | None, at: CurvePoint, step: float) -> CurvePoint:
-        """One step of given length.
+        """Make one step of a given length.
 
         Raises:
-            ConvergenceError: When it does not converge, or turns too sharply to be the same curve.
+            ConvergenceError: If it does not converge, or turns too sharply to be on the same curve.
         """
         guess = self.predict(before, at, step)
         plane = self.plane(at.state, at.tangent, step)
@@ -222,7 +226,7 @@ class Continuation:
             raise ConvergenceError("the curve turns too sharply within a step")
         along = self._inner(chord, at.tangent) + self._inner(chord, new.tangent)
         if _aside(along / length, turn) > self.control.max_aside:
-            raise ConvergenceError("the step leads aside, to another curve")
+            raise ConvergenceError("the step leads to another curve")
         self._error = self.distance(state, guess)
         return new
 
@@ -230,7 +234,7 @@ class Continuation:
         """Yield ``start`` and the points after it, up to the first for which ``stop`` is true.
 
         Raises:
-            ConvergenceError: When even the smallest step fails; all points up to there were yielded.
+            ConvergenceError: If even the smallest step fails; all points before it were yielded.
         """
         control = self.control
         before, at, step = None, start, control.first

@@ -1,4 +1,4 @@
-"""A branch made of pieces that follow one another, such as free inflation and contact."""
+"""A branch that consists of consecutive parts, such as free inflation and contact."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from weakforms.solvers.uncertainty.family import KINDS, BranchFamily
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of a branch on all meshes, and columns it has a fixed value for (no front: no patch)."""
+    """A part of a branch on all meshes, with columns that are constant on it (no patch before contact)."""
 
     family: BranchFamily
     fixed: Mapping[str, float]
 
 
 class PiecewiseFamily:
-    """Pieces read as one branch: columns joined, special points and crossings in order.
+    """Consecutive parts combined into one branch: columns joined, special points and crossings in order.
 
     Args:
-        pieces: In the order in which the branch runs through them.
-        joints: Special points at which a piece ends and the next begins, one a joint.
+        pieces: The parts in their order along the branch.
+        joints: Special points between the parts, one for each joint.
     """
 
     def __init__(self, pieces: Sequence[Piece], joints: Callable[[], Sequence[SpecialPoint]] = tuple) -> None:
@@ -34,16 +34,16 @@ class PiecewiseFamily:
 
     @property
     def failures(self) -> list[Failure]:
-        """Of all pieces."""
+        """Failures of all parts."""
         return [failure for piece in self.pieces for failure in piece.family.failures]
 
     @property
     def quadrature_degree(self) -> int:
-        """The highest of the pieces."""
+        """The highest degree of all parts."""
         return max(piece.family.quadrature_degree for piece in self.pieces)
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
-        """All pieces as one branch; a column that a piece has no number for is left out."""
+        """All parts as one branch; a column that some part does not have is left out."""
         parts = []
         for piece in self.pieces:
             part = piece.family.branch(with_uncertainty)
@@ -63,7 +63,7 @@ class PiecewiseFamily:
         )
 
     def special_points(self) -> list[SpecialPoint]:
-        """Of all pieces and joints, in order."""
+        """Special points of all parts and joints, in order."""
         joints = list(self._joints())
         points: list[SpecialPoint] = []
         for i, piece in enumerate(self.pieces):
@@ -72,10 +72,10 @@ class PiecewiseFamily:
         return points
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
-        """As :meth:`BranchFamily.state`, over all pieces.
+        """As :meth:`BranchFamily.state`, over all parts.
 
         Raises:
-            InputError: When no piece has such a state.
+            InputError: If no part has such a state.
         """
         left, ranges = crossing, []
         for piece in self.pieces:
@@ -95,18 +95,18 @@ class PiecewiseFamily:
                 return _with_fixed(family.state(name, value, left, profile), piece.fixed, crossing)
             left -= here
         where = f"; {name} ranges over [{min(ranges):.6g}, {max(ranges):.6g}]" if ranges else ""
-        raise InputError(f"{name} = {value:g} is not met {crossing} times on this branch{where}")
+        raise InputError(f"{name} = {value:g} is not taken {crossing} times on this branch{where}")
 
 
 def _with_fixed(state: State, fixed: Mapping[str, float], crossing: int) -> State:
-    """A piece's state with the columns it has fixed values for; one that has none there is left out."""
+    """A part's state, with the columns that are constant on it; a column without a value is left out."""
     quantities = {name: value for name, value in state.quantities.items() if name not in fixed}
     quantities |= {name: Quantity(value, 0.0) for name, value in fixed.items() if not np.isnan(value)}
     return State(state.at, state.branch, quantities, state.fields, crossing)
 
 
 def _point_with_fixed(point: SpecialPoint, fixed: Mapping[str, float]) -> SpecialPoint:
-    """A piece's special point without the columns that it has fixed values for."""
+    """A part's special point, without the columns that are constant on it."""
     values, spread, orders = (
         {name: value for name, value in of.items() if name not in fixed}
         for of in (point.values, point.uncertainty, point.orders)

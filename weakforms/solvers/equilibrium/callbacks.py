@@ -1,4 +1,4 @@
-"""What Python raises while PETSc calls it waits until PETSc has returned."""
+"""Exceptions in Python functions that PETSc calls are kept until PETSc has returned."""
 
 from __future__ import annotations
 
@@ -10,18 +10,19 @@ class Deferred:
 
     An exception must not pass through PETSc's C frames: vectors stay locked, objects cannot be destroyed, and
     petsc4py 3.22 may end the process in its own error handler (a segmentation fault in ``PyTraceBack_Here``).
-    So a callback that fails spoils its result, by which PETSc ends soon, and the error is raised after that.
+    A callback that fails therefore makes its result invalid, so that PETSc stops soon. The error is raised
+    after that.
     """
 
     def __init__(self) -> None:
         self.error: BaseException | None = None
 
     def run(self, work: Callable[[], None], spoil: Callable[[], None]) -> None:
-        """Do the work, or spoil its result if that raises or anything before it did.
+        """Do the work; if it raises an exception, or an earlier call did, make the result invalid.
 
         Args:
-            work: What PETSc calls for.
-            spoil: Leaves a result with which PETSc comes to an end.
+            work: The work of the callback.
+            spoil: Writes an invalid result, with which PETSc stops.
         """
         if self.error is None:
             try:
@@ -32,7 +33,7 @@ class Deferred:
         spoil()
 
     def release(self) -> None:
-        """Raise what is kept, if anything is; nothing is kept afterwards."""
+        """Raise and forget the kept exception, if there is one."""
         error, self.error = self.error, None
         if error is not None:
             raise error

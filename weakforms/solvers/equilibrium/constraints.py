@@ -1,4 +1,4 @@
-"""Scalar equations that close an equilibrium with free loads: load, functional, arc-length, fold."""
+"""Scalar equations for an equilibrium with unknown loads: load, functional, arc length, fold."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 
 @dataclass(frozen=True)
 class Plane:
-    r"""``row·U + Σ weight_λ λ = target``: arc-length steps, and a load at a fixed value."""
+    r"""The condition ``row·U + Σ weight_λ λ = target``: an arc-length step, or a load at a fixed value."""
 
     row: np.ndarray
     weights: dict[str, float]
@@ -25,13 +25,13 @@ class Plane:
         return system.dot(self.row, system.owned()) + loads - self.target
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """Constant."""
+        """The gradient, which is constant."""
         return self.row, self.weights
 
 
 @dataclass(frozen=True)
 class Held:
-    """A functional, or a load, at a prescribed value."""
+    """The condition that a functional, or a load, has a prescribed value."""
 
     name: str
     target: float
@@ -43,7 +43,7 @@ class Held:
         return known - self.target
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """From the derivative of the functional's form."""
+        """The gradient, from the derivative of the functional's form."""
         system = solver.system
         if self._is_load(solver):
             return np.zeros(system.size), {self.name: 1.0}
@@ -55,7 +55,7 @@ class Held:
 
 @dataclass(frozen=True)
 class MonitorPlane:
-    """``Σ weight_m m(U, λ) = target`` over functionals and loads: a position across a branch."""
+    """The condition ``Σ weight_m m(U, λ) = target`` over functionals and loads: a plane across a branch."""
 
     weights: dict[str, float]
     target: float
@@ -76,15 +76,15 @@ class MonitorPlane:
 
 @dataclass(frozen=True)
 class Fold:
-    r"""The fold condition ``q = 0`` of a curve of equilibria in one load ``λ``.
+    r"""The condition ``q = 0`` for a fold of a curve of equilibria in one load ``λ``.
 
     With a fixed vector ``c`` the bordered system
 
     .. math:: \begin{pmatrix} K & R_\lambda \\ c^T & 0 \end{pmatrix}
               \begin{pmatrix} \varphi \\ q \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}
 
-    gives ``q = dλ/d(cᵀU)`` along the curve: it vanishes exactly where ``K φ = 0``, and unlike ``det K`` it
-    does so linearly and in scale. By the transposed system (``ψ``, normalised to ``ψᵀR_λ = 1``)
+    gives ``q = dλ/d(cᵀU)`` along the curve. It vanishes exactly where ``K φ = 0``; unlike ``det K`` it does
+    so linearly and is well scaled. By the transposed system (``ψ``, normalised to ``ψᵀR_λ = 1``)
 
     .. math:: \mathrm{d}q = -\mathrm{d}(\psi^T K \varphi + q\, \psi^T R_\lambda)
 
@@ -95,7 +95,7 @@ class Fold:
     border: np.ndarray
 
     def vectors(self, solver: ExtendedNewton) -> tuple[np.ndarray, np.ndarray, float]:
-        """``(φ, ψ, q)``; ``K`` must be factorised at the state the system holds."""
+        """``(φ, ψ, q)``; ``K`` must be factorised at the state that the system holds."""
         rate = solver.system.load_derivative(self.load)
         phi, q = self._solution(solver, rate, self.border)
         psi, _ = self._solution(solver, self.border, rate)
@@ -107,19 +107,19 @@ class Fold:
         return vector, float(q[0])
 
     def value(self, solver: ExtendedNewton) -> float:
-        """``q``; factorises ``K``."""
+        """The value of ``q``; factorises ``K``."""
         solver.factor.update()
         _, q = self._solution(solver, solver.system.load_derivative(self.load), self.border)
         return q
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """From the third variation."""
+        """The gradient, from the third variation."""
         phi, psi, q = self.vectors(solver)
         row, loads = solver.system.third_variation(phi, psi, self.load, q)
         return -row, {name: -value for name, value in loads.items()}
 
     def curvature(self, solver: ExtendedNewton) -> float:
-        """``d²λ/d(cᵀU)²`` at a fold: its zero is a cusp. The system holds the fold's state."""
+        """``d²λ/d(cᵀU)²`` at the fold that the system holds; it is zero at a cusp."""
         solver.factor.update()
         phi, _, q = self.vectors(solver)
         row, loads = self.gradient(solver)

@@ -16,21 +16,21 @@ NATIVE_LIMIT = 20_000
 """Unknowns up to which PETSc's own Cholesky beats MUMPS (0.04 ms against 0.3 ms at 1200)."""
 
 REFINED = 1e-9
-"""Relative residual at which refinement has nothing to add to a Newton step."""
+"""Relative residual below which refinement does not improve a Newton step."""
 
 REFINEMENT_LIMIT = 1e-6
-"""Relative residual above which a bordered solve counts as failed."""
+"""Relative residual above which a bordered solve has failed."""
 
 
 ROUND_OFF = 1e-13
-"""Absolute residual that is round-off of forces of order one, whatever the right-hand side."""
+"""Absolute residual that is round-off for forces of order one, for any right-hand side."""
 
 
 class Factorization:
     """``K = L D Lᵀ``: solves, and the number of negative eigenvalues by Sylvester's law.
 
-    PETSc's own factorisation does not pivot. That is sound here because every bordered solve checks its
-    residual; one that fails is repeated with MUMPS, which pivots.
+    PETSc's own factorisation does not pivot. This is safe here, because every bordered solve checks its
+    residual; a solve that fails is repeated with MUMPS, which pivots.
     """
 
     def __init__(self, system: System, prefix: str = "weakforms_factor_") -> None:
@@ -42,7 +42,7 @@ class Factorization:
         self.count = 0
         self.failed = False
         self.stiffened: tuple[float, np.ndarray] | None = None
-        """``(τ, e_i)`` while ``K + τ e_i e_iᵀ`` is factorised in place of ``K``."""
+        """``(τ, e_i)`` while ``K + τ e_i e_iᵀ`` is factorised instead of ``K``."""
 
     def _make(self, package: str) -> PETSc.PC:
         pc = PETSc.PC().create(self.system.comm)
@@ -56,14 +56,14 @@ class Factorization:
             pc.setFactorSetUpSolverType()
             factor = pc.getFactorMatrix()
             factor.setMumpsIcntl(24, 1)  # null pivot detection: PETSc's inertia insists on it ...
-            factor.setMumpsCntl(3, -1e-200)  # ... but a small pivot is a fold, not a null one: keep it
+            factor.setMumpsCntl(3, -1e-200)  # ... but keep small pivots: they belong to folds
             factor.setMumpsIcntl(13, 1)  # no parallel root node: the inertia needs it
             factor.setMumpsIcntl(14, 50)  # room for delayed pivots of an indefinite matrix
         pc.setFromOptions()
         return pc
 
     def use_pivoting(self) -> bool:
-        """Go over to MUMPS for good; False when it is in use already."""
+        """Switch to MUMPS permanently; False if it is in use already."""
         if self.package == "mumps":
             return False
         self.package = "mumps"
@@ -72,13 +72,13 @@ class Factorization:
         return True
 
     def update(self) -> None:
-        """Factorise the tangent at the state the system holds."""
+        """Factorise the tangent at the state that the system holds."""
         self.system.tangent()
         self.stiffened = None
         self.refactor()
 
     def refactor(self) -> None:
-        """Factorise the matrix as it stands."""
+        """Factorise the current matrix."""
         self._pc.setOperators(self.system.matrix)
         self._pc.setUp()
         self._factors = self._pc.getFactorMatrix()
@@ -91,7 +91,7 @@ class Factorization:
         null = self.solve(np.ones(system.size))
         size = np.abs(np.nan_to_num(null, nan=np.inf))
         size[system.bc_dofs] = 0.0
-        # Of a single degree of freedom the diagonal is the singular K itself; its mass is not.
+        # With a single degree of freedom the diagonal is the singular K itself; the mass is not zero.
         stiffness = max(
             float(np.abs(m.getDiagonal().array).max(initial=0.0)) for m in (system.matrix, system.mass)
         )
@@ -118,7 +118,7 @@ class Factorization:
         """Number of negative eigenvalues of ``K`` (its Dirichlet rows count as positive).
 
         Raises:
-            ConvergenceError: When ``K`` is exactly singular.
+            ConvergenceError: If ``K`` is exactly singular.
         """
         if self.failed:
             raise ConvergenceError("inertia: the tangent is singular, its factorisation met a zero pivot")
@@ -129,16 +129,16 @@ class Factorization:
 class BorderedMatrix:
     r"""Solves with :math:`\begin{pmatrix} K & B \\ C^T & D \end{pmatrix}` by block elimination.
 
-    ``K`` may be nearly singular (at a limit point it is) as long as the whole is not: the elimination is
-    followed by iterative refinement against the whole matrix, and the residual is checked. Where that does
-    not converge because ``K`` is singular to round-off, the degree of freedom ``i`` that dominates its null
-    vector is stiffened, :math:`\hat K = K + \tau e_i e_i^T`, and :math:`-\tau e_i (e_i^T z)` taken back by
-    one more border; that is the same system with a regular block.
+    ``K`` may be nearly singular, as at a limit point, if the whole matrix is not. Iterative refinement with
+    the whole matrix follows the elimination, and the residual is checked. If it does not converge because
+    ``K`` is singular to round-off, the degree of freedom ``i`` that dominates its null vector is stiffened,
+    :math:`\hat K = K + \tau e_i e_i^T`. An additional border subtracts :math:`-\tau e_i (e_i^T z)`, so that
+    the system is the same and its block is regular.
 
     Args:
-        factor: Factorised ``K``; a stiffened one stays in it until its next update.
-        columns: ``B``, one array a scalar unknown.
-        rows: ``C``, one array a constraint.
+        factor: Factorised ``K``; it stays stiffened until its next update.
+        columns: ``B``, one array for each scalar unknown.
+        rows: ``C``, one array for each constraint.
         corner: ``D``.
     """
 
@@ -170,7 +170,7 @@ class BorderedMatrix:
             for line, row in zip(self.corner, self.rows, strict=True)
         ]
 
-    # The few scalars are lists: a numpy call costs more than all there is to compute with them.
+    # The few scalars are lists: a numpy call would cost more than the computation.
 
     def _once(self, f: np.ndarray | None, g: list[float]) -> tuple[np.ndarray, list[float]]:
         if f is None:
@@ -184,7 +184,7 @@ class BorderedMatrix:
         return z, mu
 
     def multiply(self, z: np.ndarray, mu: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
-        """The bordered matrix times ``(z, mu)``; a stiffened diagonal entry is taken back."""
+        """The bordered matrix times ``(z, mu)``, without the stiffened diagonal entry."""
         wide = [*mu]
         if self.factor.stiffened is not None:
             wide.append(self.system.dot(self.factor.stiffened[1], z))
@@ -228,10 +228,10 @@ class BorderedMatrix:
 
         Args:
             f: Right-hand side of ``K``'s rows; ``None`` for zero, which saves solving for it.
-            g: That of the others.
+            g: Right-hand side of the other rows.
 
         Raises:
-            ConvergenceError: When a residual above :data:`REFINEMENT_LIMIT` is left all the same.
+            ConvergenceError: If the residual stays above :data:`REFINEMENT_LIMIT`.
         """
         for mend in (None, self._stiffen, self._pivot):
             if mend is not None:
@@ -255,7 +255,7 @@ class BorderedMatrix:
 
 def _small_solve(matrix: list[list[float]], rhs: list[float]) -> list[float]:
     """Solution of a few equations; NaN where they are singular."""
-    if len(rhs) <= 1:  # most of them, and the library call would cost more than all of the rest
+    if len(rhs) <= 1:  # the most frequent size; the library call would cost more than the rest
         return [value / matrix[0][0] if matrix[0][0] else math.nan for value in rhs]
     try:
         return np.linalg.solve(matrix, rhs).tolist()

@@ -2,8 +2,8 @@ r"""PETSc SNES for an equilibrium with some scalar unknowns and as many scalar e
 
 .. math:: R(U; \lambda_1..\lambda_m) = 0, \qquad g_i(U; \lambda) = 0, \quad i = 1..m
 
-The scalars live in the last entries of SNES's vector (on the last rank, and broadcast from there at every
-evaluation, so every rank knows them); the linear systems are bordered ones.
+The scalars are the last entries of SNES's vector. They are stored on the last rank, which broadcasts them at
+every evaluation, so that every rank knows them. The linear systems are bordered.
 """
 
 from __future__ import annotations
@@ -24,33 +24,33 @@ _REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).item
 
 
 RESIDUAL_LIMIT = 1e-8
-"""Residual norm above which no state is accepted where forces are of order one, however small the last step;
-and the most by which a constraint may be missed."""
+"""Residual norm above which no state is accepted if forces are of order one, however small the last step is.
+It is also the largest allowed error of a constraint."""
 
 OF_FORCES = 1e-15, 1e-10
-"""Least and largest value of that limit over the size of the forces (:meth:`System.force_size`): the first is
-some 25 times what round-off leaves, the second what a Newton step at the tolerance amounts to."""
+"""Smallest and largest value of this limit, relative to the size of the forces (:meth:`System.force_size`).
+The smallest is about 25 times round-off; the largest is the residual of a Newton step at the tolerance."""
 
 STOPPING = (
     "relative Newton step 1e-10; residual norm below 1e-8, but not below 1e-15 nor above 1e-10 of the nodal "
     "forces before they balance, |K| |U|"
 )
-"""What results say of it."""
+"""Text on these tolerances in results."""
 
 
 class Constraint(Protocol):
     """One scalar equation ``g(U; λ) = 0``."""
 
     def value(self, solver: ExtendedNewton) -> float:
-        """``g`` at the state the system holds."""
+        """``g`` at the state that the system holds."""
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state the system holds."""
+        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system holds."""
 
 
 @dataclass(frozen=True)
 class SolveRecord:
-    """How a solve ended."""
+    """The outcome of a solve."""
 
     reason: str
     iterations: int
@@ -60,24 +60,24 @@ class SolveRecord:
 
 
 def residual_limit(system: System) -> float:
-    """Residual norm above which the state that a system holds is none; its tangent is of a state close by."""
+    """Residual norm above which a state is refused; the tangent may be from a state close to it."""
     low, high = OF_FORCES
     size = system.force_size()
     return min(max(RESIDUAL_LIMIT, low * size), high * size)
 
 
 class ExtendedNewton:
-    """SNES over ``(U, λ)``; one object serves all solves of a system with the same scalars.
+    """SNES for ``(U, λ)``; one object is used for all solves of a system with the same scalars.
 
     Args:
         system: The discrete equilibrium equations.
-        scalars: Names of the loads that are unknowns; the others stay as the state has them.
-        stol: Newton step, relative to ``U``, at which a state counts as converged: the error left is the
-            step's square (with a kept factorisation, a small fraction of it). A threshold on the residual
-            would have to follow its round-off, which grows like ``cells^1.5``.
-        max_iterations: Newton iterations before a solve is given up.
+        scalars: Names of the loads that are unknowns; the other loads keep the values of the state.
+        stol: Newton step, relative to ``U``, at which a state is converged. The remaining error is the square
+            of the step (with a kept factorisation, a small fraction of the step). A limit on the residual
+            would have to depend on its round-off, which grows like ``cells^1.5``.
+        max_iterations: Largest number of Newton iterations.
         line_search: PETSc's name: ``basic`` takes full steps, ``bt`` backtracks.
-        prefix: PETSc options prefix; ``-{prefix}snes_monitor`` and the like work.
+        prefix: PETSc options prefix; options such as ``-{prefix}snes_monitor`` work.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class ExtendedNewton:
         self.constraints: Sequence[Constraint] = ()
         self.bordered: BorderedMatrix | None = None
         self.left = np.inf
-        """Norm of the residual that the last solve ended with."""
+        """Norm of the residual at the end of the last solve."""
         self._callbacks = Deferred()
         self._size = system.size
         self._root = system.comm.size - 1
@@ -111,7 +111,7 @@ class ExtendedNewton:
         self._made: dict[bool, PETSc.SNES] = {}
 
     def _snes(self, chord: bool) -> PETSc.SNES:
-        """That with a Jacobian each iteration or, for a chord, one at the first (made when first needed)."""
+        """The SNES with a new Jacobian in each iteration or, for a chord, in the first one only."""
         if chord not in self._made:
             options = {"snes_linesearch_type": self._line_search}
             if chord:  # petsc4py has no call for it
@@ -185,7 +185,7 @@ class ExtendedNewton:
         mat.assemble()
 
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
-        """Bordered tangent at the state the system holds, whose ``K`` is factorised already."""
+        """Bordered tangent at the state that the system holds, with ``K`` factorised already."""
         columns = [self.system.load_derivative(name) for name in self.scalars]
         gradients = [c.gradient(self) for c in constraints]
         corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
@@ -205,13 +205,14 @@ class ExtendedNewton:
         """Solve from a guess; the system holds the converged state afterwards.
 
         Args:
-            guess: Start; its loads that are not unknowns are kept.
-            constraints: One a scalar unknown.
+            guess: First guess; its loads that are not unknowns are kept.
+            constraints: One for each scalar unknown.
             chord: Keep the first factorisation for all iterations (after a good predictor that converges
                 as fast, at the price of one factorisation).
 
         Raises:
-            ConvergenceError: On divergence, too many iterations or a number that is not finite.
+            ConvergenceError: If the solve diverges, needs too many iterations or meets a number that is not
+                finite.
         """
         if len(constraints) != len(self.scalars):
             raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
@@ -224,7 +225,7 @@ class ExtendedNewton:
         try:
             run_snes(snes, self._x, self._callbacks)
         except ConvergenceError:
-            self._renew()  # what PETSc broke off keeps its vectors locked
+            self._renew()  # after an error in PETSc, its vectors stay locked
             raise
         finally:
             record = solve_record(snes, self.factor.count - before)
@@ -237,7 +238,7 @@ class ExtendedNewton:
         return system.state(), record
 
     def _is_balanced(self, snes: PETSc.SNES) -> bool:
-        """Whether what SNES left of forces and constraints is within limits; the system holds its state."""
+        """Whether the remaining residuals of forces and constraints are within their limits."""
         self._put(self._x)
         forces, missed = self._split(snes.getFunction()[0])
         within = self.system.dot(forces, forces) <= residual_limit(self.system) ** 2
@@ -259,7 +260,7 @@ class _BorderedOperator:
 
 
 class _BorderedSolve:
-    """Preconditioner that is the solver: the bordered system of the current Newton step."""
+    """A preconditioner that solves the bordered system of the current Newton step."""
 
     def __init__(self, newton: ExtendedNewton) -> None:
         self._newton = newton
@@ -276,10 +277,10 @@ class _BorderedSolve:
 
 
 def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
-    """Solve, with the start in ``x``; whether it converged remains to be asked.
+    """Solve, starting from ``x``; the caller must check whether the solve converged.
 
     Raises:
-        ConvergenceError: When PETSc breaks off, or what it calls cannot be computed.
+        ConvergenceError: If PETSc raises an error, or a function that it calls fails.
     """
     try:
         try:
@@ -292,7 +293,7 @@ def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
 
 
 def solve_record(snes: PETSc.SNES, factorizations: int) -> SolveRecord:
-    """How the last solve ended; the number of factorisations is the caller's to count."""
+    """The outcome of the last solve; the caller counts the factorisations."""
     reason = snes.getConvergedReason()
     norms, _ = snes.getConvergenceHistory()
     return SolveRecord(

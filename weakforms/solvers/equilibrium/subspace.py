@@ -1,7 +1,7 @@
 r"""Equilibrium within a linear subspace of the displacements, by SNES: :math:`P^T R(u_0 + P q) = 0`.
 
-Where a symmetry leaves the subspace as it is, its equilibria are equilibria of the whole system (principle of
-symmetric criticality), and no unstable direction outside it can attract Newton's method.
+If a symmetry defines the subspace, its equilibria are equilibria of the whole system (principle of symmetric
+criticality). Newton's method cannot leave it in an unstable direction.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ class Subspace:
 
     Args:
         system: The discrete equilibrium equations.
-        basis: ``P``: rows of this rank's degrees of freedom, zero where they are held.
-        lift: ``u_0``, owned degrees of freedom: what is held, and zero for ``q = 0`` elsewhere.
-        stol: Newton step, relative to ``q``, at which a state counts as converged.
-        max_iterations: Newton iterations before a solve is given up.
+        basis: ``P``: rows of this rank's degrees of freedom, zero where they are prescribed.
+        lift: ``u_0``, owned degrees of freedom: the prescribed values, and zero elsewhere.
+        stol: Newton step, relative to ``q``, at which a state is converged.
+        max_iterations: Largest number of Newton iterations.
         line_search: PETSc's name.
         prefix: PETSc options prefix.
     """
@@ -84,7 +84,7 @@ class Subspace:
             self._put(q)
             self.system.tangent().ptap(self.basis, result=jacobian)
 
-        self._callbacks.run(work, lambda: None)  # the residual that follows is spoilt
+        self._callbacks.run(work, lambda: None)  # the next residual is then invalid
 
     def nearest(self, u: np.ndarray) -> np.ndarray:
         """Member of the subspace nearest to a vector of owned degrees of freedom (least squares)."""
@@ -103,11 +103,11 @@ class Subspace:
         """Equilibrium in the subspace from a guess; the system holds it afterwards.
 
         Args:
-            guess: Start; what lies outside the subspace is left out of it.
-            loads: Loads other than the guess's.
+            guess: First guess; its part outside the subspace is dropped.
+            loads: Loads that replace those of the guess.
 
         Raises:
-            ConvergenceError: On divergence or too many iterations.
+            ConvergenceError: If the solve diverges or needs too many iterations.
         """
         self.system.set_loads(guess.loads | dict(loads or {}))
         self.nearest(guess.u)

@@ -1,4 +1,4 @@
-"""Discrete equilibrium equations on one mesh: residual, tangent and what one monitors, assembled."""
+"""Discrete equilibrium equations on one mesh: assembled residual, tangent and functionals."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from weakforms.solvers.support.jit_cache import compile_together
 from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
 
 SMALL_DISPLACEMENT = 1e-3
-"""Displacements below it count as that much in :meth:`System.force_size`: lengths are of order one, strains
-are differences of them and carry their round-off."""
+"""Smaller displacements count as this value in :meth:`System.force_size`: lengths are of order one, and
+strains, which are their differences, contain their round-off."""
 
 
 @dataclass
@@ -37,7 +37,7 @@ class State:
 
 @dataclass
 class Formulation:
-    """Weak form of an equilibrium problem, as a problem hands it to the solvers.
+    """Weak form of an equilibrium problem, as a problem provides it to the solvers.
 
     The second variation must be symmetric (the loads have a potential).
     """
@@ -46,18 +46,19 @@ class Formulation:
     residual: ufl.Form
     """First variation; linear in the test function."""
     loads: Mapping[str, tuple[fem.Constant, Expr]]
-    """Scalars that may become unknowns: the constant, and the ``ufl.variable`` it enters through."""
+    """Scalars that may become unknowns: the constant, and the ``ufl.variable`` by which it enters the
+    forms."""
     bcs: list[fem.DirichletBC]
     mass: ufl.Form
-    """Bilinear; norm of the continuation and right-hand side of the eigenproblem."""
+    """Bilinear form; gives the norm of the continuation and the right-hand side of the eigenproblem."""
     monitors: Mapping[str, ufl.Form]
     """Scalar functionals, the columns of a branch."""
     profile: Mapping[str, Expr] = field(default_factory=dict)
-    """Expressions sampled along the body for fields."""
+    """Expressions that are sampled along the body for fields."""
     abscissa: str = "Z"
-    """Name of the material coordinate they are sampled over."""
+    """Name of the material coordinate of the samples."""
     derived: Mapping[str, Callable[[Mapping[str, float]], float]] = field(default_factory=dict)
-    """Columns computed from the functionals' values: to read, not to prescribe."""
+    """Columns computed from the functionals' values; they cannot be prescribed."""
     maxima: Mapping[str, Expr] = field(default_factory=dict)
     """Columns that are the largest value of an expression anywhere on the body."""
     levels: Mapping[str, tuple[Expr, float]] = field(default_factory=dict)
@@ -66,21 +67,22 @@ class Formulation:
     coordinate: Expr | None = None
     """Material coordinate that ``levels`` are given in."""
     internal: tuple[str, ...] = ()
-    """Functionals the solvers need and results do not show."""
+    """Functionals that the solvers need and results do not show."""
     locate: Callable[[np.ndarray, Mapping[str, float]], np.ndarray] | None = None
-    """Mesh coordinates of material points at given loads, where the mesh follows something that moves."""
+    """Mesh coordinates of material points at given loads, if the mesh moves with the loads."""
     tangent: ufl.Form | None = None
     """Second variation; by default the derivative of ``residual``."""
     aim: Callable[[str], None] | None = None
-    """Called with a load's name before a derivative in it is assembled. Loads that enter through one and the
-    same ``ufl.variable`` (points of a mesh that moves) share compiled derivatives; this tells them apart."""
+    """Called with a load's name before a derivative with respect to it is assembled. Loads that enter by the
+    same ``ufl.variable`` (points of a moving mesh) share compiled derivatives; this call selects one of
+    them."""
 
 
 class System:
-    r"""``R(U; λ) = 0`` with symmetric tangent ``K``, assembled on the state it holds.
+    r"""``R(U; λ) = 0`` with symmetric tangent ``K``, assembled at the state that the system holds.
 
-    Vectors are numpy arrays of the degrees of freedom this rank owns; :meth:`dot` sums over ranks.
-    Rows of Dirichlet conditions hold the identity in ``K`` and zero in every derivative.
+    Vectors are numpy arrays of the degrees of freedom that this rank owns; :meth:`dot` sums over ranks. Rows
+    of Dirichlet conditions are the identity in ``K`` and zero in every derivative.
     """
 
     def __init__(self, formulation: Formulation) -> None:
@@ -100,8 +102,8 @@ class System:
         compile_together(self.comm, self._ufl.values())
 
         self.size = self.unknown.x.petsc_vec.getLocalSize()
-        # Views of what the forms read and of what is assembled into: asking dolfinx for one takes 2 to 4 µs,
-        # and a point of a path would ask some thirty times.
+        # Views of the arrays that forms read and assembly writes: dolfinx needs 2 to 4 µs for each,
+        # and a point of a branch would need about thirty.
         self._owned = self.unknown.x.array[: self.size]
         constants = {k: load for k, (load, _) in formulation.loads.items() if isinstance(load, fem.Constant)}
         self._constants = {name: constant.value for name, constant in constants.items()}
@@ -109,7 +111,7 @@ class System:
         self._assembled = self._sums.array
         arrays = np.zeros((2, self.size))
         self._work = [(PETSc.Vec().createWithArray(array, comm=self.comm), array) for array in arrays]
-        # The number of owned ones that dof_indices gives counts ghosts where dofs are given in blocks.
+        # The number of owned dofs from dof_indices includes ghosts if dofs are given in blocks.
         owned = [dofs[dofs < self.size] for dofs, _count in (bc.dof_indices() for bc in formulation.bcs)]
         self.bc_dofs = np.concatenate(owned) if owned else np.empty(0, dtype=np.int32)
         fem_petsc.set_bc(self._sums.petsc_vec, formulation.bcs)
@@ -129,7 +131,7 @@ class System:
         return forms
 
     def _form(self, name: str) -> fem.Form:
-        """Compile on first use; the compiler's cache makes that cheap for every further mesh."""
+        """Compile a form when it is first used; the compiler's cache makes this cheap for further meshes."""
         if name not in self._forms:
             if name not in self._ufl:
                 self._ufl[name] = self._rate_form(name.removeprefix("d_"))
@@ -137,11 +139,11 @@ class System:
         return self._forms[name]
 
     def _rate_form(self, load: str) -> ufl.Form:
-        """``∂R/∂λ``; there are many loads, and few of these derivatives are ever asked for."""
+        """``∂R/∂λ``, compiled when needed, because few of these derivatives are used."""
         return ufl.diff(self.formulation.residual, self.formulation.loads[load][1])
 
     def _mass_matrix(self) -> PETSc.Mat:
-        """Mass matrix with *zero* Dirichlet rows: they must add no finite eigenvalue."""
+        """Mass matrix with *zero* Dirichlet rows, which add no finite eigenvalue."""
         if self._mass_entries is None:
             self._mass_entries = fem_petsc.create_matrix(self._form("mass"))
         self._mass_entries.zeroEntries()
@@ -151,18 +153,19 @@ class System:
 
     @property
     def mass(self) -> PETSc.Mat:
-        """Mass matrix: what arc length and the length of a mode are measured by."""
+        """Mass matrix, which defines the norms for arc length and for modes."""
         return self._mass
 
     def update_mass(self) -> None:
-        """Assemble the mass matrix anew, where it depends on loads or on a mesh that has moved."""
+        """Assemble the mass matrix again, if it depends on loads or on a moving mesh."""
         self._mass = self._mass_matrix()
 
     @contextmanager
     def weighed_here(self) -> Iterator[None]:
-        """While it lasts, the mass matrix is that at the loads held, which may move the mesh.
+        """Context in which the mass matrix is that at the current loads, which may move the mesh.
 
-        Arc length is measured by the old one again afterwards: no path depends on what was asked before.
+        Afterwards the old matrix defines arc length again, so that a branch does not depend on earlier
+        evaluations.
         """
         kept = self._mass
         self.update_mass()
@@ -172,13 +175,13 @@ class System:
             self._mass = kept
 
     def shift(self, tau: float) -> None:
-        """``K + τ M`` in place of ``K``, until the next :meth:`tangent`."""
+        """Replace ``K`` by ``K + τ M`` until the next :meth:`tangent`."""
         self.matrix.axpy(tau, self.mass, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
 
     def hold(self, dofs: np.ndarray, values: np.ndarray) -> None:
-        """Hold further degrees of freedom of this rank at values, in place of any held before.
+        """Prescribe additional degrees of freedom of this rank, instead of those prescribed before.
 
-        For conditions that come and go (a contact history); those of the formulation stay.
+        This is for conditions that change (a contact history); the conditions of the formulation stay.
         """
         self.bc_dofs = np.concatenate([self.bc_dofs[: self._fixed], dofs]).astype(np.int32)
         self._bc_values = np.concatenate([self._bc_values[: self._fixed], values])
@@ -192,29 +195,29 @@ class System:
         return tuple(self.formulation.loads)
 
     def set_state(self, u: np.ndarray, loads: Mapping[str, float]) -> None:
-        """Put a state into the forms."""
+        """Write a state into the forms."""
         self._owned[:] = u
         self.unknown.x.scatter_forward()
         self.set_loads(loads)
 
     def set_loads(self, loads: Mapping[str, float]) -> None:
-        """Put scalars into the forms."""
+        """Write scalars into the forms."""
         for name, value in loads.items():
             if name in self._constants:
                 self._constants[name].fill(value)
-            else:  # a point of a mesh that moves
+            else:  # a point of a moving mesh
                 self.formulation.loads[name][0].value = value
 
     def state(self) -> State:
-        """Copy of the state the forms hold."""
+        """Copy of the state that the forms hold."""
         return State(self._owned.copy(), {name: self.load(name) for name in self.formulation.loads})
 
     def owned(self) -> np.ndarray:
-        """View of the degrees of freedom of the state held that this rank owns."""
+        """View of the current state's degrees of freedom that this rank owns."""
         return self._owned
 
     def load(self, name: str) -> float:
-        """One scalar of the state held."""
+        """One scalar of the current state."""
         known = self._constants.get(name)
         return float(self.formulation.loads[name][0].value) if known is None else known.item()
 
@@ -229,7 +232,7 @@ class System:
         return out
 
     def residual(self) -> np.ndarray:
-        """``R(U; λ)``; on Dirichlet rows the distance from the prescribed value, which mends round-off."""
+        """``R(U; λ)``; on Dirichlet rows the distance from the prescribed value, which corrects round-off."""
         out = self._vector("residual")
         out[self.bc_dofs] = self._owned[self.bc_dofs] - self._bc_values
         return out
@@ -239,7 +242,7 @@ class System:
         return self._vector(f"d_{self._aim(name)}")
 
     def _aim(self, name: str) -> str:
-        """Make derivatives in a load assemble as such; the load whose compiled forms it shares."""
+        """Select a load for derivatives, and return the load whose compiled forms it shares."""
         if self.formulation.aim is None:
             return name
         self.formulation.aim(name)
@@ -257,7 +260,7 @@ class System:
         return self.matrix
 
     def monitors(self) -> dict[str, float]:
-        """All scalar functionals at the state held, one reduction for all."""
+        """All scalar functionals at the current state, with one reduction for all."""
         names = list(self.formulation.monitors)
         local = np.array([fem.assemble_scalar(self._form(f"monitor_{n}")) for n in names])
         values = (
@@ -266,7 +269,7 @@ class System:
         return values | {name: f(values) for name, f in self.formulation.derived.items()}
 
     def _maxima(self) -> dict[str, float]:
-        """Largest values of expressions interpolated with two degrees more, between nodes too."""
+        """Largest values of expressions, also between nodes, interpolated with two additional degrees."""
         if not self.formulation.maxima:
             return {}
         if self._interpolant is None:
@@ -277,7 +280,7 @@ class System:
         return {name: peak() for name, peak in self._peaks.items()}
 
     def _first_levels(self) -> dict[str, float]:
-        """Where expressions first reach their levels, by their polynomials on each cell."""
+        """Positions where expressions first reach their levels, by their polynomials on each cell."""
         given = self.formulation
         if not given.levels:
             return {}
@@ -293,14 +296,14 @@ class System:
     def monitor_gradient(
         self, name: str, loads: Iterable[str] | None = None
     ) -> tuple[np.ndarray, dict[str, float]]:
-        """Derivative of a functional in ``U`` and in each load, or in those named."""
+        """Derivative of a functional with respect to ``U`` and to each load, or to the loads named."""
         self._require_monitor(name)
         return self.scalar_gradient(f"monitor_{name}", self.formulation.monitors[name], loads)
 
     def scalar_gradient(
         self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
     ) -> tuple[np.ndarray, dict[str, float]]:
-        """Derivative of a scalar form, known by a key, in ``U`` and in each load, or in those named."""
+        """Derivative of a scalar form, given by a key, in ``U`` and each load, or in the loads named."""
         gradient = f"gradient_{key}"
         if gradient not in self._ufl:
             self._ufl[gradient] = ufl.derivative(form, self.unknown, self.test)
@@ -309,7 +312,7 @@ class System:
     def _scalar_derivatives(
         self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
     ) -> dict[str, float]:
-        """``∂/∂λ`` of a scalar form for every load or those named (zero where it does not enter)."""
+        """``∂/∂λ`` of a scalar form for every load, or the loads named; zero for a load that is absent."""
         out = {}
         for name in self.load_names if loads is None else loads:
             derived = f"{key}_d_{self._aim(name)}"
@@ -323,7 +326,7 @@ class System:
     def third_variation(
         self, phi: np.ndarray, psi: np.ndarray, load: str, rate: float
     ) -> tuple[np.ndarray, dict[str, float]]:
-        r"""Gradient of ``T = ψᵀ K φ + rate ψᵀ ∂R/∂λ`` in ``U`` and in each load, ``φ, ψ`` fixed."""
+        r"""Gradient of ``T = ψᵀ K φ + rate ψᵀ ∂R/∂λ`` in ``U`` and in each load, for fixed ``φ, ψ``."""
         key, gradient = f"third_{load}", f"gradient_third_{load}"
         if key not in self._ufl:
             scalar = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._psi)
@@ -339,8 +342,8 @@ class System:
     def force_size(self) -> float:
         r"""Size of the nodal forces before they balance, :math:`\| \sum_j |K_{ij}| \, |U_i| \|`.
 
-        With the tangent as it was last assembled. A residual that is all round-off is about ``4e-17`` of it,
-        on any mesh, under any load. Each rank needs its own rows alone.
+        It uses the tangent as last assembled. A residual of pure round-off is about ``4e-17`` of this size,
+        on any mesh and under any load. Each rank needs only its own rows.
         """
         starts, _columns, values = self.matrix.getValuesCSR()
         rows = np.add.reduceat(np.append(np.abs(values), 0.0), starts[:-1]) * (np.diff(starts) > 0)
@@ -360,7 +363,7 @@ class System:
         return local if self._alone else self.comm.allreduce(local, op=MPI.SUM)
 
     def mass_times(self, u: np.ndarray) -> np.ndarray:
-        """``M u``; with it the norm of a field does not depend on the mesh."""
+        """``M u``; this makes the norm of a field independent of the mesh."""
         return self.multiply(self.mass, u)
 
     def multiply(self, matrix: PETSc.Mat, u: np.ndarray) -> np.ndarray:
@@ -368,7 +371,7 @@ class System:
         return self.act(matrix.mult, u)
 
     def act(self, operation: Callable[[PETSc.Vec, PETSc.Vec], None], u: np.ndarray) -> np.ndarray:
-        """What an operation on PETSc vectors, such as a matrix's ``mult`` or ``solve``, makes of an array."""
+        """Apply an operation on PETSc vectors, such as a matrix's ``mult`` or ``solve``, to an array."""
         (x, given), (y, found) = self._work
         given[:] = u
         operation(x, y)
@@ -381,7 +384,7 @@ class System:
 
 
 def without_zeros(matrix: PETSc.Mat) -> PETSc.Mat:
-    """A copy that stores no zeros: of a mass matrix of three components a third, and a third of a product."""
+    """A copy without stored zeros, which are two thirds of a mass matrix of three components."""
     starts, columns, values = matrix.getValuesCSR()
     kept = values != 0
     starts = np.append(0, np.cumsum(kept))[starts].astype(starts.dtype)

@@ -1,8 +1,8 @@
 r"""Lowest eigenvalues of a second variation whose spectrum is crowded or degenerate.
 
-:math:`K x = \mu M x` by SLEPc about a target just below the lowest eigenvalue. Sylvester's law proves that
-nothing lies below the target, and that nothing was missed up to the last eigenvalue returned: of a multiple
-eigenvalue a Krylov method may find one copy only. Copies missed are looked for beside those found.
+:math:`K x = \mu M x` by SLEPc about a target just below the lowest eigenvalue. Sylvester's law proves that no
+eigenvalue lies below the target, and that none is missing up to the last one returned. A Krylov method may
+find only one copy of a multiple eigenvalue; missing copies are then searched for beside those found.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from weakforms.solvers.equilibrium.system import State, System
 from weakforms.solvers.stability.spectra import LOWEST, Mode, give_back
 
 ROUGH, SHARP = 1e-3, 1e-11
-"""Relative residuals of the first look and of what is returned."""
+"""Relative residuals of the first search and of the returned modes."""
 
 BELOW = 0.02
-"""Distance of the target below the lowest eigenvalue, over its magnitude."""
+"""Distance of the target below the lowest eigenvalue, relative to its magnitude."""
 
 APART = 1e-8
-"""Relative distance from which eigenvalues differ: copies of one lie closer together."""
+"""Eigenvalues closer together than this relative distance are copies of one."""
 
 ATTEMPTS = 6
-"""Times missed copies are looked for."""
+"""Number of searches for missing copies."""
 
 
 class Lowest:
-    """Lowest eigenvalues and modes of one system's states.
+    """Computes the lowest eigenvalues and modes at states of one system.
 
     Args:
         system: The discrete equilibrium equations.
@@ -47,11 +47,11 @@ class Lowest:
     def __call__(self, state: State, count: int) -> list[Mode]:
         """The ``count`` lowest eigenvalues in ascending order, multiple ones repeated, with their modes.
 
-        The first mode is the same on any number of ranks, in sign and, of a multiple eigenvalue, in
-        direction: the projection of a generic displacement.
+        The first mode is the same on any number of ranks, also in sign and, for a multiple eigenvalue, in
+        direction: it is the projection of a generic displacement.
 
         Raises:
-            ConvergenceError: When SLEPc finds fewer than the inertia counts.
+            ConvergenceError: If SLEPc finds fewer than the inertia counts.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -126,7 +126,7 @@ class Lowest:
         return Mode(eigenvalue, array / length)
 
     def _directed(self, modes: list[Mode]) -> list[Mode]:
-        """Copies of the lowest eigenvalue, the first of them all that a generic displacement has of them."""
+        """Modes of the lowest eigenvalue, the first of them the projection of a generic displacement."""
         lowest = modes[0].eigenvalue
         copies = [m for m in modes if m.eigenvalue < lowest + APART * max(1.0, abs(lowest))]
         weighed = self.system.mass_times(self._generic)
@@ -139,7 +139,7 @@ class Lowest:
 
 
 def _generic(system: System) -> np.ndarray:
-    """A displacement without symmetry, by place and component, not by number of a degree of freedom."""
+    """A displacement without symmetry that depends on position and component, not on the numbering."""
     space = system.unknown.function_space
     blocks = space.dofmap.index_map_bs
     places = space.tabulate_dof_coordinates()[: system.size // blocks]

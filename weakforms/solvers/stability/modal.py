@@ -1,4 +1,4 @@
-"""Branches judged in families of modes: eigenvalue columns, and the zeros that are bifurcation points."""
+"""Branches with eigenvalue columns for families of modes; zeros of eigenvalues are bifurcation points."""
 
 from __future__ import annotations
 
@@ -18,35 +18,35 @@ from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
 NARROWED = 6
-"""Halvings of a bracket before the extended system is solved in it."""
+"""Number of bisections of an interval before the extended system is solved in it."""
 
 
 class Modes(Protocol):
-    """What is watched along a branch, at the state that the system holds."""
+    """Quantities computed along a branch, at the state that the system holds."""
 
     wave_numbers: Sequence[int]
     """Families whose zeros are bifurcation points."""
 
     columns: Sequence[str]
-    """What :meth:`observe` returns."""
+    """Names of the columns that :meth:`observe` returns."""
 
     def variation(self, n: int) -> SecondVariation:
-        """The operator of a wave number; 0 is the branch's own symmetric space."""
+        """The operator of a wave number; 0 is the symmetric space of the branch."""
 
     def observe(self) -> dict[str, float]:
-        """Columns that are no functionals: eigenvalues, values at material points."""
+        """Columns that are not functionals: eigenvalues, values at material points."""
 
 
 class ModalBranch(FittedBranch):
-    """A branch with columns that take a solve of their own, and with bifurcations into other symmetries.
+    """A branch with columns that need a separate solve, and with bifurcations into other symmetries.
 
     Args:
         continuation: Follows the curve.
-        control: The load it is drawn over.
+        control: The load over which it is drawn.
         start: First point.
-        stop: True at the last point wanted.
-        modes: What is watched along it.
-        hidden: Functionals that mean nothing on this branch.
+        stop: True at the last requested point.
+        modes: Quantities computed along it.
+        hidden: Functionals that have no meaning on this branch.
     """
 
     def __init__(
@@ -65,10 +65,10 @@ class ModalBranch(FittedBranch):
         self._insert_limits()
 
     def _insert_limits(self) -> None:
-        """Locate the control's limit points and make them points of the trace.
+        """Locate the control's limit points and add them to the trace.
 
-        Its columns then reach the control's largest and smallest values, and a state just below a maximum is
-        bracketed.
+        The columns then contain the control's largest and smallest values, so that a state just below a
+        maximum is bracketed.
         """
         for i in reversed(self.turns().tolist()):
             before, after = self.points[i : i + 2]
@@ -78,7 +78,7 @@ class ModalBranch(FittedBranch):
             monitors = self.system.monitors()
             tangent = self.continuation.direction_here(before.tangent)
             s = before.arclength + self.continuation.distance(state, before.state)
-            # Its own zero makes the inertia a matter of round-off: the point counts as those before it.
+            # Its zero eigenvalue makes the inertia depend on round-off: use the count of the point before it.
             point = CurvePoint(state, tangent, s, before.n_negative, record, monitors)
             longer = s + self.continuation.distance(after.state, state) - after.arclength
             for later in self.points[i + 1 :]:
@@ -89,36 +89,36 @@ class ModalBranch(FittedBranch):
     # -- columns -------------------------------------------------------------------------------
 
     def observed(self, point: CurvePoint) -> dict[str, float]:
-        """Watched columns at a point of the trace, solved for once."""
+        """Additional columns at a point of the trace, computed once."""
         if id(point) not in self._observed:
             self.system.set_state(point.state.u, point.state.loads)
             self._observed[id(point)] = point, self.modes.observe()
         return self._observed[id(point)][1]
 
     def columns(self) -> dict[str, np.ndarray]:
-        """Every column over the points of the trace, the watched ones among them."""
+        """Every column over the points of the trace, including the additional ones."""
         rows = [self.observed(point) for point in self.points]
         return super().columns() | {n: np.array([row[n] for row in rows]) for n in self.modes.columns}
 
     @property
     def shown(self) -> list[str]:
-        """Columns that results show, diagnostics apart."""
+        """Columns that results show, without diagnostics."""
         own = [name for name in super().shown if name not in self.hidden]
         return [*own, *self.modes.columns]
 
     def complete(self, solved: Solved) -> Solved:
-        """With the watched columns."""
+        """The state with the additional columns."""
         self.system.set_state(solved.state.u, solved.state.loads)
         return replace(solved, values=solved.values | self.modes.observe())
 
     # -- states --------------------------------------------------------------------------------
 
     def at(self, name: str, value: float, crossing: int = 1) -> Solved:
-        """As for any branch; a watched column is brought to its value by root finding.
+        """As for any branch; an additional column reaches its value by root finding.
 
         Raises:
-            InputError: When the column is unknown or never takes the value that often.
-            ConvergenceError: When the state was bracketed but not converged to.
+            InputError: If the column is unknown or does not take the value that often.
+            ConvergenceError: If the state was bracketed but Newton's method did not converge to it.
         """
         if name not in self.modes.columns:
             return self.complete(super().at(name, value, crossing))
@@ -133,10 +133,10 @@ class ModalBranch(FittedBranch):
         return self.complete(replace(found, kind=""))
 
     def crossings(self, name: str, value: float) -> np.ndarray:
-        """Indices of the points after which a column passes a value.
+        """Indices of the points after which a column crosses a value.
 
         Raises:
-            InputError: When there is no such column.
+            InputError: If there is no such column.
         """
         if name in self.hidden:
             return np.empty(0, dtype=int)
@@ -147,7 +147,7 @@ class ModalBranch(FittedBranch):
         return np.concatenate([[0], hits]) if distance[0] == 0 else hits
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
-        """As for any branch, with the watched columns."""
+        """As for any branch, with the additional columns."""
         return self.complete(super().at_position(like, rates, near))
 
     # -- special points ------------------------------------------------------------------------
@@ -168,7 +168,7 @@ class ModalBranch(FittedBranch):
         return [self.complete(solved) for _, solved in sorted(found, key=lambda item: item[0])]
 
     def require_nothing_between(self) -> None:
-        """As said there, of the eigenvalues of every family."""
+        """Check the eigenvalues of every family as in the base class."""
         for n in self.modes.wave_numbers:
             counts = self._counts(n)
             self._require_same_between(counts, partial(self._count_at, n=n), f"eigenvalues of n = {n}")
@@ -182,11 +182,10 @@ class ModalBranch(FittedBranch):
         return np.array([self._count_at(point.state, n) for point in self.points])
 
     def _bifurcation(self, i: int, n: int) -> Solved:
-        """The zero of a family's eigenvalue between two neighbours, by the extended system of Singular.
+        """The zero of a family's eigenvalue between two neighbours, by the system of :class:`Singular`.
 
-        The bracket is narrowed by inertia, on interpolated states. The mode is taken from the side where the
-        eigenvalue is negative: there it is the highest of the negative ones, whatever soft modes the family
-        has besides.
+        The interval is narrowed by the inertia of interpolated states. The mode comes from the side where the
+        eigenvalue is negative: there it is the highest negative one, even if the family has other soft modes.
         """
         low, high = 0.0, 1.0
         before = self._count_at(self.points[i].state, n)
@@ -216,12 +215,12 @@ class ModalBranch(FittedBranch):
 
 
 class ModalFamily(BranchFamily):
-    """Such a branch on a family of meshes."""
+    """A modal branch on a family of meshes."""
 
     fine: ModalBranch
 
     def special_points(self) -> list[SpecialPoint]:
-        """As for any branch; bifurcation points carry their wave number ``n``."""
+        """As for any branch; bifurcation points have their wave number ``n``."""
         points = []
         for same in self._special():
             point = special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, self.caps)
@@ -238,7 +237,7 @@ class ModalFamily(BranchFamily):
         return located
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """Negative eigenvalues in the symmetric space; at a special point its own zero does not count."""
+        """Number of negative eigenvalues in the symmetric space, without the zero of a special point."""
         counts = set()
         for level, s in zip(self.levels, solved, strict=True):
             level.system.set_state(s.state.u, s.state.loads)
@@ -250,7 +249,7 @@ class ModalFamily(BranchFamily):
 
 
 class SinglePoint(ModalBranch):
-    """A branch of one point: where another one begins."""
+    """A branch of one point: the start of another branch."""
 
     def __init__(
         self,
@@ -265,9 +264,9 @@ class SinglePoint(ModalBranch):
         self.stalled = None
 
     def at(self, name: str, value: float, crossing: int = 1) -> Solved:
-        """The point itself, when it has the value."""
+        """The point itself, if it has the value."""
         if crossing > len(self.crossings(name, value)):
-            raise InputError(f"{name} = {value:g} is not met on this branch")
+            raise InputError(f"{name} = {value:g} is not taken on this branch")
         return self._itself()
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
@@ -275,7 +274,7 @@ class SinglePoint(ModalBranch):
         return self._itself()
 
     def special(self) -> list[Solved]:
-        """None."""
+        """There are none."""
         return []
 
     def _itself(self) -> Solved:

@@ -1,9 +1,9 @@
-"""Second variations in directions that an equilibrium's own unknowns do not hold (a broken symmetry).
+"""Second variations in directions outside the unknowns of an equilibrium (a broken symmetry).
 
 A state computed in a symmetric space may lose stability in a mode that breaks the symmetry. The first
-variation in the state *and* a displacement ``q`` of the wider space gives, differentiated in ``q`` at ``q =
-0``, the operator that decides: :class:`SecondVariation`. :class:`Singular` is the equation that it has a null
-vector.
+variation depends on the state *and* on a displacement ``q`` in the larger space. Its derivative with respect
+to ``q`` at ``q = 0`` is the operator that decides on stability: :class:`SecondVariation`. :class:`Singular`
+is the condition that this operator has a null vector.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from weakforms.solvers.equilibrium.system import Formulation, State, System
 from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
 
 CRITICAL = 1e-6
-"""Magnitude below which an eigenvalue whose sign is not certain is taken for a critical point's zero."""
+"""An eigenvalue of uncertain sign below this magnitude counts as the zero eigenvalue of a critical point."""
 
 
 class SecondVariation(System):
@@ -33,7 +33,7 @@ class SecondVariation(System):
         formulation: Its ``unknown`` is ``q``, which stays zero; its ``residual`` is the first variation at
             the base's state displaced by ``q``; its ``loads`` are the base's. The mass may depend on the
             loads.
-        base: The system whose states are judged.
+        base: The system of the states.
     """
 
     def __init__(self, formulation: Formulation, base: System) -> None:
@@ -55,28 +55,28 @@ class SecondVariation(System):
         return super().mass
 
     def spectrum(self, count: int = 1) -> Spectrum:
-        """The lowest eigenvalues at the base's state and the inertia's count of negative ones.
+        """The lowest eigenvalues at the state of the base system, and the number of negative ones by inertia.
 
-        Where one is zero to round-off (a critical point), it is not counted as negative.
+        An eigenvalue that is zero to round-off (at a critical point) does not count as negative.
         """
         return judged(self.stability, self._at_rest(), count)
 
     def fixed(self, border: np.ndarray, compliance: float) -> Spectrum:
-        """The same for ``K + b bᵀ/c``: see :meth:`Stability.bordered`."""
+        """The lowest eigenvalues of ``K + b bᵀ/c``: see :meth:`Stability.bordered`."""
         try:
             return self.stability.bordered(self._at_rest(), border, compliance)
         except ConvergenceError:
             return self.stability.bordered(self._at_rest(), border, compliance, shift=CRITICAL)
 
     def nearest(self) -> Mode:
-        """The eigenvalue nearest to zero at the base's state, with its mode."""
+        """The eigenvalue nearest to zero at the state of the base system, with its mode."""
         return self.stability.modes(self._at_rest(), 1)[0]
 
     def highest_negative(self) -> Mode:
-        """The negative eigenvalue nearest to zero at the base's state, with its mode.
+        """The negative eigenvalue nearest to zero at the state of the base system, with its mode.
 
         Raises:
-            ConvergenceError: When none is found.
+            ConvergenceError: If none is found.
         """
         for count in (4, 16):
             for mode in self.stability.modes(self._at_rest(), count):
@@ -85,12 +85,12 @@ class SecondVariation(System):
         raise ConvergenceError("stability: no negative eigenvalue is found near zero")
 
     def negative_count(self) -> int:
-        """Negative eigenvalues at the base's state, by inertia."""
+        """Number of negative eigenvalues at the state of the base system, by inertia."""
         self.factor.update()
         return self.factor.negative_count()
 
     def lowest_against(self, other: PETSc.Mat) -> float:
-        """The lowest eigenvalue against another matrix: see :meth:`Stability.lowest_against`."""
+        """The lowest eigenvalue relative to another matrix: see :meth:`Stability.lowest_against`."""
         return self.stability.lowest_against(self._at_rest(), other)
 
     def _at_rest(self) -> State:
@@ -99,7 +99,7 @@ class SecondVariation(System):
     def quadratic_gradient(
         self, phi: np.ndarray, loads: Iterable[str]
     ) -> tuple[np.ndarray, dict[str, float]]:
-        """Gradient of ``φᵀ K φ`` in the base's unknowns and the loads named, ``φ`` fixed."""
+        """Gradient of ``φᵀ K φ`` with respect to the base's unknowns and the loads named, for fixed ``φ``."""
         self.mode.x.array[: self.size] = phi
         self.mode.x.scatter_forward()
         if self._quadratic is None:
@@ -108,12 +108,12 @@ class SecondVariation(System):
 
 
 def judged(stability: Stability, state: State, count: int) -> Spectrum:
-    """The lowest eigenvalues of a state and the inertia's count of negative ones.
+    """The lowest eigenvalues of a state and the number of negative ones by inertia.
 
-    Where one is zero to round-off (a critical point), it is not counted as negative.
+    An eigenvalue that is zero to round-off (at a critical point) does not count as negative.
 
     Raises:
-        ConvergenceError: When SLEPc and the inertia disagree on the others.
+        ConvergenceError: If SLEPc and the inertia disagree on the other eigenvalues.
     """
     try:
         return stability.spectrum(state, count)
@@ -130,17 +130,17 @@ class Singular:
     .. math:: \begin{pmatrix} K & c \\ c^T & 0 \end{pmatrix}
               \begin{pmatrix} \varphi \\ g \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}
 
-    gives ``g``, which vanishes exactly where ``K φ = 0``, linearly with the eigenvalue; it follows the mode
-    that ``c`` selects, not a position in an ordered spectrum. By the symmetry of ``K``,
+    gives ``g``, which is proportional to the eigenvalue near ``K φ = 0`` and vanishes there. It follows the
+    mode that ``c`` selects, not a position in an ordered spectrum. By the symmetry of ``K``,
     :math:`\mathrm{d}g = -\varphi^T \mathrm{d}K\, \varphi` (Govaerts 2000, chapter 3).
     """
 
     variation: Callable[[], SecondVariation]
-    """The operator; a call, because one object may serve several wave numbers."""
+    """Returns the operator; a function, because one object may be used for several wave numbers."""
     border: np.ndarray
 
     def vectors(self) -> tuple[np.ndarray, float]:
-        """``(φ, g)`` at the base's state."""
+        """``(φ, g)`` at the state of the base system."""
         factor = self.variation().factor
         factor.update()
         bordered = BorderedMatrix(factor, [self.border], [self.border], np.zeros((1, 1)))
@@ -148,10 +148,10 @@ class Singular:
         return phi, float(g[0])
 
     def value(self, solver: ExtendedNewton) -> float:
-        """``g``."""
+        """The value of ``g``."""
         return self.vectors()[1]
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """From the derivative of ``φᵀ K φ``."""
+        """The gradient, from the derivative of ``φᵀ K φ``."""
         row, loads = self.variation().quadratic_gradient(self.vectors()[0], solver.scalars)
         return -row, {name: -value for name, value in loads.items()}

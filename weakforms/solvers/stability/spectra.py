@@ -17,13 +17,14 @@ from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.system import State, System
 
 LOWEST = -1e6
-"""Eigenvalue below which none is looked for."""
+"""Lower limit of the search for eigenvalues."""
 
 BACKWARD_ERROR = 1e-12
-"""Of a solve, relative, above which a factorisation is not the matrix's, and one that pivots is made."""
+"""Relative residual of a solve above which a factorisation is too inaccurate and is repeated with
+pivoting."""
 
 BESIDE = 1e-4
-"""Relative distance from a known eigenvalue at which its mode is looked for."""
+"""Relative distance between a known eigenvalue and the target for its mode."""
 
 
 Inverse = Callable[[np.ndarray], np.ndarray]
@@ -32,7 +33,7 @@ Found = TypeVar("Found")
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Lowest eigenvalues of ``K x = μ M x`` in ascending order, and the inertia's count."""
+    """Lowest eigenvalues of ``K x = μ M x`` in ascending order, and the inertia's count of negative ones."""
 
     eigenvalues: tuple[float, ...]
     n_negative: int
@@ -47,13 +48,12 @@ class Mode:
 
 
 class Stability:
-    r"""Second variation at fixed loads against the mass matrix, :math:`K x = \mu M x`.
+    r"""Eigenvalues of the second variation at fixed loads, :math:`K x = \mu M x` with the mass matrix.
 
-    Shift-and-invert about zero, by the very factors that the inertia is counted from (one more factorisation
-    would be half the cost of a spectrum); that they are the matrix's own is tested by a solve. The mass
-    matrix has zero Dirichlet rows, so the constrained degrees of freedom sit at infinity and add no
-    eigenvalue. The number of negative eigenvalues is taken from the inertia of ``K``; SLEPc must find
-    exactly as many, or the spectrum is refused.
+    Shift-and-invert at zero uses the same factors as the inertia, because another factorisation would be half
+    the cost of a spectrum. A solve tests that the factors are accurate. The mass matrix has zero Dirichlet
+    rows, so that constrained degrees of freedom have infinite eigenvalues. The inertia of ``K`` gives the
+    number of negative eigenvalues. SLEPc must find exactly this number, or the spectrum is refused.
     """
 
     def __init__(self, system: System, prefix: str = "weakforms_eigen_") -> None:
@@ -63,7 +63,7 @@ class Stability:
         self._callbacks = Deferred()
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
-        """Shift-and-invert about a target, by an inverse at hand (of the matrix as it stands) or by MUMPS."""
+        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS."""
         eps = SLEPc.EPS().create(self.system.comm)
         eps.setOptionsPrefix(self._prefix)
         eps.setOperators(self.system.matrix, self.system.mass)
@@ -90,12 +90,12 @@ class Stability:
 
         Args:
             state: An equilibrium.
-            count: Eigenvalues wanted at least.
-            shift: Eigenvalues above ``-shift`` count as positive (a fold's own zero, to round-off).
+            count: Smallest number of eigenvalues.
+            shift: Eigenvalues above ``-shift`` count as positive (for the zero eigenvalue of a fold).
 
         Raises:
-            ConvergenceError: When SLEPc's count of negative eigenvalues is not the inertia's, or an
-                eigenvalue is too close to zero for its sign to be known.
+            ConvergenceError: If SLEPc and the inertia disagree on the number of negative eigenvalues, or an
+                eigenvalue is so close to zero that its sign is uncertain.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -103,14 +103,14 @@ class Stability:
             self.system.shift(shift)
         self._factorise()
         negative = self.factor.negative_count()
-        # A body of one freedom has one eigenvalue.
+        # A system with one degree of freedom has one eigenvalue.
         wanted = min(max(count, negative + 1), self.system.matrix.getSize()[0])
         for extra in (0, wanted):
             values = self._eigenvalues(wanted + extra, self.factor.solve)
             if int(np.sum(values < 0)) == negative:
                 return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
         found = int(np.sum(values < 0))
-        if found < negative:  # more than the inertia's are round-off of a zero: nothing was missed
+        if found < negative:  # more than the inertia's count: a zero with round-off, nothing is missing
             below = self._from_below(negative)
             found = int(np.sum(below < 0))
             if found == negative:
@@ -122,9 +122,9 @@ class Stability:
         )
 
     def _from_below(self, count: int) -> np.ndarray:
-        """The lowest eigenvalues of the matrix as it stands, about a target that the inertia finds below all.
+        """The lowest eigenvalues of the current matrix, with a target below all of them by inertia.
 
-        A few far from zero would otherwise be reached only past all the small ones.
+        From zero, SLEPc would find a few low eigenvalues far from zero only after all the small ones.
         """
         target = 0.0
         while target > LOWEST:
@@ -137,10 +137,10 @@ class Stability:
         raise ConvergenceError(f"stability: there are eigenvalues below {LOWEST:g}")
 
     def nearest_by_index(self, state: State, index: int) -> float:
-        """The eigenvalue number ``index`` in ascending order, by way of the one nearest to zero.
+        """The eigenvalue number ``index`` in ascending order, found as the one nearest to zero.
 
-        For root finding: where the inertia is ``index`` or ``index + 1`` that one is the nearest from its
-        side, whatever sign round-off gives it.
+        This is for root finding: if the inertia is ``index`` or ``index + 1``, this eigenvalue is the one
+        nearest to zero on its side, even if round-off changes its sign.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -162,10 +162,10 @@ class Stability:
             state: An equilibrium.
             border: ``b``, zero on Dirichlet rows.
             compliance: ``c``, not negative.
-            shift: Added to all eigenvalues while they are computed, where ``K`` alone is singular.
+            shift: Added to all eigenvalues during the computation, if ``K`` alone is singular.
 
         Raises:
-            ConvergenceError: When SLEPc's count of negative eigenvalues is not the inertia's.
+            ConvergenceError: If SLEPc and the inertia disagree on the number of negative eigenvalues.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -189,7 +189,7 @@ class Stability:
         """The eigenvalues nearest to zero with their modes, at least ``count`` of them, nearest first.
 
         Raises:
-            ConvergenceError: When fewer converge.
+            ConvergenceError: If fewer converge.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -197,31 +197,31 @@ class Stability:
         return sorted(found, key=lambda mode: abs(mode.eigenvalue))
 
     def mode_at(self, state: State, eigenvalue: float) -> Mode:
-        """The mode of an eigenvalue known already, such as the lowest.
+        """The mode of a known eigenvalue, such as the lowest.
 
-        The target lies a little below it, off the singular matrix.
+        The target lies a little below it, where the matrix is not singular.
 
         Raises:
-            ConvergenceError: When none converges.
+            ConvergenceError: If none converges.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
         return self._near(self._solver(1, eigenvalue - BESIDE * max(1.0, abs(eigenvalue))), 1, self._pairs)[0]
 
     def about(self, state: State, target: float, count: int) -> tuple[list[Mode], int]:
-        r"""Eigenvalues about a target, and how many lie below it, from one factorisation of ``K - target M``.
+        r"""Eigenvalues near a target, and the number below it, from one factorisation of ``K - target M``.
 
-        SLEPc solves with the very factors that the inertia is counted from: on large meshes a factorisation
-        is what a spectrum costs. The eigenvalues are Rayleigh quotients, and do not suffer from a factor
-        that is nearly singular.
+        SLEPc uses the same factors as the inertia, because on large meshes the factorisation dominates the
+        cost. The eigenvalues are Rayleigh quotients, whose accuracy does not depend on nearly singular
+        factors.
 
         Args:
             state: An equilibrium.
-            target: No eigenvalue itself, to more than round-off.
-            count: Modes wanted at least, nearest to the target first.
+            target: Must differ from every eigenvalue by more than round-off.
+            count: Smallest number of modes, nearest to the target first.
 
         Raises:
-            ConvergenceError: When fewer converge, or the factorisation fails.
+            ConvergenceError: If fewer converge, or the factorisation fails.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -234,8 +234,8 @@ class Stability:
         return sorted(found, key=lambda mode: abs(mode.eigenvalue - target)), below
 
     def _factorise(self) -> None:
-        """Factorise the matrix as it stands; with pivoting where round-off would be large otherwise."""
-        system, rhs = self.system, np.cos(np.arange(self.system.size))  # any vector that is not special
+        """Factorise the current matrix, with pivoting if round-off would be large otherwise."""
+        system, rhs = self.system, np.cos(np.arange(self.system.size))  # an arbitrary vector
         self.factor.refactor()
         x = self.factor.solve(rhs)
         left = rhs - system.multiply(system.matrix, x)
@@ -252,7 +252,7 @@ class Stability:
         return found
 
     def _improved(self, mode: Mode, target: float) -> Mode:
-        """With its Rayleigh quotient; the matrix is ``K - target M``."""
+        """The mode with its Rayleigh quotient; the matrix is ``K - target M``."""
         product = self.system.multiply(self.system.matrix, mode.vector)
         return Mode(self.system.dot(mode.vector, product) + target, mode.vector)
 
@@ -261,14 +261,14 @@ class Stability:
         return Mode(float(eigenvalue), vector / length)
 
     def _eigenvalues(self, wanted: int, inverse: Inverse, target: float = 0.0) -> np.ndarray:
-        """At least ``wanted`` of those nearest to a target, ascending; the matrix is ``K - target M``."""
+        """At least ``wanted`` eigenvalues nearest to a target, ascending; the matrix is ``K - target M``."""
         return np.sort(self._near(self._solver(wanted, inverse=inverse), wanted, _values)) + target
 
     def lowest_against(self, state: State, other: PETSc.Mat) -> float:
-        r"""The lowest eigenvalue of :math:`K x = \nu A x`, where ``K`` is positive and ``A`` is not negative.
+        r"""The lowest eigenvalue of :math:`K x = \nu A x`, for positive ``K`` and non-negative ``A``.
 
         Raises:
-            ConvergenceError: When ``K`` has negative eigenvalues, or none is found.
+            ConvergenceError: If ``K`` has negative eigenvalues, or none is found.
         """
         self.system.set_state(state.u, state.loads)
         self.system.tangent()
@@ -280,10 +280,10 @@ class Stability:
         return float(min(self._near(eps, 1, _values)))
 
     def _near(self, eps: SLEPc.EPS, wanted: int, read: Callable[[SLEPc.EPS], list[Found]]) -> list[Found]:
-        """What SLEPc finds about its target.
+        """The eigenpairs that SLEPc finds near its target.
 
         Raises:
-            ConvergenceError: When fewer than ``wanted`` converge, SLEPc breaks off, or an inverse fails.
+            ConvergenceError: If fewer than ``wanted`` converge, SLEPc raises an error, or an inverse fails.
         """
         try:
             self._run(eps)
@@ -308,13 +308,13 @@ def _values(eps: SLEPc.EPS) -> list[float]:
 
 
 def give_back(eps: SLEPc.EPS) -> None:
-    """Destroy it; one that broke off (a singular matrix) has parts in use, and what it raised counts."""
+    """Destroy a solver; after an error some of its parts are in use, and the first error counts."""
     with suppress(PETSc.Error):
         eps.destroy()
 
 
 class _Preconditioner:
-    """One that is the solver."""
+    """A preconditioner that solves exactly."""
 
     def __init__(self, solve: Inverse, callbacks: Deferred) -> None:
         self._solve, self._callbacks = solve, callbacks
@@ -325,4 +325,4 @@ class _Preconditioner:
         def work() -> None:
             out.array_w[:] = self._solve(rhs.array_r.copy())
 
-        self._callbacks.run(work, lambda: out.set(0.0))  # of which all is an eigenvector
+        self._callbacks.run(work, lambda: out.set(0.0))  # every vector is an eigenvector of it

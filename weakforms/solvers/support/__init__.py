@@ -1,1 +1,1 @@
-"""Releases of DOLFINx, the cache of compiled forms, provenance, values at points."""
+"""Support code: releases of DOLFINx, the cache of compiled forms, provenance, values at points."""

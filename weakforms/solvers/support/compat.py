@@ -1,4 +1,4 @@
-"""The few calls whose form depends on the dolfinx release (0.9 to 0.11), and which release changed them."""
+"""The few calls that depend on the dolfinx release (0.9 to 0.11), and which release changed them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dolfinx.mesh import Mesh
 from mpi4py import MPI
 
 SUPPORTED = ((0, 9), (0, 12))
-"""First release the code runs on, and the first it was never read against."""
+"""First supported release, and the first release that is not supported."""
 
 
 def version() -> tuple[int, int]:
@@ -37,7 +37,7 @@ def scalar_space(space: fem.FunctionSpace, family: str, degree: int, size: int) 
 
 
 def create_mesh(comm: MPI.Intracomm, cells: np.ndarray, points: np.ndarray, domain: ufl.Mesh) -> Mesh:
-    """Mesh of given cells: the points come before the element up to 0.9, behind it from 0.10 on."""
+    """Mesh of given cells: the points come before the element up to 0.9, and after it from 0.10 on."""
     last = (points, domain) if version() < (0, 10) else (domain, points)
     return dmesh.create_mesh(comm, cells, *last)
 

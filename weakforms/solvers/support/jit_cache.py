@@ -1,15 +1,16 @@
-"""Compiled forms shared between processes: each is made by one of them and appears only when complete.
+"""A cache of compiled forms for several processes: one compiles a form, which appears only when complete.
 
 ffcx marks a form that is being compiled by the file ``NAME.c``, and a finished one by ``NAME.c.cached``. A
-process killed in between leaves the first without the second, for which every later one would wait in
-vain. Here whoever compiles holds a lock, which the system takes back from a dead process, and compiles in a
-folder of its own, from which the finished files are moved.
+process that is killed in between leaves the first file without the second, and every later process would wait
+in vain. Here the process that compiles holds a lock, which the system releases when the process ends. It
+compiles in a separate folder and then moves the finished files.
 
-A module of its own for each form costs more than the form: the compiler's start, its headers, the linker.
-:func:`compile_together` makes one module of the forms that a system needs anyway.
+A separate module for each form costs more than the form, because of the compiler's start, its headers and the
+linker. :func:`compile_together` makes one module of all forms that a system needs.
 
-ffcx names an expression after how many variables (``ufl.variable``) the process had made before: the same one
-on another mesh, or after something else was solved, was compiled again. Here they count from zero.
+ffcx names an expression by the number of variables (``ufl.variable``) that the process has made before. It
+would compile the same expression again on another mesh, or after another solve. Here the numbers start from
+zero for each expression.
 """
 
 from __future__ import annotations
@@ -41,24 +42,24 @@ from ufl.corealg.traversal import traverse_unique_terminals
 from weakforms.errors import EnvironmentLackError
 
 PATIENCE = 180
-"""Seconds a process waits for another that compiles the same form where files cannot be locked; dolfinx's own
-10 are too few for ours."""
+"""Seconds for which a process waits for another one that compiles the same form, if files cannot be locked.
+dolfinx's default of 10 is too small for our forms."""
 
 _held: list[int] = []
 """The lock of the form that this process is compiling."""
 
 _together: dict[str, tuple[Any, Any]] = {}
-"""Compiled forms, with their module, that stand in one module with others; by their signatures."""
+"""Compiled forms that share a module with others, and the module, by their signatures."""
 
 
 def install() -> None:
-    """Have ffcx use this cache; twice is once."""
+    """Make ffcx use this cache; repeated calls have no effect."""
     if getattr(jit.get_cached_module, "shared", False):
         return
     _, about = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"]
     dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"] = (PATIENCE, about)
-    # Files in the current folder, which may be somebody else's, do not say how forms are compiled: neither
-    # the arguments of the compiler (a plugin is one) nor the numbers' precision.
+    # Files in the current folder, written by anybody, must not change how forms are compiled: neither the
+    # arguments of the compiler (which can load a plugin) nor the precision of numbers.
     for options in (dolfinx_jit, ffcx_options):
         options._load_options = lambda: ({}, {})
     signature.compute_expression_signature = _counting_from_zero(signature.compute_expression_signature)
@@ -70,9 +71,9 @@ def install() -> None:
 
 
 def compile_together(comm: MPI.Intracomm, forms: Iterable[ufl.Form]) -> None:
-    """Compile forms into one module, where :func:`dolfinx.fem.form` then finds each of them.
+    """Compile forms into one module, in which :func:`dolfinx.fem.form` finds each of them.
 
-    Collective. Signatures hold no names of meshes: forms of the next mesh find the module of the first.
+    Collective. Signatures do not depend on the mesh, so that forms on the next mesh use the same module.
     """
     missing = {form.signature(): form for form in forms}
     if not missing.keys() <= _together.keys():
@@ -88,7 +89,7 @@ def _compile_module(forms: list[ufl.Form]) -> None:
 
 
 def _looking(compile_forms: Callable) -> Callable:
-    """The way from forms to compiled ones; a form that stands in a module with others is taken from there."""
+    """Wrap the function that compiles forms, so that a form in a shared module is taken from there."""
 
     @functools.wraps(compile_forms)
     def compiled(forms: list[ufl.Form], *args: Any, **kwargs: Any) -> Any:
@@ -102,7 +103,7 @@ def _looking(compile_forms: Callable) -> Callable:
 
 
 def _counting_from_zero(compute: Callable) -> Callable:
-    """The signature of an expression, its variables numbered by where they stand in it, as in forms."""
+    """Wrap the signature of an expression, so that its variables are numbered by their position in it."""
 
     @functools.wraps(compute)
     def computed(expression: Expr, renumbering: dict[Any, int]) -> str:
@@ -114,7 +115,7 @@ def _counting_from_zero(compute: Callable) -> Callable:
 
 
 def _finding(find: Callable) -> Callable:
-    """The look into the cache; where there is nothing, the lock is held when it returns."""
+    """Wrap the search in the cache; if it finds nothing, it returns with the lock held."""
 
     @functools.wraps(find)
     def found(name: str, objects: list[str], cache_dir: Path, timeout: int) -> Any:
@@ -127,7 +128,7 @@ def _finding(find: Callable) -> Callable:
         try:
             ready.parent.mkdir(parents=True, exist_ok=True)
             if _lock(ready.with_name(f"{name}.lock")) and not ready.exists():
-                ready.with_name(f"{name}.c").unlink(missing_ok=True)  # its maker is gone
+                ready.with_name(f"{name}.c").unlink(missing_ok=True)  # the process that made it has ended
                 for left in ready.parent.glob(f".{name}.*"):
                     shutil.rmtree(left, ignore_errors=True)
         except OSError as error:
@@ -140,15 +141,15 @@ def _finding(find: Callable) -> Callable:
 
 @functools.cache
 def _loaded(cache_dir: Path, name: str, objects: tuple[str, ...]) -> tuple[list, Any]:
-    """A finished form, once a process.
+    """Load a finished form, once in each process.
 
-    By its full name: ffcx lists the whole folder for each, and with thousands there that takes longer than
-    all the rest.
+    It is loaded by its full name. ffcx would list the whole folder for each form, which is slow with
+    thousands of files.
     """
     paths = (cache_dir / f"{name}{suffix}" for suffix in EXTENSION_SUFFIXES)
     path = next((path for path in paths if path.exists()), None)
     if path is None:
-        raise ImportError(f"{name} is marked complete and is not there")
+        raise ImportError(f"{name} is marked complete but does not exist")
     spec = spec_from_file_location(name, path)
     module = module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -156,7 +157,7 @@ def _loaded(cache_dir: Path, name: str, objects: tuple[str, ...]) -> tuple[list,
 
 
 def _lock(path: Path) -> bool:
-    """Wait for the lock of a form; False where the file system has none."""
+    """Wait for the lock of a form; False if the file system has no locks."""
     handle = os.open(path, os.O_CREAT | os.O_RDONLY | os.O_CLOEXEC, 0o666)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX)
@@ -171,7 +172,7 @@ def _lock(path: Path) -> bool:
 
 
 def _releasing(compile_them: Callable) -> Callable:
-    """The way from forms to compiled ones, after which no lock is held, however it ended."""
+    """Wrap the function that compiles forms, so that it releases the lock however it ends."""
 
     @functools.wraps(compile_them)
     def compiled(*args: Any, **kwargs: Any) -> Any:
@@ -185,7 +186,7 @@ def _releasing(compile_them: Callable) -> Callable:
 
 
 def _compiling(compile_one: Callable) -> Callable:
-    """The call of the C compiler, in a folder of its own."""
+    """Wrap the call of the C compiler, so that it works in a separate folder."""
 
     @functools.wraps(compile_one)
     def compiled(decl: str, forms: list, names: list, module: str, *rest: Any, **more: Any) -> Any:
@@ -202,7 +203,7 @@ def _compiling(compile_one: Callable) -> Callable:
 
 
 def _publish(folder: Path, module: str, cache_dir: Path) -> None:
-    """Move what a compiler made into the cache, the mark of completeness last."""
+    """Move the compiled files into the cache, the mark of completeness last."""
     made = [path for path in folder.iterdir() if path.name.startswith(f"{module}.") and path.suffix != ".o"]
     for path in sorted(made, key=lambda path: path.suffix == ".cached"):
         os.replace(path, cache_dir / path.name)

@@ -1,4 +1,4 @@
-"""Which software made a number: versions of the stack, revision of the code, ranks."""
+"""The software that computed a number: versions of packages, revision of the code, ranks."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from slepc4py import SLEPc
 
 @cache
 def versions() -> dict[str, str]:
-    """Version of every package a result depends on."""
+    """Version of every package on which a result depends."""
     return {
         "dolfinx": dolfinx.__version__,
         "ufl": ufl.__version__,
@@ -37,7 +37,7 @@ def versions() -> dict[str, str]:
 
 @cache
 def revision() -> str:
-    """Git revision of the source tree, with ``+`` where it has changes; ``unknown`` outside one."""
+    """Git revision of the source tree, with ``+`` if it has changes; ``unknown`` outside of a repository."""
     root = Path(__file__).resolve().parents[3]
     command = ["git", "-c", f"safe.directory={root}", "-C", str(root)]
     try:
@@ -54,7 +54,7 @@ def revision() -> str:
 
 
 def quadrature_degree(form: ufl.Form) -> int:
-    """Degree up to which the integrals of a form are exact, of the one with the most points."""
+    """Highest quadrature degree of the integrals of a form."""
     return max(integral.metadata().get("quadrature_degree", 0) for integral in form.integrals())
 
 

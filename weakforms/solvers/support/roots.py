@@ -17,20 +17,20 @@ def root(
     xtol: float = 2e-12,
     rtol: float = 4 * 2.0**-52,
 ) -> float:
-    """Where a function is zero between two numbers (Brent's method).
+    """The zero of a function between two numbers (Brent's method).
 
     Args:
-        function: Has different signs at the two.
-        low: One end.
-        high: The other.
-        what: What is sought, for messages.
-        xtol: Error allowed, absolute ...
-        rtol: ... and relative to the zero.
+        function: A function with different signs at both ends.
+        low: One end of the interval.
+        high: The other end.
+        what: Name of the zero, for messages.
+        xtol: Allowed absolute error ...
+        rtol: ... and allowed error relative to the zero.
 
     Raises:
-        ConvergenceError: When there is no change of sign, a value is no number, or no zero is found.
+        ConvergenceError: If there is no change of sign, a value is not a number, or no zero is found.
     """
     try:
         return float(brentq(function, low, high, xtol=xtol, rtol=rtol))
-    except (ValueError, RuntimeError) as error:  # brentq's own; what the function raises is none of ours
+    except (ValueError, RuntimeError) as error:  # errors of brentq only; exceptions of the function pass
         raise ConvergenceError(f"{what} is not found between {low:g} and {high:g}: {error}") from error

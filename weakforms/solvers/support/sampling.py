@@ -20,9 +20,9 @@ class Interpolant:
     """Expressions of an unknown as polynomials on each cell, discontinuous between cells.
 
     Args:
-        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        unknown: The function on which the expressions depend; each call uses its current values.
         expressions: Name and expression of each column.
-        raise_degree: How much the polynomials' degree exceeds the unknown's.
+        raise_degree: Difference between the degrees of the polynomials and of the unknown.
     """
 
     def __init__(self, unknown: fem.Function, expressions: Mapping[str, Expr], raise_degree: int = 1) -> None:
@@ -36,7 +36,7 @@ class Interpolant:
         self._owned = target.dofmap.index_map.size_local
 
     def update(self) -> None:
-        """Interpolate the expressions as they stand."""
+        """Interpolate the current expressions."""
         self.function.interpolate(self._expression)
 
     def values(self) -> np.ndarray:
@@ -46,7 +46,7 @@ class Interpolant:
 
 
 class FirstLevels:
-    """Where along a one-dimensional body expressions first reach a level in magnitude.
+    """The first positions along a one-dimensional body where expressions reach a level in magnitude.
 
     Args:
         unknown: The function the expressions depend on.
@@ -65,7 +65,7 @@ class FirstLevels:
         self._cells = space.mesh.topology.index_map(1).size_local
 
     def __call__(self) -> dict[str, float]:
-        """The smallest such coordinate; the body's end where a level is never reached."""
+        """The smallest such coordinate, or the end of the body if a level is never reached."""
         dofs = self._interpolant.function.function_space.dofmap.list[: self._cells]
         nodes = self._interpolant.values()[dofs]
         order = np.argsort(nodes[:, :, 0], axis=1)[:, :, None]
@@ -78,7 +78,7 @@ class FirstLevels:
 
 
 def _first(x: np.ndarray, values: np.ndarray, level: float) -> float:
-    """Smallest ``x`` with ``|value| = level`` by the cells' polynomials; infinite if there is none.
+    """Smallest ``x`` with ``|value| = level`` by the polynomials on the cells; infinite if there is none.
 
     Args:
         x: Nodes, ascending in each row (a cell).
@@ -116,12 +116,12 @@ def _through(x: np.ndarray, values: np.ndarray) -> Callable[[float], float]:
 class Sampler:
     """Evaluates expressions of an unknown at points of a mesh.
 
-    The expressions are interpolated element by element in polynomials of one degree more than the
-    unknown's, then evaluated: what that adds is smaller than the discretisation error of a derivative. A
-    point between two cells gets the mean of both sides, so that the ranks' order does not matter.
+    On each element the expressions are interpolated by polynomials of one degree more than the unknown, and
+    then evaluated. The interpolation error is smaller than the discretisation error of a derivative. A point
+    between two cells gets the mean of both sides, so that the order of the ranks does not matter.
 
     Args:
-        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        unknown: The function on which the expressions depend; each call uses its current values.
         expressions: Name and expression of each column.
         points: Coordinates, shape ``(n,)`` or, on a mesh of ``d`` coordinates, ``(n, d)``.
     """
@@ -141,7 +141,7 @@ class Sampler:
             raise ValueError(f"sample point {points[np.argmin(self._count)]} lies outside the mesh")
 
     def _locate(self, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-        """Every pair of a point and a cell of this rank that holds it."""
+        """All pairs of a point and a cell of this rank that contains it."""
         tree = geometry.bb_tree(mesh, mesh.topology.dim, padding=1e-10)
         candidates = geometry.compute_collisions_points(tree, self._points)
         cells = geometry.compute_colliding_cells(mesh, candidates, self._points)
@@ -151,7 +151,7 @@ class Sampler:
         return index, cell
 
     def __call__(self) -> dict[str, np.ndarray]:
-        """One array a column."""
+        """Evaluate: one array for each column."""
         self._interpolant.update()
         values = np.zeros((len(self._points), len(self.names)))
         if len(self._index):
@@ -162,10 +162,10 @@ class Sampler:
 
 
 class Probe:
-    """Expressions of an unknown at one point along a one-dimensional mesh, located anew at each call.
+    """Expressions of an unknown at one point of a one-dimensional mesh, which each call locates again.
 
     Args:
-        unknown: The function the expressions depend on; evaluated as it stands at each call.
+        unknown: The function on which the expressions depend; each call uses its current values.
         expressions: Name and expression of each column.
     """
 
@@ -177,7 +177,7 @@ class Probe:
         self._owned = self._mesh.topology.index_map(self._mesh.topology.dim).size_local
 
     def __call__(self, x: float) -> dict[str, float]:
-        """One number a column; between two cells the mean of both."""
+        """Evaluate: one number for each column; between two cells the mean of both."""
         point = np.array([[x, 0.0, 0.0]])
         candidates = geometry.compute_collisions_points(self._tree, point)
         found = geometry.compute_colliding_cells(self._mesh, candidates, point).links(0)
@@ -197,7 +197,7 @@ SEARCHED = 3
 
 
 class Peak:
-    """Largest value of one component of a function along a one-dimensional mesh, by its polynomials."""
+    """Largest value of one component of a function on a one-dimensional mesh, by its polynomials."""
 
     def __init__(self, function: fem.Function, component: int) -> None:
         space = function.function_space
@@ -210,7 +210,7 @@ class Peak:
         self._to_coefficients = np.linalg.inv(((nodes - middle) / half)[:, :, None] ** powers)
 
     def __call__(self) -> float:
-        """The largest value; the cells that hold the largest nodal ones are searched."""
+        """The largest value, found in the cells with the largest nodal values."""
         values = self._function.x.array[self._block * self._cells + self._component]
         largest = float(values.max(initial=-np.inf))
         searched = np.argsort(values.max(axis=1, initial=-np.inf))[-SEARCHED:]

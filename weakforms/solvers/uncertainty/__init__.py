@@ -1,1 +1,1 @@
-"""From results on several meshes to numbers with uncertainties."""
+"""Numbers with uncertainties, from results on several meshes."""

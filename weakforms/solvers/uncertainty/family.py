@@ -25,43 +25,44 @@ from weakforms.solvers.uncertainty.refinement import (
 )
 
 KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
-"""Special points located on a curve; a state can be asked for at one."""
+"""Kinds of special points that are located on a curve; a state can be requested at one."""
 
 CRITICAL = 1e-6
-"""Magnitude below which an eigenvalue at a special point is that point's own zero."""
+"""An eigenvalue below this magnitude at a special point is the zero eigenvalue of that point."""
 
 
 SAMPLED = 1.5
-"""Factor for columns of a profile: where its points lie in their cells makes differences large or small."""
+"""Factor for columns of a profile, because differences depend on where points lie in their cells."""
 
 PLACES = 101
-"""Places of a meridian at which the order of convergence of its fields is observed."""
+"""Number of positions on a meridian at which the order of convergence of its fields is observed."""
 
 
 class BranchFamily:
-    """A branch traced on meshes from coarse to fine.
+    """A branch that is traced on several meshes from coarse to fine.
 
-    Every number reported is the finest mesh's, with the uncertainty the others give it.
+    Every number is that of the finest mesh; the other meshes give its uncertainty.
 
     Args:
         make: Builds the branch on the mesh of a level.
         levels: Number of meshes, at least two.
-        cap: Highest order of convergence to reckon with ...
-        across: Columns that span the plane in which branches of two meshes are compared.
-        caps: ... and for some columns a lower one (one-sided traces of derivatives).
-        points_of: Columns that are a column of the profile at a point which moves through the cells.
-        slow: A part of all errors that falls slower.
+        cap: Highest order of convergence that is assumed ...
+        across: Columns of the plane in which branches of two meshes are compared.
+        caps: ... and a lower one for some columns (one-sided limits of derivatives).
+        points_of: Columns that are values of a profile's column at a point that moves through the cells.
+        slow: A part of all errors that converges more slowly.
         name: Name of the branch.
     """
 
     judges_points = True
-    """Whether a state without a profile, a mere point of a curve, is judged for stability too."""
+    """Whether stability is also computed for a state without a profile."""
 
     located_by: ClassVar[Mapping[str, str]] = {}
-    """Kinds of special points found where a column has an extremum, as which all other columns err there."""
+    """Kinds of special points that are extrema of a column; there all columns have the error order of that
+    column."""
 
     least: ClassVar[Mapping[str, float]] = {}
-    """Orders that quantities have at least; a lower one observed is accident."""
+    """Smallest orders of quantities; a lower observed order is accidental."""
 
     def __init__(
         self,
@@ -89,15 +90,15 @@ class BranchFamily:
 
     @property
     def quadrature_degree(self) -> int:
-        """Of the residual, as it is solved."""
+        """Quadrature degree of the residual."""
         return quadrature_degree(self.fine.system.formulation.residual)
 
     # -- the branch itself -------------------------------------------------------------------
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
-        """All columns, each number with its uncertainty if wanted.
+        """All columns, with uncertainties if requested.
 
-        A point the coarser meshes cannot be brought across from is left out and listed as a failure.
+        A point that cannot be compared with the coarser meshes is left out and listed as a failure.
         """
         fine = self.fine
         columns = {n: v for n, v in fine.columns().items() if n in (*fine.shown, *DIAGNOSTICS)}
@@ -138,10 +139,10 @@ class BranchFamily:
     # -- points ------------------------------------------------------------------------------
 
     def special_points(self) -> list[SpecialPoint]:
-        """Special points located on every mesh, which must agree on their kinds and order.
+        """Special points that are located on every mesh; all meshes must agree on their kinds and order.
 
         Raises:
-            ConvergenceError: When it does.
+            ConvergenceError: If they do not.
         """
         points = []
         for same in self._special():
@@ -152,13 +153,13 @@ class BranchFamily:
         return points
 
     def _special(self) -> list[tuple[Solved, ...]]:
-        """Each special point on all meshes; located once."""
+        """Each special point on all meshes; they are located once."""
         if self._located is None:
             self._located = self._locate()
         return self._located
 
     def _locate(self) -> list[tuple[Solved, ...]]:
-        self.levels[0].require_nothing_between()  # the coarsest is cheap, and what it misses all do
+        self.levels[0].require_nothing_between()  # on the coarsest mesh, which is cheap
         found = [level.special() for level in self.levels]
         kinds = [[solved.kind for solved in item] for item in found]
         if any(item != kinds[-1] for item in kinds):
@@ -167,12 +168,12 @@ class BranchFamily:
         return list(zip(*found, strict=True))
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
-        """A state with a column at exactly a value, and its profile if points for it are given.
+        """Solve for the state at which a column has exactly a value, with its profile if points are given.
 
-        With the kind of the curve's special points for a name, the state at the ``value``-th of them.
+        If the name is a kind of special point, this is the state at the ``value``-th of them.
 
         Raises:
-            InputError: When the branch has no such state.
+            InputError: If the branch has no such state.
         """
         special = name in KINDS
         if special:
@@ -194,7 +195,7 @@ class BranchFamily:
     def _columns(
         self, solved: Sequence[Solved], held: str, orders: Mapping[str, float]
     ) -> dict[str, Quantity]:
-        """The finest mesh's columns with their uncertainties; what errs in the one ``held`` does in all."""
+        """The finest mesh's columns with uncertainties; an error of the column ``held`` is in all of them."""
         return {
             name: self._quantity(
                 [s.values[name] for s in solved], name, held, orders.get(self.points_of.get(name, ""), 0.0)
@@ -203,7 +204,7 @@ class BranchFamily:
         }
 
     def _doubted(self, quantities: dict[str, Quantity], orders: Mapping[str, float]) -> dict[str, Quantity]:
-        """The same, with wider uncertainties where the coarse meshes do not resolve the state's fields."""
+        """The same with larger uncertainties, if the coarse meshes do not resolve the state's fields."""
         element = self.fine.system.unknown.function_space.ufl_element()
         wider = doubt(orders.values(), element.embedded_superdegree + 1)
         return {
@@ -218,7 +219,7 @@ class BranchFamily:
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """Lowest eigenvalue and number of negative ones, by SLEPc and by inertia.
 
-        At a special point the critical eigenvalue is zero to round-off and does not count as negative.
+        At a special point the critical eigenvalue is zero up to round-off and does not count as negative.
         """
         spectra = [_spectrum(level, s, critical) for level, s in zip(self.levels, solved, strict=True)]
         counts = {spectrum.n_negative for spectrum in spectra}
@@ -238,7 +239,7 @@ class BranchFamily:
         abscissa = self.fine.system.formulation.abscissa
         columns: dict[str, np.ndarray] = {abscissa: points}
         uncertainty = {abscissa: 0.0}
-        order = min(self.cap, self.cap / 2 + 1)  # anywhere in a cell: the degree and one
+        order = min(self.cap, self.cap / 2 + 1)  # at any point of a cell: the degree plus one
         for name in samples[-1]:
             cap = min(order, self.caps.get(name, order))
             columns[name] = samples[-1][name]
@@ -248,7 +249,7 @@ class BranchFamily:
         return Field("profile", columns, uncertainty)
 
     def _orders_in_mean(self, solved: Sequence[Solved]) -> dict[str, float]:
-        """Orders of the profile's columns over the whole of a meridian, whatever points are asked for."""
+        """Orders of the profile's columns over the whole meridian, independent of the requested points."""
         mesh = self.fine.system.unknown.function_space.mesh
         if mesh.topology.dim > 1 or len(solved) < 3:
             return {}
@@ -258,13 +259,13 @@ class BranchFamily:
         return {name: order_in_mean([sample[name] for sample in samples]) for name in samples[-1]}
 
     def _sample(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
-        """Columns of the profile at places on one mesh."""
+        """Columns of the profile at given positions on one mesh."""
         system = self.levels[k].system
         system.set_state(solved.state.u, solved.state.loads)
         return self._sampler(k, places)()
 
     def _sampler(self, k: int, points: np.ndarray) -> Sampler:
-        """Sampler on one mesh, kept: locating points costs more than evaluating there."""
+        """Sampler on one mesh; it is kept, because locating points costs more than evaluation."""
         key = (k, points.tobytes())
         if key not in self._samplers:
             formulation = self.levels[k].system.formulation
@@ -274,7 +275,7 @@ class BranchFamily:
     # -- estimates ---------------------------------------------------------------------------
 
     def _cap(self, *names: str) -> float:
-        """Highest order to reckon with in a number that errs as each of some columns does."""
+        """Highest assumed order for a number that contains the errors of some columns."""
         return min(self.caps.get(name, self.cap) for name in names)
 
     def _quantity(
@@ -282,8 +283,8 @@ class BranchFamily:
     ) -> Quantity:
         """A number with its uncertainty.
 
-        One at a point that lies now here, now there in its cell has differences of any size, whose order is
-        accident: that of the field ``in_mean`` counts where it is higher.
+        The differences at a point depend on its position in the cell, so that their order is accidental. The
+        order of the field, ``in_mean``, is used if it is higher.
         """
         cap = self._cap(name, held)
         found = estimate(values, cap, least=self.least.get(name, 0.0), slow=self.slow)
@@ -321,13 +322,13 @@ def _orders(values: dict[str, Estimate]) -> dict[str, float]:
 
 
 def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:
-    """The lowest eigenvalues of a state against its own mass: fronts, and the mesh with them, have moved."""
+    """The lowest eigenvalues of a state, with the mass matrix of its own mesh (which fronts move)."""
     level.system.set_state(solved.state.u, solved.state.loads)
     with level.system.weighed_here():
         return Stability(level.system).spectrum(solved.state, shift=max(critical, level.continuation.shift))
 
 
 def _widen(uncertainty: np.ndarray) -> np.ndarray:
-    """Largest of each point and its neighbours: a difference that passes through zero is no accuracy."""
+    """Largest value of each point and its neighbours, because a difference may pass through zero."""
     padded = np.pad(uncertainty, ((1, 1), (0, 0)), mode="edge")
     return np.maximum.reduce([padded[:-2], padded[1:-1], padded[2:]])

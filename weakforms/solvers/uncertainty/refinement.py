@@ -1,8 +1,8 @@
 """Uncertainty of a number from a sequence of meshes, each twice as fine as the one before.
 
-What is claimed: the true error lies within the uncertainty for 95 % of all numbers, within twice it (the
-bound of every verdict) for all of them, and the uncertainty is at most 30 times the error, down to round-off.
-That is tested over sets of parameters: :mod:`weakforms.verification.audit.coverage`,
+The claims are: the true error is within the uncertainty for 95 % of all numbers, and within twice the
+uncertainty (the bound of every verdict) for all of them; the uncertainty is at most 30 times the error, down
+to round-off. They are tested over sets of parameters: :mod:`weakforms.verification.audit.coverage`,
 ``tests/verification/test_bounds_hold.py``.
 """
 
@@ -15,31 +15,31 @@ from itertools import pairwise
 import numpy as np
 
 ALGEBRAIC = 1e-11
-"""Relative error that Newton's stopping rule and round-off may leave; added to every uncertainty."""
+"""Relative error of Newton's stopping rule and of round-off; it is added to every uncertainty."""
 
 SAFETY = 1.25
-"""Factor of the grid convergence index where the meshes converge (Roache 1998) ..."""
+"""Factor of the grid convergence index if the meshes converge (Roache 1998) ..."""
 
 SAFETY_UNRESOLVED = 3.0
-"""... and where the observed order is below one."""
+"""... and if the observed order is below one."""
 
 TOO_FAST = 0.5
-"""Orders by which a field may fall faster than its elements can converge and still count as resolved."""
+"""A field is resolved if its observed order exceeds that of its elements by less than this."""
 
 
 @dataclass(frozen=True)
 class Slow:
-    """Part of an error that falls slower than the rest, and shows where that is small: on fine meshes."""
+    """Part of an error that converges more slowly than the rest and dominates on fine meshes."""
 
     size: float
-    """Largest difference between two meshes that it may make, of a number or of 1 ..."""
+    """Its largest contribution to the difference between two meshes, relative to the number or to 1 ..."""
     order: float
-    """... and the highest order it has."""
+    """... and its highest order."""
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Finest value, absolute uncertainty and observed order (``nan`` where two meshes cannot tell)."""
+    """Value on the finest mesh, absolute uncertainty and observed order (``nan`` with two meshes)."""
 
     value: np.ndarray
     uncertainty: np.ndarray
@@ -60,21 +60,21 @@ def estimate(
 
     .. math:: u = F \frac{\max(|d_2|, |d_1|/2^{cap})}{2^q - 1} + u_\mathrm{algebraic}
 
-    The maximum keeps an accidentally small ``d_2`` (a change of sign) from passing for accuracy. Two
-    meshes alone are taken to converge at first order. To a slow part of the error belongs of the maximum as
-    much as it may make, and that is added with its own ``cap``.
+    The maximum protects against an accidentally small ``d_2`` (a change of sign). Two meshes alone are
+    assumed to converge at first order. A slow part of the error takes its share of the maximum, up to its
+    limit, and is added with its own ``cap``.
 
     Args:
         levels: Values from coarse to fine, scalars or arrays of one shape; two or more.
-        cap: Highest order the method can have (twice the degree for energies and limit loads, the degree for
-            derivatives at a point); one number or one a value.
-        guard: Order at which ``d_1`` is taken to fall, where that is not ``cap``: where an error of low order
-            shows on fine meshes only, the coarse ones' falls faster.
-        least: Order that is known from elsewhere, reckoned with where a lower one is observed.
-        slow: A part of the error that falls slower.
+        cap: Highest order of the method (twice the degree for energies and limit loads, the degree for
+            derivatives at a point); one number, or one for each value.
+        guard: Assumed order of ``d_1``, if it is not ``cap``: if an error of low order appears only on fine
+            meshes, the error on coarse meshes decreases faster.
+        least: A known order, which is used if a lower one is observed.
+        slow: A part of the error that converges more slowly.
 
     Raises:
-        ValueError: With fewer than two meshes: one mesh has no uncertainty.
+        ValueError: With fewer than two meshes, because one mesh gives no uncertainty.
     """
     if len(levels) < 2:
         raise ValueError("an uncertainty needs at least two meshes")
@@ -104,7 +104,7 @@ def _left(
     guard: float | None,
     most: float | np.ndarray = np.inf,
 ) -> np.ndarray:
-    """What two differences leave, if no more than ``most`` of them counts."""
+    """The uncertainty from two differences, of which at most ``most`` counts."""
     used = np.clip(known, 1.0, cap)
     safety = np.where(known >= 1.0, SAFETY, SAFETY_UNRESOLVED)
     left = np.maximum(last, first / 2.0 ** (cap if guard is None else guard))
@@ -116,12 +116,12 @@ def estimate_in_norm(
 ) -> float:
     r"""One uncertainty for a whole field: :func:`estimate` with differences in the maximum norm.
 
-    Point by point differences of two meshes oscillate within cells and pass through zero anywhere, so that
-    orders observed there mean little; those of the norms do not.
+    Pointwise differences of two meshes oscillate within cells and pass through zero, so that their observed
+    orders have little meaning. Norms do not have this problem.
 
     Args:
         levels: Values at the same points from coarse to fine; two or more.
-        cap: Highest order the method can have.
+        cap: Highest order of the method.
         guard: As for :func:`estimate`.
         slow: As for :func:`estimate`.
     """
@@ -133,13 +133,13 @@ def estimate_in_norm(
 
 
 def order_in_mean(levels: list[np.ndarray]) -> float:
-    """Order at which the last two differences of a field fall in the root mean square over its points.
+    """Observed order of a field: of the root mean square of its last two differences.
 
     Args:
         levels: Values at the same points from coarse to fine.
 
     Returns:
-        The order; 0 with fewer than three meshes, or where only round-off is left.
+        The order; 0 with fewer than three meshes, or if only round-off is left.
     """
     if len(levels) < 3:
         return 0.0
@@ -149,22 +149,23 @@ def order_in_mean(levels: list[np.ndarray]) -> float:
 
 
 def doubt(orders: Iterable[float], highest: float) -> float:
-    r"""Factor for the uncertainties of a state whose coarse meshes do not resolve it; else 1.
+    r"""Factor for the uncertainties of a state that the coarse meshes do not resolve; else 1.
 
-    No field can converge faster than its elements, at an order :math:`q_0`. One whose differences, in the
-    mean where nothing cancels, fall at an order :math:`q_0 + e` was not resolved where they were large. The
-    numbers of an equilibrium err by the square of its fields: their differences may have fallen :math:`2e`
-    orders faster than what is left will,
+    No field can converge faster than its elements, whose order is :math:`q_0`. If its differences, in the
+    mean, decrease at the order :math:`q_0 + e`, the coarse meshes did not resolve it. The error of the
+    numbers of an equilibrium is of the square of the error of its fields. Their differences may thus have
+    decreased :math:`2e` orders faster than they will on finer meshes:
 
     .. math:: f = 4^{\min(e, 1)}, \quad e = \max_\mathrm{fields} q - q_0 > \tfrac12
 
-    An excess beyond one order says that the coarsest mesh is far off, no more of the finer ones.
+    A larger excess than one order shows that the coarsest mesh is far off, and gives no more information on
+    the finer ones.
 
-    One number alone cannot tell: where its difference passes through zero, any order is seen.
+    A single number is not sufficient: if its difference passes through zero, any order may be observed.
 
     Args:
-        orders: Of the state's fields (:func:`order_in_mean`).
-        highest: Order of the elements in the mean: their degree and one.
+        orders: Orders of the state's fields (:func:`order_in_mean`).
+        highest: Order of the elements in the mean: their degree plus one.
     """
     excess = max(orders, default=0.0) - highest
     return float(4.0 ** min(excess, 1.0)) if excess > TOO_FAST else 1.0

@@ -1,1 +1,1 @@
-"""Whether the suite can be trusted: uncertainties, seeded faults, comparison of runs, speed."""
+"""Audits of the suite itself: uncertainties, seeded faults, comparison of runs, speed."""

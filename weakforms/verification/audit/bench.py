@@ -1,7 +1,7 @@
-"""The benchmark: time and memory by stage for fixed problems, cold and warm, against the bare floor.
+"""The benchmark: time and memory by stage for fixed problems, also relative to the bare PETSc calls.
 
-Serially each problem is measured in processes of its own: one with an empty cache of compiled forms (cold),
-one with a full one (warm). On several ranks there is one process a rank, and the warm numbers only.
+In serial, each problem is measured in two separate processes: with an empty cache of compiled forms (cold)
+and with a full one (warm). On several ranks there is one process for each rank, and only warm numbers.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from weakforms.errors import InputError
 from weakforms.verification.report.summary import duration, fraction
 
 REPEATS = {"tube": 5}
-"""Times a run and its floor are measured in turn, the best of each counted."""
+"""Number of measurements of a run and its floor; the best of each counts."""
 USUAL = 2
 COLD = ("tube", "bent", "surface-small")
-"""Problems started cold as well; further sizes compile nothing new."""
+"""Problems that are also started cold; other sizes compile the same forms."""
 STAGES = ("matrix assembly", "vector assembly", "functionals", "factorisation", "back substitution")
 
 Progress = Callable[[str, int, int], None]
@@ -38,16 +38,17 @@ def run_bench(
     """Run the benchmark.
 
     Args:
-        progress: Told what is being measured.
-        only: Names of problems; all when empty.
-        cold: Whether to measure cold and warm starts (compiling takes minutes); without it the start is
-            that of the one process there is, which may have compiled something.
+        progress: Called with what is being measured.
+        only: Names of problems; all if empty.
+        cold: Whether to measure cold and warm starts (compilation takes minutes); otherwise the start is that
+            of this process, which may have compiled forms.
 
     Returns:
-        One entry a problem with seconds by stage, counts, ratio to the floor, peak memory; versions.
+        One entry for each problem with seconds by stage, counts, ratio to the floor, peak memory; and
+        versions.
 
     Raises:
-        InputError: For a name there is no problem of.
+        InputError: If there is no problem of that name.
     """
     from mpi4py import MPI
 
@@ -80,7 +81,7 @@ def run_bench(
 
 
 def _in_a_process(name: str, kind: str) -> dict[str, Any]:
-    """Measure in a fresh process: all of it (``whole``), or its start, ``warm`` or without compiled forms."""
+    """Measure in a new process: everything (``whole``), or the start, ``warm`` or not."""
     with tempfile.TemporaryDirectory(prefix="weakforms-bench-") as cache:
         environment = os.environ | ({"XDG_CACHE_HOME": cache} if kind == "cold" else {})
         command = [sys.executable, "-m", __name__, name, kind, repr(time.time())]
@@ -92,8 +93,8 @@ def measure(name: str, started: float, only_start: bool) -> dict[str, Any]:
     """Measure one problem in this process.
 
     Args:
-        name: Of the problem.
-        started: Clock at which the process was launched.
+        name: Name of the problem.
+        started: Time at which the process was launched.
         only_start: End after the first run.
     """
     from mpi4py import MPI
@@ -126,7 +127,7 @@ def measure(name: str, started: float, only_start: bool) -> dict[str, Any]:
         work.run()
     rounds = [(_spent(work.run), _spent(meter.floor)) for _ in range(REPEATS.get(name, USUAL))]
     run, floor = (min(times) for times in zip(*rounds, strict=True))
-    work.run()  # the state whose eigenvalues are asked for
+    work.run()  # the state for the eigenvalues
     eigen, _ = timed(work.eigenvalues)
     return found | {
         "run_seconds": run,
@@ -144,14 +145,14 @@ def measure(name: str, started: float, only_start: bool) -> dict[str, Any]:
 
 
 def _spent(run: Callable[[], Any]) -> float:
-    """Seconds of processor time: the machine may have other things to do, which is not the code's doing."""
+    """Processor time in seconds, because the machine may be busy with other work."""
     begun = time.process_time()
     run()
     return time.process_time() - begun
 
 
 def print_bench(table: dict[str, Any], console: Console) -> None:
-    """The benchmark for people: a column a problem."""
+    """Print the benchmark with one column for each problem."""
     problems = table["problems"]
     shown = Table("", title=f"{table['ranks']} rank(s), {table['cores']} cores, load {table['load']:.1f}")
     for row in problems:
@@ -168,9 +169,9 @@ def print_bench(table: dict[str, Any], console: Console) -> None:
         console.print(f"{row['name']}: {row['title']}", soft_wrap=True)
     console.print(
         "cold, warm: from the launch of a process to the end of its first run, without and with compiled "
-        "forms. run: processor time of the path once more. floor: that of the same assemblies, "
-        "factorisations and solves called one after another. eigenvalues: the lowest three at its last "
-        "state, counted by inertia.",
+        "forms. run: processor time of a second run of the branch. floor: processor time of the same "
+        "assemblies, factorisations and solves alone. eigenvalues: the lowest three at its last state, with "
+        "inertia.",
         soft_wrap=True,
     )
 

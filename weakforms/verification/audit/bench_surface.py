@@ -11,10 +11,10 @@ from rich.console import Console
 from rich.table import Table
 
 ROWS, COLUMNS = 40, 96
-"""Quadrilaterals along and around on the first mesh; each further one has twice as many, by turns."""
+"""Quadrilaterals along and around on the first mesh; each further mesh doubles one of them in turn."""
 
 LEVELS = (0.5, 3.0, 4.0)
-"""Loads walked over; the last is looked at."""
+"""Loads of the states; the last one is measured."""
 
 
 def run_surface_bench(
@@ -23,8 +23,8 @@ def run_surface_bench(
     """Meshes of the tube up to a number of unknowns: equilibrium, inertia and eigenvalues at ``zw = 4``.
 
     Args:
-        unknowns: Degrees of freedom up to which meshes are refined.
-        progress: Called with the stage, how many meshes are done, and how many there are.
+        unknowns: Largest number of degrees of freedom.
+        progress: Called with the stage, the number of finished meshes, and the number of meshes.
 
     Returns:
         A row for each mesh: its size, seconds by stage, peak memory so far over all ranks, and the numbers.
@@ -72,7 +72,7 @@ def run_surface_bench(
 
 
 def print_surface_bench(table: dict[str, Any], console: Console) -> None:
-    """The refinement for people."""
+    """Print the refinement as a table."""
     title = f"Tube on flat triangles, zw = {table['zw']:g}, {table['ranks']} rank(s); seconds, MiB"
     names = {"mesh": "mesh", "unknowns": "unknowns", "set_up_s": "set up", "states_s": "states"}
     names |= {"inertia_s": "inertia", "lowest_s": "lowest", "peak_mib": "memory", "n_negative": "negative"}

@@ -1,7 +1,7 @@
-"""What the benchmark solves: a path in one, two and three dimensions, by the same code as everything else.
+"""The problems of the benchmark: branches in one, two and three dimensions, by the usual code.
 
-Each work is set up (forms compiled, where they are not yet), run once to get there, run again measured, and
-then its eigenvalues are found at the last state.
+Each problem is set up (which compiles forms if needed), run once, and run again for the measurement. Then its
+eigenvalues are computed at the last state.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ PRIMITIVES = {
     (Factorization, "refactor"): "factorisation",
     (Factorization, "solve"): "back substitution",
 }
-"""What a path cannot do without: assemblies and factorisations, each with the stage it counts for."""
+"""The necessary calls of a branch: assemblies and factorisations, each with its stage."""
 
 
 @dataclass
 class Meter:
-    """Calls of the primitives, their time, and how to make the same calls again."""
+    """Records calls of these functions and their time, so that the same calls can be repeated."""
 
     seconds: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     calls: Counter[str] = field(default_factory=Counter)
@@ -46,7 +46,7 @@ class Meter:
     _inside: bool = False
 
     def note(self, stage: str, right: Callable, given: tuple, options: dict) -> Any:
-        """Make a call and note it, unless it is part of one that is noted."""
+        """Make a call and record it, unless it is part of a recorded call."""
         if self._inside:
             return right(*given, **options)
         self._inside, begun = True, time.perf_counter()
@@ -63,14 +63,14 @@ class Meter:
     @staticmethod
     def _repeated(stage: str, right: Callable, given: tuple, options: dict) -> Callable[[], Any]:
         def call() -> Any:
-            if stage == "factorisation":  # or PETSc would see that it has the factors already
+            if stage == "factorisation":  # otherwise PETSc would reuse the factors
                 given[0].system.matrix.stateIncrease()
             return right(*given, **options)
 
         return call
 
     def floor(self) -> None:
-        """Make the same calls one after another, with nothing between them."""
+        """Repeat the same calls without other work between them."""
         for count, call in self.again.values():
             for _ in range(count):
                 call()
@@ -78,7 +78,7 @@ class Meter:
 
 @contextmanager
 def metered(primitives: dict[tuple[type, str], str]) -> Iterator[Meter]:
-    """Note every call of the primitives while it lasts."""
+    """Context in which every call of these functions is recorded."""
     meter = Meter()
     kept = {(owner, name): getattr(owner, name) for owner, name in primitives}
 
@@ -99,17 +99,17 @@ class Work(Protocol):
 
     title: str
     asked: float
-    """Largest ratio of a run to its floor that is asked for."""
+    """Largest accepted ratio of a run to its floor."""
     primitives: dict[tuple[type, str], str]
 
     def set_up(self, comm: MPI.Intracomm) -> None:
         """Mesh, forms, first equilibrium."""
 
     def run(self) -> int:
-        """Follow the path; returns its number of points."""
+        """Follow the branch; returns its number of points."""
 
     def eigenvalues(self) -> int:
-        """Find the lowest three at the last state, counted by inertia; returns how many there are."""
+        """Compute the lowest three at the last state, with inertia; returns their number."""
 
     @property
     def system(self) -> System:
@@ -137,7 +137,7 @@ class Tube:
         return len(self.branch.points)
 
     def eigenvalues(self) -> int:
-        """Axisymmetric ones."""
+        """Axisymmetric eigenvalues."""
         spectrum = Stability(self.system).spectrum(self.branch.points[-1].state, 3)
         return len(spectrum.eigenvalues)
 
@@ -145,13 +145,13 @@ class Tube:
 class BentTube:
     """Paper 3: the bent fluid-filled tube on half its surface, from its bifurcation on."""
 
-    title = "2-D: secondary branch of the fluid-filled tube"
+    title = "2-D: secondary branch of the fluid-loaded tube"
     asked = 1.1
     primitives = PRIMITIVES
     cells, degree, step, end = 16, 3, 0.1, 0.9
 
     def set_up(self, comm: MPI.Intracomm) -> None:
-        """The bifurcation point, located on the surface itself, and the branch once."""
+        """Locate the bifurcation point on the surface, and follow the branch once."""
         primary = PrimaryBranch(comm, 8.0, 2.0)
         data = SurfaceData(8.0, 2.0, 0.116, 0.0, self.cells, self.cells, self.degree)
         self.first = secondary_branch(comm, data, primary, self.step, self.end)
@@ -165,7 +165,7 @@ class BentTube:
         return len(self.branch.points)
 
     def eigenvalues(self) -> int:
-        """Mirror-symmetric ones."""
+        """Mirror-symmetric eigenvalues."""
         spectrum = Stability(self.system).spectrum(self.branch.points[-1].state, 3)
         return len(spectrum.eigenvalues)
 
@@ -184,7 +184,7 @@ class Triangles:
         self.primitives = PRIMITIVES | {(Subspace, "_jacobian"): "matrix assembly"}
 
     def set_up(self, comm: MPI.Intracomm) -> None:
-        """The surface with a little fluid in it."""
+        """The surface with a small amount of fluid."""
         from weakforms.problems.triangles.problem import SurfaceParameters, _run
 
         meridional, circumferential = self.shape
@@ -193,19 +193,19 @@ class Triangles:
         self.system = self.walk.system
 
     def run(self) -> int:
-        """Equilibria at higher levels, each counted by inertia."""
+        """Equilibria at higher levels, each with its inertia."""
         del self.walk._known[1:]
         self.points = [self.walk.at(load) for load in self.loads]
         return len(self.points)
 
     def eigenvalues(self) -> int:
-        """In all of space."""
+        """Eigenvalues in the whole space."""
         self.walk.columns(self.points[-1], 3)
         return 3
 
 
 def works() -> dict[str, Callable[[], Work]]:
-    """The problems of the benchmark by name, as far as they are there."""
+    """The problems of the benchmark by name."""
     found: dict[str, Callable[[], Work]] = {"tube": Tube, "bent": BentTube}
     if find_spec("weakforms.problems.triangles.problem") is not None:
         for name, shape in {"small": (60, 24), "medium": (120, 48), "large": (160, 96)}.items():

@@ -1,15 +1,16 @@
-r"""Are the stated uncertainties right? True errors of coarse solutions over many sets of parameters.
+r"""Test of uncertainties against true errors of coarse solutions, over many sets of parameters.
 
 A problem is solved on coarse meshes at parameters drawn from a Sobol sequence, and again on meshes four times
-as fine with polynomials two degrees higher: against the coarse uncertainty :math:`u` the fine solution is the
-truth, its own :math:`u_t` being known and smaller by orders. What is claimed of every number:
+as fine with polynomials two degrees higher: the difference is the true error of the coarse solution, which
+states the uncertainty :math:`u`. The uncertainty :math:`u_t` of the fine solution is smaller by orders. The
+claims for every number are:
 
 * its true error is within :math:`u + u_t` for 95 % of all numbers, and within the bound that verdicts use,
   :math:`2u + u_t`, for all of them;
 * for each column, over the sets, :math:`u` is at most 30 times the error (:func:`statistics`), where an error
-  below the floor counts as the floor: ten times
+below a floor counts as the floor: ten times
   :data:`~weakforms.solvers.uncertainty.refinement.ALGEBRAIC` of the number or of 1,
-  the part of each uncertainty that is there for round-off, which no mesh can show.
+  the part of each uncertainty that covers round-off, which differences between meshes do not show.
 
 ``python3 -m weakforms.verification.audit.coverage [--wide]`` prints the statistics.
 """
@@ -29,12 +30,12 @@ from weakforms.verification.audit.coverage_families import FAMILIES, QUICK, WIDE
 from weakforms.verification.audit.same import Number, numbers
 
 FLOOR = 1e-10
-"""Relative error, of the number or of 1, below which nothing can be told from round-off."""
+"""Errors below this, relative to the number or to 1, cannot be distinguished from round-off."""
 
 
 @dataclass(frozen=True)
 class Judged:
-    """One number, or a column of a field at its worst place, against the truth."""
+    """One number, or a column of a field at its worst point, compared with the true value."""
 
     family: str
     parameters: tuple[tuple[str, Any], ...]
@@ -44,27 +45,27 @@ class Judged:
     error: float
     uncertainty: float
     truth: float
-    """Uncertainty of what counts as the truth."""
+    """Uncertainty of the true value."""
     floor: float
 
     @property
     def within(self) -> bool:
-        """Inside the uncertainty."""
+        """Whether the error is within the uncertainty."""
         return self.error <= self.uncertainty + self.truth
 
     @property
     def bounded(self) -> bool:
-        """Inside the bound of verdicts."""
+        """Whether the error is within the bound of verdicts."""
         return self.error <= 2 * self.uncertainty + self.truth
 
     @property
     def sharp(self) -> bool:
-        """Whether the truth is known well enough to tell how much too wide the uncertainty is."""
+        """Whether the true value is accurate enough to compute the overestimate."""
         return self.truth <= max(self.uncertainty / 30, self.floor)
 
     @property
     def ratio(self) -> float:
-        """Uncertainty over error, above the floor."""
+        """Uncertainty over error, where the error is above the floor."""
         return self.uncertainty / max(self.error, self.floor)
 
 
@@ -81,7 +82,7 @@ def solved(family: Family, parameters: Mapping[str, Any], numerics: Mapping[str,
 
 
 def judged(family: Family, parameters: Mapping[str, Any]) -> list[Judged]:
-    """Every number with an uncertainty that the coarse solution states, against the fine one."""
+    """Every number of the coarse solution that has an uncertainty, compared with the fine one."""
     coarse = numbers(solved(family, parameters, family.coarse))
     fine = numbers(solved(family, parameters, family.fine))
     given = tuple(parameters.items())
@@ -120,27 +121,27 @@ def _kind(number: Number) -> str:
 
 @dataclass(frozen=True)
 class Statistics:
-    """Of all numbers of one kind of a family."""
+    """Statistics of all numbers of one kind of a family."""
 
     family: str
     kind: str
     count: int
     within: float
-    """Share inside the uncertainty."""
+    """Fraction within the uncertainty."""
     bounded: float
-    """Share inside the bound of verdicts."""
+    """Fraction within the bound of verdicts."""
     median: float
-    """Of the overestimates of the columns ..."""
+    """Median overestimate of the columns ..."""
     largest: float
-    """... and the largest of them."""
+    """... and the largest one."""
 
 
 def statistics(found: Iterable[Judged]) -> list[Statistics]:
-    """One row a family and kind.
+    """Statistics with one row for each family and kind.
 
-    An error has a sign, and somewhere between two sets of parameters it is zero: one number alone says little
-    about how wide its uncertainty is. The overestimate of a column, such as ``p`` at the limit points, is its
-    uncertainty over its error, both in the mean square of all sets.
+    An error may change its sign between two sets of parameters, so that a single small error does not show
+    that an uncertainty is too wide. The overestimate of a column, such as ``p`` at the limit points, is
+    therefore its uncertainty over its error, both in the mean square over all sets.
     """
     groups: dict[tuple[str, str], list[Judged]] = {}
     for item in found:
@@ -186,7 +187,7 @@ def table(rows: Iterable[Statistics]) -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Print the table of the quick sets, with ``--wide`` that of all."""
+    """Print the table for the quick sets, or with ``--wide`` for all sets."""
     found = []
     for family in FAMILIES:
         for given in family.sets(WIDE if "--wide" in arguments else QUICK.get(family.name, 1)):

@@ -16,7 +16,7 @@ SEED = 2016
 class Family:
     """Sets of parameters of a problem, and the meshes whose uncertainties are tested.
 
-    The states asked for may depend on the parameters: a value may be the name of one of ``ranges``.
+    Requested states may depend on the parameters: a value may be the name of one of ``ranges``.
     """
 
     problem: str
@@ -28,7 +28,7 @@ class Family:
     label: str = ""
 
     def sets(self, count: int) -> list[dict[str, Any]]:
-        """The first of a scrambled Sobol sequence over the ranges: the same in every run."""
+        """The first points of a scrambled Sobol sequence over the ranges, the same in every run."""
         sobol = qmc.Sobol(len(self.ranges), seed=SEED)
         draws = sobol.random_base2(int(np.ceil(np.log2(count))))[:count]
         low, high = (np.array(ends) for ends in zip(*self.ranges.values(), strict=True))
@@ -37,7 +37,7 @@ class Family:
 
     @property
     def name(self) -> str:
-        """What it is called in the table."""
+        """Name of the family in the table."""
         return self.label or self.problem
 
 
@@ -171,11 +171,11 @@ FAMILIES = (
         label="hemisphere, waves",
     ),
 )
-"""Parameters over which uncertainties are tested, chosen so that each has the states asked for."""
+"""Families for the test of uncertainties; every set of parameters has the requested states."""
 
 
 QUICK = {"tube": 4, "circular": 2, "circular, contact": 2, "wrinkled_tube, gas": 1, "wrinkled_tube, fluid": 1}
-"""How many sets of which family are tested in a minute or two ..."""
+"""Number of sets of each family for a test of a minute or two ..."""
 
 WIDE = 16
-"""... and of every family, where there is time."""
+"""... and number of sets of every family for a long test."""

@@ -1,10 +1,10 @@
-"""All the numbers of two solutions held against each other: other ranks, another release, another day.
+"""Comparison of all numbers of two solutions, such as on other ranks or another release.
 
-Verdicts hide what changed within a bound. Here every number counts: columns of branches, special points,
-quantities, states and fields with their uncertainties, and what did not converge. A number's scale is the
-largest magnitude that its name (``p``, ``rho``, ``eigenvalue_1``) has anywhere in the two solutions; where
-all of them are zero, to round-off or to within their own uncertainty (the split of a double eigenvalue), the
-scale is 1; and never less than 1e-5, for no number of these problems, all of order one, is free of round-off.
+Verdicts do not show changes within a bound. This module compares every number: columns of branches, special
+points, quantities, states and fields with their uncertainties, and failures. The scale of a number is the
+largest magnitude of all numbers with its name (``p``, ``rho``, ``eigenvalue_1``) in the two solutions. If all
+of these are zero, up to round-off or within their uncertainty (the split of a double eigenvalue), the scale
+is 1. It is at least 1e-5, because all these problems are of order one and have round-off.
 
 ``python3 -m weakforms.verification.audit.same OUT OUT`` compares two output folders of ``weakforms verify``.
 """
@@ -23,36 +23,36 @@ from weakforms.results import Quantity, Result, load_result
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
 
 EFFORT = ("residual", "iterations")
-"""Columns that say how a state was found, not what it is: round-off decides about them."""
+"""Columns that describe how a state was found, which depend on round-off."""
 
 ZERO = 1e-11
-"""Magnitude, of numbers of order one, that is round-off."""
+"""Magnitude of round-off in numbers of order one."""
 
 LEAST = 1e-5
-"""Smallest scale: what is smaller is told apart to 1e-14 and no further."""
+"""Smallest scale; smaller numbers are compared to 1e-14."""
 
 FRICTION = ("line_force", "line_force_membrane", "traction_front", "traction_max", "f_t")
-"""Their scale is 1 at least, that of a patch that sticks and is let go: without friction, and of line forces
-in inflation, there are none, and what shows is derivatives of round-off."""
+"""Columns whose scale is at least 1. Without friction, and for line forces in inflation, they are zero, and
+their computed values are derivatives of round-off."""
 
 EIGENVALUES, USUAL = "Lambda", 1e-2
-"""Their names and least scale: at a change of stability they are zero to what a bracket leaves, and their
-round-off is that of matrices whose other eigenvalues are of order one and more."""
+"""Names of columns and their smallest scale. At a change of stability they are zero up to the width of an
+interval, with the round-off of matrices whose other eigenvalues are of order one or more."""
 
 DIGITS = 1e-3
-"""Relative difference of two uncertainties that is none: they are estimates."""
+"""Relative difference of two uncertainties that is accepted, because they are estimates."""
 
 NOISE = 1e-7
-"""Uncertainty, relative to a number's scale, below which round-off has a part in it: a difference of two
-meshes' numbers that agree to seven digits. Below, uncertainties are not compared."""
+"""Uncertainties below this, relative to the number's scale, are not compared, because they are differences of
+numbers that agree to seven digits and contain round-off."""
 
 COUNTS = ("n_negative",)
-"""Names that start so are counts of eigenvalues: they are the same or they are not."""
+"""Beginning of the names of counts of eigenvalues, which must be equal."""
 
 
 @dataclass(frozen=True)
 class Number:
-    """One stored column, or one stored number, and what is known of its accuracy."""
+    """One stored column or number, with its uncertainty."""
 
     place: str
     name: str
@@ -62,20 +62,20 @@ class Number:
 
 @dataclass(frozen=True)
 class Difference:
-    """How far a number of one solution is from the other's, at the worst entry of its column."""
+    """Difference of a number of two solutions, at the worst entry of its column."""
 
     place: str
     first: float
     second: float
     relative: float
-    """To the number's scale; infinite where one of the two is not there."""
+    """Difference relative to the number's scale; infinite if one of the two is missing."""
 
     def __str__(self) -> str:
         return f"{self.place}: {self.first:.15g} and {self.second:.15g}, {self.relative:.1e} of its scale"
 
 
 def numbers(result: Result) -> dict[str, Number]:
-    """Every number of a solution, by its place in it."""
+    """Every number of a solution, by its position in it."""
     return {number.place: number for number in _numbers(result)}
 
 
@@ -111,7 +111,7 @@ def _single(place: str, name: str, value: float, uncertainty: float | None) -> N
 
 
 def scales(*results: Result) -> dict[str, float]:
-    """Scale of every name that stands anywhere in some solutions."""
+    """Scale of every name in some solutions."""
     largest: dict[str, float] = {}
     known: dict[str, bool] = {}
     for number in (number for result in results for number in _numbers(result)):
@@ -131,7 +131,7 @@ def _least(name: str) -> float:
 
 
 def differences(first: Result, second: Result) -> list[Difference]:
-    """Every column or number of two solutions of one problem, the worst first."""
+    """Differences of every column or number of two solutions of one problem, the worst first."""
     of, a, b = scales(first, second), numbers(first), numbers(second)
     found = [_difference(a.get(place), b.get(place), of) for place in dict.fromkeys([*a, *b])]
     failed = [[f"failure: {item.what}" for item in result.failures] for result in (first, second)]
@@ -157,7 +157,7 @@ def _difference(a: Number | None, b: Number | None, of: dict[str, float]) -> Dif
 
 
 def _spread(a: Number, b: Number, scale: float) -> Difference:
-    """Their uncertainties, which have the unit of the number and so its scale, where they are no noise."""
+    """Difference of their uncertainties, with the scale of the number, unless they are round-off."""
     place = f"{a.place}, uncertainty"
     if a.uncertainty.shape != b.uncertainty.shape:
         return Difference(place, np.nan, np.nan, np.inf)
@@ -169,7 +169,7 @@ def _spread(a: Number, b: Number, scale: float) -> Difference:
 
 
 def _apart(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Magnitude of the difference; a number that is missing on one side only is infinitely far."""
+    """Magnitude of the difference; infinite if a number is missing on one side."""
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     out = np.abs(a - b)
     out[np.isnan(a) & np.isnan(b)] = 0.0
@@ -185,13 +185,13 @@ class Compared:
     """One solution in two runs."""
 
     spec: str
-    """What was asked for."""
+    """The spec of the solution."""
     found: tuple[Difference, ...]
-    """Every column and number, the worst first."""
+    """Differences of every column and number, the worst first."""
 
     @property
     def worst(self) -> Difference:
-        """What differs most."""
+        """The largest difference."""
         return self.found[0] if self.found else Difference("nothing stored", 0.0, 0.0, 0.0)
 
 
@@ -199,7 +199,7 @@ class Run:
     """An output folder of ``weakforms verify``.
 
     Raises:
-        InputError: When it has no report.
+        InputError: If it has no report.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -212,7 +212,7 @@ class Run:
         self.verdicts = {case["id"]: {v["check"]: v["passed"] for v in case["verdicts"]} for case in cases}
 
     def result(self, spec: str) -> Result | None:
-        """A solution by what was asked for; ``None`` where it was not solved."""
+        """The solution of a spec; ``None`` if it was not solved."""
         path = self.files.get(spec)
         return load_result(path) if path is not None and path.exists() else None
 
@@ -221,7 +221,7 @@ def runs(first: Run, second: Run) -> list[Compared]:
     """Every solution of two runs of the same cases, the worst first.
 
     Raises:
-        InputError: When a stored solution is damaged.
+        InputError: If a stored solution is damaged.
     """
     specs = {**first.files, **second.files}
     found = [_compared(spec, first.result(spec), second.result(spec)) for spec in specs]
@@ -245,16 +245,16 @@ class CaseRow:
 
     case: str
     numbers: int
-    """Compared: every stored one."""
+    """Number of stored numbers that were compared."""
     changed: tuple[str, ...]
     """Checks whose verdicts differ."""
     largest: float | None
-    """Difference relative to a number's scale; ``None`` where one of the two has no such number."""
+    """Largest difference relative to a number's scale; ``None`` if a number is missing in one run."""
     where: str
 
 
 def rows(first: Run, second: Run) -> list[CaseRow]:
-    """For every case of the first run its verdicts and the worst of all its numbers."""
+    """For every case of the first run, the changed verdicts and the largest difference."""
     found = {item.spec: item for item in runs(first, second)}
     out = []
     for case, specs in first.specs.items():
@@ -270,7 +270,7 @@ def rows(first: Run, second: Run) -> list[CaseRow]:
 
 
 def table(first: Run, second: Run) -> str:
-    """The same as a Markdown table."""
+    """The comparison as a Markdown table."""
     lines = [HEAD, "|---|---|---|---|---|"]
     for row in rows(first, second):
         changed, where = ", ".join(row.changed) or "none", f"`{row.where}`" if row.where else ""
@@ -280,7 +280,7 @@ def table(first: Run, second: Run) -> str:
 
 
 def main(arguments: list[str]) -> int:
-    """Print the table of two output folders; with ``--worst`` the solutions one by one, in full."""
+    """Print the table for two output folders; with ``--worst`` print every solution in full."""
     folders = [Path(argument) for argument in arguments if argument != "--worst"]
     try:
         if len(folders) != 2:

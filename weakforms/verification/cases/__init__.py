@@ -1,1 +1,1 @@
-"""What is verified: cases, their specifications and their reference tables."""
+"""Cases, their specifications and their reference tables."""

@@ -1,4 +1,4 @@
-"""A case: what a figure, table or statement of a paper says, as checks and pictures."""
+"""A case: a figure, table or statement of a paper, as checks and pictures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from weakforms.verification.judging.checks.curve import Curve
 
 @dataclass(frozen=True)
 class Case:
-    """One figure, table or statement of a paper: what is drawn, what is checked, how accurately."""
+    """One figure, table or statement of a paper: its panels, its checks, and their accuracy."""
 
     title: str
     source: str
@@ -22,13 +22,13 @@ class Case:
     asked: Mapping[str, float] = field(default_factory=dict)
     """Relative accuracy wanted of each column of the curves' reference tables."""
     quick: bool = False
-    """Part of the quick profile, whose cases take three minutes together."""
+    """Whether it belongs to the quick profile, whose cases take three minutes together."""
     slow: bool = False
-    """Takes minutes by itself: left to ``verify`` and to the tests marked slow."""
+    """Whether it takes minutes, so that only ``verify`` and the tests marked slow run it."""
     tags: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Curves that state no accuracy of their own have the case's."""
+        """Give curves without an accuracy that of the case."""
 
         def complete(curve: Curve) -> Curve:
             return replace(curve, asked=self.asked) if curve.asked is None else curve

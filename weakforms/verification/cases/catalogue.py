@@ -1,4 +1,4 @@
-"""What there is: problems and cases, listed and described for people and programs."""
+"""Lists and descriptions of problems and cases, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _problems() -> dict[str, Any]:
 
 
 def listing(paper: int | None = None) -> list[dict[str, Any]]:
-    """One entry a problem and a case; problems need dolfinx and are left out without it."""
+    """One entry for each problem and case; without dolfinx, problems are left out."""
     entries = []
     try:
         problems = _problems().values()
@@ -50,7 +50,7 @@ def listing(paper: int | None = None) -> list[dict[str, Any]]:
 
 
 def print_listing(entries: list[dict[str, Any]], console: Console) -> None:
-    """A line an entry."""
+    """Print one line for each entry."""
     width = max(len(entry["id"]) for entry in entries)
     for entry in entries:
         console.print(f"{entry['kind']:8} {entry['id']:{width}}  {entry['title']}", soft_wrap=True)
@@ -60,7 +60,7 @@ def describe(name: str) -> dict[str, Any]:
     """Facts about a problem or a case.
 
     Raises:
-        InputError: When there is neither of that name.
+        InputError: If there is neither of that name.
     """
     for found in find_cases():
         if found.id == name:
@@ -95,7 +95,7 @@ def _problem_facts(problem: Any) -> dict[str, Any]:
 
 
 def _law_facts(materials: dict[str, Any]) -> dict[str, Any]:
-    """The laws a problem is there to show, with constants and sources."""
+    """The laws that a problem lists, with constants and sources."""
     if not materials:
         return {}
     laws = [
@@ -173,7 +173,7 @@ def _case_facts(found: FoundCase) -> dict[str, Any]:
 
 
 def print_description(facts: dict[str, Any], console: Console) -> None:
-    """The facts for people."""
+    """Print the facts as text."""
     console.print(Text.assemble((facts["id"], "bold"), f"  {facts['title']}"), soft_wrap=True)
     console.print(facts["source"], soft_wrap=True)
     if facts["kind"] == "case":
@@ -234,7 +234,7 @@ def _print_case(facts: dict[str, Any], console: Console) -> None:
 
 
 def print_verdicts(verdicts: Verdicts, console: Console) -> None:
-    """Verdicts on a foreign curve as a table."""
+    """Print the verdicts on a curve of another code as a table."""
 
     def line(text: str) -> None:
         console.print(text, markup=False, soft_wrap=True)
@@ -265,4 +265,4 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
 
 
 WORDS = {PASSED: "within", FAILED: "OUT OF BOUNDS", NOT_JUDGED: "NOT JUDGED"}
-"""What the table says of a column."""
+"""Texts of the table for the status of a column."""

@@ -1,4 +1,4 @@
-"""Case files found by where they lie, and chosen by paper or by an expression over their names."""
+"""Finds case files by their folder, and selects cases by paper or by an expression over their names."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from weakforms.verification.cases.case import Case
 from weakforms.verification.cases.references import ROOT, folder_of, part
 
 GROUPS = ("materials", "closed_form")
-"""Folders of cases, and of reference tables, that belong to no paper."""
+"""Folders of cases and reference tables that do not belong to a paper."""
 
 
 @dataclass(frozen=True)
 class FoundCase:
-    """A case with its place: ``cases/paper2/fig03.py`` is ``paper2.fig03``."""
+    """A case with its id: ``cases/paper2/fig03.py`` is ``paper2.fig03``."""
 
     id: str
     paper: int | str
-    """Number of the paper, or the name of the group of a case that belongs to none."""
+    """Number of the paper, or name of the group if the case does not belong to a paper."""
     path: Path
     case: Case
     description: str
@@ -37,16 +37,16 @@ class FoundCase:
 
     @property
     def words(self) -> str:
-        """Text that a selection matches against."""
+        """Text that a selection searches."""
         return " ".join([self.id, *self.case.tags]).lower()
 
 
 @cache
 def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
-    """All cases in the order of papers and names, then those of no paper.
+    """All cases in the order of papers and names, then those that do not belong to a paper.
 
     Raises:
-        InputError: When a case file does not define ``CASE``.
+        InputError: If a case file does not define ``CASE``.
     """
     found = []
     for path in sorted(part("cases", root).glob("paper[1-5]/*.py")):
@@ -78,7 +78,7 @@ def get_case(name: str) -> FoundCase:
     """The case of that id.
 
     Raises:
-        InputError: When there is none; names the nearest.
+        InputError: If there is none; the message names similar ids.
     """
     known = {found.id: found for found in find_cases()}
     if name not in known:
@@ -87,7 +87,7 @@ def get_case(name: str) -> FoundCase:
 
 
 def among(name: str, known: Iterable[str]) -> str:
-    """What to choose from instead: the names closest to a wrong one, in one short line."""
+    """The names closest to a wrong one, in one short line."""
     close = get_close_matches(name, list(known), n=5, cutoff=0.5)
     return f"close to it: {', '.join(close)}; all: weakforms list" if close else "see: weakforms list"
 
@@ -96,7 +96,7 @@ def select(paper: int | None = None, expression: str | None = None) -> list[Foun
     """Cases of a paper whose names satisfy an expression of words, ``and``, ``or``, ``not``, brackets.
 
     Raises:
-        InputError: When the expression is malformed or nothing is left.
+        InputError: If the expression is malformed or nothing is left.
     """
     cases = [c for c in find_cases() if paper is None or c.paper == paper]
     if expression is not None:
@@ -115,7 +115,7 @@ class Expression:
     """``a and not (b or c)`` over words found in a text; parsed here, never evaluated as code."""
 
     LONGEST = 200
-    """Words and brackets an expression may have, so that its nesting stays within the stack."""
+    """Largest number of words and brackets of an expression, which limits its nesting."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -170,7 +170,7 @@ class Expression:
         return ("not", inner) if negated else inner
 
     def matches(self, text: str) -> bool:
-        """Whether the expression holds of a text."""
+        """Whether the expression is true for a text."""
         return _holds(self._tree, text)
 
 

@@ -1,6 +1,6 @@
-"""What people are shown of a problem besides its facts: unknowns, forms as written, an example, a picture.
+"""Further facts on problems for the documentation: unknowns, forms, an example, a picture.
 
-A picture is drawn by solving: a branch of the example, or a quantity over a few values of one parameter.
+A picture shows a solution: a branch of the example, or a quantity over a few values of one parameter.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ WEAK_FORM = (
 
 @dataclass(frozen=True)
 class Shown:
-    """One problem as it is shown."""
+    """The documentation of one problem."""
 
     unknown: str
-    """What is solved for, and where it is held."""
+    """The unknowns and their conditions."""
     forms: tuple[str, ...]
-    """Functions its functional is written in, ``module:name`` below ``weakforms``."""
+    """Functions that define the functional, ``module:name`` below ``weakforms``."""
     x: str
     """Abscissa of the picture: a column, or the parameter that is varied."""
     y: str
     """A column, or a quantity."""
     example: Mapping[str, Any] = field(default_factory=dict)
-    """Parameters of the example, those that are not left at their defaults."""
+    """Parameters of the example that differ from their defaults."""
     values: tuple[float, ...] = ()
-    """Of the parameter; none for a branch of the example itself."""
+    """Values of the parameter; none for a branch of the example."""
     numerics: Mapping[str, Any] = field(default_factory=dict)
     """Meshes of the picture, coarser than the default ones."""
 
     def specs(self, problem: str) -> list[Spec]:
-        """What the picture needs solved."""
+        """Solutions for the picture."""
         rows = [{self.x: value} for value in self.values] or [{}]
         numerics = tuple(sorted(self.numerics.items()))
         return [Spec(problem, tuple(sorted({**self.example, **row}.items())), numerics) for row in rows]
@@ -186,7 +186,7 @@ SHOWN: dict[str, Shown] = {
         numerics={"scan": 10, "shown": 1},
     ),
 }
-"""By the name of the problem; one that is not here is shown by its facts alone."""
+"""Documentation by name of the problem; it is optional."""
 
 
 def weak_form(problem: str) -> str:
@@ -196,7 +196,7 @@ def weak_form(problem: str) -> str:
 
 
 def example(problem: str) -> list[str]:
-    """Three lines of Python that solve the problem and show something."""
+    """Three lines of Python that solve the problem and print a result."""
     shown = SHOWN.get(problem)
     given = dict(shown.example) if shown else {}
     words = "".join(f", {name}={value!r}" for name, value in given.items())
@@ -210,16 +210,16 @@ def example(problem: str) -> list[str]:
 
 
 def command(problem: str) -> str:
-    """The same from a shell."""
+    """The example as a shell command."""
     shown = SHOWN.get(problem)
     sets = "".join(f" --set {k}={v}" for k, v in (shown.example if shown else {}).items())
     return f"./run solve {problem}{sets} --out {problem}.json"
 
 
 def written_forms(problem: str) -> list[tuple[str, Any, str]]:
-    """The functions a problem's functional is written in: name, function or module, and its source.
+    """The functions that define a problem's functional: name, function or module, and source.
 
-    Of a module (``module:``) there is no source, only what it says of itself.
+    For a module (``module:``) there is no source, only its docstring.
     """
     out = []
     shown = SHOWN.get(problem)

@@ -1,4 +1,4 @@
-"""What figures are made of: panels on the paper's axes, with their curves, and surfaces in space."""
+"""Elements of figures: panels on the paper's axes, with their curves, and surfaces in space."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Axis:
 
     @property
     def tex(self) -> str:
-        """Label for pictures."""
+        """The label as TeX, for pictures."""
         return self.label or LABELS.get(self.name, self.name)
 
 
@@ -53,12 +53,12 @@ LABELS = {
 
 @dataclass(frozen=True)
 class Path:
-    """Where material points of a body go over a series of its states; drawn dotted."""
+    """Paths of material points of a body over a series of its states; drawn dotted."""
 
     of: Spec
     over: tuple[At, ...]
     points: tuple[float, ...]
-    """Material coordinates, each of them one path."""
+    """Material coordinates, each with one path."""
 
 
 @dataclass(frozen=True)
@@ -68,14 +68,14 @@ class Dashed:
     column: str
     below: float
     full: str
-    """What full lines mean ..."""
+    """Meaning of full lines ..."""
     dashed: str
-    """... and dashed ones."""
+    """... and of dashed lines."""
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line of a panel that is known exactly: nothing is solved for it, and nothing compared."""
+    """An exact line of a panel, without a solution and without a comparison."""
 
     label: str
     x: tuple[float, ...]
@@ -93,15 +93,15 @@ class Panel:
     paths: tuple[Path, ...] = ()
     title: str = ""
     level: float | None = None
-    """Height of a line across the panel, such as an undeformed substrate's."""
+    """Height of a line across the panel, such as an undeformed substrate."""
     markers: str | tuple[str, ...] = ""
-    """Kind of special point marked on the curves, or several kinds."""
+    """Kind, or kinds, of special points that are marked on the curves."""
     mirrored: bool = False
-    """Profiles of the half body drawn on the whole of it, as the paper does."""
+    """Whether profiles of the half body are drawn for the whole body, as in the paper."""
     note: str = ""
     dashed: Dashed | None = None
     lines: tuple[Line, ...] = ()
-    """What a panel without curves shows."""
+    """Content of a panel without curves."""
 
 
 @dataclass(frozen=True)
@@ -115,4 +115,4 @@ class Surface:
     title: str = ""
     note: str = ""
     displaced: float = 0.0
-    """Times the lowest mode (``u_x, u_y, u_z``, largest length 1) by which the state is shown displaced."""
+    """Factor of the lowest mode (``u_x, u_y, u_z``, largest length 1) that is added to the shown state."""

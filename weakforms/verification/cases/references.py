@@ -1,4 +1,4 @@
-"""Reference tables: read, held against their checksums, and never written from here."""
+"""Reading of reference tables, with a check of their checksums."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from weakforms.errors import InputError
 from weakforms.verification.judging.numbers import Number
 
 ROOT = Path(__file__).resolve().parents[3]
-"""The folder that holds ``weakforms``, ``cases`` and ``reference_data`` side by side."""
+"""The folder that contains ``weakforms``, ``cases`` and ``reference_data``."""
 
 KINDS = ("exact", "independent", "printed", "other-code")
 
 
 @dataclass(frozen=True)
 class Reference:
-    """A table of numbers from somewhere else, with what is known of their accuracy."""
+    """A table of reference numbers with their uncertainties."""
 
     name: str
     kind: str
@@ -34,7 +34,7 @@ class Reference:
     uncertainty: dict[str, float]
     parameters: dict[str, Any]
     meridian: float | None = None
-    """``Theta`` of all rows, where they are those of one meridian of a table over a surface."""
+    """``Theta`` of all rows, if they belong to one meridian of a table over a surface."""
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values())))
@@ -50,22 +50,22 @@ class Reference:
 
 
 def part(name: str, root: Path = ROOT) -> Path:
-    """A folder of the tree; installed, without a tree, it lies inside the package under a name of its own."""
+    """A folder of the tree; in an installed package it has another name inside the package."""
     inside = Path(__file__).resolve().parents[2] / f"_{name}"
     return inside if root == ROOT and inside.is_dir() else root / name
 
 
 def folder_of(paper: int | str) -> str:
-    """Folder of a paper's cases and tables; a group that belongs to no paper is its own."""
+    """Name of the folder of a paper's cases and tables; a group has its own name."""
     return f"paper{paper}" if isinstance(paper, int) else paper
 
 
 @cache
 def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
-    """The table ``reference_data/paperN/NAME``; of a table over a surface ``NAME@DEGREES`` is one meridian.
+    """Read the table ``reference_data/paperN/NAME``; ``NAME@DEGREES`` is one meridian of a surface.
 
     Raises:
-        InputError: When it is missing, incomplete, altered (by its checksum) or no table.
+        InputError: If it is missing, incomplete, altered (by its checksum) or not a table.
     """
     whole, separator, degrees = name.partition("@")
     if separator:
@@ -87,7 +87,7 @@ def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
     if kind not in KINDS:
         raise InputError(f"reference table {name}.toml: type = {kind!r}; allowed are {', '.join(KINDS)}")
     if abscissa is not None and abscissa not in columns:
-        raise InputError(f"reference table {name}: abscissa {abscissa!r} is none of {', '.join(columns)}")
+        raise InputError(f"reference table {name}: abscissa {abscissa!r} is not one of {', '.join(columns)}")
     if not isinstance(facts.get("parameters", {}), dict):
         raise InputError(f"reference table {name}.toml: parameters must be a table of names and values")
     return Reference(
@@ -107,9 +107,9 @@ def _meridian(table: Reference, name: str, degrees: str) -> Reference:
     try:
         theta = math.radians(float(degrees))
     except ValueError:
-        raise InputError(f"reference table {name}: {degrees!r} is no number of degrees") from None
+        raise InputError(f"reference table {name}: {degrees!r} is not a number of degrees") from None
     if "Theta" not in table.columns:
-        raise InputError(f"reference table {table.name} has no column Theta, and so no {name}")
+        raise InputError(f"reference table {table.name} has no column Theta, and thus no {name}")
     rows = np.isclose(table.columns["Theta"], theta, rtol=0, atol=1e-9)
     if not rows.any():
         raise InputError(f"reference table {table.name} has no rows at Theta = {theta:g}")
@@ -124,21 +124,23 @@ def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:
         value = None
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
         raise InputError(
-            f"reference table {name}.toml: uncertainty of {column} = {value!r}; a number from 0 is wanted"
+            f"reference table {name}.toml: uncertainty of {column} = {value!r}; must be a number from 0"
         )
     return float(value)
 
 
 def load_curve(paper: int | str, name: str) -> Reference:
-    """A table whose abscissa rises, or falls, from row to row.
+    """Read a table whose abscissa rises, or falls, from row to row.
 
     Raises:
-        InputError: As :func:`load`, and when it is no such table.
+        InputError: As :func:`load`, and if it is not such a table.
     """
     table = load(paper, name)
     steps = np.diff(table.columns[table.abscissa]) if table.abscissa else np.zeros(1)
     if not (np.all(steps > 0) or np.all(steps < 0)):
-        raise InputError(f"reference table {name} is no curve: its abscissa must rise, or fall, all along")
+        raise InputError(
+            f"reference table {name} is not a curve: its abscissa must rise, or fall, from row to row"
+        )
     return table
 
 
@@ -156,10 +158,10 @@ def _columns(name: str, raw: bytes) -> dict[str, np.ndarray]:
         lines = raw.decode("ascii").splitlines()
         header = lines[0].split(",") if lines else []
         rows = np.array([[float(cell) for cell in line.split(",")] for line in lines[1:]])
-    except ValueError as error:  # ragged rows and what is not ASCII are ValueErrors too
+    except ValueError as error:  # ragged rows and non-ASCII text raise ValueErrors too
         raise InputError(f"reference table {name}: {error}") from error
     if rows.ndim != 2 or rows.shape[1] != len(set(header)) or not np.all(np.isfinite(rows)):
         raise InputError(
-            f"reference table {name}: rows of finite numbers under the header {header} are wanted"
+            f"reference table {name}: it must have rows of finite numbers under the header {header}"
         )
     return dict(zip(header, rows.T, strict=True))

@@ -1,4 +1,4 @@
-"""What is to be solved, as plain values: a problem, its parameters, its meshes."""
+"""Specifications of solutions as plain values: a problem, its parameters, its meshes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Spec:
-    """A problem at some parameters (defaults left out) and, where they matter, numerics."""
+    """A problem at some parameters (without defaults), with numerics if needed."""
 
     problem: str
     parameters: tuple[tuple[str, Any], ...] = ()
@@ -37,7 +37,7 @@ def circular(**parameters: Any) -> Spec:
 
 
 def circular_scheme(**parameters: Any) -> Spec:
-    """The circular membrane of Paper 1 by the paper's own scheme on a fixed mesh."""
+    """The circular membrane of Paper 1 by the paper's scheme on a fixed mesh."""
     return Spec("circular_scheme", _sorted(parameters))
 
 
@@ -52,7 +52,7 @@ def tube_fold(**parameters: Any) -> Spec:
 
 
 def tube_scheme(**parameters: Any) -> Spec:
-    """The constrained tube of Paper 2 by the paper's own schemes on a fixed mesh."""
+    """The constrained tube of Paper 2 by the paper's schemes on a fixed mesh."""
     return Spec("tube_scheme", _sorted(parameters))
 
 
@@ -82,7 +82,7 @@ def wrinkled_material(**parameters: Any) -> Spec:
 
 
 def wrinkled_tube_threshold(**parameters: Any) -> Spec:
-    """The thickness ratios at which that membrane begins to wrinkle without load."""
+    """The thickness ratios at which that membrane starts to wrinkle without load."""
     return Spec("wrinkled_tube_threshold", _sorted(parameters))
 
 
@@ -138,7 +138,7 @@ def homogeneous(**parameters: Any) -> Spec:
 
 @dataclass(frozen=True)
 class At:
-    """A state wanted of a solution: a column at a value, or the ``value``-th special point of a kind."""
+    """A requested state of a solution: a column at a value, or the ``value``-th special point of a kind."""
 
     name: str
     value: float
@@ -146,9 +146,9 @@ class At:
     profile: tuple[float, ...] | None = None
     branch: str = "primary"
     theta: float | None = None
-    """Of a profile over a surface, the meridian looked at; ``None`` for all of it."""
+    """The meridian of a profile over a surface; ``None`` for the whole surface."""
     field: str = ""
-    """Name of the field looked at; the profile by default."""
+    """Name of the field; the profile by default."""
 
     def __str__(self) -> str:
         return f"{self.name} = {self.value:g}"

@@ -1,1 +1,1 @@
-"""The judging of somebody else's curve: row by row, with its units, as pictures."""
+"""Judges curves of other codes: row by row, with units, with pictures."""

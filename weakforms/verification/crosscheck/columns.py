@@ -1,4 +1,4 @@
-"""Somebody else's columns as ours: read from a file, for the same parameters, renamed, and without units."""
+"""Columns of another code in our form: read from a file, for the same parameters, renamed, without units."""
 
 from __future__ import annotations
 
@@ -15,41 +15,40 @@ from weakforms.verification.cases.references import Reference
 from weakforms.verification.judging.checks.curve import Curve
 
 CurveLike = str | Path | Mapping[str, Sequence[float]]
-"""A CSV or JSON file, or columns by name."""
+"""A curve: a CSV or JSON file, or columns by name."""
 
 
 def read(curve: CurveLike, branch: str) -> CurveFile:
-    """A curve as it was given.
+    """Read a curve.
 
     Args:
         curve: The file or the columns.
-        branch: Which branch of a file that has several; by default the primary one.
+        branch: Branch of a file that has several; by default the primary one.
 
     Raises:
-        InputError: For a file or columns that are none.
+        InputError: If the file or the columns are not a curve.
     """
     if isinstance(curve, str | Path):
         return read_curve(Path(curve), branch)
     if branch:
-        raise InputError(f"branch {branch!r}: columns have none; it chooses one of a file's")
+        raise InputError(f"branch {branch!r}: only files have branches, not columns")
     return CurveFile(_checked(curve))
 
 
 def require_same_parameters(own: CurveFile, table: Reference, drawn: Curve) -> None:
-    """Make sure that a result was solved for what the table holds.
+    """Make sure that a result has the problem and parameters of a table.
 
-    Compared are the problem, the parameters that the table states, and words, such as the model or the kind
-    of contact, that the case states or leaves at their defaults (the latter where DOLFINx is installed, for
-    the problem knows them). How far a branch was followed (``p_end``) matters only where a deflation starts
-    from there.
+    This compares the problem, the parameters that the table states, and parameters that are words, such as
+    the model or the kind of contact. The case states the latter or leaves them at their defaults (known only
+    if DOLFINx is installed). The end of a branch (``p_end``) matters only if a deflation starts there.
 
     Args:
-        own: What was read; nothing is known of a curve that is no result.
+        own: The curve; nothing is compared if it is not a result.
         table: The reference.
-        drawn: The curve of the case that it belongs to.
+        drawn: The curve of the case for which the table was made.
 
     Raises:
-        InputError: Naming the parameters that differ.
+        InputError: If parameters differ; the message names them.
     """
     if not own.problem:
         return
@@ -83,7 +82,7 @@ def _default_words(problem: str) -> dict[str, Any]:
 
 
 def _same(own: object, value: object) -> bool:
-    """Whether a parameter is the table's; of several solved for together, whether it is among them."""
+    """Whether a parameter is the table's, or one of them if the table is for several values together."""
     if isinstance(own, list):
         return any(_same(item, value) for item in own)
     if isinstance(own, int | float) and isinstance(value, int | float):
@@ -98,17 +97,17 @@ def our_columns(
     constants: Mapping[str, float] | None,
     problem: str,
 ) -> dict[str, np.ndarray]:
-    """Columns under our names and in our scaling.
+    """The columns of a curve with our names and our scaling.
 
     Args:
-        columns: Theirs.
-        wanted: Our columns that are compared; nothing else may be renamed or scaled.
-        names: Theirs, by ours; a column that is not listed has our name.
-        constants: Radius, modulus and thickness, where the curve has units.
-        problem: Whose scaling.
+        columns: Columns of the curve.
+        wanted: Names of the table's columns that are compared; no other may be renamed or scaled.
+        names: Names in the curve by names in the table; a column that is not listed has the same name.
+        constants: Radius, modulus and thickness, if the curve has units.
+        problem: Problem whose scaling applies.
 
     Raises:
-        InputError: For a name that is nobody's, a column that stands for two, a constant that is missing.
+        InputError: If a name is unknown, a column stands for two columns, or a constant is missing.
     """
     for ours, theirs in (names or {}).items():
         if ours not in wanted:
@@ -120,7 +119,7 @@ def our_columns(
         if list((names or {}).values()).count(theirs) > 1:
             raise InputError(f"--map {ours}={theirs}: the curve's {theirs!r} can stand for one column only")
     renamed = {ours: columns[theirs] for ours, theirs in (names or {}).items()}
-    # A column that stands for one of ours under its own name is not also another of ours.
+    # A column that is renamed does not also count under its own name.
     taken = set((names or {}).values())
     shown = {name: values for name, values in columns.items() if name not in taken} | renamed
     if not constants:

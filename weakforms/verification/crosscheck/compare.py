@@ -1,4 +1,4 @@
-"""Somebody else's curve held against a reference table: the cross-check that other packages call."""
+"""Comparison of a curve of another code with a reference table: the cross-check that other packages call."""
 
 from __future__ import annotations
 
@@ -40,15 +40,15 @@ STATED = (
     *("reference_uncertainty", "where", "reference"),
     *("status", "column", "judged_rows", "signed_error", "row", "largest", "scale", "scale_floor", "units"),
 )
-"""What the JSON of a verdict on a curve says: of the curve's own uncertainty nothing is known."""
+"""Entry of the JSON of a verdict: the uncertainty of the curve is unknown."""
 
 LOOSEST = 0.1
-"""Accuracy up to which a curve may be claimed: a looser one would let nearly anything pass."""
+"""Largest accuracy that a curve may claim; with a larger one nearly every curve would pass."""
 
 
 @dataclass(frozen=True)
 class Verdicts:
-    """Verdicts on a foreign curve, one a column, and the part of the table it covers."""
+    """Verdicts on a curve of another code, one for each column, and the part of the table that it covers."""
 
     case: str
     curve: str
@@ -56,22 +56,22 @@ class Verdicts:
     covered: tuple[float, float]
     """Range of the abscissa that was judged."""
     table: tuple[float, float]
-    """Range of the abscissa that the table has."""
+    """Range of the abscissa in the table."""
     rows: int
     ignored_rows: int
-    """Rows of the curve outside the table's range."""
+    """Number of rows of the curve outside the table's range."""
     unjudged_rows: dict[str, int]
-    """Per column: rows between the table's, where it is too coarse to judge to the accuracy asked."""
+    """For each column, the number of rows where the table is too coarse for the accuracy asked."""
     table_rows: int
     met_rows: int
-    """Rows of the table that the curve does not pass over."""
+    """Number of rows of the table that the curve covers."""
     missing: tuple[str, ...]
-    """Columns to be judged that the curve has not."""
+    """Columns to be judged that the curve does not have."""
     left_out: tuple[str, ...]
-    """Columns of the table of which no verdict was wanted."""
+    """Columns of the table that were not to be judged."""
     verdicts: tuple[ColumnVerdict, ...]
     pictures: tuple[PanelOutcome, ...]
-    """One a column judged: the curve, the table, and the error of every row with its bound."""
+    """For each judged column the curve, the table, and the error of every row with its bound."""
 
     @property
     def status(self) -> str:
@@ -83,7 +83,7 @@ class Verdicts:
 
     @property
     def exit_status(self) -> int:
-        """What a command that asks for the verdict ends with: 0 passed, 1 failed, 5 not judged."""
+        """Exit status of a command with this verdict: 0 passed, 1 failed, 5 not judged."""
         return EXIT_STATUS[self.status]
 
     @property
@@ -93,10 +93,10 @@ class Verdicts:
 
     @property
     def extent(self) -> str:
-        """How much of the table is judged, in words."""
+        """The judged part of the table, in words."""
         if not self.partial:
             return "all of it is judged"
-        return f"part of it is judged, {self.met_rows} of {self.table_rows} rows are met"
+        return f"part of it is judged, {self.met_rows} of {self.table_rows} rows are covered"
 
     @property
     def partial(self) -> bool:
@@ -125,28 +125,29 @@ def compare(
     only: Sequence[str] | None = None,
     branch: str | None = None,
 ) -> Verdicts:
-    """Hold a curve against the reference table of a case.
+    """Compare a curve with the reference table of a case.
 
-    The table is interpolated at the curve's abscissa by a spline, the error of which
-    (:func:`~weakforms.verification.crosscheck.rows.interpolated`) widens the bound. A wide bound never passes
-    for agreement: rows at which it would exceed twice the accuracy asked are not judged, and a column of
-    which no more than half of the rows are judged is not judged either. So is one that the curve has not,
-    unless ``only`` leaves it out. A curve that covers part of the table is judged there.
+    The table is interpolated at the curve's abscissa by a spline. The error estimate of the spline
+    (:func:`~weakforms.verification.crosscheck.rows.interpolated`) widens the bound. A row is not judged if
+    its bound exceeds twice the accuracy asked. A column is not judged if at most half of its rows are, or if
+    the curve does not have it and ``only`` does not leave it out. A curve that covers part of the table is
+    judged on that part.
 
     Args:
         case: Id of a case, such as ``paper2.fig03``.
-        curve: A CSV or JSON file, or columns by name; must hold the table's abscissa, monotone.
-        name: Which table of the case, where it has several.
-        accuracy: Relative accuracy the curve claims, up to 0.1; by default what the case asks of our own.
-        columns: The curve's own names by the table's, such as ``{"p": "pressure"}``.
-        constants: Where the curve has units: radius, modulus and thickness that the paper scales with,
-            such as ``{"R_f": 0.02, "C1": 2e5, "h_o": 1e-4}``.
-        only: Columns of the table to be judged, where not all of them are meant.
-        branch: Which branch of a file with several; by default the one that the case draws.
+        curve: A CSV or JSON file, or columns by name, with the table's abscissa, which must be monotone.
+        name: Name of the table, if the case has several.
+        accuracy: Relative accuracy that the curve claims, up to 0.1; by default what the case asks of our own
+            code.
+        columns: Names in the curve by names in the table, such as ``{"p": "pressure"}``.
+        constants: If the curve has units, the radius, modulus and thickness with which the paper scales, such
+            as ``{"R_f": 0.02, "C1": 2e5, "h_o": 1e-4}``.
+        only: Columns of the table to be judged; by default all that the case judges.
+        branch: Branch of a file that has several; by default the one that the case draws.
 
     Raises:
-        InputError: For an unknown case or curve, a wrong column, an abscissa that is not monotone, a result
-            for other parameters than the table's.
+        InputError: If the case or curve is unknown, a column is wrong, the abscissa is not monotone, or a
+            result is for other parameters than the table's.
     """
     found = get_case(case)
     chosen = choose(found, name)
@@ -200,20 +201,20 @@ def compare(
 
 
 def _read(curve: CurveLike, branch: str | None, drawn: Curve) -> CurveFile:
-    """The curve; of a file, by default, the branch that the case draws."""
+    """Read the curve; of a file, by default, the branch that the case draws."""
     if branch is None and isinstance(curve, str | Path) and drawn.branch != "primary":
         branch = drawn.branch
     return read(curve, branch or "")
 
 
 def _drawn(found: FoundCase, reference: str) -> list[tuple[Panel, Curve]]:
-    """Where the case draws that table."""
+    """The curve of the case that belongs to a table."""
     panels = found.case.panels
     return [(panel, curve) for panel in panels for curve in panel.curves if curve.reference == reference]
 
 
 def _asked_by(found: FoundCase, curves: Sequence[Curve]) -> dict[str, float]:
-    """Accuracy that a case asks of the columns of a table, wherever it draws it; the sharpest."""
+    """The smallest accuracy that a case asks of each column of a table."""
     asked: dict[str, float] = {}
     for curve in curves:
         for name, value in curve.asked.items():
@@ -224,7 +225,7 @@ def _asked_by(found: FoundCase, curves: Sequence[Curve]) -> dict[str, float]:
 def _names(
     columns: Mapping[str, np.ndarray], curves: Sequence[Curve], names: Mapping[str, str] | None
 ) -> dict[str, str]:
-    """The curve's names by ours: those stated, and those that our own solutions have."""
+    """Names in the curve by names in the table: those given, and those that our own solutions use."""
     known = {ours: theirs for curve in curves for ours, theirs in curve.columns.items()}
     own = {ours: theirs for ours, theirs in known.items() if ours not in columns and theirs in columns}
     return own | dict(names or {})
@@ -237,15 +238,15 @@ def tables_of(found: FoundCase) -> list[str]:
 
 
 def comparable(group: str) -> list[str]:
-    """Cases of a paper, or another group, that have such a table."""
+    """Cases of a paper, or of another group, that have such a table."""
     return [found.id for found in find_cases() if found.group == group and tables_of(found)]
 
 
 def choose(found: FoundCase, name: str | None) -> str:
-    """The table of a case, by name where there are several.
+    """The table of a case, by name if there are several.
 
     Raises:
-        InputError: When the choice is not clear.
+        InputError: If the name is unknown, or missing where there are several.
     """
     names = tables_of(found)
     if not names:
@@ -270,8 +271,8 @@ def _wanted(
 ) -> list[str]:
     """Columns to be judged.
 
-    Those asked for by name; else those that the case judges, given or not, and where an accuracy is claimed
-    the table's others too, as far as the curve has them.
+    These are the columns requested by name; else those that the case judges, and, if an accuracy is claimed,
+    all others that both table and curve have.
     """
     if only:
         only = [only] if isinstance(only, str) else list(only)
@@ -300,7 +301,7 @@ def _wanted(
 
 
 def _aligned(table: Reference, columns: Mapping[str, np.ndarray], hint: str) -> tuple[np.ndarray, np.ndarray]:
-    """Abscissa within the table's range, up to rounding, and which rows those are."""
+    """The abscissa within the table's range, up to rounding, and the rows it belongs to."""
     x = columns[table.abscissa]
     rows = table.columns[table.abscissa]
     blur = tolerance(rows)

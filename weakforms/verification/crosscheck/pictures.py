@@ -15,7 +15,7 @@ from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome
 def picture(
     table: Reference, own: Mapping[str, np.ndarray], judged: JudgedColumn, panels: Sequence[Panel]
 ) -> PanelOutcome:
-    """The column over the table's abscissa; on the paper's axes, where the case draws just that."""
+    """The column over the table's abscissa; on the paper's axes, if the case has such a figure."""
     over, column = table.abscissa, judged.verdict.column
     paper = next((p for p in panels if (p.x.name, p.y.name) == (over, column)), None)
     labels = [LABELS.get(name, name.replace("_", " ")) for name in (over, column)]

@@ -1,4 +1,4 @@
-"""A column of somebody else's curve against the same column of a table, row by row."""
+"""Comparison of a column of a curve with the same column of a table, row by row."""
 
 from __future__ import annotations
 
@@ -15,83 +15,83 @@ from weakforms.verification.judging.outcome import Verdict
 
 PASSED, FAILED, NOT_JUDGED = "passed", "failed", "not judged"
 EXIT_STATUS = {PASSED: 0, FAILED: 1, NOT_JUDGED: 5}
-"""What a command ends with, by the verdict."""
+"""Exit status of a command by verdict."""
 
 FLOOR = 0.01
-"""Part of a column's largest value, over the range the curve covers, that an error is divided by at least."""
+"""Errors are divided at least by this fraction of the column's largest value over the range of the curve."""
 
 FEWEST = 3
-"""Rows that must be judged for a verdict: two points are no curve."""
+"""Smallest number of judged rows for a verdict: two points are not a curve."""
 
 ROUNDING = 4 * np.finfo(float).eps
-"""Relative to the size of the abscissa, how far rounding may carry it off what was meant."""
+"""Largest rounding error of an abscissa, relative to its size."""
 
 NEAR = 32
-"""The interpolation's error grows from zero at a row to its bound within this part of the interval (1/32)."""
+"""The interpolation error grows from zero at a row to its bound within 1/32 of the interval."""
 
 
 @dataclass
 class ColumnVerdict(Verdict):
     """The verdict on one column of a curve.
 
-    ``error`` and ``bound`` are those of the row whose error comes closest to its bound, or exceeds it most;
-    the row with the largest error may be another one, ``largest``.
+    ``error`` and ``bound`` belong to the row with the largest ratio of error to bound. The row with the
+    largest error, ``largest``, may be another one.
     """
 
     column: str = ""
     status: str = NOT_JUDGED
-    """passed, failed, or not judged."""
+    """The verdict: passed, failed, or not judged."""
     rows: int = 0
     """Rows of the curve within the table's range."""
     judged_rows: int = 0
     signed_error: float | None = None
-    """``error`` with its sign: positive where the curve lies above the table."""
+    """``error`` with its sign: positive if the curve lies above the table."""
     row: int | None = None
-    """Row of the curve, from 1, that ``error``, ``bound`` and ``where`` belong to."""
+    """Row of the curve, from 1, to which ``error``, ``bound`` and ``where`` belong."""
     largest: dict[str, Any] | None = None
     """``error`` (signed), ``bound``, ``where`` and ``row`` of the largest error."""
     scale: str = ""
-    """What errors and bounds are divided by."""
+    """The value by which errors and bounds are divided."""
     scale_floor: float | None = None
-    """The least that errors are divided by, in the column's own scaling."""
+    """The smallest value by which errors are divided, in the column's own scaling."""
     units: str = ""
-    """What a constant ratio between curve and table looks like, where there is one."""
+    """The meaning of a constant ratio between curve and table, if there is one."""
 
     @property
     def unjudged_rows(self) -> int:
-        """Rows at which the table is not known closely enough for the accuracy asked."""
+        """Number of rows at which the table is too uncertain for the accuracy asked."""
         return self.rows - self.judged_rows
 
 
 @dataclass(frozen=True)
 class JudgedColumn:
-    """A verdict and the rows it rests on."""
+    """A verdict and the rows on which it is based."""
 
     verdict: ColumnVerdict
     x: np.ndarray = field(default_factory=lambda: np.zeros(0))
     expected: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    """The table at the curve's rows."""
+    """Values of the table at the curve's rows."""
     error: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    """Signed, over the scale of its row."""
+    """Signed errors, each divided by the scale of its row."""
     bound: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
 
 def tolerance(rows: np.ndarray) -> float:
-    """How far rounding may carry an abscissa of the size of the table's off what was meant."""
+    """Largest rounding error of an abscissa of the size of the table's."""
     return ROUNDING * float(np.max(np.abs(rows)))
 
 
 def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Quintic spline through a table at ``x``, and a bound of its error (zero at the rows themselves).
+    """Quintic spline through a table at ``x``, and a bound of its error (zero at the rows).
 
-    Where the table resolves the curve at all, the quintic spline is nearer to it than the cubic one. At the
-    ends and in steep parts it may be worse: four times the largest distance between the two, in the interval
-    and its neighbours, held for every function it was tried on. Close to a row the error is in proportion to
-    the distance from it, so that an abscissa that is off by rounding costs next to nothing; the slope times
-    that rounding is part of the bound.
+    Where the table resolves the curve, the quintic spline is more accurate than the cubic one. At the ends
+    and in steep parts it may be less accurate. The bound is four times the largest distance between the two
+    splines in the interval and its neighbours; it held for every function that was tried. Close to a row the
+    error is proportional to the distance from the row, so that rounding of the abscissa adds little. The
+    slope times that rounding is part of the bound.
 
     Raises:
-        InputError: When the table has fewer than six rows, and ``x`` is none of them.
+        InputError: If the table has fewer than six rows, and ``x`` is not one of them.
     """
     order = np.argsort(rows)
     rows, values = rows[order], values[order]
@@ -111,7 +111,7 @@ def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[n
 
 
 def _exact(rows: np.ndarray, values: np.ndarray, x: np.ndarray, blur: float) -> tuple[np.ndarray, np.ndarray]:
-    """A table at its own rows, without interpolation; for a short one there is nothing else."""
+    """Values of a table at its own rows, without interpolation; needed for a short table."""
     after = np.clip(np.searchsorted(rows, x), 1, len(rows) - 1)
     nearest = np.where(x - rows[after - 1] < rows[after] - x, after - 1, after)
     if np.any(np.abs(x - rows[nearest]) > blur):
@@ -123,14 +123,14 @@ def _exact(rows: np.ndarray, values: np.ndarray, x: np.ndarray, blur: float) -> 
 
 
 def scale_of(column: np.ndarray, covered: np.ndarray, expected: np.ndarray) -> tuple[np.ndarray, float]:
-    """What the error of each row is divided by, and the least of that.
+    """The value by which the error of each row is divided, and the smallest such value.
 
-    The table's own value at the row; where the column passes through zero no less than :data:`FLOOR` times
-    the largest value it has over the range covered, or, where it is zero all over that, in the whole table.
+    This is the table's value at the row, but at least :data:`FLOOR` times its largest value over the range
+    covered (or in the whole table, if the column is zero all over that range).
 
     Args:
         column: The whole column of the table.
-        covered: Its part over the range that the curve covers.
+        covered: The part of the column over the range that the curve covers.
         expected: The column at the curve's rows.
     """
     size = max(float(np.max(np.abs(part), initial=0.0)) for part in (covered, expected))
@@ -141,11 +141,11 @@ def scale_of(column: np.ndarray, covered: np.ndarray, expected: np.ndarray) -> t
 def judge_column(
     table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float, numbers: np.ndarray
 ) -> JudgedColumn:
-    """Verdict on a column, with the error and the bound of every row.
+    """Judge a column, with the error and the bound of every row.
 
-    A row counts as judged where its bound is at most twice the accuracy asked, or its error exceeds even a
-    wider bound. The column fails by any judged row; it passes when more than half of its rows, and no fewer
-    than :data:`FEWEST`, are judged. Otherwise it is not judged.
+    A row is judged if its bound is at most twice the accuracy asked, or if its error exceeds even a wider
+    bound. The column fails if any judged row does. It passes if more than half of its rows, and at least
+    :data:`FEWEST`, are judged. Otherwise it is not judged.
 
     Args:
         table: The reference.
@@ -153,7 +153,7 @@ def judge_column(
         x: The curve's abscissa, within the table's range.
         values: The curve's column there.
         asked: Relative accuracy.
-        numbers: Of each row, its number in the curve, from 1.
+        numbers: Number of each row in the curve, from 1.
     """
     rows = table.columns[table.abscissa]
     expected, slack = interpolated(rows, table.columns[column], x)
@@ -163,7 +163,7 @@ def judge_column(
     with np.errstate(over="ignore"):
         error = np.nan_to_num((values - expected) / scale)
     bound = asked + 2 * known
-    # A row beyond even the wide bound is wrong whatever the table's coarseness.
+    # A row beyond even the wide bound is wrong, however coarse the table is.
     judged = (bound <= 2 * asked) | (np.abs(error) > bound)
     count = int(np.sum(judged))
     if not np.all(np.abs(error[judged]) <= bound[judged]):
@@ -217,7 +217,7 @@ def fewest(table: Reference) -> int:
 
 
 def scale_text(abscissa: str) -> str:
-    """What errors are divided by, in words."""
+    """The value by which errors are divided, in words."""
     return (
         f"the table's value at the row, but no less than {FLOOR:g} of its largest over the {abscissa} covered"
     )
@@ -233,19 +233,19 @@ def _detail(table: Reference, status: str, rows: int, judged: int, asked: float,
         return f"{text}: a verdict needs {fewest(table)} rows"
     return (
         f"{text}, and a verdict needs more than half of the rows, {fewest(table)} at least: "
-        f"give the curve at the table's own {table.abscissa}, or claim a lesser accuracy"
+        f"give the curve at the table's own {table.abscissa}, or claim a lower accuracy"
     )
 
 
 def absent(table: Reference, column: str, asked: float, rows: int) -> JudgedColumn:
-    """The verdict on a column that the table has and the curve has not: nothing is known of it."""
+    """The verdict on a column that the table has and the curve does not have."""
     return JudgedColumn(
         ColumnVerdict(
             check=f"{table.name}:{column}",
             kind="curve",
             passed=False,
             statement=f"{column} over {table.abscissa} against {table.source}",
-            detail=f"the curve has no column {column}: give it, or name with --column those to be judged",
+            detail=f"the curve has no column {column}: add it, or name the columns to judge with --column",
             asked=float(asked),
             reference=table.name,
             column=column,
@@ -256,7 +256,7 @@ def absent(table: Reference, column: str, asked: float, rows: int) -> JudgedColu
 
 
 def met(rows: np.ndarray, x: np.ndarray) -> int:
-    """Rows of a table that a curve does not pass over: it has one between their neighbours.
+    """Number of rows of a table that a curve covers: it has a row between their neighbours.
 
     Args:
         rows: The table's abscissa.
@@ -270,7 +270,7 @@ def met(rows: np.ndarray, x: np.ndarray) -> int:
 
 
 def reached(x: np.ndarray, rows: np.ndarray) -> tuple[float, float]:
-    """Part of the table's range between the first and the last of the curve's rows, up to rounding."""
+    """Ends of the part of the table between the first and the last row of the curve, up to rounding."""
     blur = tolerance(rows)
     ends = []
     for own, end in ((float(x.min()), float(rows.min())), (float(x.max()), float(rows.max()))):

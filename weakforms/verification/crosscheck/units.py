@@ -1,4 +1,4 @@
-"""Units that were forgotten: a column that is a constant multiple of the table's, and of what."""
+"""Detection of forgotten units: a column that is a constant multiple of the table's."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ from weakforms.scaling import SCALINGS
 from weakforms.verification.crosscheck.rows import FAILED, FLOOR, JudgedColumn
 
 SPREAD = 1e-2
-"""Relative spread over all rows up to which a ratio is called constant."""
+"""Largest relative spread over all rows of a ratio that counts as constant."""
 
 MATCH = 1e-2
-"""Relative distance within which a ratio is called a product of constants, at most ..."""
+"""Relative distance within which a ratio counts as a product of constants; their largest number ..."""
 
 POWERS = range(-3, 4)
-"""... with these powers, ..."""
+"""... their powers, ..."""
 
 NUMBERS = {"": 1.0, "2": 2.0, "pi": math.pi, "2 pi": 2 * math.pi}
-"""... and one of these factors, or one over it."""
+"""... and an additional factor, or its inverse."""
 
 
 def forgotten(
     judged: JudgedColumn, problem: str, constants: Mapping[str, object], parameters: Mapping[str, object]
 ) -> str:
-    """What a constant ratio of curve and table looks like; empty where there is none, or nothing is wrong.
+    """The meaning of a constant ratio of curve and table; empty if there is none, or if nothing is wrong.
 
     Args:
         judged: A column that was judged.
-        problem: Whose scaling its table has.
-        constants: The caller's: the column may have been multiplied by products of their powers, ...
-        parameters: ... or by a power of one of the table's.
+        problem: Problem whose scaling the table has.
+        constants: The caller's constants; the column may be multiplied by products of their powers, ...
+        parameters: ... or by a power of one of the table's parameters.
     """
     size = np.abs(judged.expected)
     if judged.verdict.status != FAILED or not size.any():
         return ""
-    told = size > FLOOR * size.max()  # near a zero the ratio says nothing
+    told = size > FLOOR * size.max()  # near a zero the ratio has no meaning
     values = judged.expected + judged.error * np.maximum(size, judged.verdict.scale_floor)
     ratios = values[told] / judged.expected[told]
     ratio = float(np.median(ratios))
@@ -52,20 +52,20 @@ def forgotten(
         return f"{said}: the other sign?"
     within = min(MATCH, 3 * max(spread, 1e-6))
     guesses = [_product(abs(ratio), _numbers(constants), within) or _power(abs(ratio), parameters, within)]
-    near_one = abs(math.log(abs(ratio))) < math.log(2)  # rather a mistake than a unit
+    near_one = abs(math.log(abs(ratio))) < math.log(2)  # a mistake, not a unit
     unit = "" if constants or near_one else _unit(problem, judged.verdict.column)
     guesses += [f"{unit} (see --constant)"] if unit else []
     return ": ".join([said, *filter(None, [" or ".join(filter(None, guesses))])]) + "?" * any(guesses)
 
 
 def _unit(problem: str, column: str) -> str:
-    """What the column is divided by in the paper's scaling, in symbols."""
+    """The unit of the column in the paper's scaling, in symbols."""
     scaling = SCALINGS.get(problem)
     return "" if scaling is None else scaling.symbols(column)
 
 
 def _power(ratio: float, parameters: Mapping[str, object], within: float) -> str:
-    """The power of one of the table's parameters that the ratio is; empty when it is none."""
+    """The ratio as a power of one of the table's parameters; empty if it is not one."""
     for name, value in _numbers(parameters).items():
         for power in filter(None, POWERS):
             if abs(math.log(ratio) - power * math.log(value)) <= within:
@@ -74,7 +74,7 @@ def _power(ratio: float, parameters: Mapping[str, object], within: float) -> str
 
 
 def _product(ratio: float, constants: Mapping[str, float], within: float) -> str:
-    """The simplest product of powers of constants, and of 2 and pi, that the ratio is; empty when none is."""
+    """The ratio as the simplest product of powers of constants, 2 and pi; empty if it is not one."""
     found = []
     for powers in product(POWERS, repeat=len(constants)):
         logarithms = [p * math.log(value) for p, value in zip(powers, constants.values(), strict=True)]
@@ -88,7 +88,7 @@ def _product(ratio: float, constants: Mapping[str, float], within: float) -> str
 
 
 def _written(factors: Mapping[str, int], number: str, sign: int) -> str:
-    """Such as ``2 pi C1 h_o/R_f^2``."""
+    """The product as text, such as ``2 pi C1 h_o/R_f^2``."""
 
     def part(which: int) -> list[str]:
         words = [number] if number and sign == which else []
@@ -105,7 +105,7 @@ def _written(factors: Mapping[str, int], number: str, sign: int) -> str:
 
 
 def _numbers(given: Mapping[str, object]) -> dict[str, float]:
-    """Those that are positive numbers, and not 1."""
+    """The entries that are positive numbers other than 1."""
     out = {}
     for name, value in given.items():
         try:
@@ -118,6 +118,6 @@ def _numbers(given: Mapping[str, object]) -> dict[str, float]:
 
 
 def abscissa_hint(problem: str, abscissa: str, constants: Mapping[str, object]) -> str:
-    """What to say where most of a curve lies outside of its table."""
+    """A hint for a curve most of which lies outside of its table."""
     unit = "" if constants else _unit(problem, abscissa)
     return f"is {abscissa} in units of {unit} (see --constant)?" if unit else ""

@@ -1,1 +1,1 @@
-"""Verdicts: results held against references."""
+"""Verdicts: comparison of results with references."""

@@ -1,4 +1,4 @@
-"""The one rule by which two numbers agree."""
+"""The rule by which two numbers agree."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 FACTOR = 2.0
-"""How many combined uncertainties two numbers that agree may differ by."""
+"""Largest difference of two numbers that agree, in combined uncertainties."""
 
 
 @dataclass(frozen=True)
@@ -22,13 +22,13 @@ class Comparison:
 
     @property
     def worst(self) -> int:
-        """Index at which the error comes closest to its bound, or exceeds it most."""
+        """Index with the largest ratio of error to bound."""
         return int(np.argmax(self.error / np.maximum(self.bound, np.finfo(float).tiny)))
 
     def passed(self, asked: float) -> bool:
-        """Error within the bound everywhere, and every bound sharper than the accuracy asked for.
+        """Whether every error is within its bound, and every bound is smaller than the accuracy asked for.
 
-        Written so that a NaN fails.
+        A NaN fails.
         """
         return bool(np.all(self.error <= self.bound) and np.all(self.bound <= asked))
 
@@ -40,18 +40,18 @@ def compare(
     reference_uncertainty: float,
     scale: float | None = None,
 ) -> Comparison:
-    r"""Hold values against a reference.
+    r"""Compare values with a reference.
 
     .. math:: |v - v_{ref}| \le 2 \sqrt{u^2 + u_{ref}^2}
 
-    Both uncertainties come from refinement, so nobody picks a tolerance.
+    Both uncertainties come from refinement, so that nobody chooses a tolerance.
 
     Args:
-        values: Weak-form side.
+        values: Values of the weak form.
         uncertainty: Its absolute uncertainty.
-        reference: Reference side.
+        reference: Values of the reference.
         reference_uncertainty: Its absolute uncertainty.
-        scale: What errors are divided by; by default the largest magnitude of the reference.
+        scale: Divisor of the errors; by default the largest magnitude of the reference.
     """
     values, reference = np.atleast_1d(values), np.atleast_1d(reference)
     size = float(scale if scale is not None else np.max(np.abs(reference)))

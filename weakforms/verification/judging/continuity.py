@@ -1,7 +1,7 @@
 """Order of continuity of a sampled field at a front, measured.
 
-On each side of the front a polynomial is fitted to the samples over a window, and the derivatives of the two
-are compared at the front: the first that does not vanish is the order.
+On each side of the front a polynomial is fitted to the samples over a window, and the derivatives of both are
+compared at the front. The first derivative with a jump gives the order.
 """
 
 from __future__ import annotations
@@ -16,26 +16,24 @@ from weakforms.verification.judging.decide import Finding, Number, Stated
 from weakforms.verification.run.solutions import Solutions
 
 NODES, FIT, HIGHEST = 30, 9, 4
-"""Samples a side, degree of the fit, and the derivative from which on nothing is measured."""
+"""Number of samples on each side, degree of the fit, and first derivative that is not measured."""
 
-VANISHES = Stated(
-    2e-3, "continuous", "what polynomials fitted to samples leave of a derivative that does not jump"
-)
-JUMPS = Stated(1e-2, "jumps", "five times what counts as continuous; in between nothing is decided")
+VANISHES = Stated(2e-3, "continuous", "the error of fitted polynomials for a derivative that does not jump")
+JUMPS = Stated(1e-2, "jumps", "five times the limit for continuity; values in between are not decided")
 
 
 def samples(front: float, window: float) -> tuple[float, ...]:
-    """Where to sample: Chebyshev points of the windows on both sides."""
+    """Sample points: Chebyshev points of the windows on both sides."""
     offsets = window * (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
     return tuple(sorted([*(front - offsets), *(front + offsets)]))
 
 
 def jumps(offset: np.ndarray, values: Number, window: float) -> Number:
-    """Relative jumps of the derivatives 0 to 3, with what the samples' uncertainty makes of them.
+    """Relative jumps of the derivatives 0 to 3, with uncertainties from the samples.
 
     Args:
         offset: Distance of the samples from the front, negative on one side.
-        values: The field there.
+        values: Values of the field at these points.
         window: Length of the windows.
     """
     (before, largest), (after, other) = (one_sided(offset, values, side, window) for side in (-1, 1))
@@ -45,7 +43,7 @@ def jumps(offset: np.ndarray, values: Number, window: float) -> Number:
 def first_jumps(
     solutions: Solutions, spec: Spec, at: At, front: float, window: float, expected: Mapping[str, int]
 ) -> Finding:
-    """Whether the first derivatives that jump at a front are those expected, and all before vanish."""
+    """Whether the first derivatives that jump at a front are the expected ones."""
     found = []
     for name, first in expected.items():
         measured = jumps(np.asarray(at.profile) - front, solutions.samples(spec, at, name), window)
@@ -59,9 +57,9 @@ def first_jumps(
 def one_sided(offset: np.ndarray, values: Number, side: int, window: float) -> tuple[Number, np.ndarray]:
     """Derivatives 0 to 3 at a front from one side, and their largest magnitudes in half the window.
 
-    A derivative of the fit is a sum of the samples with weights, which are the derivatives of the fits to
-    unit samples: with them it passes the samples' uncertainties on. Added is what a fit of one degree less is
-    off by, the uncertainty of the fit itself.
+    A derivative of the fit is a weighted sum of the samples, with the derivatives of the fits to unit samples
+    as weights; these weights propagate the samples' uncertainties. The difference from a fit of one degree
+    less is added as the uncertainty of the fit.
     """
     inside = (side * offset > 0) & (side * offset < window)
     x, samples = offset[inside], values.value[inside]

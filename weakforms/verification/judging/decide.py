@@ -1,10 +1,10 @@
-r"""The one room in which statements about numbers are decided, each with uncertainties and a limit on them.
+r"""Decides all statements about numbers, each with uncertainties and a limit on them.
 
-Two numbers *agree* when they differ by no more than twice their combined uncertainty
-(:mod:`weakforms.verification.judging.bounds`) and that bound is sharper than the accuracy asked; ``zero`` and
-``constant`` are special cases. An *inequality* (a sign, an order, a rise, a size) holds when its sides are
-``CLEAR`` times their combined uncertainty apart, which is its limit on the uncertainty too. What is not a
-number decides nothing: it fails, and so does a statement about nothing at all.
+Two numbers *agree* if they differ by at most twice their combined uncertainty
+(:mod:`weakforms.verification.judging.bounds`) and this bound is smaller than the accuracy asked; ``zero`` and
+``constant`` are special cases. An *inequality* (a sign, an order, a rise, a size) is true if its sides are
+``CLEAR`` times their combined uncertainty apart, which also limits the uncertainty. A NaN makes a statement
+false, and so does the absence of numbers.
 """
 
 from __future__ import annotations
@@ -48,22 +48,22 @@ __all__ = [
 ]
 
 CLEAR = 10
-"""By how many combined uncertainties the two sides of an inequality must be apart. Twice is what agreement
-allows; five times more is left, so that no number can agree with the other side and be clear of it."""
+"""The two sides of an inequality must be this number of combined uncertainties apart. Agreement allows two;
+the factor of five in between means that no number can both agree with the other side and differ from it."""
 
 ROUNDING = 400 * np.finfo(float).eps
-"""What rounding leaves of an identity (9e-14 relative): a few hundred operations, each of half a unit."""
+"""Rounding error of an identity (9e-14 relative): a few hundred operations, each of half a unit."""
 
 ORDER_SLACK = 0.25
-"""How far below theory an observed order may lie: the next term of the error at the meshes used."""
+"""Largest deficit of an observed order, from the next term of the error on the meshes used."""
 
 
 SHOWN = 12
-"""Findings told in full where a claim rests on many."""
+"""Number of findings that are printed in full if a claim has many."""
 
 
 class Finding(NamedTuple):
-    """Whether a statement holds, and what was found, with numbers."""
+    """Whether a statement is true, and the numbers that were found."""
 
     holds: bool
     detail: str
@@ -71,7 +71,7 @@ class Finding(NamedTuple):
 
 @dataclass(frozen=True)
 class Stated:
-    """What a word of size means: a number that somebody chose, with where it is from and why."""
+    """The meaning of a word of size, such as "small": a chosen number with its source and reason."""
 
     value: float
     word: str
@@ -81,14 +81,14 @@ class Stated:
 
 
 def agree(what: str, ours: Any, theirs: Any, asked: float, scale: Any = None) -> Finding:
-    """Two numbers, or two arrays entry by entry, are the same.
+    """Decide whether two numbers, or two arrays entry by entry, agree.
 
     Args:
-        what: What they are, for the report.
+        what: Name of the numbers, for the report.
         ours: One side.
-        theirs: The other.
+        theirs: The other side.
         asked: The bound must be below this, relative to ``scale``.
-        scale: What errors are relative to; by default the largest magnitude of the other side.
+        scale: Divisor of errors; by default the largest magnitude of the other side.
     """
     a, b = number(ours), number(theirs)
     if not _some(a, b):
@@ -105,12 +105,12 @@ def agree(what: str, ours: Any, theirs: Any, asked: float, scale: Any = None) ->
 
 
 def zero(what: str, found: Any, asked: float, scale: Any = 1.0) -> Finding:
-    """A number, or every entry, is zero: within twice its uncertainty, and that is small beside ``scale``."""
+    """Decide whether every entry is zero within twice its uncertainty, small beside ``scale``."""
     return agree(f"{what} = 0", found, 0.0, asked, scale)
 
 
 def constant(what: str, found: Number, asked: float, scale: Any = None) -> Finding:
-    """All entries are the same number, and there are at least two."""
+    """Decide whether all entries, at least two, agree."""
     if found.value.size < 2:
         return Finding(False, f"{what}: {found.value.size} entries cannot differ")
     spread = Number(np.ptp(found.value), np.max(found.uncertainty))
@@ -119,7 +119,7 @@ def constant(what: str, found: Number, asked: float, scale: Any = None) -> Findi
 
 
 def exact(what: str, found: Any, expected: Any, scale: float = 1.0) -> Finding:
-    """What is the same but for rounding: nothing is approximated on either side."""
+    """Decide whether two sides without approximations are equal up to rounding."""
     gap = np.abs(np.asarray(found, float) - np.asarray(expected, float)) / scale
     if not gap.size:
         return Finding(False, f"{what}: there is nothing to compare")
@@ -130,7 +130,7 @@ def exact(what: str, found: Any, expected: Any, scale: float = 1.0) -> Finding:
 
 
 def positive(what: str, found: Any) -> Finding:
-    """A number, or every entry, is above zero."""
+    """Decide whether a number, or every entry, is above zero."""
     x = number(found)
     if not _some(x):
         return Finding(False, f"{what}: there are no numbers")
@@ -141,15 +141,15 @@ def positive(what: str, found: Any) -> Finding:
 
 
 def negative(what: str, found: Any) -> Finding:
-    """A number, or every entry, is below zero."""
+    """Decide whether a number, or every entry, is below zero."""
     holds, detail = positive(what, -number(found))
     return Finding(holds, f"minus {detail}")
 
 
 def not_negative(what: str, found: Any, asked: float, scale: float) -> Finding:
-    """No entry is below zero by more than twice its uncertainty, and that is small beside ``scale``.
+    """Decide whether no entry is below zero by more than twice its uncertainty, small beside ``scale``.
 
-    For what may touch zero, where a sign cannot be clear.
+    This is for numbers that may be zero, whose sign is not definite.
     """
     x = number(found)
     if not _some(x):
@@ -160,17 +160,17 @@ def not_negative(what: str, found: Any, asked: float, scale: float) -> Finding:
 
 
 def rises(what: str, found: Number | Sequence[Any]) -> Finding:
-    """Every entry is above the one before it, and there are at least two."""
+    """Decide whether every entry, of at least two, is above the one before it."""
     return _monotone(what, found, 1.0)
 
 
 def falls(what: str, found: Number | Sequence[Any]) -> Finding:
-    """Every entry is below the one before it, and there are at least two."""
+    """Decide whether every entry, of at least two, is below the one before it."""
     return _monotone(what, found, -1.0)
 
 
 def less(what: str, *found: Any) -> Finding:
-    """The numbers, in the order given, rise."""
+    """Decide whether the numbers increase in the given order."""
     return rises(what, list(found))
 
 
@@ -187,13 +187,13 @@ def _monotone(what: str, found: Number | Sequence[Any], way: float) -> Finding:
 
 
 def at_most(what: str, found: Any, limit: Stated) -> Finding:
-    """Every entry is below a stated number."""
+    """Decide whether every entry is below a stated number."""
     holds, detail = positive(what, limit.value - number(found))
     return Finding(holds, _sized(what, number(found).value, "<", limit, np.max, detail))
 
 
 def at_least(what: str, found: Any, limit: Stated) -> Finding:
-    """Every entry is above a stated number."""
+    """Decide whether every entry is above a stated number."""
     holds, detail = positive(what, number(found) - limit.value)
     return Finding(holds, _sized(what, number(found).value, ">", limit, np.min, detail))
 
@@ -205,7 +205,7 @@ def _sized(what: str, values: np.ndarray, sign: str, limit: Stated, worst: Any, 
 
 
 def between(what: str, found: Any, low: Any, high: Any) -> Finding:
-    """Every entry lies between two numbers, clear of both."""
+    """Decide whether every entry lies clearly between two numbers."""
     x = number(found)
     holds = positive(what, x - low).holds and positive(what, number(high) - x).holds
     ends = " to ".join(
@@ -216,7 +216,7 @@ def between(what: str, found: Any, low: Any, high: Any) -> Finding:
 
 
 def sides(values: Number, of: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Which entries lie clearly below a number, and which above it; those at it are on neither side."""
+    """Entries that lie clearly below a number, and entries clearly above it; others are in neither."""
     apart = values - of
     clear = CLEAR * apart.uncertainty
     return apart.value < -clear, apart.value > clear
@@ -225,10 +225,10 @@ def sides(values: Number, of: Any) -> tuple[np.ndarray, np.ndarray]:
 def order(
     what: str, cells: Sequence[float], errors: Any, expected: float, slack: float = ORDER_SLACK
 ) -> Finding:
-    """Errors fall with refinement at the expected rate or faster, by the finest two meshes that show it.
+    """Decide whether errors decrease at the expected rate or faster, by the finest two useful meshes.
 
-    An error that its own uncertainty could explain by more than a tenth shows no rate: finer meshes than the
-    last one above that are left out. Two must remain.
+    An error whose uncertainty is more than a tenth of it shows no rate. Meshes finer than the last one above
+    this limit are left out, and two must remain.
     """
     found = abs(number(errors))
     if found.value.ndim != 1 or len(cells) != found.value.size:
@@ -236,9 +236,7 @@ def order(
     shown = f"{what}: errors " + ", ".join(f"{e:.1e}" for e in found.value)
     count = int(np.argmin([*(found.value >= CLEAR * found.uncertainty), False]))
     if count < 2:
-        return Finding(
-            False, f"{shown}, of which {count} can be told from the uncertainty of what they are against"
-        )
+        return Finding(False, f"{shown}, of which {count} exceed the uncertainty of the reference")
     logs = found[count - 2 : count].log()
     rate = float((logs[0] - logs[1]).value / np.log(cells[count - 1] / cells[count - 2]))
     good = rate >= expected - slack
@@ -248,7 +246,7 @@ def order(
 
 
 def mean_order(what: str, cells: Sequence[float], errors: Any, expected: float) -> Finding:
-    """Errors fall at the expected rate or faster on the mean over all meshes, where they scatter about it.
+    """Decide whether errors that scatter decrease at the expected mean rate or faster.
 
     Every error must be ten times its uncertainty.
     """
@@ -257,13 +255,13 @@ def mean_order(what: str, cells: Sequence[float], errors: Any, expected: float) 
         return Finding(False, f"{what}: {found.value.size} errors on {len(cells)} meshes show no mean order")
     shown = ", ".join(f"{e:.1e}" for e in found.value)
     if not np.all(found.value >= CLEAR * found.uncertainty):
-        return Finding(False, f"{what}: errors {shown} cannot be told from their uncertainty")
+        return Finding(False, f"{what}: errors {shown} do not exceed their uncertainty")
     rate = -float(np.polyfit(np.log(cells), np.log(found.value), 1)[0])
     return Finding(rate >= expected - ORDER_SLACK, f"{what}: errors {shown}; mean order {rate:.2f}")
 
 
 def same(what: str, found: Any, expected: Any) -> Finding:
-    """A count, a list of counts or a pattern is exactly what it should be; an empty list shows nothing."""
+    """Decide whether a count, a list of counts or a pattern is as expected; an empty list is not."""
     sized = hasattr(expected, "__len__")
     good = found == expected and (not sized or len(expected) > 0)
     said = f"{what}: {found}" if good else f"{what}: {found}, expected {expected}"
@@ -271,14 +269,14 @@ def same(what: str, found: Any, expected: Any) -> Finding:
 
 
 def every(what: str, found: Any) -> Finding:
-    """A condition on counts or patterns holds at every one of some places, and there are some."""
+    """Decide whether a condition on counts or patterns is true for all of at least one item."""
     mask = np.asarray(list(found) if not isinstance(found, np.ndarray) else found)
     good = mask.dtype == bool and mask.size > 0 and mask.all()
     return Finding(bool(good), f"{what}: {int(np.sum(mask == True))} of {mask.size}")  # noqa: E712
 
 
 def all_of(*findings: Finding | Iterable[Finding]) -> Finding:
-    """All statements hold, and there is one at least."""
+    """Combine statements: all are true, and there is at least one."""
     flat = [f for item in findings for f in ([item] if isinstance(item, Finding) else item)]
     if not flat:
         return Finding(False, "nothing was found")

@@ -1,4 +1,4 @@
-"""A number with its uncertainty, alone or in arrays, and how uncertainties pass through arithmetic."""
+"""Numbers with uncertainties, alone or in arrays, and the propagation of uncertainties."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from weakforms.results import Quantity, SpecialPoint
 class Number:
     r"""Values with absolute uncertainties of the same shape.
 
-    Arithmetic propagates them to first order as independent,
-    :math:`u^2 = \sum (\partial f/\partial x_i)^2 u_i^2`; plain numbers are exact. They are not compared with
-    ``<`` or ``==``: :mod:`weakforms.verification.judging.decide` does that, with their uncertainties.
+    Arithmetic propagates them to first order, as if they were independent,
+    :math:`u^2 = \sum (\partial f/\partial x_i)^2 u_i^2`; plain numbers are exact. ``<`` and ``==`` do not
+    work; :mod:`weakforms.verification.judging.decide` compares them with their uncertainties.
     """
 
     value: Any
     uncertainty: Any
-    __array_ufunc__ = None  # an array beside a number leaves the arithmetic to it
+    __array_ufunc__ = None  # numpy arrays leave the arithmetic with a Number to this class
 
     def __post_init__(self) -> None:
         value = np.asarray(self.value, dtype=float)
         spread = np.broadcast_to(np.asarray(self.uncertainty, dtype=float), value.shape)
-        # A negative uncertainty is none at all.
+        # A negative uncertainty is invalid.
         object.__setattr__(self, "value", value)
         object.__setattr__(self, "uncertainty", np.where(spread >= 0, spread, np.nan))
 
@@ -64,7 +64,7 @@ class Number:
     def __pow__(self, exponent: float) -> Number:
         with np.errstate(all="ignore"):
             value, rate = self.value**exponent, exponent * self.value ** (exponent - 1)
-            # What may be zero has no reciprocal, whatever the first order says.
+            # A number that may be zero has no reciprocal, even if the first order suggests one.
             known = (exponent > 0) | (np.abs(self.value) > self.uncertainty)
             return Number(value, np.where(known, np.abs(rate) * self.uncertainty, np.nan))
 
@@ -77,28 +77,28 @@ class Number:
         return number(other) / self
 
     def log(self) -> Number:
-        """Natural logarithm; of what may be zero or less, not a number."""
+        """Natural logarithm; NaN for a number that may be zero or less."""
         with np.errstate(all="ignore"):
             known = self.value > self.uncertainty
             return Number(np.log(self.value), np.where(known, self.uncertainty / np.abs(self.value), np.nan))
 
     def diff(self) -> Number:
-        """Steps from entry to entry."""
+        """Differences between neighbouring entries."""
         return self[1:] - self[:-1]
 
     def largest(self) -> Number:
-        """The largest entry, as uncertain as the most uncertain one."""
+        """The largest entry, with the largest uncertainty of all entries."""
         return Number(np.max(self.value), np.max(self.uncertainty))
 
     def smallest(self) -> Number:
-        """The smallest entry, as uncertain as the most uncertain one."""
+        """The smallest entry, with the largest uncertainty of all entries."""
         return Number(np.min(self.value), np.max(self.uncertainty))
 
 
 def number(of: Any) -> Number:
-    """Anything as a number: a quantity, or what is exact.
+    """A quantity or an exact number as a :class:`Number`.
 
-    A quantity without an uncertainty is a count or exact; it has that of its rounding.
+    A quantity without an uncertainty is a count or exact; its uncertainty is its rounding.
     """
     if isinstance(of, Number):
         return of
@@ -114,13 +114,13 @@ def of_point(point: SpecialPoint, name: str) -> Number:
 
 
 def stack(items: Iterable[Any]) -> Number:
-    """Several numbers as one array, a row an item; of numbers alone or arrays of one length."""
+    """Stack numbers, or arrays of the same length, to one array with one row for each."""
     items = [number(item) for item in items]
     return Number([item.value for item in items], [item.uncertainty for item in items])
 
 
 def join(items: Iterable[Any]) -> Number:
-    """Several numbers and arrays end to end."""
+    """Join numbers and arrays to one array."""
     items = [number(item) for item in items]
     ends = [np.concatenate([np.atleast_1d(getattr(i, k)) for i in items]) for k in ("value", "uncertainty")]
     return Number(*ends)

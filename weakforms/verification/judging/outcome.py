@@ -1,7 +1,7 @@
-"""What judging a case leaves behind: everything the report draws, and nothing that must be solved again.
+"""Outcomes of cases and runs: everything that the report needs without further solves.
 
-``report.json`` (schema ``weakforms.report/1``) is a :class:`RunOutcome` written out; the HTML report,
-``junit.xml`` and the terminal summary are made from it alone.
+``report.json`` (schema ``weakforms.report/1``) is a :class:`RunOutcome` as JSON. The HTML report,
+``junit.xml`` and the terminal summary use only this file.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ SCHEMA = "weakforms.report/1"
 
 @dataclass
 class Verdict:
-    """One check: an error held against a bound that was not picked by hand.
+    """The outcome of one check: an error and its bound, which nobody chooses.
 
-    A numerical check passes when ``error <= bound`` *and* ``bound <= asked``: the bound is twice the
-    combined uncertainty of both sides, ``asked`` the accuracy wanted; all three relative to ``scale``.
-    A structural check (a count, an order, a sign) has ``error = bound = asked = None``.
+    A numerical check passes if ``error <= bound`` *and* ``bound <= asked``. The bound is twice the combined
+    uncertainty of both sides, and ``asked`` is the asked accuracy; all three are relative to ``scale``. A
+    structural check (a count, an order, a sign) has ``error = bound = asked = None``.
     """
 
     check: str
@@ -27,39 +27,39 @@ class Verdict:
     """curve, point, field, count, claim, printed, order, exact or convergence."""
     passed: bool
     statement: str
-    """What is claimed, in one sentence a reader of the paper understands."""
+    """The statement, in one sentence for a reader of the paper."""
     detail: str = ""
-    """What was found, with numbers."""
+    """The numbers that were found."""
     error: float | None = None
     bound: float | None = None
     asked: float | None = None
     uncertainty: float | None = None
-    """Of the weak-form side, relative to the same scale."""
+    """Uncertainty of the weak form, relative to the same scale."""
     reference_uncertainty: float | None = None
     where: str = ""
     """The abscissa of the worst point, such as ``u_max = 1.25``."""
     reference: str = ""
     """Name of the reference table, or of the exact statement."""
     widest: float | None = None
-    """The largest bound over all rows, where there are several: it is what must be below ``asked``."""
+    """The largest bound over all rows, if there are several, which must be below ``asked``."""
     differs: str = ""
-    """Where the paper says otherwise: what it says, and why that does not hold."""
+    """The different statement of the paper, if there is one, and why it is not true."""
 
 
 @dataclass
 class Printed:
-    """One printed number or statement of the thesis in the ledger."""
+    """An entry of the ledger: one printed number or statement of the thesis."""
 
     what: str
     printed: str
-    """As printed, all digits."""
+    """The number as printed, with all digits."""
     computed: float | None
     uncertainty: float | None
     status: str
     """reproduced, cut off, grid of a scan, misprint, or an input of a figure that is decoded or not."""
     evidence: str = ""
     source: str = ""
-    """Where in the paper."""
+    """Place in the paper."""
 
 
 @dataclass
@@ -71,7 +71,8 @@ class CurveOutcome:
     x: list[float]
     y: list[float]
     unstable: list[bool] = field(default_factory=list)
-    """Per point: negative eigenvalues under the branch's control; drawn dashed. Empty: not judged."""
+    """Number of negative eigenvalues at each point, which are drawn dashed; empty if stability was not
+    judged."""
     reference_name: str = ""
     reference_kind: str = ""
     """exact, independent, printed or other-code."""
@@ -121,9 +122,9 @@ class PanelOutcome:
     markers: list[Marker] = field(default_factory=list)
     note: str = ""
     drawn: str = "weak form"
-    """What the curves are."""
+    """Text on the curves."""
     full: str = "stable"
-    """What full lines mean, and dashed ones, where there are any."""
+    """Meaning of full and of dashed lines, if there are any."""
     dashed: str = "unstable"
     paths: list[PathOutcome] = field(default_factory=list)
     level: float | None = None
@@ -142,36 +143,36 @@ class SurfaceOutcome:
     labels: list[str]
     note: str = ""
     curves: list[CurveOutcome] = field(default_factory=list)
-    """None: nothing is compared."""
+    """``None``, because nothing is compared."""
     fields: dict[str, list[list[float]]] = field(default_factory=dict)
-    """What else is known over the surface, for those who open it in another program."""
+    """Further fields on the surface, for other programs."""
 
 
 @dataclass
 class Convergence:
-    """Refinement history of one quantity: what the uncertainties rest on."""
+    """Refinement history of one quantity, on which its uncertainty is based."""
 
     quantity: str
     degree: int
     cells: list[int]
     errors: list[float]
-    """Against the reference value or the finest mesh, relative; one a mesh."""
+    """Relative errors with respect to the reference value or the finest mesh, one for each mesh."""
     observed_order: float | None
     expected_order: float | None
     against: str
-    """What the errors are measured against."""
+    """The value for which errors are computed."""
 
 
 @dataclass
 class CaseOutcome:
-    """All that one case leaves: verdicts, pictures, ledger entries, convergence."""
+    """The outcome of one case: verdicts, pictures, ledger entries, convergence."""
 
     id: str
-    """Such as ``paper2.fig03``."""
+    """Id of the case, such as ``paper2.fig03``."""
     title: str
     source: str
     description: str
-    """The case file's docstring, and what a reader should know."""
+    """The docstring of the case file."""
     status: str
     """passed, failed, or error (a solve did not converge, or the input was bad)."""
     verdicts: list[Verdict] = field(default_factory=list)
@@ -181,7 +182,7 @@ class CaseOutcome:
     errors: list[str] = field(default_factory=list)
     seconds: float = 0.0
     solutions: list[dict[str, Any]] = field(default_factory=list)
-    """Per solve: problem, parameters, numerics, provenance, file of the stored result."""
+    """For each solution its problem, parameters, numerics, provenance, and file."""
     surfaces: list[SurfaceOutcome] = field(default_factory=list)
 
 
@@ -192,7 +193,7 @@ class RunOutcome:
     profile: str
     selection: str
     started: str
-    """ISO 8601, UTC."""
+    """Time in ISO 8601, UTC."""
     seconds: float
     environment: dict[str, str]
     """Versions of the stack, machine, cores, memory, ranks, git revision."""
@@ -216,7 +217,7 @@ class RunOutcome:
 
 
 def case_from_json(data: dict[str, Any]) -> CaseOutcome:
-    """A :class:`CaseOutcome` from its JSON object (stored one a case, so that a run can resume)."""
+    """A :class:`CaseOutcome` from its JSON object (one file for each case, so that a run can resume)."""
     nested = {
         "verdicts": [Verdict(**item) for item in data["verdicts"]],
         "panels": [

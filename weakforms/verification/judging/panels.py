@@ -1,4 +1,4 @@
-"""Panels as the report draws them: branches, profiles, the ways of material points, special points."""
+"""Panels for the report: branches, profiles, paths of material points, special points."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _on_path(path: Path, at: At) -> At:
 
 
 def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOutcome:
-    """The panel as the report draws it; a curve that could not be solved is missing from it."""
+    """The panel for the report; a curve that could not be solved is missing."""
     outcome = PanelOutcome(
         name=panel.name,
         title=panel.title,
@@ -50,16 +50,16 @@ def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOut
             drawn = _draw(paper, panel, curve, solutions)
             marks = _markers(panel, curve, solutions)
         except ConvergenceError:
-            continue  # judged, and reported as an error, where the curve is compared
+            continue  # the comparison of the curve reports this as an error
         outcome.curves.append(drawn)
         outcome.markers.extend(marks)
-    with suppress(ConvergenceError):  # so is a state that a path goes through
+    with suppress(ConvergenceError):  # the same holds for a state of a path
         outcome.paths = _draw_paths(panel, solutions)
     return outcome
 
 
 def _draw_paths(panel: Panel, solutions: Solutions) -> list[PathOutcome]:
-    """Every material point's way through the states that could be solved."""
+    """Paths of all material points through the states that could be solved."""
     out = []
     for path in panel.paths:
         samples = [
@@ -100,7 +100,7 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
         outcome.reference_name, outcome.reference_kind = table.name, table.kind
         outcome.reference_x, outcome.reference_y = rx.tolist(), ry.tolist()
     comparisons = {}
-    with suppress(ConvergenceError):  # judged, and reported, where the curve is compared
+    with suppress(ConvergenceError):  # the comparison of the curve reports this
         comparisons = curve.comparisons(paper, solutions)
     worst = comparisons.get(y) or next(iter(comparisons.values()), None)
     if table is not None and worst is not None:
@@ -114,9 +114,9 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
 def _with_states(
     curve: Curve, table: Reference | None, solutions: Solutions, names: tuple[str, ...]
 ) -> dict[str, np.ndarray]:
-    """Columns of a branch to be drawn, and of the states solved for at the table's rows in between.
+    """Columns of a branch, with those of the states at the rows of its table in between.
 
-    A branch traced in long steps would be drawn as a polygon beside its own states.
+    A branch traced in long steps would otherwise be a polygon beside these states.
     """
     branch = solutions.branch(curve.of, curve.branch).columns
     columns = {name: np.asarray(branch[name], float) for name in (*names, "n_negative")}
@@ -127,7 +127,7 @@ def _with_states(
     for row in table.columns[table.abscissa]:
         try:
             state = solutions.state(curve.of, curve.row_at(table, float(row))).quantities
-        except ConvergenceError:  # judged, and reported, where the curve is compared
+        except ConvergenceError:  # the comparison of the curve reports this
             continue
         i = _passed(along, float(row))
         if i is not None and all(name in state for name in names):
@@ -140,16 +140,16 @@ def _with_states(
 
 
 def _passed(along: np.ndarray, value: float) -> int | None:
-    """The point of a branch after which a column first passes a value; ``None`` where it never does."""
+    """The point of a branch after which a column first crosses a value; ``None`` if it never does."""
     distance = np.asarray(along, float) - value
     hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0) | (distance[:-1] == 0))
     return int(hits[0]) if len(hits) else None
 
 
 def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
-    """A half profile from the mid-plane outwards, drawn from end to end as the paper does.
+    """A half profile, completed to a profile from end to end as in the paper.
 
-    Axial coordinates are odd about the mid-plane and shifted to start at 0; all else is even.
+    Axial coordinates are odd about the mid-plane and shifted to start at 0; all other columns are even.
     """
     if name in ("Z", "eta"):
         axis = panel.x if panel.x.name == name else panel.y
@@ -169,5 +169,5 @@ def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
 
 
 def _called(point: SpecialPoint) -> str:
-    """What a marker's label says; the legend tells the kinds apart."""
+    """The label of a marker; the legend shows its kind."""
     return f"n = {point.values['n']:g}" if "n" in point.values else point.kind.replace("_", " ")

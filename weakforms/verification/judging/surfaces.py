@@ -1,4 +1,4 @@
-"""Deformed surfaces in space: what their pictures need solved, and what is drawn."""
+"""Deformed surfaces in space: the states for their pictures, and the data to draw."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from weakforms.verification.judging.outcome import SurfaceOutcome
 from weakforms.verification.run.solutions import Solutions
 
 TURNS = 49
-"""Meridians of a surface of revolution."""
+"""Number of meridians of a surface of revolution."""
 
 
 def surface_wants(surface: Surface) -> list[tuple[Spec, At | None]]:
-    """The state shown, with its fields."""
+    """The shown state with its fields."""
     return [(surface.of, shown_at(surface))]
 
 
@@ -26,7 +26,7 @@ def shown_at(surface: Surface) -> At:
 
 
 def draw_surface(surface: Surface, solutions: Solutions) -> SurfaceOutcome:
-    """What the report needs of a surface."""
+    """The data of a surface for the report."""
     field = solutions.profile(surface.of, shown_at(surface))
     x, y, z = position(field, surface.displaced)
     height = surface.axes[2]
@@ -45,8 +45,8 @@ def draw_surface(surface: Surface, solutions: Solutions) -> SurfaceOutcome:
 def position(field: Field, displaced: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """``x, y, z`` as arrays over ``Z`` and ``Theta``.
 
-    A field with ``x, y, z`` over ``Z, Theta`` is put on its grid, ``displaced`` times its mode further; a
-    meridian ``r, z`` over ``Z`` is revolved.
+    A field with ``x, y, z`` over ``Z, Theta`` is put on its grid, plus ``displaced`` times its mode. A
+    meridian ``r, z`` over ``Z`` is rotated about the axis.
     """
     columns = field.columns
     if "Theta" not in columns:

@@ -1,1 +1,1 @@
-"""The report of a run as pages, figures and machine-readable files."""
+"""Writes the report of a run as pages, figures and machine-readable files."""

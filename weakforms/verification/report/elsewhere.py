@@ -1,4 +1,4 @@
-"""The same cases run elsewhere, on more ranks or on another release, as the report shows them."""
+"""Comparison with other runs of the same cases, on more ranks or on another release, for the report."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from weakforms.verification.audit.same import CaseRow, Run, rows
 NAME = "elsewhere.json"
 SCHEMA = "weakforms.elsewhere/1"
 TOLD = ("dolfinx", "ufl", "petsc", "slepc", "python", "system", "ranks")
-"""Facts of an environment that tell two runs apart."""
+"""Facts of the environment that may differ between two runs."""
 
 
 @dataclass(frozen=True)
 class Elsewhere:
-    """Another run, and how far its numbers are from this one's."""
+    """Another run, and the differences of its numbers from those of this run."""
 
     environment: dict[str, str]
-    """In what it differs from this one's."""
+    """Facts of its environment that differ from those of this run."""
     rows: tuple[CaseRow, ...]
 
 
@@ -34,7 +34,7 @@ def elsewhere(own: Path, other: Path) -> Elsewhere:
     """Compare the stored solutions of two output folders of ``verify``, case by case.
 
     Raises:
-        InputError: When one of them has no report, what is stored is damaged, or they share no case.
+        InputError: If one of them has no report, a stored file is damaged, or they share no case.
     """
     first, second = Run(own), Run(other)
     found = tuple(row for row in rows(first, second) if row.case in second.specs)
@@ -45,20 +45,20 @@ def elsewhere(own: Path, other: Path) -> Elsewhere:
 
 
 def write_elsewhere(runs: Iterable[Elsewhere], folder: Path) -> None:
-    """Put comparisons beside a report.
+    """Store comparisons in the folder of a report.
 
     Raises:
-        InputError: When the folder cannot be written.
+        InputError: If the folder cannot be written.
     """
     data = {"schema": SCHEMA, "runs": [asdict(run) for run in runs]}
     write_atomically(Path(folder) / NAME, dumps(data))
 
 
 def load_elsewhere(folder: Path) -> tuple[Elsewhere, ...]:
-    """Comparisons that lie beside a report; none where there is no such file.
+    """Read the comparisons in the folder of a report; none if there is no such file.
 
     Raises:
-        InputError: When it is damaged.
+        InputError: If it is damaged.
     """
     path = Path(folder) / NAME
     if not path.exists():

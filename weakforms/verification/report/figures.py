@@ -1,6 +1,7 @@
 """Figures of the report as SVG: panels on the thesis's axes with residuals, and convergence plots.
 
-Text is drawn as paths, the same everywhere; colours are CSS variables falling back to light ones.
+Text is drawn as paths, so that it looks the same everywhere. Colours are CSS variables with light colours as
+default.
 """
 
 from __future__ import annotations
@@ -31,17 +32,17 @@ INK, MUTED = LOOK["light"]["ink"], LOOK["light"]["muted"]
 POINTS, MARKERS = LOOK["points"], LOOK["markers"]
 PALETTE = [colour for name, colour in LOOK["light"].items() if name[1:].isdigit()]
 KINDS = list(zip(PALETTE * len(MARKERS), MARKERS * len(PALETTE), strict=True))
-"""A colour and a marker a curve, so that nothing rests on colour alone."""
+"""Colours and markers of curves, so that colour alone never carries information."""
 NARROW, FOOT = 4.2, 0.5
 """Width of a narrower figure, and room below axes, in inches."""
 SHOWN = 22
-"""Reference markers drawn a curve; it is compared at every row of its table all the same."""
+"""Largest number of reference markers on a curve, which is compared at every row of its table."""
 SIDES = ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
 DASHED, ASKED = (0, (4, 2)), (0, (6, 2, 1, 2))
 
 
 def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = ()) -> str:
-    """One panel on the printed axes, with the residuals of its curves below where there are any.
+    """One panel on the printed axes, with the residuals of its curves below, if there are any.
 
     Args:
         panel: Curves, references and special points.
@@ -77,7 +78,7 @@ def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
     """Errors of one quantity against the number of cells, with observed and expected slopes.
 
     Args:
-        records: Refinement histories of the same quantity, usually one a degree.
+        records: Refinement histories of the same quantity, usually one for each degree.
         ident: Identifier of the figure on its page.
 
     Returns:
@@ -103,7 +104,7 @@ def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
 
 @contextmanager
 def drawing(ident: str) -> Iterator[None]:
-    """The report's style and nobody else's; quiet about glyphs that no font has."""
+    """Context with the style of the report, without warnings about missing glyphs."""
     style = ["default", LOOK["style"] | {"svg.hashsalt": ident}]
     with matplotlib.style.context(style), warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -119,7 +120,7 @@ def svg(figure: Figure, ident: str, title: str, description: str) -> str:
 
 
 def as_math(text: str) -> str:
-    """Text for a figure: TeX between dollars where it can be set, else as it stands."""
+    """Text for a figure: TeX between dollars if matplotlib can set it, else the plain text."""
     text = " ".join(clean(text).split())
     try:
         MathTextParser("path").parse(text)
@@ -135,7 +136,7 @@ def _key(label: str, index: int | None, **style: Any) -> Line2D:
 
 
 def _panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
-    """Legend entries: the curves, and below them what lines and marks mean in general."""
+    """Legend entries: the curves, and below them the meaning of lines and marks."""
     curves = panel.curves
     named = [_key(as_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
     if any(any(curve.unstable) for curve in curves):
@@ -154,7 +155,7 @@ def _panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
 def _with_legend(
     groups: list[list[Line2D]], width: float, above: float, below: float
 ) -> tuple[Figure, float]:
-    """A figure with its legend under the first axes, hiding nothing, and the legend's height."""
+    """A figure with its legend under the first axes, and the height of the legend."""
     figure = FigureCanvasAgg(Figure(figsize=(width, above + below))).figure
     keyed, legends = 0.0, []
     for keys in filter(None, groups):
@@ -189,7 +190,7 @@ def _columns(*columns: Sequence[float]) -> list[np.ndarray]:
 
 
 def _floor(values: Iterable[float]) -> float:
-    """Where a zero is drawn on a logarithmic axis: a decade below everything else."""
+    """The position of a zero on a logarithmic axis: a decade below everything else."""
     positive = [value for value in values if 0 < value < math.inf]
     return 10.0 ** (math.floor(math.log10(min(positive))) - 1) if positive else 1e-17
 
@@ -223,7 +224,7 @@ def _legible(axes: Axes, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _draw_points(axes: Axes, panel: PanelOutcome) -> None:
-    """Special points, each with its label where that covers least."""
+    """Draw special points, each with its label where it covers least."""
     tracks = [np.column_stack(_columns(c.x, c.y)) for c in panel.curves]
     tracks = [t[:-1] + s * np.diff(t, axis=0) for t in tracks for s in (0, 0.25, 0.5, 0.75)]
     tracks += [np.column_stack(_columns(c.reference_x, c.reference_y)) for c in panel.curves]
@@ -241,7 +242,7 @@ def _draw_points(axes: Axes, panel: PanelOutcome) -> None:
 
 
 def _label(axes: Axes, at: tuple[float, float], text: str, taken: np.ndarray, boxes: list) -> Any:
-    """Write a label beside a point, on the side where it hides least; returns its box."""
+    """Write a label beside a point, on the side where it covers least; returns its box."""
     frame = axes.get_window_extent()
     options = []
     for step, (right, up) in enumerate(SIDES * 2):
@@ -260,7 +261,7 @@ def _label(axes: Axes, at: tuple[float, float], text: str, taken: np.ndarray, bo
 
 
 def _draw_residuals(axes: Axes, panel: PanelOutcome, verdicts: Sequence[Verdict]) -> None:
-    """Relative error a row, its bound as steps, the asked accuracy as a line."""
+    """Draw the relative error of each row, its bound as steps, the asked accuracy as a line."""
     curves = panel.curves
     axes.set_yscale("log")
     floor = _floor(value for c in curves for value in (*c.residual, *c.residual_bound))

@@ -1,4 +1,4 @@
-"""The XML of a run: JUnit for continuous integration, and drawings made fit to stand in a page."""
+"""XML: JUnit files for continuous integration, and drawings for inclusion in a page."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000
 
 
 def clean(text: object) -> str:
-    """The text with every character that XML, HTML or UTF-8 cannot carry replaced by U+FFFD."""
+    """The text, with every character that is not allowed in XML, HTML or UTF-8 replaced by U+FFFD."""
     return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", str(text))
 
 
 def inline_svg(drawing: str, ident: str, title: str, description: str, colours: Mapping[str, str]) -> str:
-    """A matplotlib drawing made fit to stand among others in one page.
+    """A matplotlib drawing, prepared for a page with other drawings.
 
     Args:
-        drawing: The SVG document as matplotlib writes it.
+        drawing: The SVG document from matplotlib.
         ident: Every id, and every reference to one, gets this prefix.
         title: Accessible name.
-        description: What is to be seen, in words.
+        description: Description of the drawing in words.
         colours: Hexadecimal colour to the CSS variable that may replace it.
 
     Returns:
@@ -80,7 +80,7 @@ def junit_xml(run: RunOutcome) -> str:
     """The run as JUnit XML: failures with their numbers, errors for cases that could not be solved.
 
     Args:
-        run: What ``verify`` left.
+        run: Outcome of ``verify``.
 
     Returns:
         An XML document, declaration included, ending in a newline.

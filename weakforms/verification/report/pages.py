@@ -1,6 +1,6 @@
-"""The pages of the report: an overview, one page a group of cases, and all of it as one for printing.
+"""The pages of the report: an overview, one page for each group of cases, and one page for printing.
 
-A group is what stands before the dot in a case's id: a paper, or a folder of cases such as ``materials``.
+A group is the part of a case's id before the dot: a paper, or a folder of cases such as ``materials``.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from weakforms.verification.report.surface_figures import surface_figure
 from weakforms.verification.run.workers import workers
 
 FOLDED = 30
-"""More passed checks than this in one case stand folded under their summary."""
+"""If a case has more passed checks than this, they are folded under their summary."""
 RESERVED = (
     "top",
     "main",
@@ -51,7 +51,7 @@ RESERVED = (
     "audit",
     "exempt",
 )
-"""Identifiers that the templates use themselves."""
+"""Identifiers that the templates use."""
 GROUPS = {
     "paper1": (
         "Paper 1",
@@ -81,7 +81,7 @@ GROUPS = {
     "materials": ("Materials", "Material laws and what they must satisfy", ""),
     "closed_form": ("Closed forms", "Problems with exact solutions", ""),
 }
-"""Short name, title and source of the groups there are; any other is called by its folder."""
+"""Short name, title and source of known groups; any other has the name of its folder."""
 
 
 def render(
@@ -94,14 +94,14 @@ def render(
     """Every page of the report.
 
     Args:
-        run: What ``verify`` left.
-        seeded: What became of seeded faults, where the catalogue was run.
+        run: Outcome of ``verify``.
+        seeded: Outcome of seeded faults, if the catalogue was run.
         others: Runs of the same cases on other ranks or releases.
-        jobs: Processes that draw, side by side.
-        audited: What became of parameters drawn over all ranges, where an audit was made.
+        jobs: Number of parallel processes for drawing.
+        audited: Outcome of an audit, if one was made.
 
     Returns:
-        HTML by file name; the first page is ``index.html``. No page loads anything.
+        HTML by file name; the first page is ``index.html``. Pages load no other files.
     """
     facts = _facts(run, seeded, others, jobs, audited)
     pages = {
@@ -119,12 +119,12 @@ def render_whole(
     others: tuple[Elsewhere, ...] = (),
     audited: Audited | None = None,
 ) -> str:
-    """All pages as one, for printing: every link stays within it."""
+    """All pages as one, for printing, with links inside the page only."""
     return template("whole.html").render(_facts(run, seeded, others, audited=audited), here=None)
 
 
 def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
-    """The surfaces of a run, each with the file beside the pages that holds it for ParaView."""
+    """The surfaces of a run, each with its file for ParaView."""
     taken: set[str] = set()
     return [
         (f"shapes/{_unused(_file(f'{case.id}-{surface.name}'), taken)}.vtu", surface)
@@ -134,7 +134,7 @@ def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
 
 
 def template(name: str) -> Template:
-    """A page's template, with the filters that numbers and TeX are shown by."""
+    """The template of a page, with filters for numbers and TeX."""
     return _environment().get_template(name)
 
 
@@ -162,7 +162,7 @@ def _environment() -> Environment:
     return environment
 
 
-# -- what the templates show ---------------------------------------------------------------------
+# -- data for the templates ---------------------------------------------------------------------
 
 
 def _facts(
@@ -172,7 +172,7 @@ def _facts(
     jobs: int = 1,
     audited: Audited | None = None,
 ) -> dict[str, Any]:
-    """Everything a template may name, made from the run and what lies beside it alone."""
+    """All variables of the templates, from the run and the other outcomes in its folder."""
     taken = set(RESERVED)
     shapes = {id(surface): name for name, surface in shape_files(run)}
     views = [_case_view(case, taken, shapes) for case in run.cases]
@@ -215,7 +215,7 @@ def _facts(
 
 
 def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The cases by what stands before the dot in their ids, each group with its page."""
+    """The cases in groups, each group with its page."""
     found: dict[str, list[dict[str, Any]]] = {}
     for view in views:
         found.setdefault(view["case"].id.partition(".")[0], []).append(view)
@@ -246,7 +246,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def _areas(faults: Iterable[FaultOutcome], by: str = "area") -> dict[str, list[FaultOutcome]]:
-    """Faults by what they are faults of."""
+    """Faults by area."""
     found: dict[str, list[FaultOutcome]] = {}
     for fault in faults:
         found.setdefault(getattr(fault, by), []).append(fault)
@@ -254,7 +254,7 @@ def _areas(faults: Iterable[FaultOutcome], by: str = "area") -> dict[str, list[F
 
 
 def _spread(verdicts: Iterable[Verdict]) -> dict[str, Any] | None:
-    """How sharp the bounds are as a whole: median, nine in ten, and how many are numerical."""
+    """Statistics of all bounds: median, ninth decile, and their number."""
     bounds = sorted(v.bound for v in verdicts if v.passed and v.bound)
     if len(bounds) < 10:
         return None
@@ -263,9 +263,9 @@ def _spread(verdicts: Iterable[Verdict]) -> dict[str, Any] | None:
 
 
 def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str, Any], Any]]]:
-    """What disagrees with the thesis: printed numbers that are not reproduced, statements that do not hold.
+    """Disagreements with the thesis: printed numbers that are not reproduced, statements that are not true.
 
-    And what cannot be decided, for lack of data in the thesis.
+    Also numbers that cannot be decided, because the thesis does not give enough data.
     """
     views = list(views)
     entries = [(view, entry) for view in views for entry in view["case"].printed]
@@ -278,7 +278,7 @@ def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str
 
 
 def _draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
-    """Pictures in place of what is to be called for them."""
+    """Replace calls by the pictures that they draw."""
     calls = [entry["svg"] for entry in shown]
     if jobs == 1:
         drawn = map(call, calls)
@@ -290,7 +290,7 @@ def _draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
 
 
 def _case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> dict[str, Any]:
-    """What the template shows of one case: figures to be drawn, checks sorted, anchors made."""
+    """The data of one case for the template: figures, sorted checks, anchors."""
     anchor = _anchor(case.id, taken)
     rows = [
         {
@@ -322,7 +322,7 @@ def _case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) ->
 def _figures(
     case: CaseOutcome, anchor: str, taken: set[str], shapes: Mapping[int, str]
 ) -> list[dict[str, Any]]:
-    """The pictures of a case: its panels, then its surfaces with the file ParaView reads."""
+    """The pictures of a case: its panels, then its surfaces with their files for ParaView."""
     figures = []
     for panel in case.panels:
         ident = _anchor(f"{anchor}:panel-{panel.name}", taken)
@@ -336,7 +336,7 @@ def _figures(
 
 
 def _numbers(verdict: Verdict) -> dict[str, str]:
-    """Error, bound and asked accuracy with as many digits as it takes to tell them apart."""
+    """Error, bound and asked accuracy with as many digits as needed to distinguish them."""
     values = {name: getattr(verdict, name) for name in ("error", "bound", "asked")}
     known = [value for value in values.values() if value is not None]
     for digits in range(2, 7):
@@ -354,13 +354,13 @@ def _by_quantity(records: Iterable[Convergence]) -> list[list[Convergence]]:
 
 
 def _shared(records: list[Mapping[str, Any]]) -> dict[str, Any]:
-    """The entries that all of several mappings have in common."""
+    """The entries that several mappings have in common."""
     first = records[0] if len(records) > 1 else {}
     return {k: v for k, v in first.items() if all(other.get(k) == v for other in records)}
 
 
 def _flat(value: Any, prefix: str = "") -> Iterable[tuple[str, str]]:
-    """Names and values of nested mappings, one pair a leaf."""
+    """Names and values of nested mappings, one pair for each leaf."""
     if isinstance(value, Mapping):
         for key, item in value.items():
             yield from _flat(item, f"{prefix}.{key}" if prefix else str(key))
@@ -373,18 +373,18 @@ def _flat(value: Any, prefix: str = "") -> Iterable[tuple[str, str]]:
 
 
 def _file(text: str) -> str:
-    """The text as part of a file name, of which systems take 255 characters."""
+    """The text as part of a file name, which may have 255 characters."""
     return re.sub(r"[^A-Za-z0-9_.-]+", "-", text).strip("-.").replace(".", "_")[:100] or "item"
 
 
 def _anchor(text: str, taken: set[str]) -> str:
-    """An identifier made of the text that nothing else has."""
+    """A unique identifier from a text."""
     stem = re.sub(r"[^\w.:-]+", "-", clean(text), flags=re.ASCII).strip("-") or "item"
     return _unused(stem, taken)
 
 
 def _unused(stem: str, taken: set[str]) -> str:
-    """The stem, with a number after it where it is taken."""
+    """The stem, followed by a number if it is taken."""
     name = next(n for n in chain([stem], (f"{stem}-{k}" for k in count(2))) if n not in taken)
     taken.add(name)
     return name

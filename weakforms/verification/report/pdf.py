@@ -1,4 +1,4 @@
-"""The report on paper: all its pages as one PDF, printed by a browser without a window."""
+"""The report as one PDF, printed by a browser without a window."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from weakforms.verification.report.elsewhere import load_elsewhere
 from weakforms.verification.report.pages import render_whole
 
 NAME = "report.pdf"
-"""What it is called beside the pages."""
+"""Name of the file."""
 BROWSERS = (
     "chromium-headless-shell",
     "chromium",
@@ -25,7 +25,7 @@ BROWSERS = (
     "google-chrome",
     "microsoft-edge",
 )
-"""Programs that print a page; the first that is there does it."""
+"""Browsers that can print a page; the first one that is installed is used."""
 QUIET = (
     "--headless",
     "--disable-gpu",
@@ -35,14 +35,14 @@ QUIET = (
     "--hide-scrollbars",
 )
 PATIENCE = 600
-"""Seconds until a browser that does not answer is given up."""
+"""Time limit of the browser in seconds."""
 
 
 def browser() -> str:
-    """The browser there is.
+    """Path of an installed browser.
 
     Raises:
-        EnvironmentLackError: When there is none; says how to get one.
+        EnvironmentLackError: If there is none; the message says how to install one.
     """
     for name in BROWSERS:
         if path := shutil.which(name):
@@ -54,7 +54,7 @@ def browser() -> str:
 
 
 def require_pdf_name(path: Path) -> None:
-    """Make sure that a file is one a PDF can be written to.
+    """Make sure that a PDF can be written under a name.
 
     Raises:
         InputError: For another ending, or a folder that is not there or not writable.
@@ -66,15 +66,15 @@ def require_pdf_name(path: Path) -> None:
 
 
 def write_pdf(run: RunOutcome, path: Path) -> Path:
-    """Print all pages of a report into one PDF, which appears only when complete.
+    """Print all pages of a report into one PDF, which appears only when it is complete.
 
     Args:
         run: What :func:`weakforms.verification.report.report.load_run` returned.
-        path: The file; its folder must be there.
+        path: The file; its folder must exist.
 
     Raises:
-        InputError: When the place cannot be written to.
-        EnvironmentLackError: When there is no browser, or it does not do it.
+        InputError: If the place cannot be written to.
+        EnvironmentLackError: If there is no browser, or it fails.
     """
     path = Path(path).absolute()
     require_pdf_name(path)

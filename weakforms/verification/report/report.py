@@ -1,7 +1,7 @@
 """The report of a ``RunOutcome``, from it alone: pages, ``report.json``, ``junit.xml``, shapes for ParaView.
 
-No page has scripts, fonts or anything else from elsewhere, and all of it is drawn from what
-``report.json`` holds, so that rebuilding it later gives the same bytes.
+Pages are self-contained, without scripts and fonts. Everything is drawn from ``report.json``, so that the
+report can be rebuilt later with the same bytes.
 """
 
 from __future__ import annotations
@@ -28,27 +28,27 @@ from weakforms.verification.report.pages import render, shape_files
 from weakforms.verification.report.vtu import vtu
 
 OURS = '<meta name="generator" content="weakforms">'
-"""What tells a page of an earlier report from somebody else's file."""
+"""Mark of a page of a report, which distinguishes it from other files."""
 _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "residual_bound")
 
 
 def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int = 1) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
 
-    A ``faults.json`` in the folder gives the page of seeded faults its table, an ``audit.json`` that of the
-    audit, an ``elsewhere.json`` the first page that of other runs, until the cases are run anew.
+    If the folder has a ``faults.json``, an ``audit.json`` or an ``elsewhere.json``, the report shows the
+    seeded faults, the audit, or the comparison with other runs (until the cases are run again).
 
     Args:
-        run: What ``verify`` left.
-        folder: Where to; made when missing. Pages and shapes of an earlier report go.
-        stored: Whether the run was read from a file: then nothing is written before all of it is drawn.
-        jobs: Processes that draw, side by side.
+        run: Outcome of ``verify``.
+        folder: Folder of the report; created if missing. Pages and shapes of an earlier report are deleted.
+        stored: Whether the run was read from a file; then nothing is written before everything is drawn.
+        jobs: Number of parallel processes for drawing.
 
     Returns:
         The path of ``index.html``.
 
     Raises:
-        InputError: When the folder cannot be written, or what is stored cannot be drawn.
+        InputError: If the folder cannot be written, or the stored run cannot be drawn.
     """
     data = _plain(run.to_json())
     run = _decoded(data)
@@ -83,13 +83,13 @@ def _drawn(
 def _redrawn(
     run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
 ) -> dict[str, str]:
-    """The same of a stored run, the numbers of which may be anybody's."""
+    """The same for a stored run, whose numbers may come from anywhere."""
     try:
         return _drawn(run, seeded, others, audited, jobs)
     except EnvironmentLackError:
         raise
     except Exception as error:
-        raise InputError(f"what is stored cannot be drawn: {type(error).__name__}: {error}") from error
+        raise InputError(f"the stored run cannot be drawn: {type(error).__name__}: {error}") from error
 
 
 def _write(folder: Path, texts: Mapping[str, str]) -> None:
@@ -100,7 +100,7 @@ def _write(folder: Path, texts: Mapping[str, str]) -> None:
 
 
 def _sweep(folder: Path, kept: set[str]) -> None:
-    """Remove what an earlier report had and this one does not: pages, shapes, its print."""
+    """Remove files of an earlier report that this one does not have: pages, shapes, PDF."""
     for path in folder.glob("*.html"):
         if path.name not in kept and path.is_file() and OURS in path.read_text("utf-8", "replace")[:2000]:
             path.unlink(missing_ok=True)
@@ -111,7 +111,7 @@ def _sweep(folder: Path, kept: set[str]) -> None:
 
 
 def load_run(folder: Path) -> RunOutcome:
-    """The run that ``report.json`` in a folder holds.
+    """Read the run from ``report.json`` in a folder.
 
     Args:
         folder: A folder :func:`write_report` wrote to, or the JSON file itself.
@@ -120,7 +120,7 @@ def load_run(folder: Path) -> RunOutcome:
         The run; numbers that were not finite come back as NaN in columns and ``None`` elsewhere.
 
     Raises:
-        InputError: When the file is missing, cut short, not JSON, or of another schema.
+        InputError: If the file is missing, cut short, not JSON, or of another schema.
     """
     path = Path(folder)
     path = path / "report.json" if path.suffix != ".json" else path
@@ -151,7 +151,7 @@ def _decoded(data: dict[str, Any]) -> RunOutcome:
 
 
 def _plain(value: Any) -> Any:
-    """The value as strict JSON has it: no NumPy, no paths, and ``null`` for what is not finite."""
+    """The value as strict JSON: no NumPy, no paths, and ``null`` for numbers that are not finite."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""The run in words and numbers for people: tallies, worst checks, and the terminal's table."""
+"""Summaries of a run in words and numbers: counts, worst checks, and the table for the terminal."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from weakforms.verification.judging.outcome import (
 from weakforms.verification.report.junit import clean
 
 NARROW = 90
-"""Below this many columns the terminal table drops what the report has anyway."""
+"""On narrower terminals the table leaves out some columns."""
 STYLES = {"passed": "green", "failed": "bold red", "error": "bold yellow"}
 ORDER = {"error": 0, "failed": 1, "passed": 2}
 LOST = "not recoverable"
@@ -41,12 +41,12 @@ LABELS = {
     "input, not placed": "state not found",
     LOST: LOST,
 }
-"""What people read of the status of a printed number; any other is its own label."""
+"""Labels of the status of a printed number; any other status is its own label."""
 
 
 @dataclass(frozen=True)
 class Accuracy:
-    """The accuracy that a case asks of a column, and the one that it delivers."""
+    """The accuracy that a case asks of a column, and the widest bound that it achieves."""
 
     case: str
     column: str
@@ -55,12 +55,12 @@ class Accuracy:
 
     @property
     def ratio(self) -> float:
-        """Asked over delivered."""
+        """Asked accuracy over achieved bound."""
         return self.asked / self.delivered
 
 
 def case_status(case: CaseOutcome) -> str:
-    """The status of a case; a failed check counts even where the case claims to have passed."""
+    """The status of a case; a failed check counts even if the case says that it passed."""
     if case.status == "passed" and not all(verdict.passed for verdict in case.verdicts):
         return "failed"
     return case.status
@@ -130,11 +130,11 @@ def bluntest(verdicts: Iterable[Verdict]) -> Verdict | None:
 
 
 LOOSE = 100
-"""An accuracy asked of more than this many times the bound delivered says little of what is known."""
+"""Largest ratio of asked accuracy to achieved bound that is not listed."""
 
 
 def accuracies(run: RunOutcome) -> list[Accuracy]:
-    """What every case asks of a column, beside the widest bound that it delivers of it; the loosest first."""
+    """The accuracies that every case asks of a column, with its widest bounds, in descending ratio."""
     widest: dict[tuple[str, str, float], float] = {}
     for case, verdict in verdicts_of(run):
         bound = verdict.bound if verdict.widest is None else verdict.widest
@@ -179,7 +179,7 @@ def _symbols(tex: str) -> str:
 
 
 def describe(panel: PanelOutcome, verdicts: Iterable[Verdict] = ()) -> str:
-    """A panel in words, for those who do not see it."""
+    """A panel in words, for screen readers."""
     x, y = panel.x_range, panel.y_range
     parts = [f"{panel.y} from {y[0]:g} to {y[1]:g} against {panel.x} from {x[0]:g} to {x[1]:g}"]
     names = [plain_tex(curve.label or curve.name) for curve in panel.curves]
@@ -217,7 +217,7 @@ def plural(count: int, noun: str) -> str:
 
 
 def scientific(value: float | None, digits: int = 2) -> str:
-    """A relative error for people: ``3.2e-10``; an exact zero is ``0``."""
+    """A relative error as text: ``3.2e-10``; an exact zero is ``0``."""
     if value is None or math.isnan(value):
         return "–"
     if math.isinf(value):
@@ -232,7 +232,7 @@ def signed(value: float | None) -> str:
 
 
 def fraction(value: float | None) -> str:
-    """A ratio to one for people: three decimals at most, large ones rounded."""
+    """A ratio as text: at most three decimals, large ones rounded."""
     if value is None or math.isnan(value):
         return "–"
     if math.isinf(value):
@@ -268,7 +268,7 @@ def duration(seconds: float) -> str:
 
 
 def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
-    """How many printed numbers have which status, the good news first."""
+    """Number of printed numbers by status, the good ones first."""
     known = (
         "reproduced",
         "state found",
@@ -284,7 +284,7 @@ def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
 
 
 def case_line(case: CaseOutcome, done: int, total: int) -> str:
-    """A case just judged, for a log: ``3 of 92 cases: paper2.fig03 passed, 53 checks, 12.0 s of solving``."""
+    """A line for a log: ``3 of 92 cases: paper2.fig03 passed, 53 checks, 12.0 s of solving``."""
     checks, failed = len(case.verdicts), sum(not v.passed for v in case.verdicts)
     held = f"{failed} of {plural(checks, 'check')} failed" if failed else plural(checks, "check")
     return (
@@ -293,11 +293,11 @@ def case_line(case: CaseOutcome, done: int, total: int) -> str:
 
 
 def print_summary(run: RunOutcome, console: Console) -> None:
-    """Print the run to a terminal: a row per case, what failed and why, and one last line.
+    """Print the run to a terminal: one row for each case, the failures, and one last line.
 
     Args:
         run: What ``verify`` left.
-        console: Where to; its width, encoding and ``NO_COLOR`` are respected.
+        console: The terminal; its width, encoding and ``NO_COLOR`` are respected.
     """
     console.print(_table(run, narrow=console.width < NARROW))
     for case in run.cases:
@@ -362,5 +362,5 @@ def _rank(value: float | None) -> float:
 
 
 def _said(text: str) -> str:
-    """The text for a terminal, which control characters would be commands to; its lines stay."""
+    """The text for a terminal, without control characters except line ends."""
     return "\n".join(plain(line) for line in clean(text).split("\n"))

@@ -13,16 +13,17 @@ from weakforms.verification.report.figures import LOOK, as_math, drawing, svg
 from weakforms.verification.report.summary import plain_tex
 
 LINES = 36
-"""Most lines drawn in either direction."""
+"""Largest number of lines in each direction."""
 
 TICKS = 3
-"""Most intervals on an axis that is short beside the others; twice as many on a long one."""
+"""Largest number of intervals on an axis that is short relative to the others; twice as many on a long
+one."""
 
 SIZE = (4.9, 4.9)
-"""Inches."""
+"""Size in inches."""
 
 FRAME = (0.04, 0.13, 0.92, 0.87)
-"""The part of the picture that the axes are drawn in."""
+"""Position of the axes in the picture."""
 
 
 def surface_figure(surface: SurfaceOutcome, ident: str) -> str:
@@ -69,7 +70,7 @@ def surface_figure(surface: SurfaceOutcome, ident: str) -> str:
 
 
 def describe_surface(surface: SurfaceOutcome) -> str:
-    """The picture in words, for those who do not see it."""
+    """The picture in words, for screen readers."""
     spans = [
         f"{name} from {np.min(part):.3g} to {np.max(part):.3g}"
         for name, part in zip("xyz", surface.position, strict=True)

@@ -1,4 +1,4 @@
-"""The verdict on somebody else's curve as files: JSON, a page with its pictures, each picture by itself."""
+"""The verdict on a curve of another code as files: JSON, a page with its pictures, and each picture."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
 
     Args:
         verdicts: What :func:`weakforms.compare` returned.
-        folder: Where to; made when missing.
+        folder: Folder for the files; created if missing.
 
     Returns:
         The path of ``index.html``.
 
     Raises:
-        InputError: When the folder cannot be written to.
+        InputError: If the folder cannot be written to.
     """
     require_writable(folder)
     of = {verdict.column: verdict for verdict in verdicts.verdicts}

@@ -1,4 +1,4 @@
-"""Surfaces of the report as VTU, the XML format of ParaView, written from the report's own numbers."""
+"""Surfaces of the report as VTU, the XML format of ParaView, from the numbers of the report."""
 
 from __future__ import annotations
 

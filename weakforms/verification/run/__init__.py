@@ -1,1 +1,1 @@
-"""Runs of the suite: solve, store, judge."""
+"""Runs of the suite: plan, solve, store, judge."""

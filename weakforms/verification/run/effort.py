@@ -1,6 +1,6 @@
-"""How much of a run is done, in the seconds its solutions took before: what a progress bar can go by.
+"""Progress of a run, in the seconds that its solutions took in earlier runs.
 
-Solutions take from a tenth of a second to minutes; their number says little about the time that is left.
+Solutions take from a tenth of a second to minutes, so that their number says little about the remaining time.
 """
 
 from __future__ import annotations
@@ -29,17 +29,17 @@ class Effort:
         self._done: set[Spec] = set()
 
     def finish(self, spec: Spec, seconds: float | None = None) -> None:
-        """Note a solution as done, and how long it took where it was solved now."""
+        """Mark a solution as done, and record its time if it was solved now."""
         self._done.add(spec)
         if seconds is not None and math.isfinite(seconds):
             self._seconds[str(spec)] = round(seconds, 3)
 
     def keep(self) -> None:
-        """Write down what is known for the next run."""
+        """Store the times for the next run."""
         write_atomically(self._path, json.dumps(self._seconds, indent=0, sort_keys=True) + "\n")
 
     def share(self) -> tuple[float, float]:
-        """Seconds done and seconds in all; a solution not seen before counts as those of its problem do."""
+        """Seconds done and total seconds; a new solution counts like others of its problem."""
         known: dict[str, list[float]] = {}
         for spec in self._specs:
             if str(spec) in self._seconds:
@@ -61,7 +61,7 @@ class Effort:
 
 
 def _read(path: Path) -> dict[str, float]:
-    """The seconds a file holds; nothing where it is not one of ours."""
+    """The seconds in a file; empty if it is not such a file."""
     try:
         data = json.loads(path.read_text("utf-8"))
         return {str(name): float(value) for name, value in data.items() if math.isfinite(value)}

@@ -1,4 +1,4 @@
-"""What a set of cases needs: its checks, and every solution with its states, each once."""
+"""The plan of a run: the checks of its cases, and every solution with its states once."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from weakforms.verification.judging.panels import path_wants
 
 @dataclass
 class Plan:
-    """Every solution a set of cases needs, each once, with all the states wanted of it."""
+    """Every solution that a set of cases needs, once, with all its requested states."""
 
     states: dict[Spec, list[At]]
     by_case: dict[str, list[Spec]]
 
     @classmethod
     def of(cls, cases: Iterable[FoundCase]) -> Plan:
-        """Collect what the cases want; reference tables are read and checked here, before any solve.
+        """Collect the solutions of the cases; reference tables are read and checked here, before any solve.
 
-        The slow cases come first: side by side, no solution of minutes is left to be waited for alone.
+        Slow cases come first, so that no long solution is left at the end of a parallel run.
         """
         states: dict[Spec, list[At]] = {}
         by_case: dict[str, list[Spec]] = {}
@@ -54,7 +54,7 @@ def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
 
 
 def checks_of(found: FoundCase) -> list[Check]:
-    """All that judges a case: what its file says, then what must hold for every solution."""
+    """All checks of a case: those of its file, then those of every solution."""
     drawn = [TableTrace(curve) for panel in found.case.panels for curve in panel.curves]
     specs = dict.fromkeys(spec for spec, _ in case_wants(found))
     return [*_written(found.case), *drawn, *(of(spec) for spec in specs for of in (Trace, Identities))]
@@ -66,20 +66,20 @@ def _written(case: Case) -> list[Check]:
 
 
 def check_ids(found: FoundCase) -> list[str]:
-    """What the verdicts of a case will be called, known before anything is solved."""
+    """Names of the verdicts of a case, which are known before anything is solved."""
     stated = [name for check in checks_of(found) for name in check.names(found.paper)]
     pictures = [name for panel in found.case.panels for name in marks.names(found.paper, panel)]
     return list(dict.fromkeys([*stated, *pictures]))
 
 
 def _merge(ats: list[At]) -> list[At]:
-    """One request a state, sampled at the union of the points wanted of it."""
+    """One request for each state, sampled at the union of its requested points."""
     merged: dict[tuple[str, float, int, str], tuple[float, ...] | None] = {}
     for at in ats:
         key = (at.name, at.value, at.crossing, at.branch)
         points = merged.get(key)
         if at.profile is not None:
-            # An empty tuple asks for the problem's own points: they are added wherever a picture is drawn.
+            # An empty tuple requests the default points of the problem, which are added for every picture.
             points = tuple(sorted({*(points or ()), *at.profile}))
         merged[key] = points
     return [At(*key[:3], profile=points, branch=key[3]) for key, points in merged.items()]

@@ -1,7 +1,7 @@
-"""Requests of other programs: one JSON file a request, answered by a file of the same name.
+"""Requests of other programs: one JSON file for each, answered by a file of the same name.
 
 A request asks for a solution (``problem``) or for a verdict on a curve (``case``); both are described by
-``request.schema.json``. What comes back is a result, verdicts, or an error with its exit status.
+``request.schema.json``. The answer is a result, verdicts, or an error with its exit status.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from weakforms.verification.crosscheck.rows import EXIT_STATUS, FAILED, PASSED
 SCHEMA = "weakforms.request/1"
 ERROR_SCHEMA = "weakforms.error/1"
 OUTPUT = "results"
-"""Folder inside the requests' own that answers go to, where no other is named."""
+"""Default folder for answers, inside the folder of the requests."""
 
 
 @cache
@@ -35,19 +35,19 @@ def schema(name: str) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Answer:
-    """What became of one request."""
+    """The outcome of one request."""
 
     name: str
     status: int
-    """Exit status the same request has on the command line."""
+    """Exit status of the same request on the command line."""
     message: str = ""
 
 
 def read_request(path: Path) -> dict[str, Any]:
-    """A request from a file.
+    """Read a request from a file.
 
     Raises:
-        InputError: When it is no JSON, or does not fit the schema.
+        InputError: If it is not JSON, or does not fit the schema.
     """
     data = load_json(path, "request")
     validator = jsonschema.Draft202012Validator(schema("request"))
@@ -59,7 +59,7 @@ def read_request(path: Path) -> dict[str, Any]:
         place = "/".join(map(str, error.absolute_path)) or "top level"
         message = error.message[:200]
         if error.validator == "oneOf" and not error.absolute_path:
-            message = "it wants either a problem, or a case and a curve"
+            message = "it must have either a problem, or a case and a curve"
         raise InputError(f"request {path}: at {place}: {message}")
     return data
 
@@ -69,11 +69,11 @@ def answer(data: Mapping[str, Any], folder: Path, progress: Any = None) -> tuple
 
     Args:
         data: A request that fits the schema.
-        folder: What names of curve files are relative to; they may not lead out of it.
-        progress: Callback of a solve.
+        folder: Folder of the curve files, whose paths may not leave it.
+        progress: Progress callback of a solve.
 
     Raises:
-        WeakformsError: For bad input, or a solve that left nothing.
+        WeakformsError: For bad input, or a solve without a result.
     """
     if "case" in data:
         from weakforms.verification.crosscheck.compare import compare
@@ -109,12 +109,12 @@ def _inside(folder: Path, name: str) -> Path:
         path = (folder / name).resolve()
         inside = path.is_relative_to(folder.resolve())
         regular = path.is_file()
-    except (OSError, ValueError, RuntimeError) as error:  # a NUL in it, a loop of links
-        raise InputError(f"curve {name!r} is no file: {error}") from None
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL in the name, or a loop of links
+        raise InputError(f"curve {name!r} is not a file: {error}") from None
     if not inside:
         raise InputError(f"curve {name!r} lies outside of the folder of the request")
-    if not regular:  # of a pipe nobody knows whether anything will ever come
-        raise InputError(f"curve {name!r} is no file in the folder of the request")
+    if not regular:  # reading a pipe may never end
+        raise InputError(f"curve {name!r} is not a file in the folder of the request")
     return path
 
 
@@ -127,20 +127,20 @@ def run_batch(
 ) -> list[Answer]:
     """Answer every ``*.json`` in a folder, each by a file of the same name in the output folder.
 
-    A request that fails is answered by an error object; the others go on.
+    The answer to a request that fails is an error object; the other requests continue.
 
     Args:
-        folder: With the requests, and the curves they name.
-        out: For the answers; by default ``results`` inside it.
-        resume: Leave what was answered before (newer than its request) as it is.
+        folder: Folder with the requests and their curves.
+        out: Folder for the answers; by default ``results`` inside it.
+        resume: Keep earlier answers that are newer than their request.
         writes: Whether this process writes (rank 0 of several).
-        report: Progress: what, done, of how many.
+        report: Progress callback: current request, number done, number of requests.
 
     Raises:
-        InputError: When there is no request, or the output folder cannot be written to.
+        InputError: If there is no request, or the output folder cannot be written to.
     """
     folder = Path(folder)
-    if out is None and (folder / OUTPUT).is_symlink():  # the folder may be somebody else's
+    if out is None and (folder / OUTPUT).is_symlink():  # anybody may have written the folder
         raise InputError(f"{folder / OUTPUT} is a link; name the folder for the answers with --out")
     out = folder / OUTPUT if out is None else Path(out)
     try:
@@ -148,7 +148,7 @@ def run_batch(
     except OSError as error:
         raise InputError(f"cannot read folder {folder}: {error.strerror}") from error
     if not requests:
-        raise InputError(f"folder {folder} holds no request: no file that ends in .json")
+        raise InputError(f"folder {folder} has no request: no file that ends in .json")
     if out.resolve() == folder.resolve():
         raise InputError(f"answers have the names of their requests: {out} must be another folder")
     require_writable(out)
@@ -175,7 +175,7 @@ def _answered(path: Path, target: Path, writes: bool) -> Answer:
 
 
 def _kept(path: Path, target: Path) -> Answer | None:
-    """An earlier answer that is complete and younger than its request; errors are tried again."""
+    """An earlier answer that is complete and newer than its request; errors are tried again."""
     try:
         if target.stat().st_mtime < path.stat().st_mtime:
             return None

@@ -1,4 +1,4 @@
-"""A run of the suite: what the cases need is solved once, stored, then judged."""
+"""A run of the suite: the solutions of the cases are computed once, stored, then judged."""
 
 from __future__ import annotations
 
@@ -58,9 +58,9 @@ def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
 
 
 def _add(outcome: CaseOutcome, left: Judged) -> None:
-    """Put what a check leaves where it belongs; two panels may draw one table, which is judged once."""
+    """Add the outcome of a check; a table that two panels draw is judged once."""
     judged = {verdict.check for verdict in outcome.verdicts}
-    for item in list(left):  # all of it or nothing: a check that breaks down half-way is missed as a whole
+    for item in list(left):  # all or nothing: a check that fails half-way is missing as a whole
         if isinstance(item, Convergence):
             outcome.convergence.append(item)
         elif not isinstance(item, Verdict):
@@ -71,10 +71,10 @@ def _add(outcome: CaseOutcome, left: Judged) -> None:
 
 @contextmanager
 def _missed(outcome: CaseOutcome, expected: list[str], kind: str) -> Iterator[None]:
-    """A check without numbers to judge is a failed one, never a missing one.
+    """A check without numbers fails; it is never left out.
 
-    A wrong solution may be one the check cannot cope with (no limit point where it takes the first): that
-    is a failure of the check. Only what was not solved is an error of the case.
+    If a check cannot be evaluated for a wrong solution (for example, if there is no limit point), it fails.
+    Only a missing solution is an error of the case.
     """
     try:
         yield
@@ -92,7 +92,7 @@ def _missed(outcome: CaseOutcome, expected: list[str], kind: str) -> Iterator[No
 def _status(outcome: CaseOutcome) -> str:
     if outcome.errors:
         return "error"
-    # A case that judged nothing has verified nothing.
+    # A case without verdicts has verified nothing.
     good = bool(outcome.verdicts) and all(v.passed for v in outcome.verdicts)
     return "passed" if good else "failed"
 
@@ -112,10 +112,10 @@ def _solution(spec: Spec, solver: Solver) -> dict:
 
 @contextmanager
 def alone(cases: list[FoundCase], out: Path, writes: bool) -> Iterator[None]:
-    """Keep the output folder of a run to it; bad input is named before there is a folder.
+    """Lock the output folder of a run; bad input is reported before the folder is created.
 
     Raises:
-        InputError: On every rank, when a case is not sound or another run has the folder.
+        InputError: On every rank, if a case is invalid or another run uses the folder.
     """
     from mpi4py import MPI
 
@@ -146,7 +146,7 @@ def verify(
     """Solve and judge cases; the caller writes the report.
 
     Raises:
-        InputError: Before anything is solved, when a case or a reference table is not sound.
+        InputError: Before anything is solved, if a case or a reference table is invalid.
     """
     begun, started = time.perf_counter(), datetime.now(UTC).isoformat(timespec="seconds")
     plan = Plan.of(cases)
@@ -160,7 +160,7 @@ def verify(
     missing = {found.id: set(plan.by_case[found.id]) for found in cases}
 
     def settle(spec: Spec | None) -> None:
-        """Judge the cases that waited for this solution only."""
+        """Judge the cases whose last solution this is."""
         for found in cases:
             missing[found.id].discard(spec)
             if not missing[found.id] and found.id not in outcomes:

@@ -1,4 +1,4 @@
-"""Solved results by what was asked for: all that judging a case may look at."""
+"""Results by specification, from which cases are judged."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Solutions:
         """The stored result.
 
         Raises:
-            ConvergenceError: When solving it failed altogether.
+            ConvergenceError: If solving it failed altogether.
         """
         if spec not in self._results:
             raise ConvergenceError(f"{spec} was not solved")
@@ -32,7 +32,7 @@ class Solutions:
         """A branch by its name.
 
         Raises:
-            ConvergenceError: When the solution has none of that name.
+            ConvergenceError: If the solution has none of that name.
         """
         try:
             return self.result(spec).branch(name)
@@ -52,14 +52,14 @@ class Solutions:
         return result.points(kind)
 
     def state(self, spec: Spec, at: At) -> State:
-        """The state asked for.
+        """The requested state.
 
         Raises:
-            ConvergenceError: When it is not there; says why.
+            ConvergenceError: If it is missing; the message says why.
         """
         result = self.result(spec)
         for state in result.states:
-            # Values went through JSON as Python floats: equality is exact.
+            # JSON keeps Python floats exactly, so that equality is exact.
             same = state.crossing == at.crossing and state.branch == at.branch
             if same and state.at == {at.name: at.value}:
                 return state
@@ -90,15 +90,15 @@ class Solutions:
         """One number of a special point, with its uncertainty.
 
         Raises:
-            IndexError: When there are fewer points of the kind.
+            IndexError: If there are fewer points of the kind.
         """
         return of_point(self.points(spec, kind)[index], name)
 
     def along(self, spec: Spec, name: str, branch: str = "primary") -> Number:
-        """A column of a branch, each entry as uncertain as the worst of what is solved for on that branch.
+        """A column of a branch, with the largest uncertainty of the states and points on that branch.
 
-        The trace is solved on the finest mesh of those that uncertainties of states and special points come
-        from. Without any of them the uncertainty is not a number, and nothing can be decided.
+        The trace is computed on the finest of the meshes for states and special points. Without any of these
+        the uncertainty is NaN, and nothing can be decided.
         """
         result = self.result(spec)
         known = [s.quantities[name] for s in result.states if s.branch == branch and name in s.quantities]
@@ -129,7 +129,7 @@ class Solutions:
         """A profile's column at the points ``at.profile`` and its uncertainty."""
         field = self.profile(spec, at)
         where = np.asarray(at.profile)
-        abscissa = next(iter(field.columns))  # a field's first column is what it is sampled over
+        abscissa = next(iter(field.columns))  # the first column of a field is its abscissa
         index = np.searchsorted(field.columns[abscissa], where - 1e-12)
         return field.columns[name][index], field.uncertainty[name]
 
@@ -138,7 +138,7 @@ def _meridian(field: Field, theta: float) -> Field:
     """The rows of a surface's field on one meridian.
 
     Raises:
-        ConvergenceError: When the field has none there.
+        ConvergenceError: If the field has none there.
     """
     rows = np.isclose(field.columns["Theta"], theta, rtol=0, atol=1e-9)
     if not rows.any():

@@ -1,4 +1,4 @@
-"""Solve what a plan lists, side by side, and keep what was solved by the code that solved it."""
+"""Solves a plan in parallel, and keeps solutions of the same code."""
 
 from __future__ import annotations
 
@@ -54,15 +54,15 @@ ASIDE = (
     "pytest_plugin.py",
     "__main__.py",
 )
-"""The parts of the package that no number comes from: judging, drawing and telling may change ..."""
+"""Parts of the package that do not change solutions: judging, drawing and messages ..."""
 
 SOLVING = ("verification/cases/specs.py", "verification/run/plan.py", "verification/run/solving.py")
-"""... but for what says which solutions and states are asked for."""
+"""... except for the modules that define the requested solutions and states."""
 
 
 @cache
 def source_digest(folder: Path = PACKAGE) -> str:
-    """Digest of the source that solves: a stored solution is reused only by the code that made it."""
+    """Digest of the source code for solutions; a stored solution is used only by the same code."""
     digest = hashlib.sha256()
     for path in sorted(folder.rglob("*.py")):
         name = path.relative_to(folder).as_posix()
@@ -73,7 +73,7 @@ def source_digest(folder: Path = PACKAGE) -> str:
 
 
 def solution_key(spec: Spec, states: list[At]) -> str:
-    """Name under which a solution is stored."""
+    """Name of the stored solution."""
     from weakforms.solvers.support.provenance import versions
 
     given = _as_compared([spec.problem, spec.parameters, spec.numerics])
@@ -89,12 +89,12 @@ def _as_compared(value: Any) -> Any:
 
 
 class Solver:
-    """Solves a plan into a folder, with what an earlier run left there if that is wanted.
+    """Solves a plan into a folder, using the solutions of an earlier run if requested.
 
     Args:
         folder: Where solutions are stored, one JSON file each.
-        jobs: Processes side by side.
-        resume: Take over what is stored there already.
+        jobs: Number of parallel processes.
+        resume: Keep the stored solutions.
         writes: Whether this process writes (rank 0 of several).
     """
 
@@ -110,12 +110,12 @@ class Solver:
         progress: WorkProgress | None = None,
         settled: Callable[[Spec], None] = lambda _: None,
     ) -> None:
-        """Solve everything; a spec that fails is noted and the others go on.
+        """Solve everything; a failure is recorded and the other solves continue.
 
         Args:
             plan: What to solve.
-            progress: Is told what is being solved, and the seconds of work done and to do.
-            settled: Called with each spec once its result is there or is known to fail.
+            progress: Called with the current solution, and the seconds of work done and in total.
+            settled: Called with each spec when its result is available or has failed.
         """
         progress = progress or WorkProgress()
         effort = Effort(self.folder.parent / "times.json", plan.states)
@@ -150,7 +150,7 @@ class Solver:
         try:
             self.results[spec] = load_result(path)
         except InputError:
-            return False  # cut short by whatever ended that run: solve it again
+            return False  # incomplete, because that run was ended: solve it again
         return True
 
     def _store(self, spec: Spec, text: str) -> None:

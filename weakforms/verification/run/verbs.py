@@ -18,12 +18,12 @@ from weakforms.verification.report.summary import print_summary, run_status
 
 
 def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs: int, resume: bool) -> None:
-    """Solve and judge cases, then write the report and say how it went.
+    """Solve and judge cases, then write the report and print a summary.
 
     Raises:
-        InputError: When a case is not sound, or the folder is another run's or cannot be written.
-        EnvironmentLackError: When nothing can be solved here.
-        typer.Exit: With the contract's status, unless all checks hold.
+        InputError: If a case is invalid, or another run uses the folder, or it cannot be written.
+        EnvironmentLackError: If dolfinx is missing.
+        typer.Exit: With the exit status, unless all checks pass.
     """
     from weakforms import api
     from weakforms.verification.run import runner
@@ -44,7 +44,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
                     progress=progress,
                 )
         except KeyboardInterrupt:
-            complain("interrupted; the same with --resume goes on from what is solved")
+            complain("interrupted; the same command with --resume continues")
             raise typer.Exit(130) from None
         if first:
             for name in (FAULTS, RANDOM, AUDIT):
@@ -60,19 +60,19 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
 def report(
     folder: Path, out: Path | None, as_pdf: bool, seeded: Path | None, others: tuple[Path, ...], jobs: int
 ) -> None:
-    """Draw the report of a stored run again, with what lies beside it.
+    """Draw the report of a stored run again, with the other outcomes in its folder.
 
     Args:
         folder: Output folder of the run, or of its report.
-        out: Where the report goes; by default where it was.
-        as_pdf: Print it too.
-        seeded: What ``faults`` left, elsewhere than in the folder.
-        others: Output folders of other runs, whose numbers are compared with this one's.
-        jobs: Processes that draw, side by side.
+        out: Folder for the report; by default where it was.
+        as_pdf: Whether to write a PDF too.
+        seeded: File with the outcome of ``faults``, if it is not in the folder.
+        others: Output folders of other runs, whose numbers are compared with those of this one.
+        jobs: Number of parallel processes for drawing.
 
     Raises:
-        InputError: When something stored cannot be read or drawn, or the folder not be written.
-        EnvironmentLackError: When it is to be printed and there is no browser.
+        InputError: If a stored file cannot be read or drawn, or the folder cannot be written.
+        EnvironmentLackError: If a PDF is requested and there is no browser.
     """
     from weakforms.verification.report import pdf
 

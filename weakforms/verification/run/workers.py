@@ -1,4 +1,4 @@
-"""Processes that work side by side."""
+"""Parallel processes."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from weakforms.errors import EnvironmentLackError
 
 @contextmanager
 def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Processes that end with this one, even by a kill; after Ctrl-C nothing more is begun in them.
+    """Parallel processes that end with this one, even by a kill; after Ctrl-C they start nothing more.
 
     Args:
-        jobs: How many.
+        jobs: Number of processes.
 
     Raises:
-        EnvironmentLackError: When one of them died.
+        EnvironmentLackError: If one of them ended unexpectedly.
     """
     # Spawned, not forked: MPI and PETSc do not survive a fork.
     pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_parent)
@@ -29,8 +29,8 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
         yield pool
     except BrokenProcessPool:
         raise EnvironmentLackError(
-            "a process at work died, perhaps for want of memory; "
-            f"with fewer than -j {jobs} and --resume the run goes on from what is solved"
+            "a worker process ended unexpectedly, perhaps because of too little memory; "
+            f"with fewer than -j {jobs} and --resume the run continues from the stored solutions"
         ) from None
     finally:
         pool.shutdown(cancel_futures=True)

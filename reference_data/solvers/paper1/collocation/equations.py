@@ -10,11 +10,11 @@ In a sliding zone the unknowns are (rho, eta, l1, th), th the angle by which the
 p_e = p - k (eta - l) where the spring acts. Fronts cut [0, 1/beta] into zones. Each zone is
 mapped to [0, 1], linearly if it begins at the pole, else by x = left (right/left)^s; each of its
 elements carries polynomials on Chebyshev-Lobatto nodes that meet the equations at the Gauss
-points. Conditions tie the zones' ends, p and the fronts; as many as there are unknowns there.
+points. Conditions couple the ends of the zones, p and the fronts; there are as many conditions as unknowns.
 
-All arrays have a leading axis: states of one kind (same zones, same conditions) are solved side
-by side. Newton's derivatives are complex-step, hence exact. Interior nodes are eliminated
-element by element. Source: Patil, DasGupta & Eriksson (2015), equations (10)-(13) and (16).
+All arrays have a leading axis: states of one kind (same zones, same conditions) are solved together. Newton's
+derivatives are complex-step, hence exact. Interior nodes are eliminated element by element. Source: Patil,
+DasGupta & Eriksson (2015), equations (10)-(13) and (16).
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Sliding:
 
 @dataclass(frozen=True)
 class Batch:
-    """States side by side, converged or a guess.
+    """Several states, converged or guesses.
 
     Attributes:
         zones: From the pole to the rim.
@@ -118,7 +118,7 @@ def defect(batch: Batch, d: int, scalars: list[Any], at: list[Any]) -> Array:
 
 @dataclass
 class Eliminated:
-    """Zone d of a batch, its interior nodes expressed by the left end and the scalars.
+    """Zone d of a batch, with its interior nodes expressed by the left end and the scalars.
 
     Attributes:
         inner: Solution operator, shape (state, element, node - 1, unknown, size + scalars + 1).
@@ -216,7 +216,7 @@ def correction(batch: Batch) -> tuple[list[Array], Array]:
 
 
 def newton(batch: Batch, limit: float = 0.3, max_iter: int = 60) -> Batch:
-    """Solve all states; after the first step below 1e-8 one more is taken: rounding errors only.
+    """Solve all states; one more step after the first below 1e-8 leaves rounding errors only.
 
     Raises:
         RuntimeError: If a state does not converge.

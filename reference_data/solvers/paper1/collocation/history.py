@@ -1,9 +1,9 @@
 r"""Adhesive contact with a locked patch by collocation (method b).
 
 The slopes rho_c' = g(x) and F' = x H(x) that the passing front froze in are Chebyshev series on
-[0, reach]. At as many fronts s_j the outer problem [s_j, 1/beta] is solved, all together; what
-comes out just outside the front is what the series must be there: a fixed point, found by
-repeated substitution with Anderson's mixing. Everything else of the patch follows by integrals,
+[0, reach]. At as many fronts s_j the outer problems [s_j, 1/beta] are solved together. The series must equal
+the slopes just outside of the front. This fixed point is found by repeated substitution with Anderson's
+mixing. All other quantities of the patch follow by integrals,
 
 .. math::
    \rho_c = s \int_0^1 g(su)\,du, \quad F = s^2 \int_0^1 u H(su)\,du, \quad
@@ -45,7 +45,7 @@ from reference_data.solvers.paper1.collocation.states import (
 )
 from reference_data.solvers.paper1.membrane import Disk, Patch
 
-STAGES = (0.4, 0.7, 1.0)  # of the reach, so that the free state need not serve as a guess far out
+STAGES = (0.4, 0.7, 1.0)  # fraction of the reach, so that the free state is not a guess far out
 _GAUSS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(24)
 POINTS, WEIGHTS = (_GAUSS + 1) / 2, _GAUSS_WEIGHTS / 2
 
@@ -53,10 +53,10 @@ POINTS, WEIGHTS = (_GAUSS + 1) / 2, _GAUSS_WEIGHTS / 2
 def mixed(step: Callable[[Array], Array], z: Array, tolerance: float, depth: int = 6) -> Array:
     """Fixed point of ``step`` by Anderson's mixing of the last few iterates.
 
-    Stops at changes below ``tolerance``, or below 1e-11 if they fall no more: rounding.
+    It stops at changes below ``tolerance``, or below 1e-11 if they do not decrease further (rounding).
 
     Raises:
-        RuntimeError: If it does not settle to rounding errors.
+        RuntimeError: If it does not converge to rounding errors.
     """
     results: list[Array] = []
     misses: list[Array] = []
@@ -99,7 +99,7 @@ class History:
         return (lagrange(self.fronts, flat) @ values).reshape(np.shape(x))
 
     def stretched(self, reach: float) -> History:
-        """A guess of a longer history: constant where it is not known."""
+        """A guess for a longer history: constant where it is unknown."""
         new = replace(self, reach=reach)
         known = np.minimum(new.fronts, self.reach)
         return replace(new, g=self.series(self.g, known), h=self.series(self.h, known))
@@ -136,7 +136,7 @@ def outer(disk: Disk, mesh: Any, patch: Patch, batch: Batch, p: Any = None) -> B
         rho, eta, l1, th = left[0]
         pull = patch.x * mat.slope(l1, rho / patch.x, disk.alpha) * np.sin(th)
         springs = disk.k * ((eta - disk.l) * patch.rho**2 / 2 + patch.moment)
-        # over x*^2, so that small patches weigh as much as large ones
+        # divided by x*^2, so that small patches have the same weight as large ones
         balance = (scalars[0] * patch.rho**2 / 2 - springs - pull) / patch.x**2
         last = eta - disk.l if p is None else scalars[0] - p
         return [rho - patch.rho, balance, *at_rim(right[0]), last]
@@ -155,7 +155,7 @@ def cut(batch: Batch, picks: Any, disk: Disk, how: Resolution, fronts: Array) ->
 
 
 def between(states: Batch, fronts: Array, wanted: Array) -> Batch:
-    """Guess of the states at wanted fronts, interpolated in those at all fronts."""
+    """Guess for the states at given fronts, interpolated between those at all fronts."""
     rows = lagrange(fronts, wanted)
     y = tuple(np.einsum("ws,s...->w...", rows, part) for part in states.y)
     return replace(states, y=y, scalars=rows @ states.scalars)

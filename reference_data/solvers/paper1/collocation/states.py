@@ -44,7 +44,7 @@ RESOLUTIONS = (
 )
 
 
-ABOVE = 1.02  # the first frictionless state is sought at this multiple of the pressure of first touch
+ABOVE = 1.02  # the first frictionless state is computed at this multiple of the pressure of first touch
 
 
 def at_rim(right: list[Any]) -> list[Any]:
@@ -82,7 +82,7 @@ def one(batch: Batch, state: int) -> Batch:
 
 
 def joined(batches: list[Batch]) -> Batch:
-    """States of several batches of one kind side by side, as values only."""
+    """States of several batches of one kind as one batch, as values only."""
     zones = range(len(batches[0].zones))
     y = tuple(np.concatenate([b.y[d] for b in batches]) for d in zones)
     return replace(batches[0], y=y, scalars=np.concatenate([b.scalars for b in batches]))
@@ -106,7 +106,7 @@ def continued(
     for target in map(float, targets):
         while at != target:
             to = toward(at, target, step(at))
-            far = abs(at - before) > 0.01 * abs(to - at)  # else the difference of the two is rounding
+            far = abs(at - before) > 0.01 * abs(to - at)  # otherwise the difference of the two is rounding
             guess = extrapolated(old, now, (to - at) / (at - before)) if far else now
             old, now, before, at = now, newton(problem(guess, to)), at, to
         out.append(now)
@@ -160,7 +160,7 @@ def frictionless(disk: Disk, how: Resolution, onset: Batch, pressures: Array) ->
         first,
         pressures,
         lambda guess, p: frictionless_at(guess, np.array([p])),
-        lambda p: min(0.2, 0.5 * (p - touch)),  # the front grows like the root of p - touch
+        lambda p: min(0.2, 0.5 * (p - touch)),  # the front grows like the square root of p - touch
     )
 
 

@@ -36,13 +36,13 @@ State = Sequence[float]
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How finely is integrated; two of these make an uncertainty.
+    """Accuracy of the integration; two of them give an uncertainty.
 
     Attributes:
         rtol: Relative tolerance of the Runge-Kutta steps (absolute: a tenth of it).
-        start: Where the series at the pole is left, as a fraction of 1/beta.
+        start: End of the series at the pole, as a fraction of 1/beta.
         history: Relative tolerance of the integration over the front position.
-        first: Where that begins; what is wrong there is forgotten like (first/x*)^2.
+        first: Start of that integration; an error there decays like (first/x*)^2.
     """
 
     rtol: float
@@ -95,7 +95,7 @@ def shoot(
     The state is followed by volume and energy (totals) or by the volume alone (moment).
 
     Raises:
-        RuntimeError: If the integrator gives up.
+        RuntimeError: If the integrator fails.
     """
     k, height, alpha = (disk.k if spring else 0.0), disk.l, disk.alpha
 

@@ -150,7 +150,7 @@ class Inflation:
         return Edge(self.disk, patch, p, self.disk.l, slope, dip, self.how)
 
     def frozen(self, x: float) -> Patch:
-        """What the front left at x."""
+        """The frozen patch up to x."""
         if x not in self.known:
             self.known[x] = self.at(x).patch
         return self.known[x]

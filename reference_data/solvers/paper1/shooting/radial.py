@@ -1,9 +1,9 @@
 r"""Adhesive inflation without radial slip only (model N) by shooting (method a).
 
-The frozen radius is marched over the front position: piece by piece, rho_c' is a polynomial
-through the ends and Radau's points of the piece, found by repeated substitution; each front is
-solved by shooting from the pole through the patch and on to the rim. In the patch (eta, V) with
-V = x W_1 eta'/lambda1 is integrated, V' = -(p - k (eta - l)) rho_c rho_c', eta' by inverting V.
+The frozen radius is integrated over the front position. On each interval rho_c' is a polynomial through the
+ends and Radau's points of the interval, found by repeated substitution; each front is solved by shooting from
+the pole through the patch and on to the rim. In the patch (eta, V) with V = x W_1 eta'/lambda1 is integrated,
+V' = -(p - k (eta - l)) rho_c rho_c', eta' by inverting V.
 
 Source: Patil, DasGupta & Eriksson (2015), section 3.2, read as "no tangential slip" of the
 radius alone.
@@ -23,9 +23,9 @@ from reference_data.solvers.paper1.membrane import toward
 from reference_data.solvers.paper1.shooting.equations import Array, Newton, shoot
 from reference_data.solvers.paper1.shooting.states import Shot, seed
 
-WIDEST, GROWTH = 0.06, 0.5  # pieces: growth relative to the position
+WIDEST, GROWTH = 0.06, 0.5  # intervals: growth relative to the position
 NODES = 6
-PICARD, SETTLED = 1e-12, 1e-9  # small enough; small, and falling no more: rounding
+PICARD, SETTLED = 1e-12, 1e-9  # small enough; or small, and not decreasing further (rounding)
 
 
 def radau(n: int) -> Array:

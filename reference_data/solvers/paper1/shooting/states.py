@@ -2,8 +2,8 @@
 
 Free: unknowns (lambda0, p) at a given pole height, or (lambda0, t0) at a given pressure.
 Frictionless: unknowns (lambda0, t0, x*), the spring acting on [0, x*]; residuals eta(x*) - l,
-rho(1/beta) - 1 and eta(1/beta). Integration goes to the rim, not to the first point where
-lambda2 = beta, which a bulging membrane meets before it.
+rho(1/beta) - 1 and eta(1/beta). Integration ends at the rim, not at the first point with lambda2 = beta,
+which a bulging membrane reaches before the rim.
 
 Source: Patil, DasGupta & Eriksson (2015), section 3.1.
 """

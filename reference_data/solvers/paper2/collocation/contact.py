@@ -59,7 +59,7 @@ class History(Protocol):
 
 @dataclass(frozen=True)
 class Zone:
-    """Part of the tube between two fronts."""
+    """A part of the tube between two fronts."""
 
     mesh: Mesh
     stuck: bool = False
@@ -81,7 +81,7 @@ class State:
         zones: From the mid-plane to the disk.
         y: Nodal values per zone, shape (elements, degree + 1, 4 or 2).
         scalars: p, then the fronts.
-        history: What the stuck zones are stuck to.
+        history: Frozen position of the stuck zones.
     """
 
     tube: Tube

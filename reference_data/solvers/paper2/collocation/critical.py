@@ -20,7 +20,7 @@ from reference_data.solvers.core.collocation import Array, Mesh, State
 from reference_data.solvers.core.mooney_rivlin import Tube
 
 MESHES = (Mesh(10, 12), Mesh(14, 16))
-ROUNDING = 2e-13  # relative; what remains of Newton's last step, seen between the two meshes
+ROUNDING = 2e-13  # relative; remaining error of Newton's last step, from the two meshes
 
 
 @dataclass
@@ -46,7 +46,7 @@ def quantities(state: State, volume: float) -> dict[str, float]:
 
 
 def start(tube: Tube, mesh: Mesh, control: str, target: float) -> State:
-    """The state at the first target, by way of u_max = 0.3, where Newton starts easily."""
+    """The state at the first target, starting from u_max = 0.3, where Newton converges easily."""
     state, system = col.newton(col.first_guess(tube, mesh, 0.3), "u", 0.3)
     now = system.volume if control == "V" else 0.3
     for step in np.linspace(now, target, 6)[1:]:
@@ -65,7 +65,7 @@ class Branch:
 
 
 def branch(tube: Tube, mesh: Mesh, control: str, targets: Array) -> Branch:
-    """Solve at each target in turn, the last state being the next guess."""
+    """Solve at each target in turn, with the last state as the next guess."""
     state = start(tube, mesh, control, float(targets[0]))
     states, rows, rate = [], [], []
     for target in targets:
@@ -98,7 +98,7 @@ def limit_point(guess: State, control: str, max_iter: int = 20) -> tuple[State, 
         step = float(np.clip(-p1 / p2, -0.2, 0.2))
         if abs(step) < 1e-12 * max(1.0, abs(at)):
             return state, system.volume
-        # rounding in p1 keeps the step from ever being exactly zero: stop once it stagnates
+        # rounding in p1 prevents a step of exactly zero: stop if it stagnates
         if abs(step) < 1e-9 and abs(p1) < 1e-12:
             return state, system.volume
         at += step

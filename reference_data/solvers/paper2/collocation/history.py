@@ -1,6 +1,6 @@
 r"""Adhesive inflation by collocation in the front position, and adhesive deflation after it.
 
-A point sticks when it touches: in the patch [0, z_f] eta(z) = eta_c(z) for good, only rho moves.
+A point sticks when it touches: in the patch [0, z_f] eta(z) = eta_c(z) permanently, and only rho changes.
 While the patch grows both force components are continuous at the front, so that
 eta_c'(z_f) = eta'(z_f+), z_f being where rho = s. This determines eta_c' from
 eta_c'(0) = lambda1 at first touch on.
@@ -105,7 +105,7 @@ class Inflation:
         self.first, self.volume = st.touch(tube, substrate, how.free)
         self.how, self.p_end = how, p_end
         smooth = st.frictionless(self.first, substrate, how, np.array([p_end]))[0].state
-        front = float(smooth.fronts[0])  # that of adhesive contact is near it, before or after
+        front = float(smooth.fronts[0])  # the front of adhesive contact is near it, before or after
         for margin in (0.0, 0.02, 0.05, 0.1):
             self.end = front + margin * (tube.length - front)
             self.states = self._guesses(substrate)
@@ -225,7 +225,7 @@ def lifted(state: State, how: Resolution, p: float) -> tuple[State, Linearised]:
         RuntimeError: If there is none with 0 < z_1 < z_f.
     """
     front = float(state.fronts[-1])
-    if len(state.zones) == 2:  # the patch has just begun to lift: start from the bilateral state
+    if len(state.zones) == 2:  # the patch has just started to lift: start from the bilateral state
         state, _ = con.newton(state, [("scalar", 0, p), ("scalar", 1, front)])
         z = np.linspace(0, front, 2001)
         z_1 = float(z[np.nonzero(st.profile(state, z, side=-1)[:, 0] > state.substrate.s)[0][-1]])

@@ -1,4 +1,4 @@
-r"""States of the half tube in contact by front-fitted collocation: frictionless, and what is read off.
+r"""States of the half tube in contact by front-fitted collocation: frictionless states, and columns.
 
 Frictionless inflation: zones [0, z_1] with the spring and [z_1, L] without, rho(z_1) = s, all
 four unknowns continuous. The scalar that is prescribed is p or the front z_1 itself.
@@ -60,7 +60,7 @@ def frictionless_near_touch(first: free.State, substrate: Substrate, how: Resolu
 
 
 def shifted(state: State, fronts: Array) -> State:
-    """Guess with the fronts elsewhere: the same values at the same fractions of each zone."""
+    """Guess with other fronts: the same values at the same fractions of each zone."""
     return replace(state, scalars=np.append(state.p, fronts))
 
 
@@ -75,7 +75,7 @@ def at_pressure(guess: State, p: float) -> tuple[State, Linearised]:
 
 
 def frictionless(first: free.State, substrate: Substrate, how: Resolution, p: Array) -> list[Linearised]:
-    """States at rising pressures, walked to from first touch over the front position."""
+    """States at rising pressures, reached from first touch over the front position."""
     out: list[Linearised] = []
     z, step = 0.0, 0.04 * first.tube.length
     state = frictionless_near_touch(first, substrate, how, step)
@@ -138,7 +138,7 @@ def summary(system: Linearised) -> dict[str, float]:
 
 @dataclass
 class Patch:
-    """What the stuck zone carries, at the nodes of its elements (elements, degree + 1)."""
+    """Tractions of the stuck zone at the nodes of its elements (elements, degree + 1)."""
 
     z: Array
     f_t: Array

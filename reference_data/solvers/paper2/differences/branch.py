@@ -1,8 +1,8 @@
 """Branches, states and profiles of the half tube by finite differences, with extrapolation.
 
 A branch is traced on a coarse grid by pseudo-arclength, the predictor being the cubic through
-the last four points (the paper's device); every wanted state is then solved for, at exactly
-the wanted u_max, volume or pressure, on three grids n, 2n, 4n and extrapolated to h = 0.
+the last four points (the paper's device); every requested state is then solved for, at exactly the requested
+u_max, volume or pressure, on three grids n, 2n, 4n, and extrapolated to h = 0.
 """
 
 from __future__ import annotations
@@ -196,7 +196,7 @@ def curve(tube: Tube, control: str, targets: Array) -> dict[str, Extrapolated]:
 
 
 def sampling(positions: Array, at: Array, width: int = 8) -> Array:
-    """Matrix of local interpolation of degree width-1, so high that h^2 series survive."""
+    """Matrix of local interpolation of degree width-1, high enough to keep the series in h^2."""
     rows = np.zeros((len(at), len(positions)))
     for i, x in enumerate(at):
         low = int(np.clip(np.searchsorted(positions, x) - width // 2, 0, len(positions) - width))

@@ -160,7 +160,7 @@ def touching(tube: Tube, substrate: Substrate, grid: Any) -> tuple[Array, float]
 
 
 def walk(tube: Tube, substrate: Substrate, p: Array, n: int = GRIDS[0]) -> list[Contact]:
-    """States at rising pressures on one grid size, walked to over the front position."""
+    """States at rising pressures on one grid size, reached over the front position."""
     grid = Fitted(n, numerator(0.04), 0.04)
     first = touching(tube, substrate, grid)
     behind, state = (0.0, first[1]), solve(Contact(tube, substrate, grid, *first))
@@ -213,9 +213,9 @@ def extrapolated(
 
     The uncertainty is the change made by the last elimination (the error of the value from the
     finer grids with one power less), an eighth of the one before, and rounding. ``irregular``:
-    part of the error depends on where a kink falls between the nodes, which grids do not tell
-    but other rows do; the difference to the limit without the finest grid is added, and ten
-    times the largest of this row and its three neighbours on each side is taken. ``amplified``
+    part of the error depends on the position of a kink between the nodes, which differences between grids do
+    not show, but differences between rows do. The difference to the limit without the finest grid is added,
+    and ten times the largest value of this row and its three neighbours on each side is used. ``amplified``
     multiplies the rounding error of a slope (extrapolation to an end of a zone does so).
     """
     v = [np.asarray(x, dtype=float) for x in values]

@@ -7,10 +7,10 @@ meridian with the axis, with
    r' = l \sin b,\quad z' = l \cos b,\quad
    \eta W_1\, b' = \eta W_2 \cos b - P r l,
 
-and, tense, eta W_11 l' = eta (W_2 - W_12 l) sin b - eta' W_1, or, wrinkled,
+and, taut, eta W_11 l' = eta (W_2 - W_12 l) sin b - eta' W_1, or, wrinkled,
 eta W_r'' l' = -eta' W_r' with W_2 = 0 (the equilibrium equations of Patil, Nordmark & Eriksson,
 Eur. J. Mech. A/Solids 54 (2015) 1-10, solved for the highest derivatives); r = Af at both ends,
-z(0) = 0, z(L) = delta L. Each zone is of one state (tense or wrinkled, wet or dry), so that its
+z(0) = 0, z(L) = delta L. Each zone is of one state (taut or wrinkled, wet or dry), so that its
 equations are smooth; at a front r^2 l = 1, at the surface z = zw.
 
 Every element carries polynomials on Chebyshev-Lobatto nodes and meets the equations at its
@@ -34,7 +34,7 @@ STEP = 1e-30
 
 @dataclass(frozen=True)
 class Rule:
-    """Polynomials of one degree on [0, 1], and how long an element may be.
+    """Polynomials of one degree on [0, 1], and the largest length of an element.
 
     Attributes:
         degree: Polynomial degree, also the number of collocation points per element.
@@ -62,12 +62,12 @@ class Rule:
 
 @dataclass(frozen=True)
 class Pattern:
-    """Breakpoints and what lies between them.
+    """Breakpoints, and the zones between them.
 
     Attributes:
         breaks: 0, the fronts and the surface in rising order, L.
         kinds: "front" or "surface" for each inner breakpoint.
-        tense: Whether each zone is tense.
+        tense: Whether each zone is taut.
         wet: Whether each zone lies below the surface (all True for gas).
     """
 
@@ -83,7 +83,7 @@ class Pattern:
 
     @property
     def signature(self) -> tuple[bool, ...]:
-        """Tense or wrinkled from the bottom up, the surface disregarded."""
+        """Taut or wrinkled from the bottom up, without the surface."""
         return tuple(t for i, t in enumerate(self.tense) if i == 0 or t != self.tense[i - 1])
 
     def moved(self, inner: Array) -> Pattern:
@@ -202,7 +202,7 @@ class Linearised:
             scalar: For the load, or for the volume.
         """
         state, k = self.state, len(self.zone)
-        first = 4 * (k + 1)  # where the inner breakpoints begin
+        first = 4 * (k + 1)  # index of the first inner breakpoint
         a, b = np.zeros((first + self.inner + 1,) * 2), np.zeros(first + self.inner + 1)
         for e in range(k):
             rows, left = slice(4 * e, 4 * e + 4), slice(4 * e, 4 * e + 4)

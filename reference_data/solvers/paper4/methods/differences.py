@@ -1,4 +1,4 @@
-r"""Central finite differences with the Heaviside form: the paper's own, untracked scheme.
+r"""Central finite differences with the Heaviside form: the paper's scheme, without tracked fronts.
 
 On n equal intervals, with stretches at the mid-points from differences and means of r and z,
 
@@ -6,10 +6,9 @@ On n equal intervals, with stretches at the mid-points from differences and mean
    (\eta W_1 r'/l_1)' = \eta W_2 - P r z',\qquad (\eta W_1 z'/l_1)' = P r r'
 
 (Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids 54 (2015) 1-10, equations (12), (13) and the
-relaxed energy), tense or wrinkled being decided at each mid-point by the sign of gw - 1. The
-equations are Lipschitz across a front, so that Newton's method needs no tracking; the order of
-accuracy suffers there. It finds the pattern of zones for the tracked solvers, and is itself
-measured against them.
+relaxed energy), where the sign of gw - 1 decides at each mid-point between taut and wrinkled. The equations
+are Lipschitz continuous across a front, so that Newton's method needs no tracking, but the order of accuracy
+is lower there. The scheme finds the pattern of zones for the tracked solvers, and is compared with them.
 """
 
 from __future__ import annotations
@@ -136,7 +135,7 @@ def unloaded(membrane: Membrane, n: int) -> Grid:
 
 
 def walk(start: Grid, load: float) -> Grid:
-    """Raise the load step by step, each step as long as Newton's method will bear.
+    """Raise the load step by step, with steps as long as Newton's method converges.
 
     Raises:
         RuntimeError: If the steps become too short.

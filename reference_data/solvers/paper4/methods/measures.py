@@ -1,4 +1,4 @@
-"""What is read off a tracked equilibrium: fronts, extremes, volume, tension."""
+"""Numbers of a tracked equilibrium: fronts, extremes, volume, tension."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from reference_data.solvers.paper4.methods.collocation import State
 from reference_data.solvers.paper4.methods.states import evaluate, wrinkling
 
 SCALARS = ("V", "r_max", "N", "gw_max", "gw_min", "wrinkled_fraction")
-TINY = 1e-300  # stands for an exact zero, which has no sign
+TINY = 1e-300  # replaces an exact zero, which has no sign
 GRID = np.linspace(0, 1, 33)
 
 
@@ -41,7 +41,7 @@ class Measures:
 
 
 def fraction_below(fronts: Array, first: bool, length: float) -> float:
-    """Part of the length with gw < 1, when the state below the first front is known."""
+    """Fraction of the length with gw < 1, from the state below the first front."""
     marks = np.concatenate([[0.0], fronts, [length]])
     wrinkled = (np.arange(len(marks) - 1) % 2 == 0) != first
     return float(np.sum(np.diff(marks)[wrinkled])) / length
@@ -71,7 +71,7 @@ def derivative(state: State, values: Array) -> Array:
 
 
 def measures(state: State, volume: float) -> Measures:
-    """Everything that the tables hold of a state."""
+    """All numbers of a state for the tables."""
     membrane, y = state.membrane, state.y
     g = wrinkling(y)
     slope = derivative(state, g)

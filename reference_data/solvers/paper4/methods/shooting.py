@@ -1,4 +1,4 @@
-r"""Multiple shooting in momenta, fronts and surface met as events: no pattern is given.
+r"""Multiple shooting in momenta; fronts and surface are events, and no pattern is given.
 
 Unknowns over s: r, z and the components A, F of the meridional tension, in the form
 
@@ -6,11 +6,11 @@ Unknowns over s: r, z and the components A, F of the meridional tension, in the 
    r' = l A/T,\quad z' = l F/T,\quad A' = \eta W_2 - P r z',\quad F' = P r r',\qquad
    T = \sqrt{A^2 + F^2} = \eta W_1(l, r),
 
-which holds in tense and wrinkled parts alike (Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids
-54 (2015) 1-10, equilibrium with the relaxed energy), l being solved from T at every stage. The
-right-hand side is continuous, so that only the step that holds an event must be cut there. Steps
-are those of the eighth-order Runge-Kutta formula of Dormand and Prince at a fixed length, all
-segments in parallel; derivatives by complex step.
+which is valid in both taut and wrinkled parts (Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids
+54 (2015) 1-10, equilibrium with the relaxed energy), where l follows from T at every stage. The right-hand
+side is continuous, so that only a step that contains an event must be cut there. Steps are those of the
+eighth-order Runge-Kutta formula of Dormand and Prince at a fixed length, all segments in parallel;
+derivatives by complex step.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from reference_data.solvers.paper4.material import Array, Membrane
 
 STEP = 1e-30
 SEGMENTS = 32
-NO_SIGN = 1e-13  # an event must pass its zero by more than this: the rest is rounding
+NO_SIGN = 1e-13  # an event must pass its zero by more than this, which is rounding
 NO_ZONE = 1e-11  # shortest zone between a front and a disk
 A, B, C = DOP853.A[:12, :12], DOP853.B, DOP853.C[:12]
 
 
 def stretch(force: Array, r: Array, tense: Array, c2: float, start: Array | None = None) -> Array:
-    """Root l of W_1(l, r) = force (tense) or W_r'(l) = force (wrinkled); (segments, copies).
+    """Root l of W_1(l, r) = force (taut) or W_r'(l) = force (wrinkled); (segments, copies).
 
-    Both rise and are concave in l: from a start on the left of it Newton climbs to the root. That
-    is done for the first, real copy; the others differ by imaginary increments only, for which one
-    further step is exact.
+    Both rise and are concave in l: from a start to the left of the root, Newton's method converges
+    monotonically. This is done for the first, real copy; the others differ by imaginary increments only, for
+    which one further step is exact.
     """
 
     def correction(l1: Array, force: Array, r: Array) -> Array:
@@ -89,7 +89,7 @@ def cubic_root(h: float, f0: float, f1: float, d0: float, d1: float) -> float:
 
 @dataclass
 class Part:
-    """A smooth piece of one step: where it starts, its length, its flags, its first and last values."""
+    """A smooth part of one step: its start, its length, its flags, its first and last values."""
 
     s: float
     h: float
@@ -122,11 +122,11 @@ class Shot:
             path.append(np.real(y[:, 0]))
         self.ends, self.path = y, np.stack(path, axis=1)
         self.parts = sorted(parts, key=lambda p: p.s)
-        # where gw = 1 at a disk, rounding may put a front there that separates nothing
+        # if gw = 1 at a disk, rounding may create a front there that separates nothing
         self.fronts = np.sort([x for x in fronts if NO_ZONE < x < membrane.L - NO_ZONE])
 
     def flags(self, s: Array, y: Array) -> tuple[Array, Array]:
-        """Tense and wet at the segments' starts, by the signs there."""
+        """Taut and wet at the segments' starts, by the signs there."""
         every = np.ones(len(s), bool)
         tense = every if self.membrane.energy == "standard" else self.switches(s, y, every)[0][:, 0] > 0
         wet = every if self.membrane.load == "gas" else np.real(self.load[0] - y[:, 0, 1]) > 0
@@ -197,7 +197,7 @@ class Shot:
         raise RuntimeError(f"shooting: too many events in one step for {self.membrane}")
 
     def crossed(self, s: Array, y: Array, tense: Array, wet: Array) -> Array:
-        """0, or the event that a step has passed: 1 a front, 2 the surface (3: both)."""
+        """The event that a step has passed: 0 none, 1 a front, 2 the surface, 3 both."""
         g, depth = (x[:, 0] for x in self.switches(s, y, tense))
         front = np.where(tense, -g, g) > NO_SIGN
         surface = np.where(wet, -depth, depth) > NO_SIGN
@@ -236,7 +236,7 @@ class Shot:
                 x = float(np.clip(x + step, 0.0, h))
                 if abs(step) < 1e-12:
                     break
-            else:  # gw all but touches 1 here: nothing that Newton's method likes
+            else:  # gw nearly touches 1 here, which is difficult for Newton's method
                 x = float(brentq(lambda x, at=at: at(x)[0], 0.0, h, xtol=1e-14))
             found.append((x, which + 1))
         return min(found)

@@ -1,4 +1,4 @@
-"""The same numbers as :mod:`methods.measures`, read off a shot by their own means."""
+"""The same numbers as :mod:`methods.measures`, computed independently from a shot."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def inside(shot: Shot, index: int, x: float) -> tuple[Array, Array, Array, Array
     return s + x, np.real(y[:, 0]), t, w
 
 
-TINY = 1e-300  # stands for an exact zero, which has no sign
+TINY = 1e-300  # replaces an exact zero, which has no sign
 Value = Callable[[int, float], float]
 
 
@@ -81,7 +81,7 @@ class Reading:
 
 
 def measures(found: Solution) -> Measures:
-    """Everything that the tables hold of a state."""
+    """All numbers of a state for the tables."""
     shot, membrane, reading = found.shot, found.membrane, Reading(found)
     first, last, value = reading.gw(1)
     stationary = [value(i, x) for _, i, x, _ in reading.zeros(*reading.gw(2))]

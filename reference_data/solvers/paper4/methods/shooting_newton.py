@@ -48,7 +48,7 @@ def from_grid(grid: Grid) -> Array:
 
 
 def defects(membrane: Membrane, starts: Array, load: float, shot: Shot, control: str, target: float) -> Array:
-    """What is missing: continuity, r(0), z(0), r(L), z(L), then the load or the volume."""
+    """The defects of continuity, r(0), z(0), r(L), z(L), then of the load or the volume."""
     end = np.real(shot.ends[:, 0])
     now = end[:, 4].sum() if control == "V" else load
     ends = [membrane.radius - starts[0, 0], -starts[0, 1]]
@@ -102,7 +102,7 @@ def solve(
 
 
 def refined(coarse: Solution, target: float, steps: int) -> Solution:
-    """The same state with shorter steps, by Newton's method with the matrix at hand.
+    """The same state with shorter steps, by Newton's method with the available matrix.
 
     Raises:
         RuntimeError: If the iteration does not converge.

@@ -1,8 +1,8 @@
 """Tracked equilibria: Newton's method, the choice of zones, and the check of their signs.
 
-The pattern of zones is first read off the untracked finite differences, or the last state of a
-walk; after each solve gw - 1 is evaluated inside every zone, and the pattern is mended until
-every zone has the sign it claims.
+The first pattern of zones comes from the untracked finite differences, or from the last state of a branch.
+After each solve gw - 1 is evaluated inside every zone, and the pattern is corrected until every zone has the
+right sign.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from reference_data.solvers.paper4.methods import differences as fd
 from reference_data.solvers.paper4.methods.collocation import Linearised, Pattern, Rule, State
 
 RULES = (Rule(16, 0.4), Rule(18, 0.3))
-SAMPLES = np.linspace(0, 1, 25)[1:-1]  # where the sign is checked inside an element
-NO_SIGN = 3e-12  # |gw - 1| below this is rounding: the state of such a point is not decided
+SAMPLES = np.linspace(0, 1, 25)[1:-1]  # points at which the sign is checked inside an element
+NO_SIGN = 3e-12  # |gw - 1| below this is rounding, and the state of such a point is not decided
 SHORTEST = 1e-9  # a zone shorter than this (in Ao) has vanished
 
 Curve = Callable[[Array], Array]  # s -> (r, z, l, b) along the last axis
@@ -42,12 +42,12 @@ def evaluate(state: State, s: Array) -> Array:
 
 
 def wrinkling(y: Array) -> Array:
-    """The sign that matters, gw - 1, from (r, z, l, b)."""
+    """The function gw - 1, whose sign decides, from (r, z, l, b)."""
     return y[..., 0] * np.sqrt(y[..., 2]) - 1
 
 
 def build(membrane: Membrane, rule: Rule, pattern: Pattern, curve: Curve, load: float) -> State:
-    """A state to start Newton from, elements chosen by the zones' lengths."""
+    """A first state for Newton's method, with elements chosen by the lengths of the zones."""
     widths = np.diff(pattern.breaks)
     counts = tuple(int(np.ceil(w / rule.longest)) for w in widths)
     state = State(membrane, rule, pattern, counts, np.empty(0), load)
@@ -100,7 +100,7 @@ def pattern_from(
 ) -> Pattern:
     """Pattern from flags at positions s; cut holds the guessed front after each sample.
 
-    ``below`` tells whether the lower end is wet (always said of gas).
+    ``below`` says whether the lower end is wet (always true for gas).
     """
     flips = np.nonzero(tense[:-1] != tense[1:])[0]
     found = [(float(cut[i]), "front") for i in flips]
@@ -133,7 +133,7 @@ def surface_of(membrane: Membrane, height: Callable[[float], float], load: float
 
 
 def from_grid(grid: fd.Grid, rule: Rule) -> State:
-    """Guess and pattern from finite differences; zones of one or two cells are taken for noise."""
+    """Guess and pattern from finite differences; zones of one or two cells are ignored as noise."""
     membrane = grid.membrane
     nodes = np.linspace(0, membrane.L, grid.n + 1)
     s, _, l1, angle = grid.middle
@@ -174,7 +174,7 @@ def signs(state: State) -> tuple[Array, Array, Array]:
 
 
 def mended(state: State) -> State | None:
-    """The state with the zones its own signs ask for; None if it already has them."""
+    """The state with the zones of its own signs; None if it already has them."""
     if state.membrane.decided(state.load):
         return None
     s, g, flags = signs(state)
@@ -198,7 +198,7 @@ def mended(state: State) -> State | None:
 
 
 def without(state: State, zone: int) -> State:
-    """The state with a vanished zone given to its neighbours, the surface left where it is."""
+    """The state without a vanished zone, which joins its neighbours, and with the same surface."""
     p = state.pattern
     middle = (np.array(p.breaks[:-1]) + np.array(p.breaks[1:])) / 2
     keep = [i for i in range(len(p.tense)) if i != zone]
@@ -206,14 +206,14 @@ def without(state: State, zone: int) -> State:
     tense = np.repeat(np.array(p.tense)[keep], 3)
     cut = (s[:-1] + s[1:]) / 2
     surface = None
-    if zone < len(p.tense) - 1 or p.wet[-1]:  # else the surface leaves by the upper end
+    if zone < len(p.tense) - 1 or p.wet[-1]:  # otherwise the surface leaves at the upper end
         surface = surface_of(state.membrane, lambda x: float(evaluate(state, np.array(x))[1]), state.load)
     pattern = pattern_from(state.membrane, s, tense, cut, surface, wets(state.membrane, state.load))
     return build(state.membrane, state.rule, pattern, lambda x: evaluate(state, x), state.load)
 
 
 def polished(guess: State, control: str, target: float) -> tuple[State, Linearised]:
-    """Solve and mend the zones until their signs are right.
+    """Solve and correct the zones until their signs are right.
 
     Raises:
         RuntimeError: If Newton's method fails, or the pattern does not settle.

@@ -4,7 +4,7 @@ On n equal intervals in t, with R = sin t and stretches at the mid-points,
 
 .. math:: (R W_1 r'/l_1)' = W_2 - p r z',\qquad (R W_1 z'/l_1)' = p r r',
 
-tense or wrinkled being decided at each mid-point by the sign of l2^2 l1 - 1 (paper 5 of the thesis,
+where the sign of l2^2 l1 - 1 decides at each mid-point between taut and wrinkled (paper 5 of the thesis,
 section 3.3). At the pole r = 0, and the vertical force balances the pressure on half an interval.
 """
 
@@ -68,6 +68,6 @@ def newton(y: Array, level: float, kappa: float, max_iter: int = 200) -> Array:
 
 
 def state(level: float, kappa: float, n: int = 120) -> tuple[Array, Array]:
-    """Angles t and nodal (r, z) at a high level, from a sphere drawn down by a fiftieth."""
+    """Angles t and nodal (r, z) at a high level, starting from a sphere lowered by a fiftieth."""
     t = np.linspace(0, np.pi / 2, n + 1)
     return t, newton(np.stack([np.sin(t), -1.02 * np.cos(t)], axis=-1), level, kappa)

@@ -19,7 +19,7 @@ KNOWN: dict[float, tuple[Hanging, Hanging]] = {}
 
 
 def held(z_pole: float) -> tuple[Hanging, Hanging]:
-    """States with the pole at a given height (below -1.3), coarse and fine, by a walk from the nearest."""
+    """States with the pole at a given height (below -1.3), coarse and fine, in steps from the nearest."""
     if not KNOWN:
         state = hem.polished(hem.start(-0.6), "z_pole", -1.33)
         KNOWN[-1.33] = state, hem.polished(hem.moved_to(state, hem.RULES[1]), "z_pole", -1.33)

@@ -6,7 +6,7 @@ Unknowns r, z and the components A, F of the meridional tension per radian,
    r' = l A/T,\quad z' = l F/T,\quad A' = W_2 - p r z',\quad F' = p r r',\qquad
    T = \sqrt{A^2 + F^2} = R W_1(l, r/R),
 
-valid in tense and wrinkled parts alike (paper 5 of the thesis, section 3.3), from the pole's
+valid in both taut and wrinkled parts (paper 5 of the thesis, section 3.3), from the pole's
 expansion at a small angle t0,
 
 .. math::
@@ -34,7 +34,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Where the pole's expansion ends, and the relative tolerance of a step."""
+    """End of the pole's expansion, and the relative tolerance of a step."""
 
     t0: float
     rtol: float

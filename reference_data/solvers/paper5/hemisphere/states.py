@@ -21,7 +21,7 @@ from reference_data.solvers.paper5.hemisphere.collocation import (
 
 Array = np.ndarray
 RULES = (Rule(16, 0.16), Rule(18, 0.12))
-SAMPLES = np.linspace(0, 1, 25)[1:-1]  # where the sign is checked inside an element
+SAMPLES = np.linspace(0, 1, 25)[1:-1]  # points at which the sign is checked inside an element
 NO_SIGN = 3e-12  # |gw - 1| below this is rounding
 
 
@@ -41,14 +41,14 @@ def wrinkling(t: Array, y: Array) -> Array:
 
 
 def built(rule: Rule, pattern: Pattern, curve: Any, zw: float) -> Hanging:
-    """A state to start Newton from."""
+    """A first state for Newton's method."""
     state = Hanging(rule, pattern, np.empty(0), zw, counts(pattern, rule))
     state.y = curve(state.t)
     return state
 
 
 def mended(state: Hanging) -> Hanging | None:
-    """The state with the zones its own signs ask for; None if it already has them."""
+    """The state with the zones of its own signs; None if it already has them."""
     edges = state.edges
     t = (edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES).ravel()
     t = np.concatenate([[0.0], t, [EQUATOR]])
@@ -86,7 +86,7 @@ def rebuilt(state: Hanging, found: list[tuple[float, str]], first: bool) -> Hang
 
 
 def without(state: Hanging, zone: int) -> Hanging:
-    """The state with a vanished zone given to its neighbours."""
+    """The state without a vanished zone, which joins its neighbours."""
     p = state.pattern
     inner = list(zip(p.breaks[1:-1], p.kinds, strict=True))
     ends = [i for i in (zone - 1, zone) if 0 <= i < len(inner)]
@@ -101,10 +101,10 @@ def without(state: Hanging, zone: int) -> Hanging:
 
 
 def polished(guess: Hanging, control: str, target: float) -> Hanging:
-    """Solve and mend the zones until their signs are right.
+    """Solve and correct the zones until their signs are right.
 
-    A zone that Newton's method cannot follow may be one whose gw - 1 no longer changes sign: it
-    shrinks like a square root and is gone. Then the shortest wrinkled stretch is given up.
+    If Newton's method does not converge, gw - 1 may no longer change its sign in a zone, whose length
+    decreases like a square root to zero. Then the shortest wrinkled zone is removed.
 
     Raises:
         RuntimeError: If Newton's method fails, or the pattern does not settle.

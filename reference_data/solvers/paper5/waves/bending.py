@@ -1,4 +1,4 @@
-r"""A bending energy of the incremental hoop curvature added to the second variation (beyond paper 5).
+r"""A bending energy of the incremental hoop curvature in the second variation (not in paper 5).
 
 With D = beta H^3, j = lam1 and the first-order change of curvature
 
@@ -6,7 +6,7 @@ With D = beta H^3, j = lam1 and the first-order change of curvature
    k_{22} = \frac{1}{j R^2}\Big[ z' \Big(-(n^2+1) u - 2 n q + \frac{r r'}{j^2} u'\Big)
             - r' \Big(-n^2 w + \frac{r r'}{j^2} w'\Big)\Big],
 
-2 Pi2_b/pi = int D R k22^2 ds (model B1). The equilibrium stays as it is. beta = (2/3)(1 + c2)(h/Ao)^2 is
+2 Pi2_b/pi = int D R k22^2 ds (model B1). The equilibrium does not change. beta = (2/3)(1 + c2)(h/Ao)^2 is
 Koiter's value for an incompressible sheet.
 """
 
@@ -64,9 +64,10 @@ class Bent:
         return float(values[0]), float(d @ (extra @ d))
 
     def needed(self, n: float) -> float:
-        """Least beta that stabilises a wave number; 0 if it is stable without.
+        """Smallest beta that stabilises a wave number; 0 if it is stable without bending.
 
-        The eigenvalue is a concave function of beta: Newton's method rises to its zero from below.
+        The eigenvalue is a concave function of beta: Newton's method converges to its zero monotonically from
+        below.
         """
         beta = 0.0
         for _ in range(60):
@@ -86,9 +87,9 @@ class Bent:
         return float(d @ ((k[1] + 2 * n * k[2] + beta * sum(m)) @ d))
 
     def critical(self, near: float) -> tuple[float, float]:
-        """Largest needed beta over real n, and that n, the largest of the grid points about a guess first.
+        """Largest needed beta over real n, and that n; the first guess is the best of some grid points.
 
-        Where the needed beta is largest the eigenvalue's derivative by n vanishes.
+        At the largest needed beta the derivative of the eigenvalue with respect to n is zero.
 
         Raises:
             RuntimeError: If the maximum is not inside the grid.
@@ -103,7 +104,7 @@ class Bent:
         return self.needed(n), n
 
     def lowest(self, beta: float, near: float) -> tuple[float, float]:
-        """Least eigenvalue over real n at a given beta, and that n, about a guess."""
+        """Smallest eigenvalue over real n at a given beta, and that n, near a guess."""
         n = float(brentq(lambda n: self.tilt(float(n), beta), near / 1.6, near * 1.6, xtol=1e-9))
         return self.first(n, beta)[0], n
 

@@ -127,7 +127,7 @@ def hermitian(form: Quadratic, n: float, beta: float, elements: int) -> float:
     """Lowest eigenvalue by way (b), the elements equal in each zone.
 
     Raises:
-        RuntimeError: If the state is tense anywhere.
+        RuntimeError: If the state is taut anywhere.
     """
     state = form.state
     if state.tense.any():

@@ -64,7 +64,7 @@ class Profile:
         edges: Element boundaries, fronts and the level among them.
         nodes: Their nodes on [0, 1].
         y: Values.
-        tense: By element.
+        tense: Whether each element is taut.
         wet: By element.
         pressure: p(z) on the wet side.
         weight: -dp/dz (0 for gas).
@@ -95,7 +95,7 @@ class Profile:
 
 
 def derivatives(x1: Array, x2: Array, tense: Array, a: float) -> tuple[Array, ...]:
-    """f1, f2, f_y, f11, f12, f22 of the energy U(x1, x2) over C1; no division by x1 - x2 where tense.
+    """f1, f2, f_y, f11, f12, f22 of the energy U(x1, x2) over C1; no division by x1 - x2 where taut.
 
     ``a`` is C2/C1, or another law.
     """
@@ -121,7 +121,7 @@ def derivatives(x1: Array, x2: Array, tense: Array, a: float) -> tuple[Array, ..
 def derivatives_of_law(x1: Array, x2: Array, tense: Array, law: Law) -> tuple[Array, ...]:
     """The same of another law; ``U(x1)`` where wrinkled has ``W_r' = 2 l U'``."""
     l1, l2 = np.sqrt(x1), np.sqrt(x2)
-    with np.errstate(all="ignore"):  # where wrinkled the law itself may not exist
+    with np.errstate(all="ignore"):  # where the sheet is wrinkled the law may not be defined
         m = metric(law, l1, l2)
     first, second = relaxed_slope(l1, law), relaxed_curvature(l1, law)
     slope, bend = first / (2 * l1), (second - first / l1) / (4 * x1)
@@ -252,7 +252,7 @@ class Quadratic:
     def floor(self, n: float, k: sparse.csc_matrix, m: sparse.csc_matrix) -> float:
         """A value below every eigenvalue, certified by Cholesky's factors of K - value M.
 
-        The first trial is the density -n p lam1/(H R) of the pressure where the hoops are slack.
+        The first trial is the density -n p lam1/(H R) of the pressure without hoop tension.
         """
         slack = np.where(self.tense, 0.0, self.p * self.l1 / (self.H * self.R))
         value = -0.2 - 1.1 * n * float(slack.max())
@@ -281,7 +281,7 @@ class Quadratic:
             k = k + p.T @ extra @ p
         k, m = k.tocsc(), m.tocsc()
         shift, start = self.floor(n, k, m), np.sin(1.0 + np.arange(k.shape[0]))
-        for tol in (1e-6, 1e-13):  # from the safe shift to a near one
+        for tol in (1e-6, 1e-13):  # from the safe shift to a closer one
             values, vectors = eigsh(k, count, m, sigma=shift, which="LM", v0=start, tol=tol)
             order = np.argsort(values)
             values, vectors = values[order], vectors[:, order]

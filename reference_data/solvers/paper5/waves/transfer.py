@@ -54,7 +54,7 @@ class Parts:
         surface: What is deformed.
         s: Where they start.
         h: Their lengths.
-        tense: Whether each is tense.
+        tense: Whether each is taut.
         wet: Whether each is under pressure.
         y: Their first values of (r, z, A, F).
         pressure: p(z) on the wet side.
@@ -94,7 +94,7 @@ def moduli(l1: Array, l2: Array, tense: Array, c2: float) -> Array:
     out[:, 3, 3] = np.where(tense, mat.curvature(l2, l1, c2), 0.0)
     out[:, 1, 1], out[:, 5, 5] = w1 / l1, w2 / l2
     d, gap = l1 * l2, l1 * l1 - l2 * l2
-    # the quotients of the tense energy, divided out: equal stretches are nothing special
+    # the quotients of the taut energy in closed form: equal stretches need no special treatment
     if isinstance(c2, float | int):
         even = 2 + 2 * c2 / d**2
         odd = 2 / d**3 + 2 * c2 * ((l1 * l1 + l2 * l2) / d**3 - d)
@@ -198,7 +198,7 @@ class Transfer:
 
     @property
     def leaders(self) -> Array:
-        """Which parts begin a piece: one much shorter than its neighbours joins the one before."""
+        """Parts that start a piece; a part much shorter than its neighbours joins the one before."""
         h = self.parts.h
         padded = np.concatenate([h[1:2], h, h[-2:-1]])
         short = h < 0.3 * np.maximum(padded[:-2], padded[2:])

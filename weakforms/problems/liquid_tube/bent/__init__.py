@@ -1,1 +1,1 @@
-"""The liquid-filled tube where it bends sideways, as a surface in space."""
+"""The fluid-loaded tube as a surface in space, which may bend sideways."""

@@ -1,7 +1,7 @@
-"""Paper 3: where the secondary branch starts, the first ``n = 1`` bifurcation, on a mesh of the surface.
+"""Paper 3: the start of the secondary branch, the first ``n = 1`` bifurcation, on a mesh of the surface.
 
-The axisymmetric side gives only guesses (a state and a mode as columns over ``Z``): eigenvalue and null
-vector are the mesh's own.
+The axisymmetric problem gives only guesses (a state and a mode as columns over ``Z``). Eigenvalue and null
+vector are computed on the mesh of the surface.
 """
 
 from __future__ import annotations
@@ -24,25 +24,26 @@ from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.roots import root
 
 NODES, SPAN = 6, 0.005
-"""Volumes over which the coarsest mesh's bifurcation is interpolated: a Chebyshev grid within this fraction
-of the axisymmetric one's."""
+"""Number of volumes over which the coarsest mesh's bifurcation is interpolated: a Chebyshev grid within the
+fraction :data:`SPAN` of the axisymmetric bifurcation's volume."""
 
 BESIDE = tuple(chebyshev.chebpts1(4)), (0.4, 0.2)
 """Volumes, over :data:`SPAN`, at which the second mesh is compared with the coarsest one, and any further
-mesh with the next coarser one: what they differ by is as small as that one's error, and fewer nodes will do.
-The pair lies on one side of the bifurcation, towards it: the tangent of the first serves for both."""
+mesh with the next coarser one. The difference is as small as the error of the coarser mesh, so that fewer
+nodes suffice. Both volumes lie on one side of the bifurcation, so that the tangent of the first serves for
+both."""
 
 CLOSE = 1e-12
-"""Newton step, relative to the state, down to which the states there are solved for."""
+"""Newton step, relative to the state, at which the solves for these states stop."""
 
 LOOKED_AT = 3
-"""Eigenvalues near zero among which that of the axisymmetric branch's mode is found."""
+"""Number of eigenvalues near zero among which the one with the axisymmetric branch's mode is searched."""
 
 READINGS = 121
-"""Material points ``Z`` over which axisymmetric guesses are splined."""
+"""Material points ``Z`` of the splines for axisymmetric guesses."""
 
 LIKENESS = 0.9
-"""Least overlap of the surface's null vector with the axisymmetric branch's mode."""
+"""Smallest accepted overlap of the surface's null vector with the axisymmetric branch's mode."""
 
 
 def position(of: AxisymmetricState) -> Shape:
@@ -52,7 +53,7 @@ def position(of: AxisymmetricState) -> Shape:
 
 
 def displacement(of: AxisymmetricState) -> Shape:
-    """The mode at a bifurcation point as a displacement; at ``Theta = 0`` it bulges."""
+    """The mode at a bifurcation point as a displacement, outward at ``Theta = 0``."""
     u, beta, w = (CubicSpline(of.Z, part) for part in of.mode)
     n = of.n
 
@@ -71,7 +72,7 @@ def displacement(of: AxisymmetricState) -> Shape:
 
 
 def turned(shape: Shape) -> Shape:
-    """The same displacement a quarter turn on: the other mode of a double eigenvalue."""
+    """The same displacement rotated by a quarter turn: the other mode of a double eigenvalue."""
 
     def mode(s: np.ndarray, theta: np.ndarray) -> np.ndarray:
         x, y, z = shape(s, theta - np.pi / 2)
@@ -81,32 +82,33 @@ def turned(shape: Shape) -> Shape:
 
 
 class Trend(NamedTuple):
-    """Axisymmetric states of a mesh beside its bifurcation."""
+    """Polynomials through axisymmetric states of a mesh near its bifurcation."""
 
     row: Callable[[float], np.ndarray]
-    """Critical eigenvalue, columns and loads over the volume, from -1 to 1 within :data:`SPAN`. The front's
-    coefficients are the last loads; finer meshes have more of them."""
+    """Critical eigenvalue, columns and loads over the volume, from -1 to 1 within :data:`SPAN`. The
+    coefficients of the front are the last loads; finer meshes have more of them."""
     finer: tuple[float, ...]
-    """Where the next finer mesh is compared with this one."""
+    """Points at which the next finer mesh is compared with this one."""
 
 
 def bifurcation_on(
     model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, below: Trend | None = None
 ) -> tuple[Solved, np.ndarray, int, Trend]:
-    """The bifurcation on the surface's own mesh: state, null vector, and negative eigenvalues beside it.
+    """The bifurcation on the surface's mesh: state, null vector, number of other negative eigenvalues.
 
-    At the point itself even the bordered matrix is singular (the null vector breaks the symmetry of the
-    branch): the eigenvalue, the columns and the state are interpolated from axisymmetric states around it,
-    solved for at given volumes. State and null vector are to be corrected: they are not better than that.
+    At the point even the bordered matrix is singular, because the null vector breaks the symmetry of the
+    branch. Eigenvalue, columns and state are therefore interpolated from axisymmetric states around it at
+    given volumes. The caller must correct state and null vector, which are only as accurate as the
+    interpolation.
 
     Args:
         model: The surface.
         primary: The axisymmetric branch.
-        at: Its bifurcation.
+        at: Bifurcation of that branch.
         below: Trend on the next coarser mesh.
 
     Raises:
-        ConvergenceError: When the mode's eigenvalue has no zero there, or the null vector is not that mode.
+        ConvergenceError: If the mode's eigenvalue has no zero near it, or the null vector is not that mode.
     """
     system, volume = model.system, at.values["V"]
     along = chebyshev.chebpts1(NODES) if below is None else np.array(below.finer)
@@ -119,7 +121,7 @@ def bifurcation_on(
     if trend.row(-1.0)[0] * trend.row(1.0)[0] > 0 or len(set(counts)) > 1:
         raise ConvergenceError(
             f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
-            f"negative ones beside them {counts}"
+            f"other negative ones {counts}"
         )
     zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
     _, *found = trend.row(zero).tolist()
@@ -139,7 +141,7 @@ def bifurcation_on(
 def _beside(
     model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, along: np.ndarray
 ) -> tuple[list[Solved], list[float], list[np.ndarray], list[int]]:
-    """States beside a bifurcation, their critical eigenvalues and modes, and how many others are negative."""
+    """States near a bifurcation, their critical eigenvalues and modes, and the others below zero."""
     system, stability = model.system, Stability(model.system)
     fitting = Fitting(model, KeptNewton(system, ["zw"], CLOSE))
     like = model.interpolated(displacement(at))
@@ -161,7 +163,7 @@ def _beside(
 
 
 def _trend(along: np.ndarray, rows: np.ndarray, below: Trend | None) -> Trend:
-    """Polynomials through rows of numbers, or through what they differ by from another mesh's trend."""
+    """Polynomials through rows of numbers, or through their differences from another mesh's trend."""
     size = rows.shape[1]
 
     def coarser(s: float) -> np.ndarray:

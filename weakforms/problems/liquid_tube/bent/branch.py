@@ -1,8 +1,7 @@
 """Paper 3: the secondary branch on one mesh.
 
-It starts at the first ``n = 1`` bifurcation point of the primary branch, by injecting the null vector found
-on the mesh of the whole surface itself, and is followed by arc-length: neither ``zw`` nor ``r_mid`` need be
-monotone.
+It starts at the first ``n = 1`` bifurcation point of the primary branch, in the direction of the null vector
+on the mesh of the surface. It is followed by arc length, because ``zw`` and ``r_mid`` need not be monotone.
 """
 
 from __future__ import annotations
@@ -26,17 +25,17 @@ from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord, residu
 from weakforms.solvers.equilibrium.system import State
 
 AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
-"""Root mean square displacements along the mode from which initial slopes are extrapolated."""
+"""Root mean square displacements along the mode, from which initial slopes are extrapolated."""
 
 COMPARED = AMPLITUDES[::2]
-"""Those of them at which the finest mesh is compared with the next coarser one."""
+"""The amplitudes at which the finest mesh is compared with the next coarser one."""
 
 CORRECTIONS, EQUILIBRIUM = 3, 1e-11
-"""Steps, at most, that make an equilibrium of an interpolated bifurcation point, and the residual at which
-there is nothing left to mend."""
+"""Largest number of correction steps for an interpolated bifurcation point, and the residual at which they
+stop."""
 
 ASTRAY = 0.05
-"""Root mean square distance from a coarser mesh's state beyond which a solution is another one."""
+"""Root mean square distance from a coarser mesh's state beyond which a solution is a different state."""
 
 
 def secondary_branch(
@@ -53,14 +52,14 @@ def secondary_branch(
     Args:
         comm: Ranks.
         data: The tube and its mesh.
-        primary: The axisymmetric branch it leaves.
+        primary: The axisymmetric branch.
         step: Largest arc-length step, as a root mean square displacement.
-        end: The branch ends when ``zw`` has fallen to this fraction of its value at the bifurcation.
-        followed: False where its states will be solved for from another mesh's.
-        below: Trend beside the bifurcation on the next coarser mesh.
+        end: The branch ends at this fraction of ``zw`` at the bifurcation.
+        followed: False if another mesh's states give the guesses for its states.
+        below: Trend near the bifurcation on the next coarser mesh.
 
     Raises:
-        ConvergenceError: When no bifurcation with that mode is found on the surface's mesh.
+        ConvergenceError: If no bifurcation with that mode is found on the surface's mesh.
     """
     model = SurfaceModel(comm, data)
     begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
@@ -75,20 +74,21 @@ class SecondaryBranch(EquilibriumBranch):
 
     Args:
         model: The surface.
-        bifurcation: Where it begins.
-        mode: Nearly the null vector there, bulging at ``Theta = 0``.
-        n_negative: Negative eigenvalues there, the null one left out.
+        bifurcation: State at which it starts.
+        mode: Approximate null vector there, outward at ``Theta = 0``.
+        n_negative: Number of negative eigenvalues there, without the zero one.
         step: Largest arc-length step, as a root mean square displacement.
-        end: Fraction of the bifurcation's ``zw`` at which the branch ends.
-        followed: False where its states will be solved for from another mesh's: its only point is the first.
+        end: The branch ends at this fraction of ``zw`` at the bifurcation.
+        followed: False if another mesh's states give the guesses for its states; then its only point is the
+            first.
 
-    It is followed on the mesh fitted to the bifurcation point's free surface; any state asked for is solved
-    for on a mesh fitted to it.
+    It is followed on the mesh that fits the free surface at the bifurcation point. A requested state is
+    solved for on a mesh that fits the free surface of this state.
 
     Attributes:
-        small: States at small amplitudes, as far as they were wanted.
+        small: States at small amplitudes that were solved for.
         mode: The null vector, of unit length in the mass norm.
-        trend: Beside the bifurcation, for the next finer mesh.
+        trend: Trend near the bifurcation, for the next finer mesh.
     """
 
     trend: Trend | None = None
@@ -128,10 +128,10 @@ class SecondaryBranch(EquilibriumBranch):
         )
 
     def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
-        """The bifurcation point with the mode for a direction, both corrected.
+        """The bifurcation point with the mode as direction, both corrected.
 
-        The state was interpolated; it is corrected at the same ``zw`` across the mode, where ``K`` is
-        regular. The null vector is what the bordered matrix makes of a displacement along the mode.
+        The interpolated state is corrected at the same ``zw`` normal to the mode, where ``K`` is regular. The
+        null vector is the solution of the bordered system for a displacement along the mode.
         """
         state, system = self.bifurcation.state.copy(), self.model.system
         norms: list[float] = []
@@ -158,10 +158,10 @@ class SecondaryBranch(EquilibriumBranch):
         return CurvePoint(state, direction, 0.0, n_negative, record, system.monitors())
 
     def at_guess(self, guess: State, constraint: Constraint) -> Solved:
-        """The state that meets a condition, from one of another mesh.
+        """Solve for the state that satisfies a condition, from a state of another mesh.
 
         Raises:
-            ConvergenceError: When it does not converge, or not to the same state.
+            ConvergenceError: If it does not converge, or converges to a different state.
         """
         self.system.set_state(guess.u, guess.loads)
         shape = self.fitting.shape()
@@ -173,36 +173,36 @@ class SecondaryBranch(EquilibriumBranch):
         return Solved(values, state)
 
     def across(self, point: CurvePoint, names: tuple[str, ...]) -> tuple[Solved, MonitorPlane]:
-        """The state on a fitted mesh at a point of the trace, in a plane across the branch; that plane."""
+        """The state on a fitted mesh in a plane across the branch at a point of the trace, and that plane."""
         rates = self.direction(point, names)
         plane = MonitorPlane(rates, sum(rate * self._column(point, name) for name, rate in rates.items()))
         return self._solve(point.state, plane), plane
 
     def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
-        """On a mesh fitted to the state; in a plane across the trace, which is one of its mesh, on that."""
+        """Solve on a mesh fitted to the state; in a plane across the trace, on the mesh of the trace."""
         if isinstance(constraint, Plane):
             return super()._solve(guess, constraint, kind)
         state = self.fitting.solve(guess, [*self.continuation.fixed, constraint])
         return Solved(self._values(state), state, kind)
 
     def _require_within(self, i: int, solved: Solved, what: str) -> None:
-        """As for any curve, on the mesh that the trace was made on."""
+        """As for any curve, on the mesh of the trace."""
         state = self.fitting.moved(solved.state, self.points[i].state)
         super()._require_within(i, Solved(solved.values, state), what)
         self.system.set_state(solved.state.u, solved.state.loads)
 
     def special(self) -> list[Solved]:
-        """The bifurcation point it begins at, then what any branch may have."""
+        """The bifurcation point at its start, then special points as of any branch."""
         return [self.bifurcation, *super().special()]
 
     # -- near the bifurcation ----------------------------------------------------------------------
 
     def at_amplitude(self, amplitude: float, guess: Callable[[], State] | None = None) -> Solved:
-        """The state with a prescribed displacement along the mode (root mean square), ``zw`` free.
+        """The state with a prescribed displacement along the mode (root mean square), with unknown ``zw``.
 
         Args:
-            amplitude: Of the displacement.
-            guess: Gives a start from another mesh; by default the bifurcation point plus the mode.
+            amplitude: Amplitude of the displacement.
+            guess: Gives a guess from another mesh; by default the bifurcation point plus the mode.
         """
         base, offset = self.bifurcation.state, amplitude * self.size
         plane = Plane(self._across, {}, self.system.dot(self._across, base.u) + offset)
@@ -211,13 +211,14 @@ class SecondaryBranch(EquilibriumBranch):
         return Solved(self._values(state), state)
 
     def initial(self, given: Sequence[float] = AMPLITUDES) -> dict[str, float]:
-        """Slopes at the bifurcation and its ``zw`` from the branch alone.
+        """Slopes at the bifurcation and its ``zw``, from the secondary branch alone.
 
-        ``zw`` and ``V`` are even in the amplitude, and the half turn that takes one amplitude to its negative
-        swaps ``r_mid`` and ``r_mid_pi``: polynomials in the square of the amplitude through a few small ones.
+        ``zw`` and ``V`` are even in the amplitude. A rotation by half a turn changes the sign of the
+        amplitude and exchanges ``r_mid`` and ``r_mid_pi``. Polynomials in the square of the amplitude are
+        fitted through a few small amplitudes.
 
         Args:
-            given: The amplitudes.
+            given: Amplitudes.
         """
         for amplitude in given:
             if amplitude not in self.small:

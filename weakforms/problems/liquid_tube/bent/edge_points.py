@@ -12,18 +12,18 @@ from ufl.core.expr import Expr
 
 
 class EdgePoints:
-    r"""Points on the edges ``x[1] = side`` of a sheet, at nodes of it, read by the reduction of an integral.
+    r"""Points on the edges ``x[1] = side`` of a sheet, at its nodes, whose values are computed as integrals.
 
-    On each side of a point the weight :math:`\sum_j (2j+1) P_j(1 - 2t)/h`, ``t`` the distance over the cell's
-    size ``h`` and ``P_j`` the Legendre polynomials, takes every polynomial of the given degree to its value
-    at ``t = 0``; both sides are averaged. A function that is no such polynomial is read with the error of its
-    L2 projection. Every rank gets the value, and derivatives of it are those of a form.
+    On each side of a point the weight :math:`\sum_j (2j+1) P_j(1 - 2t)/h`, with the distance ``t`` over the
+    cell's size ``h`` and the Legendre polynomials ``P_j``, gives the value at ``t = 0`` of every polynomial
+    of the given degree; both sides are averaged. For other functions the error is that of their L2
+    projection. Every rank gets the value, and its derivatives are those of a form.
 
     Args:
         mesh: A sheet of quadrilaterals along the axes.
         nodes: Its nodes in ``x[0]``.
         points: ``(side, height)`` of each point; a height is taken at the nearest node, not an end.
-        degree: Of the polynomials that are read exactly.
+        degree: Degree of the polynomials whose values are exact.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class EdgePoints:
         return dmesh.locate_entities_boundary(self.mesh, 1, on)
 
     def read(self, value: Expr, point: tuple[float, float]) -> ufl.Form:
-        """A value at one of the points."""
+        """The value of a function at one of the points."""
         k, form = self._node(point[1]), 0
         for above in (0, 1):
             size = fem.Constant(self.mesh, self.nodes[k + above] - self.nodes[k - 1 + above])

@@ -1,4 +1,4 @@
-"""Lengths of the tangent vectors at points of a mirror plane, one order more accurate than the elements'."""
+"""Lengths of tangent vectors at points of a mirror plane, one order more accurate than those of elements."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from weakforms.problems.liquid_tube.bent.front import FrontMap
 
 
 class EdgeTangents:
-    r"""``|x_,Z|`` and ``|x_,Theta|`` where a row of edges meets a plane of symmetry.
+    r"""``|x_,Z|`` and ``|x_,Theta|`` at points where a row of edges meets a plane of symmetry.
 
-    Derivatives of one element are least accurate at its corners. Its values at the Gauss-Lobatto points are
-    more accurate than elsewhere, ``O(h^{p+2})``; one polynomial through those of the cells on both sides has
-    a derivative that errs by ``O(h^{p+1})``. Along the meridian these are the cells below and above, around
-    it the one at the mirror plane and its image, in which ``y`` is odd; by symmetry ``x`` and ``z`` have no
-    derivative in ``Theta`` there.
+    Derivatives of one element are least accurate at its corners. Its values at the Gauss-Lobatto points have
+    the higher order ``O(h^{p+2})``. The derivative of one polynomial through the values of the cells on both
+    sides has an error of ``O(h^{p+1})``. Along the meridian these are the cells below and above; around the
+    axis they are the cell at the mirror plane and its image, in which ``y`` is odd. By symmetry the
+    derivatives of ``x`` and ``z`` with respect to ``Theta`` are zero there.
 
     Args:
-        space: Of the position on a sheet over ``(X, Theta)``, nodes at the Gauss-Lobatto points.
+        space: Space of the position on a sheet over ``(X, Theta)``, with nodes at the Gauss-Lobatto points.
         nodes: Rows of the sheet.
         around: Cells around.
-        points: Side and height ``(Theta, X)`` of each, on a row that is not an end.
-        front: What the rows follow; ``None`` where ``Z = X``.
+        points: Side and height ``(Theta, X)`` of each point, on a row that is not an end.
+        front: The front that the rows follow; ``None`` if ``Z = X``.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class EdgeTangents:
 
     @staticmethod
     def _find(tree: cKDTree, places: np.ndarray) -> np.ndarray:
-        """Numbers of this rank's nodes at some places, -1 for those of other ranks."""
+        """Numbers of this rank's nodes at given positions, -1 for nodes of other ranks."""
         distance, index = tree.query(places) if tree.n else (np.full(len(places), np.inf), None)
         return np.where(distance < 1e-9, index, -1) if tree.n else np.full(len(places), -1)
 

@@ -1,7 +1,7 @@
-"""Paper 3: the secondary branch, where the tube bends sideways, on a family of meshes.
+"""Paper 3: the secondary branch, on which the tube bends sideways, on a family of meshes.
 
-See :mod:`weakforms.problems.liquid_tube.bent.bifurcation_point` for where it starts and
-:mod:`weakforms.problems.liquid_tube.bent.stability` for how its stability is judged.
+:mod:`weakforms.problems.liquid_tube.bent.bifurcation_point` computes its start,
+:mod:`weakforms.problems.liquid_tube.bent.stability` its stability.
 """
 
 from __future__ import annotations
@@ -38,15 +38,15 @@ from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.refinement import estimate, estimate_in_norm
 
 SUPERCONVERGENT = 2
-"""What the order of numbers exceeds the elements' degree by: values at corners of quadrilaterals converge at
-least so, integrals and eigenvalues up to twice the degree. Estimates reckon with no more."""
+"""Assumed order of numbers above the degree of the elements. Values at corners of quadrilaterals have at
+least this order; integrals and eigenvalues have up to twice the degree."""
 
 READ = 1
-"""The same for resultants read across elements, and for positions anywhere on the surface; stretches and
-resultants there, derivatives, converge with the degree."""
+"""The same for resultants evaluated across elements, and for positions anywhere on the surface. Stretches and
+resultants there are derivatives, and their order is the degree."""
 
 GRID = (161, 97)
-"""Points along and around of the grid on which the smallest values on a surface are looked for."""
+"""Numbers of points, along and around, of the grid for the smallest values on a surface."""
 
 THETAS = np.linspace(0, np.pi, 25)
 """Meridians of a profile."""
@@ -57,10 +57,10 @@ def secondary_family(
 ) -> SecondaryFamily:
     """The secondary branch from its bifurcation point on all meshes.
 
-    Reads the numerics whose names begin with ``secondary``.
+    It uses the numerics whose names begin with ``secondary``.
 
     Raises:
-        ConvergenceError: When the primary branch has no ``n = 1`` bifurcation point, or no branch is found
+        ConvergenceError: If the primary branch has no ``n = 1`` bifurcation point, or no branch is found
             there.
     """
     primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
@@ -93,12 +93,12 @@ def secondary_family(
 
 
 def around(numerics: FluidTubeNumerics) -> int:
-    """Cells over half the circumference on the finest mesh: as asked for, or two thirds of those along."""
+    """Cells over half the circumference on the finest mesh: as requested, or two thirds of those along."""
     return numerics.secondary_around or 2 * numerics.secondary_cells // 3
 
 
 def free_surface(of: AxisymmetricState) -> float:
-    """Material point at which the free surface meets an axisymmetric membrane; its end where that is full."""
+    """Material point at which the free surface meets an axisymmetric membrane, or its end if it is full."""
     height = CubicSpline(of.Z, of.z - of.values["zw"])
     return float(height.roots(extrapolate=False).max(initial=0.0)) or float(of.Z[-1])
 
@@ -106,8 +106,8 @@ def free_surface(of: AxisymmetricState) -> float:
 class SecondaryFamily(BranchFamily):
     """The secondary branch on a family of meshes.
 
-    It is traced on the coarsest one. A state is solved for there, on the mesh fitted to it, and on every
-    finer mesh from the one before.
+    It is traced on the coarsest mesh. A state is solved for on this mesh, fitted to the state, and then on
+    every finer mesh from the one before.
     """
 
     fine: SecondaryBranch
@@ -115,9 +115,9 @@ class SecondaryFamily(BranchFamily):
     judges_points = False
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
-        """The points of the trace, each brought to all meshes in a plane across the branch.
+        """The points of the trace, each solved for on all meshes in a plane across the branch.
 
-        A point that cannot be is left out and listed as a failure.
+        A point for which this fails is left out and listed as a failure.
         """
         names, fine = self.fine.shown, self.fine
         kept, diagnostics, missed = [], [], []
@@ -144,7 +144,7 @@ class SecondaryFamily(BranchFamily):
         return Branch(self.name, fine.control, columns, dict(zip(names, found.uncertainty.T, strict=True)))
 
     def _on_all(self, point: CurvePoint) -> tuple[list[Solved], list[float]]:
-        """A point of the trace on all meshes, and on the finest the count of negative eigenvalues."""
+        """A point of the trace on all meshes, with the number of negative eigenvalues on the finest."""
         fine, first = self.fine, self.levels[0].points[0]
         if point is first:
             point = fine.points[0]
@@ -158,10 +158,11 @@ class SecondaryFamily(BranchFamily):
         return solved, [negative, record.norms[-1], record.iterations]
 
     def _negative_count(self, point: CurvePoint) -> int:
-        """Negative eigenvalues on the finest mesh, whose system holds a point of the trace.
+        """Number of negative eigenvalues on the finest mesh, whose system holds a point of the trace.
 
-        Its solve ended with a tangent factorised on the way, as far off as the coarser mesh's state at most.
-        Where that has as many as the coarsest mesh's own, none is near zero and the state has no others.
+        The last factorised tangent is from an iterate that is at most as far off as the coarser mesh's state.
+        If it has as many negative eigenvalues as the coarsest mesh, none is near zero, and the count holds
+        for the state too.
         """
         factor = self.fine.solver.factor
         if factor.stiffened is not None or factor.negative_count() != point.n_negative:
@@ -171,13 +172,13 @@ class SecondaryFamily(BranchFamily):
     def _raised(
         self, begin: Solved, constraint: Constraint, own: Callable[[SecondaryBranch], Solved]
     ) -> list[Solved]:
-        """A state of the coarsest mesh on all of them; the last one's system holds it.
+        """A state of the coarsest mesh on all meshes; the system of the last mesh holds it.
 
         Args:
             begin: The state.
-            constraint: What it meets.
-            own: Finds it by a mesh's own trace, where the coarser mesh's state leads nowhere: on a slack
-                membrane it may be far off.
+            constraint: The equation that it satisfies.
+            own: Finds it by a trace on the same mesh, if the coarser mesh's state is no good guess: on a
+                slack membrane it may be far off.
         """
         solved = [begin]
         for below, level in pairwise(self.levels):
@@ -192,10 +193,10 @@ class SecondaryFamily(BranchFamily):
         return solved
 
     def special_points(self) -> list[SpecialPoint]:
-        """As for any branch; the bifurcation point carries the branch's initial slopes.
+        """As for any branch; the bifurcation point has the branch's initial slopes as values.
 
-        The finest mesh's are those of the next coarser one and what they differ by, far smaller, for which
-        fewer amplitudes will do.
+        The slopes on the finest mesh are those on the next coarser one plus a difference, which is much
+        smaller and needs fewer amplitudes.
         """
         points = super().special_points()
         for below, level in pairwise(self.levels):
@@ -215,7 +216,7 @@ class SecondaryFamily(BranchFamily):
 
     @staticmethod
     def _like(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
-        """The state of a small amplitude on a mesh, from that of the next coarser one."""
+        """The state of a small amplitude on a mesh, from the state of the next coarser one."""
 
         def guess() -> State:
             if amplitude not in below.small:
@@ -227,14 +228,14 @@ class SecondaryFamily(BranchFamily):
         return level.at_amplitude(amplitude, guess)
 
     def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
-        """On the coarsest mesh by the branch traced there; every other mesh starts from the one before."""
+        """The state on the coarsest mesh by its trace, and on every other mesh from the one before."""
         begin = self.levels[0].at(name, value, crossing)
         return self._raised(begin, Held(name, value), lambda level: level.at(name, value, crossing))
 
     def _locate(self) -> list[tuple[Solved, ...]]:
-        """The beginning; what else there is on the coarsest mesh's trace counts if all meshes have it.
+        """The first point, and further special points of the coarsest mesh's trace if all meshes have them.
 
-        On a compressed membrane, whose inertia depends on the mesh, the beginning only.
+        On a compressed membrane, whose inertia depends on the mesh, only the first point.
         """
         beginning = [tuple(level.bifurcation for level in self.levels)]
         counts = {point.n_negative for point in self.levels[0].points}
@@ -245,11 +246,11 @@ class SecondaryFamily(BranchFamily):
         return beginning if self.compressed else super()._locate()
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """Eigenvalues with uncertainties; the two finest meshes must count the same negative ones.
+        """Eigenvalues with uncertainties; the two finest meshes must have the same number of negative ones.
 
-        The coarsest one is there for the order of convergence: on a long tube it is too coarse for the dry
-        part. Where the membrane is compressed it wrinkles as finely as a mesh can show: but for the lowest
-        eigenvalue at fixed level, far below the wrinkles', nothing there converges, and nothing is given.
+        The coarsest mesh serves only for the order of convergence, because on a long tube it is too coarse
+        for the dry part. A compressed membrane wrinkles as finely as the mesh allows. Only the lowest
+        eigenvalue at fixed level, far below those of the wrinkles, then converges, and no other is given.
         """
         out = self._lowest(solved)
         least = out["T_min"]
@@ -271,19 +272,20 @@ class SecondaryFamily(BranchFamily):
 
     @cached_property
     def compressed(self) -> bool:
-        """Whether a resultant is negative on the branch: wrinkles there are as fine as a mesh can show."""
+        """Whether a resultant is negative on the branch, so that wrinkles are as fine as the mesh allows."""
         points = [Solved({}, point.state) for point in self.fine.points]
         return min(self._sampled(-1, p, self._grid())["T2"].min() for p in points) < 0
 
     def _grid(self) -> np.ndarray:
-        """Points ``(X, Theta)`` of the meshes as they were made, closer than cells, shape ``(n, 2)``."""
+        """Points ``(X, Theta)`` of the original meshes, closer than cells, shape ``(n, 2)``."""
         z, theta = np.linspace(0, self.fine.model.data.length, GRID[0]), np.linspace(0, np.pi, GRID[1])
         return np.column_stack([part.ravel() for part in np.meshgrid(z, theta, indexing="ij")])
 
     def _lowest(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
-        """Lowest point and smallest resultant, from a grid finer than the meshes and a parabola there.
+        """Lowest point and smallest resultant, from a grid finer than the meshes and parabolas.
 
-        What twice as coarse a grid would have found is taken for the error of that, besides the meshes'.
+        The difference from a grid twice as coarse estimates the error of the grid, in addition to that of the
+        meshes.
         """
         places = self._grid()
         found: dict[str, list[tuple[float, float]]] = {"z_min": [], "T_min": []}
@@ -299,13 +301,13 @@ class SecondaryFamily(BranchFamily):
         return out
 
     def _sampled(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
-        """Columns of a profile of one mesh's state at points of the mesh as it was made."""
+        """Columns of a profile of one mesh's state at points of the original mesh."""
         level = self.levels[k]
         level.system.set_state(solved.state.u, solved.state.loads)
         return level.model.readings(self._sampler(k, places)())
 
     def _sampled_at(self, k: int, solved: Solved, z: np.ndarray, theta: np.ndarray) -> dict[str, np.ndarray]:
-        """The same at material points; the mesh has them elsewhere for every state."""
+        """The same at material points, whose position in the mesh depends on the state."""
         model = self.levels[k].model
         model.system.set_state(solved.state.u, solved.state.loads)
         x = model.front.mesh(z, theta)
@@ -313,8 +315,8 @@ class SecondaryFamily(BranchFamily):
         return model.readings(Sampler(model.unknown, formulation.profile, np.column_stack([x, theta]))())
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
-        """Over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""
-        heights = np.unique(np.round(points, 12))  # several figures' points, equal but for round-off
+        """Profile over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""
+        heights = np.unique(np.round(points, 12))  # points of several figures, equal up to round-off
         z, theta = (part.ravel() for part in np.meshgrid(heights, THETAS, indexing="ij"))
         samples = [self._sampled_at(k, s, z, theta) for k, s in enumerate(solved)]
         columns: dict[str, np.ndarray] = {"Z": z, "Theta": theta}
@@ -327,7 +329,7 @@ class SecondaryFamily(BranchFamily):
 
 
 def lowest_on_grid(values: np.ndarray) -> tuple[float, float]:
-    """Smallest value on a rectangular grid, by parabolas, and its distance from that of half the points."""
+    """Smallest value on a rectangular grid, by parabolas, and its difference from half the points."""
     fine, coarse = (_by_parabolas(grid) for grid in (values, values[::2, ::2]))
     return fine, abs(fine - coarse)
 

@@ -20,27 +20,27 @@ from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.support.sampling import Sampler
 
 SPLINE = 5
-"""Degree of the splines through the nodes of a mesh, where these are enough."""
+"""Degree of the splines through the nodes of a mesh, if there are enough nodes."""
 
 FITS, FITTED = 8, 1e-9
-"""Moves of the mesh, at most, and the last one, over the length: it changes a state by its square, and the
-second variation in proportion to it."""
+"""Largest number of moves of the mesh, and the size of the last one relative to the length. A move changes
+the state by its square, and the second variation in proportion."""
 
 SMALL = 1e-3
-"""Move, over the length, after which a factorised tangent still serves."""
+"""Largest move, relative to the length, after which a factorised tangent is still used."""
 
 CAME_NEAR = 1e-6
-"""Residual of a solve that did not converge, below which the next one goes on from where it ended."""
+"""If a solve does not converge but its residual is below this, the next solve starts from its end."""
 
 LOOKED_AT = 400
-"""Points of a meridian among which the free surface is looked for from afar."""
+"""Number of points of a meridian at which the free surface is first searched."""
 
 PLACES = 49, 25
-"""Material points along and around at which two positions are compared."""
+"""Numbers of material points, along and around, at which two positions are compared."""
 
 
 class KeptNewton(ExtendedNewton):
-    """Newton's method that can go on with the last factorised tangent."""
+    """Newton's method that can continue with the last factorised tangent."""
 
     keep = False
 
@@ -52,19 +52,19 @@ class KeptNewton(ExtendedNewton):
 
 
 class Fitting:
-    """Solves, and moves the mesh to the free surface found, until it stays.
+    """Solves, and moves the mesh to the free surface of the solution, until the mesh does not move.
 
-    On a mesh that follows nothing it only solves.
+    On a mesh that does not follow a front it only solves.
 
     Args:
         model: The surface on half its circumference.
-        solver: With ``zw`` for the unknown load.
+        solver: Solver with ``zw`` as the unknown load.
     """
 
     def __init__(self, model: SurfaceModel, solver: KeptNewton) -> None:
         self.model, self.system, self.solver, self.front = model, model.system, solver, model.front
         self.record: SolveRecord | None = None
-        """Of the last solve."""
+        """Record of the last solve."""
         self._row: Sampler | None = None
 
     def solve(
@@ -75,17 +75,17 @@ class Fitting:
         chord: bool = False,
         kept: bool = False,
     ) -> State:
-        """The solution on the mesh fitted to it; the system holds it afterwards.
+        """Solve on the mesh fitted to the solution; the system holds it afterwards.
 
         Args:
-            guess: Start.
-            constraints: One a scalar unknown.
-            near: The guess's mesh is almost fitted.
-            chord: One factorisation is tried first.
-            kept: The last solve's factorisation is, that of a neighbour.
+            guess: First guess.
+            constraints: One for each scalar unknown.
+            near: Whether the guess's mesh is almost fitted.
+            chord: Whether one factorisation for all iterations is tried first.
+            kept: Whether the factorisation of the last solve, at a neighbouring state, is tried first.
 
         Raises:
-            ConvergenceError: When it does not converge, or the mesh does not come to rest.
+            ConvergenceError: If it does not converge, or the mesh continues to move.
         """
         self.system.set_state(guess.u, guess.loads)
         if not near:
@@ -101,7 +101,7 @@ class Fitting:
         raise ConvergenceError("the mesh does not come to rest on the free surface")
 
     def _solved(self, constraints: Sequence[Constraint], chord: bool, kept: bool) -> State:
-        """From the state held: with the tangent at hand if that converges, else by Newton's method."""
+        """Solve from the current state, with the factorised tangent if that converges, else by Newton."""
         guess = self.system.state()
         if chord or kept:
             self.solver.keep = kept
@@ -119,14 +119,14 @@ class Fitting:
     # -- moves of the mesh -----------------------------------------------------------------------
 
     def refit(self) -> float:
-        """Hold the state on the mesh moved to its free surface, by one step of Newton's method.
+        """Move the mesh to the free surface of the state, by one step of Newton's method.
 
-        Returns how far that moved.
+        Returns the size of the move.
         """
         return self._move(self._refitted())
 
     def _refitted(self) -> np.ndarray:
-        """The front's coefficients after that step."""
+        """The coefficients of the front after that step."""
         if self.front is None:
             return np.zeros(0)
         zw = self.system.load("zw")
@@ -141,7 +141,7 @@ class Fitting:
         return self.front.fitted(self.front.at(angles) + (zw - found["z"]) / found["rate"])
 
     def find_front(self) -> float:
-        """The same from afar: where meridians, followed down from the upper ring, meet the level."""
+        """Search the front anywhere: the points where meridians, from the upper ring down, meet the level."""
         zw = self.system.load("zw")
         if self.front is None or zw >= self.model.data.L:
             return self.refit()
@@ -154,20 +154,20 @@ class Fitting:
         return self._move(self.front.fitted(np.array(wanted)))
 
     def moved(self, state: State, like: State) -> State:
-        """A state on the mesh of another one."""
+        """A state interpolated to the mesh of another one."""
         self.system.set_state(state.u, state.loads)
         if self.front is not None:
             self._move(np.array([v for k, v in like.loads.items() if k.startswith(NAME)]))
         return State(self.system.owned().copy(), dict(like.loads) | {"zw": state.loads["zw"]})
 
     def taken(self, other: Fitting) -> State:
-        """The state another mesh's system holds, on this one fitted alike."""
+        """The state that another mesh's system holds, on this mesh with the same front."""
         shape, loads = other.shape(), other.system.state().loads
         self.system.set_loads(loads)
         return State(self.model.interpolated(shape), loads)
 
     def _length_of(self, coefficients: np.ndarray) -> float:
-        """How far a move to a front is."""
+        """Size of a move to a front."""
         if self.front is None:
             return 0.0
         angles = self.front.angles
@@ -184,7 +184,7 @@ class Fitting:
     # -- the position over material points -------------------------------------------------------
 
     def shape(self) -> Shape:
-        """The position held, as splines: a guess for another mesh."""
+        """The current position as splines: a guess for another mesh."""
         pieces = self._splines()
         to_mesh = None if self.front is None else self.front.frozen()
 
@@ -199,7 +199,7 @@ class Fitting:
         return position
 
     def apart(self, other: Shape) -> float:
-        """Root mean square distance of the position held from another one."""
+        """Root mean square distance of the current position from another one."""
         ends = self.model.data.length, np.pi
         lines = [np.linspace(0, end, count) for end, count in zip(ends, PLACES, strict=True)]
         z, theta = (part.ravel() for part in np.meshgrid(*lines))
@@ -207,7 +207,7 @@ class Fitting:
 
     @cached_property
     def _nodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Nodes along and around of the half circumference, and where on that grid this rank's own lie."""
+        """Nodes along and around the half circumference, and the grid positions of this rank's own nodes."""
         space, t = self.model.space, lobatto(self.model.data.degree)
         edges = self.model.nodes, np.linspace(0, np.pi, self.model.data.around + 1)
         lines = [np.append((e[:-1, None] + np.diff(e)[:, None] * t[:-1]).ravel(), e[-1]) for e in edges]
@@ -216,7 +216,7 @@ class Fitting:
         return *lines, *places
 
     def _splines(self) -> list[tuple[float, float, list[RectBivariateSpline]]]:
-        """Of the position over the mesh, from row to row where the mesh bends: only between it is smooth."""
+        """Splines of the position, separate between rows at which the mesh map has kinks."""
         x, theta, i, j = self._nodes
         found = np.zeros((len(x), len(theta), 3))
         found[i, j] = self.system.owned().reshape(-1, 3)

@@ -1,15 +1,16 @@
 r"""Paper 3: a mesh of the whole surface that follows the free surface of the liquid.
 
 The pressure has a kink where the membrane leaves the liquid, along a curve :math:`Z = Z_f(\Theta)`. Elements
-that hold the kink inside them lose their order. The mesh therefore stays as it is made, over ``(X, Theta)``,
-and the material point is a function on it,
+with the kink inside lose their order. The mesh over ``(X, Theta)`` is therefore fixed, and the material point
+is a function on it,
 
 .. math:: Z = \begin{cases} Z_0 + (X - Z_0)\,\frac{Z_f(\Theta) - Z_0}{X_f - Z_0}, & Z_0 \le X \le X_f \\
           Z_1 - (Z_1 - X)\,\frac{Z_1 - Z_f(\Theta)}{Z_1 - X_f}, & X_f \le X \le Z_1 \end{cases}
 
-and ``Z = X`` elsewhere: the row of edges ``X = X_f`` lies on the free surface, rows at and beyond ``Z_0`` and
-``Z_1`` stay. ``Z_f`` is a cosine polynomial, whose coefficients belong to the state. A row that is off by
-``d`` changes forces by ``O(d^2)`` only: it is put in place between solves, not solved for with them.
+and ``Z = X`` elsewhere. The row of edges ``X = X_f`` lies on the free surface; rows at and beyond ``Z_0`` and
+``Z_1`` do not move. ``Z_f`` is a cosine polynomial, whose coefficients belong to the state. A row that is off
+by ``d`` changes forces only by ``O(d^2)``. It is therefore moved between solves and is not an unknown of
+them.
 """
 
 from __future__ import annotations
@@ -28,10 +29,10 @@ from scipy.fft import dct
 from weakforms.solvers.equilibrium.system import Formulation, State, System
 
 NAME = "front_"
-"""What the coefficients' names in a state's loads begin with."""
+"""Beginning of the coefficients' names in a state's loads."""
 
 THIN = 1e-4
-"""Least distance of the front from the rows that stay, over theirs."""
+"""Smallest distance of the front from the fixed rows, relative to the distance between these."""
 
 
 class FrontMap:
@@ -39,13 +40,13 @@ class FrontMap:
 
     Args:
         mesh: Sheet over ``(X, Theta)``.
-        rows: ``Z_0``, ``X_f`` and ``Z_1``, rows of edges; the outer ones stay.
-        degree: Of the function.
-        count: Angles, equidistant on ``[0, pi]``, at which the front is fitted, less one.
+        rows: ``Z_0``, ``X_f`` and ``Z_1``, rows of edges; the outer ones are fixed.
+        degree: Degree of the function.
+        count: Number of intervals of ``[0, pi]``, at whose ends the front is fitted.
 
     Attributes:
-        function: ``Z``.
-        moves: How often it has changed.
+        function: The function ``Z``.
+        moves: Number of changes.
     """
 
     def __init__(self, mesh: Mesh, rows: tuple[float, float, float], degree: int, count: int) -> None:
@@ -59,13 +60,13 @@ class FrontMap:
         self.reset()
 
     def reset(self) -> None:
-        """``Z = X``: no free surface meets the membrane."""
+        """Set ``Z = X``: no free surface meets the membrane."""
         nowhere = np.zeros(len(self.angles))
         nowhere[0] = self.row
         self.put(nowhere)
 
     def put(self, coefficients: np.ndarray) -> None:
-        """Move the row to a front; of more coefficients than it has the first are taken, of fewer all."""
+        """Move the row to a front; coefficients beyond its own number are dropped, missing ones are zero."""
         given = np.zeros(len(self.angles))
         count = min(len(given), len(coefficients))
         given[:count] = coefficients[:count]
@@ -77,7 +78,7 @@ class FrontMap:
         self.moves += 1
 
     def at(self, theta: np.ndarray) -> np.ndarray:
-        """``Z_f``."""
+        """``Z_f`` at given angles."""
         return chebyshev.chebval(np.cos(theta), self.coefficients)
 
     def material(self, x: np.ndarray, theta: np.ndarray) -> np.ndarray:
@@ -91,7 +92,7 @@ class FrontMap:
         return self._moved(z, front, np.full_like(front, self.row))
 
     def frozen(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-        """:meth:`mesh` with the front as it is now."""
+        """:meth:`mesh` with the current front."""
         return copy(self).mesh
 
     def _moved(self, x: np.ndarray, old: np.ndarray, new: np.ndarray) -> np.ndarray:
@@ -101,7 +102,7 @@ class FrontMap:
         return np.where((x <= low) | (x >= high), x, np.where(x <= old, below, above))
 
     def fitted(self, places: np.ndarray) -> np.ndarray:
-        """Coefficients of the cosine polynomial through ``Z_f`` at :attr:`angles`, kept off other rows."""
+        """Coefficients of the cosine polynomial through ``Z_f`` at :attr:`angles`, between the fixed rows."""
         low, high = self.between
         room = THIN * (high - low)
         clipped = np.clip(places, low + room, high - room)
@@ -115,14 +116,14 @@ class FrontMap:
 
 
 class HalfSystem(System):
-    """Equations on half the circumference, on a mesh that may follow a front, with columns read at points.
+    """Equations on half the circumference, on a mesh that may follow a front, with columns at points.
 
-    Where it follows one a state's loads hold the front's coefficients too.
+    If it follows a front, the loads of a state include the coefficients of the front.
 
     Args:
         formulation: The weak form.
-        front: What the mesh follows; ``None`` where it follows nothing.
-        read: Further columns of the state held, to read, not to prescribe.
+        front: The front that the mesh follows, or ``None``.
+        read: Additional columns of the current state, which cannot be prescribed.
     """
 
     def __init__(
@@ -134,7 +135,7 @@ class HalfSystem(System):
 
     @property
     def mass(self) -> PETSc.Mat:
-        """Mass matrix over the material surface: it goes with the mesh."""
+        """Mass matrix over the material surface, which changes with the mesh."""
         moves = 0 if self.front is None else self.front.moves
         if self._weighed != moves:
             self._weighed = moves
@@ -142,20 +143,20 @@ class HalfSystem(System):
         return super().mass
 
     def set_loads(self, loads: Mapping[str, float]) -> None:
-        """Put scalars into the forms, and the row where they have the front."""
+        """Write scalars into the forms, and move the row to their front."""
         super().set_loads({name: value for name, value in loads.items() if not name.startswith(NAME)})
         coefficients = [value for name, value in loads.items() if name.startswith(NAME)]
         if coefficients:
             self.front.put(np.array(coefficients))
 
     def state(self) -> State:
-        """Copy of the state the forms hold."""
+        """Copy of the state that the forms hold."""
         held = super().state()
         if self.front is not None:
             held.loads |= self.front.loads()
         return held
 
     def monitors(self) -> dict[str, float]:
-        """Every scalar functional of the state held, and what is read."""
+        """All scalar functionals of the current state, and the additional columns."""
         found = super().monitors()
         return found | self._read() if found else found

@@ -14,34 +14,35 @@ from mpi4py import MPI
 from weakforms.solvers.support import compat
 
 SURFACE = 1
-"""Tag of the physical group that gmsh hands over."""
+"""Tag of the physical group that gmsh exports."""
 
 
 TOP = 0.4
-"""Grading of the upper half of a sheet towards its end: the last cell is smaller than the mean by this."""
+"""Grading of the upper half of a sheet: the last cell is smaller than the mean by this."""
 
 
 SHARES = {1: (1, 2, 1, 2), 2: (2, 1, 1, 2), 3: (2, 2, 1, 1)}
-"""Sixths of the cells between the ends, a quarter, half of the length and the free surface, by the number of
-those others below it."""
+"""Cells, in sixths, between the ends, a quarter and half of the length, and the free surface, by the number
+of these other rows below it."""
 
 GRADED = 0.4
-"""By how much the cells at a ring are smaller than the mean of those up to the next row."""
+"""Cells at a ring are smaller than the mean of those up to the next row by this."""
 
 CLEAR = 0.05
-"""Least distance of the free surface's row from one that stays on the mesh as it is made, over the length."""
+"""Smallest distance of the free surface's row from a fixed row of the original mesh, relative to the
+length."""
 
 
 def heights(cells: int, length: float) -> np.ndarray:
-    """Nodes along a sheet: half of the cells on the lowest quarter, a quarter of them on the next one.
+    """Nodes along a sheet: half of the cells are on the lowest quarter, a quarter of them on the next one.
 
-    Smooth maps of equidistant nodes on the lower half and on the upper one, which is graded towards the upper
-    ring's boundary layer; so that doubling the cells refines every one of them. ``length/4`` and ``length/2``
+    They are smooth maps of equidistant nodes on each half; the upper one is graded towards the upper ring's
+    boundary layer. Doubling the number of cells therefore refines every cell. ``length/4`` and ``length/2``
     are nodes.
 
     Args:
         cells: Number of cells, a multiple of four.
-        length: Of the sheet.
+        length: Length of the sheet.
     """
     if cells % 4:
         raise ValueError(f"cells = {cells} along the sheet must be a multiple of 4")
@@ -52,20 +53,20 @@ def heights(cells: int, length: float) -> np.ndarray:
 
 
 def fitted_heights(cells: int, length: float, front: float) -> tuple[np.ndarray, tuple[float, float, float]]:
-    """Nodes along a sheet with a row for the free surface; that row between those about it, which stay.
+    """Nodes along a sheet with a row for the free surface; that row and the fixed rows around it.
 
-    ``length/4`` and ``length/2`` are nodes. Between those and the free surface cells are of one size, towards
-    the rings smaller ones; doubling them refines every one.
+    ``length/4`` and ``length/2`` are nodes. Between these and the free surface cells have one size; towards
+    the rings they are smaller. Doubling their number refines every cell.
 
     Args:
         cells: Number of cells, a multiple of six.
-        length: Of the sheet.
-        front: About where the free surface will be; a row that stays is kept :data:`CLEAR` of.
+        length: Length of the sheet.
+        front: Approximate position of the free surface; it stays away from fixed rows by :data:`CLEAR`.
     """
     if cells % 6:
         raise ValueError(f"cells = {cells} along a fitted sheet must be a multiple of 6")
     stay = [0.0, length / 4, length / 2, length]
-    # The level falls along a branch: where the free surface starts near a row, it goes on below it.
+    # The level decreases along a branch: a free surface that starts near a row moves on below it.
     above = next(k for k in (1, 2, 3) if front < stay[k] + CLEAR * length or k == 3)
     low, high = stay[above - 1], stay[above]
     row = min(max(front, low + CLEAR * length), high - CLEAR * length)
@@ -97,11 +98,11 @@ def flat_sheet(comm: MPI.Intracomm, nodes: np.ndarray, around: int) -> dmesh.Mes
 
 
 def prism(comm: MPI.Intracomm, nodes: np.ndarray, angles: np.ndarray) -> dmesh.Mesh:
-    """Quadrilaterals on a prism that closes on itself, each face isometric to its strip of the cylinder.
+    """Quadrilaterals on a closed prism; each face is isometric to its strip of the cylinder.
 
-    The edges stand at the material angles ``angles`` and a face is as wide as the strip's arc is long, so
-    that a cell is exactly the rectangle of ``(Z, Theta)`` it stands for. The edges lie on one circle, its
-    radius being found from the closing condition.
+    The edges are at the material angles ``angles``, and a face is as wide as the strip's arc is long, so that
+    a cell is exactly its rectangle of ``(Z, Theta)``. The edges lie on one circle, whose radius follows from
+    the closing condition.
 
     Args:
         comm: Ranks that share the mesh; gmsh runs on the first of them.
@@ -123,7 +124,7 @@ def prism(comm: MPI.Intracomm, nodes: np.ndarray, angles: np.ndarray) -> dmesh.M
 def polygon(sides: np.ndarray) -> np.ndarray:
     """Corners, shape ``(n, 2)``, of the polygon with given sides and its corners on a circle about 0.
 
-    The first corner lies on the ``x`` axis; the circle holds the middle of the polygon.
+    The first corner lies on the ``x`` axis; the centre of the circle is inside the polygon.
     """
     sides = np.asarray(sides, dtype=float)
     low, high = sides.max() / 2, sides.sum()
@@ -131,7 +132,7 @@ def polygon(sides: np.ndarray) -> np.ndarray:
     def excess(radius: float) -> float:
         return float(np.sum(2 * np.arcsin(sides / (2 * radius))) - 2 * np.pi)
 
-    for _ in range(200):  # the excess falls with the radius
+    for _ in range(200):  # the excess decreases with the radius
         middle = (low + high) / 2
         low, high = (middle, high) if excess(middle) > 0 else (low, middle)
     turn = np.concatenate([[0.0], np.cumsum(2 * np.arcsin(sides / (2 * low)))[:-1]])
@@ -156,7 +157,7 @@ def _extrude(model: ModuleType, lines: list[int], nodes: np.ndarray, axis: tuple
 
 @contextmanager
 def _gmsh(comm: MPI.Intracomm) -> Iterator[ModuleType | None]:
-    """A gmsh model on the first rank, and nothing on the others."""
+    """A gmsh model on the first rank, ``None`` on the others."""
     if comm.rank:
         yield None
         return

@@ -5,21 +5,22 @@ Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016; scaling as in
 rectangle ``(Z, Theta)``, on half the circumference with ``y = 0`` on ``Theta = 0`` and ``pi`` (states of C1v
 symmetry), or on a mesh that closes on itself (no symmetry imposed).
 
-The potential of the liquid is written with the vertical flux. As ``P`` depends on ``z`` alone, but for a
+The potential of the liquid is written with the vertical flux. Because ``P`` depends on ``z`` alone, up to a
 function of ``zw``
 
 .. math:: -\int P\,\mathrm dV = \int\!\!\int \tfrac\gamma2 (z_w - z)_+^2 N_z\,\mathrm d\Theta\,\mathrm dZ,
           \qquad N = b \times a
 
-It is twice differentiable in the position: its first variation holds the pressure, its second one a bounded
-step at the free surface and no line term, so that UFL's derivatives are right and the tangent is symmetric
-at every quadrature. The printed ``-P(z) (x e_x + y e_y).N/2`` has the same value, but UFL drops a line term
-of its second variation. By the same flux the volume of the liquid is
+It is twice differentiable in the position. Its first variation contains the pressure; its second one has a
+bounded step at the free surface and no line term. UFL's derivatives are therefore correct, and the tangent is
+symmetric for every quadrature. The printed ``-P(z) (x e_x + y e_y).N/2`` has the same value, but UFL drops a
+line term of its second variation. By the same flux the volume of the liquid is
 
 .. math:: V = -\frac1\gamma \frac{\partial\Pi}{\partial z_w}
             = \pi \min(z_w, L) - \int\!\!\int (z_w - z)_+ N_z \,\mathrm d\Theta\,\mathrm dZ
 
-whose derivative in the position UFL finds in full; that in ``zw`` is the free surface's area ``A_s``.
+UFL computes its derivative in the position completely; its derivative in ``zw`` is the free surface's area
+``A_s``.
 """
 
 from __future__ import annotations
@@ -47,19 +48,20 @@ from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet,
 from weakforms.solvers.equilibrium.system import Formulation, System
 
 READ = {"mid": 1 / 2, "quarter": 1 / 4}
-"""Heights of the points that columns show, over the length of the stress-free tube."""
+"""Positions ``Z`` of the points in columns, over the length of the stress-free tube."""
 
 RULES = 3, 5, 16
-"""Quadrature degrees over that of the elements: membrane, liquid, and its volume, assembled once a state."""
+"""Quadrature degrees over the degree of the elements: membrane, liquid, and its volume, which is assembled
+once for each state."""
 
 FITTED_RULE = 2
-"""What the quadrature degree exceeds twice that of the elements by where no element holds the load's kink."""
+"""Quadrature degree minus twice the degree of the elements, if no element contains the load's kink."""
 
 SIDES = {"0": 0.0, "pi": np.pi}
-"""Meridians they lie on."""
+"""Meridians of these points."""
 
 Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""Position ``(3, n)``, or displacement, at material points ``Z``, ``Theta``."""
+"""A position, or displacement, of shape ``(3, n)`` at material points ``Z``, ``Theta``."""
 
 
 @dataclass(frozen=True)
@@ -80,23 +82,24 @@ class SurfaceData:
     full: bool = False
     uneven: float = 0.0
     front: float | None = None
-    """On half the circumference: about where the free surface meets the membrane; the mesh follows it."""
+    """On half the circumference: approximate position of the free surface, which the mesh follows."""
 
     @property
     def length(self) -> float:
-        """Of the stress-free tube."""
+        """Length of the stress-free tube."""
         return self.L / self.delta
 
 
 class SurfaceModel:
-    """Weak form of the surface on one mesh. Load: ``zw``; on the whole circumference ``phase`` too.
+    """Weak form of the surface on one mesh. Load: ``zw``; on the whole circumference also ``phase``.
 
-    On the whole circumference a bent state may be turned about the axis. ``phase`` times ``partner`` is a
-    force that vanishes at every solution found with the turn prescribed; it makes that system regular.
+    On the whole circumference a bent state can be rotated about the axis. A condition prescribes the
+    rotation, and ``phase`` times ``partner`` is a force that makes the system regular. The force is zero at
+    every solution.
 
     Attributes:
         system: Residual, tangent and columns in the space of the states (C1v on the half circumference).
-        breaking: On the half circumference the same second variation for displacements that break the mirror
+        breaking: On half the circumference, the same second variation for displacements that break the mirror
             symmetry (``u`` odd, ``v`` even, ``w`` odd about ``Theta = 0`` and ``pi``); ``None`` on the whole.
     """
 
@@ -134,7 +137,7 @@ class SurfaceModel:
         if not data.full:
             at = {side: self._point("quarter", side) for side in SIDES}
             self._tangents = EdgeTangents(self.space, nodes, data.around, at, self.front)
-        # The load's kink at the free surface lies inside cells: its quadrature is what limits the accuracy.
+        # The load's kink at the free surface lies inside cells, and its quadrature limits the accuracy.
         self.dx, self._wet, self._wet_once = (
             ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": rule}) for rule in self._rules()
         )
@@ -166,7 +169,7 @@ class SurfaceModel:
         if not self.data.full:
             return points[0], points[1]
         corners, next_corners, widths = self._faces()
-        # A point belongs to the face whose chord it lies on; on an edge either face gives the same angle.
+        # A point belongs to the face that contains it; on an edge both faces give the same angle.
         along = (next_corners - corners) / widths[:, None]
         offset = points[:2].T[:, None, :] - corners[None]
         s = np.einsum("ijk,jk->ij", offset, along)
@@ -199,7 +202,7 @@ class SurfaceModel:
 
     @property
     def _stretch(self) -> Expr | float:
-        """Material area over the mesh's."""
+        """Ratio of material area to mesh area."""
         return 1.0 if self.front is None else self.front.function.dx(0)
 
     def surface(self, of: Expr) -> Surface:
@@ -212,7 +215,7 @@ class SurfaceModel:
         return Surface(of, of.dx(2), ufl.dot(ufl.grad(of), self._across))
 
     def interpolated(self, shape: Shape) -> np.ndarray:
-        """Owned degrees of freedom of a position or displacement, with the rings' values at the rings."""
+        """Owned degrees of freedom of a position or displacement, with the prescribed values at the rings."""
         function = fem.Function(self.space)
         function.interpolate(self._over(shape))
         return function.x.array[: self.system.size].copy()
@@ -220,7 +223,7 @@ class SurfaceModel:
     # -- forms -----------------------------------------------------------------------------------
 
     def energy(self, position: Expr) -> ufl.Form:
-        """The part of ``Pi`` that depends on the position; times two on the half circumference."""
+        """The part of ``Pi`` that depends on the position; doubled on half the circumference."""
         at, fixed = self.surface(position), self._fixed
         membrane = strain_energy(at.a, at.b, fixed["alpha"]) * self._stretch * self.dx
         liquid = fixed["gamma"] * submerged_flux(at, self.zw, 2) * self._stretch * self._wet
@@ -232,7 +235,7 @@ class SurfaceModel:
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         full_head = ufl.max_value(self.zw - self._fixed["L"], 0.0)
         area = self.data.length * 2 * np.pi / self.copies
-        # What the disks' fluxes add is spread over the surface, to be the integral of a form.
+        # The fluxes of the disks are distributed over the surface, so that they are the integral of a form.
         base = ufl.pi * (self.zw - full_head) / area
         potential = -gamma * ufl.pi / 2 * (self.zw**2 - full_head**2) / area
         loads = {"zw": (self.level, self.zw)}
@@ -261,8 +264,8 @@ class SurfaceModel:
     def readings(self, sampled: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Columns of a profile from the sampled position and tangent vectors.
 
-        Stretches are computed point by point and not interpolated: where both are equal they are no smooth
-        functions of the position. ``lam1 >= lam2``.
+        Stretches, ``lam1 >= lam2``, are computed at each point and not interpolated: where both are equal,
+        they are not smooth functions of the position.
         """
         a, b = (np.array([sampled[f"{part}_{name}"] for name in "xyz"]) for part in "ab")
         g11, g22, g12 = (np.sum(u * v, axis=0) for u, v in ((a, a), (b, b), (a, b)))
@@ -277,7 +280,7 @@ class SurfaceModel:
         return Formulation(self.unknown, whole.residual, whole.loads, conditions, whole.mass, monitors={})
 
     def turn(self) -> Expr:
-        """``e_z x x - x_,Theta``: the displacement that turns a state's pattern about the axis."""
+        """``e_z x x - x_,Theta``: the displacement that rotates a state's pattern about the axis."""
         at = self.surface(self.unknown)
         return ufl.as_vector([-at.x[1], at.x[0], 0]) - at.b
 
@@ -307,9 +310,9 @@ class SurfaceModel:
         return forms
 
     def _resultants_read(self) -> dict[str, float]:
-        """Resultants at the quarter points of the state held.
+        """Resultants of the current state at the quarter points.
 
-        On a mirror plane the principal directions are the meridian's and the circumference's.
+        On a mirror plane the principal directions are those of the meridian and the circumference.
         """
         out = {}
         for side, (lam1, lam2) in self._tangents(self.unknown).items():
@@ -329,7 +332,7 @@ class SurfaceModel:
     # -- conditions ------------------------------------------------------------------------------
 
     def _ring_conditions(self) -> list[fem.DirichletBC]:
-        """Both rings held where the stress-free tube was bonded to its disks, the upper one lifted."""
+        """Both rings fixed where the stress-free tube was bonded to its disks, with the upper one lifted."""
         axis = 2 if self.data.full else 0
 
         def rings(x: np.ndarray) -> np.ndarray:
@@ -355,7 +358,7 @@ class SurfaceModel:
 
 
 def _edges(cells: int, uneven: float) -> np.ndarray:
-    """Angles of the edges of the prism's faces, whose widths vary by ``uneven`` once around."""
+    """Angles of the edges of the prism's faces, whose widths vary by ``uneven`` with one wave around."""
     even = 2 * np.pi * np.arange(cells) / cells
     return even + uneven * (np.sin(even + 0.7) - np.sin(0.7))
 

@@ -1,8 +1,8 @@
 """Problem ``fluid_tube_surface``: the whole surface near its bifurcation, half or full circumference.
 
-What the symmetry of the circle means for a mesh: on the full circumference the critical eigenvalue is double
-(its mode may be turned), on the mirror-symmetric half single, with the same zero and the same secondary
-branch. A mesh that is not uniform around splits the pair.
+This problem shows the effect of a mesh on the symmetry of the circle. On the full circumference the critical
+eigenvalue is double, because its mode can be rotated. On the mirror-symmetric half it is single, with the
+same zero and the same secondary branch. A mesh that is not uniform around splits the pair.
 """
 
 from __future__ import annotations
@@ -31,10 +31,11 @@ from weakforms.solvers.support.roots import root
 SOURCE = "Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016"
 
 NODES, SPAN = 6, 0.01
-"""Volumes over which the zero is interpolated: a Chebyshev grid within this fraction of the bifurcation's."""
+"""Number of volumes over which the zero is interpolated, and the relative half width of their Chebyshev
+grid."""
 
 LOOKED_AT = 12
-"""Eigenvalues near zero among which those of the ``n = 1`` modes are found."""
+"""Number of eigenvalues near zero among which those of the ``n = 1`` modes are searched."""
 
 SCALES = {
     "length": "A, radius of the disks and of the stress-free tube",
@@ -42,20 +43,20 @@ SCALES = {
     "V_bifurcation": "volume there over A^3",
     "Lambda_pair_1": "smaller of the eigenvalues of the n = 1 modes at that volume",
     "Lambda_pair_2": "larger one (full circumference)",
-    "Lambda_split": "their distance: zero for a double eigenvalue",
-    "multiplicity": "eigenvalues smaller there than 1e-9 of the next one",
+    "Lambda_split": "difference of these eigenvalues: zero for a double one",
+    "multiplicity": "number of eigenvalues smaller there than 1e-9 of the next one",
     "zw_bent": "level of the secondary state with the prescribed amplitude over A",
     "V_bent": "its volume over A^3",
     "Pi_bent": "its potential over mu H A^2",
-    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference that of the turn",
-    "phase": "force that holds the turn at that state: zero but for round-off",
+    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference that of the rotation",
+    "phase": "force that prevents the rotation at that state: zero up to round-off",
     "amplitude": "root mean square displacement along the axisymmetric branch's mode over A",
     "uneven": "relative amplitude by which the widths of the cells vary around",
 }
 
 
 class WholeNumerics(Numerics):
-    """One mesh: what is looked at are effects of the mesh itself."""
+    """One mesh only, because the problem shows effects of the mesh."""
 
     cells: int = Field(16, ge=4, le=64, description="cells along the tube; as many around the circumference")
     degree: int = Field(3, ge=2, le=5, description="polynomial degree of the unknowns")
@@ -77,7 +78,7 @@ class WholeParameters(Parameters):
     extent: Literal["half", "full"] = Field(
         "full", description="mirror-symmetric half, or the full circumference"
     )
-    uneven: float = Field(0.0, ge=0, le=0.5, description="unevenness of the mesh around (full only)")
+    uneven: float = Field(0.0, ge=0, le=0.5, description="unevenness of the mesh around the axis (full only)")
     amplitude: float = Field(
         0.1, ge=0.02, le=0.2, description="root mean square displacement of the bent state"
     )
@@ -101,18 +102,16 @@ class FluidTubeSurface:
     special_points: ClassVar[tuple[str, ...]] = ()
     columns: ClassVar[tuple[str, ...]] = ()
     branches: ClassVar[tuple[str, ...]] = ("primary",)
-    control: ClassVar[str] = "none: the problem's numbers stand under quantities"
+    control: ClassVar[str] = "none: the problem's numbers are quantities"
 
     def check(self, parameters: WholeParameters, requests: Requests) -> None:
-        """Refuse states, of which there are none, and an uneven mesh that would break the mirror symmetry.
+        """Refuse requests for states, which do not exist, and an uneven mesh on the mirror-symmetric half.
 
         Raises:
             InputError: For either.
         """
         if requests.states:
-            raise InputError(
-                "fluid_tube_surface: there are no states to ask for; its numbers are quantities of any solve"
-            )
+            raise InputError("fluid_tube_surface: it has no states; its numbers are quantities of any solve")
         if parameters.uneven and parameters.extent == "half":
             raise InputError(
                 f"fluid_tube_surface: uneven = {parameters.uneven:g} needs extent = 'full'; "
@@ -127,9 +126,9 @@ class FluidTubeSurface:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Locate the bifurcation on the surface's own mesh and step onto the branch that starts there.
+        """Locate the bifurcation on the surface's mesh and solve for a state of the branch that starts there.
 
-        The numbers are the mesh's own; they carry no uncertainty.
+        The numbers belong to the mesh and have no uncertainty.
         """
         begun = time.perf_counter()
         result = Result(
@@ -187,11 +186,11 @@ class WholeRun:
         return State(self.model.interpolated(position(at)), loads)
 
     def _pinned(self) -> list[Plane]:
-        """No displacement along the turned mode: holds the turn of a bent state."""
+        """Condition of no displacement along the rotated mode, so that a bent state cannot rotate."""
         return [Plane(self.rows[1], {}, 0.0)] if self.full else []
 
     def critical(self) -> dict[str, float]:
-        """Where the eigenvalue of the ``n = 1`` modes is zero (the mean of the pair), and the pair there."""
+        """The point where the (mean) eigenvalue of the ``n = 1`` modes is zero, and the pair there."""
         at_zero = self.begin.values["V"]
         x = chebyshev.chebpts1(NODES)
         rows = [self._near(at_zero * (1 + SPAN * s)) for s in x]
@@ -218,7 +217,7 @@ class WholeRun:
         return out
 
     def _near(self, volume: float) -> tuple[float, np.ndarray, float]:
-        """At an axisymmetric state: ``zw``, eigenvalues of the ``n = 1`` modes, size of the next one."""
+        """At an axisymmetric state: ``zw``, eigenvalues of the ``n = 1`` modes, magnitude of the next one."""
         guess = self._guess(self.primary.at("V", volume, self.begin.Z))
         solver = ExtendedNewton(self.system, ["zw"])
         state, _ = solver.solve(guess, [Held("V", volume)])

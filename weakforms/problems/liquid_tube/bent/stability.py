@@ -1,11 +1,11 @@
 r"""Paper 3: stability of a bent state in the whole space, split by its plane of symmetry.
 
 Displacements that keep the mirror plane (C1v) and displacements that break it do not mix in the second
-variation. Among the latter the turn of the pattern about the axis, :math:`e_z \times x - x_{,\Theta}`, costs
-nothing: its eigenvalue is exactly zero and its computed size, of either sign, measures the error. No inertia
-of ``K`` itself can tell it from an instability. The count is therefore taken of ``K + s M`` with ``s`` far
-above the error, and the eigenvalues between ``-s`` and zero, of which SLEPc returns vectors, are added to it:
-all but the turn's, known by its vector.
+variation. Among the latter, the rotation of the pattern about the axis, :math:`e_z \times x - x_{,\Theta}`,
+needs no energy. Its eigenvalue is exactly zero, and its computed value, of either sign, shows the error. The
+inertia of ``K`` cannot distinguish it from an instability. The inertia of ``K + s M`` is therefore used, with
+``s`` far above the error. The eigenvalues between ``-s`` and zero, whose vectors SLEPc returns, are added to
+this count, without that of the rotation, which its vector identifies.
 """
 
 from __future__ import annotations
@@ -24,26 +24,28 @@ from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.spectra import Mode, Stability
 
 NEAR = 5
-"""Symmetry-breaking eigenvalues looked at, the turn's among them."""
+"""Number of symmetry-breaking eigenvalues that are computed, including that of the rotation."""
 
 SHIFT = 0.01
-"""``s``, far above the error of a zero."""
+"""The shift ``s``, far above the error of a zero eigenvalue."""
 
 ZERO = 1e-3
-"""Size above which an eigenvalue of the turn is no zero, on any mesh that is of use."""
+"""Magnitude above which the eigenvalue of the rotation is not accepted as zero."""
 
 BEYOND = 1.1
-"""How far beyond another mesh's lowest eigenvalue this one's is looked for: at it the tangent is singular."""
+"""Relative distance of the target below another mesh's lowest eigenvalue, at which the tangent would be
+singular."""
 
 FURTHER = 12
-"""Targets tried for a negative eigenvalue far from zero, each twice as far."""
+"""Number of targets for a negative eigenvalue far from zero, each twice as far as the one before."""
 
 LIKENESS = 0.9
-"""Least overlap of the mode taken for the turn with the displacement that turns the pattern."""
+"""Smallest accepted overlap between the mode of the rotation and the displacement that rotates the
+pattern."""
 
 UNBENT = 1e-6
-"""Norm of that displacement, over the tube's own, below which there is no pattern to turn: at the bifurcation
-its direction tends to that of the critical mode's partner, a zero eigenvalue too."""
+"""Norm of that displacement, relative to that of the tube, below which there is no pattern to rotate. At the
+bifurcation its direction tends to the partner of the critical mode, which has a zero eigenvalue too."""
 
 
 class BentStability:
@@ -60,7 +62,7 @@ class BentStability:
         self._turning = fem.form(model.product(turn, ufl.TestFunction(model.space)))
         self._turning_squared = fem.form(model.product(turn, turn))
         self._lowest = -1.0
-        """Last one found: where the next one is looked for first."""
+        """The last lowest eigenvalue, near which the next one is searched first."""
 
     def spectra(
         self, state: State, critical: float = 0.0, coarser: Mapping[str, float] | None = None
@@ -69,12 +71,12 @@ class BentStability:
 
         Args:
             state: An equilibrium.
-            critical: Magnitude up to which an eigenvalue is a special point's own zero; it does not count as
-                negative, and there is no judgement at fixed volume.
-            coarser: The same on a coarser mesh: where the lowest one is looked for first.
+            critical: An eigenvalue up to this magnitude is the zero of a special point. It does not count as
+                negative, and stability at fixed volume is not computed.
+            coarser: The result on a coarser mesh, near which the lowest one is searched first.
 
         Raises:
-            ConvergenceError: When counts by inertia and by SLEPc disagree, or a sign cannot be told.
+            ConvergenceError: If counts by inertia and by SLEPc disagree, or a sign is uncertain.
         """
         if coarser is not None and coarser["Lambda_1"] < -critical:
             self._lowest = BEYOND * coarser["Lambda_1"]
@@ -86,10 +88,10 @@ class BentStability:
         return out | self._breaking(state)
 
     def lowest(self, state: State) -> float:
-        """The lowest C1v eigenvalue at fixed level, whatever else is negative.
+        """The lowest C1v eigenvalue at fixed level, for any number of negative ones.
 
         Raises:
-            ConvergenceError: When there are eigenvalues below every target tried.
+            ConvergenceError: If there are eigenvalues below every target.
         """
         target = 2 * self._lowest
         for _ in range(FURTHER):
@@ -101,7 +103,7 @@ class BentStability:
         raise ConvergenceError(f"stability: there are eigenvalues below {target / 2:g}")
 
     def _keeping(self, state: State, critical: float) -> tuple[list[float], int]:
-        """The lowest C1v eigenvalues in ascending order, and how many of them are below ``-critical``."""
+        """The lowest C1v eigenvalues in ascending order, and the number of those below ``-critical``."""
         near, negative = self.keeps.about(state, -critical, 3)
         values = [mode.eigenvalue for mode in near]
         below, target = [v for v in values if v < -critical], self._lowest
@@ -120,7 +122,7 @@ class BentStability:
         return sorted(below) + sorted(v for v in values if v >= -critical), negative
 
     def _at_fixed_volume(self, state: State) -> tuple[float, int]:
-        """Lowest C1v eigenvalue and number of negative ones with the volume held, the level free."""
+        """Lowest C1v eigenvalue and number of negative ones at fixed volume, with variable level."""
         system, data = self.model.system, self.model.data
         system.set_state(state.u, state.loads)
         border = system.load_derivative("zw") / data.gamma
@@ -130,7 +132,7 @@ class BentStability:
         return found.eigenvalues[0], found.n_negative
 
     def _breaking(self, state: State) -> dict[str, float]:
-        """Symmetry-breaking eigenvalues, the turn of the pattern apart."""
+        """Symmetry-breaking eigenvalues, with the rotation of the pattern separate."""
         modes, below = self.breaks.about(state, -SHIFT, NEAR)
         if below:
             modes, below = self.breaks.about(state, -SHIFT, NEAR + below)
@@ -145,7 +147,7 @@ class BentStability:
         if min(map(abs, others)) <= abs(turn.eigenvalue):
             raise ConvergenceError(
                 f"stability: a symmetry-breaking eigenvalue of {min(others, key=abs):.1e} is as near to zero "
-                f"as that of the turn, {turn.eigenvalue:.1e}: its sign cannot be told"
+                f"as that of the rotation, {turn.eigenvalue:.1e}: its sign is uncertain"
             )
         return {
             "Lambda_breaking": others[0],
@@ -154,10 +156,10 @@ class BentStability:
         }
 
     def _turn(self, state: State, modes: list[Mode]) -> Mode:
-        """The mode that turns the pattern about the axis.
+        """The mode that rotates the pattern about the axis.
 
         Raises:
-            ConvergenceError: When no mode does, or the one that does is far from costing nothing.
+            ConvergenceError: If there is no such mode, or its eigenvalue is far from zero.
         """
         system = self.model.breaking
         system.set_state(state.u, state.loads)
@@ -173,7 +175,7 @@ class BentStability:
             turn, likeness = modes[int(np.argmax(overlaps))], overlaps.max() / size
         if likeness < LIKENESS or abs(turn.eigenvalue) > ZERO:
             raise ConvergenceError(
-                f"stability: the turn of the pattern is no zero mode: overlap {likeness:.2f}, "
+                f"stability: the rotation of the pattern is not a zero mode: overlap {likeness:.2f}, "
                 f"eigenvalue {turn.eigenvalue:.1e}"
             )
         return turn

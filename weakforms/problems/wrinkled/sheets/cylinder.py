@@ -2,9 +2,9 @@ r"""Problem ``wrinkled_sheet``: the cylinder of Paper 4 as a two-dimensional mem
 
 The reference surface is the unrolled cylinder, ``X = Theta in [0, pi/2]`` between two planes of symmetry and
 ``Y = Z in [0, L]``; the unknown is the position in space. The relaxed energy is that of
-:func:`weakforms.forms.wrinkling.surface_tension_field`, by the principal stretches of ``C``. It is a
-cross-check of the axisymmetric form with a few elements around: with many, the wrinkled membrane under
-pressure is unstable to waves around it (Paper 5).
+:func:`weakforms.forms.wrinkling.surface_tension_field`, by the principal stretches of ``C``. It checks the
+axisymmetric form with a few elements around. With many elements, the wrinkled membrane under pressure is
+unstable to waves around it (Paper 5).
 """
 
 from __future__ import annotations
@@ -44,26 +44,26 @@ from weakforms.solvers.equilibrium.system import Formulation, State, System
 
 QUARTER = np.pi / 2
 CAP = 4.0
-"""Highest order of convergence the uncertainties reckon with: both directions are refined together."""
+"""Highest assumed order of convergence; both directions are refined together."""
 
 
 class SheetParameters(WrinkledParameters):
-    """The membrane and the load at which it is looked at."""
+    """The membrane and its load."""
 
     at_load: float = Field(4.5, gt=0, le=100, description="load: level zw, or pressure p with load = 'gas'")
 
 
 class SheetNumerics(Numerics):
-    """Meshes of a quarter of the membrane: along blocks between fronts, and around."""
+    """Meshes of a quarter of the membrane: cells along blocks between fronts, and cells around."""
 
     degree: int = Field(4, ge=2, le=5, description="polynomial degree of the unknowns")
-    along: int = Field(4, ge=2, le=64, multiple_of=2, description="cells a block on the finest mesh")
+    along: int = Field(4, ge=2, le=64, multiple_of=2, description="cells of each block on the finest mesh")
     around: int = Field(4, ge=2, le=16, multiple_of=2, description="cells on the quarter on the finest mesh")
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """One mesh of a quarter of the membrane and the state it starts from."""
+    """One mesh of a quarter of the membrane, and its first guess."""
 
     around: int
     along: int
@@ -72,7 +72,7 @@ class Sheet:
     """Axisymmetric state at the load."""
 
     def solve(self, comm: MPI.Intracomm) -> dict[str, float]:
-        """Equilibrium; volume, total potential, and how far it is from a surface of revolution."""
+        """Solve for the equilibrium: volume, total potential, and distance from a surface of revolution."""
         model = self.start.model
         breaks = model.breaks_of(self.start.state.loads)
         mesh = dmesh.create_rectangle(
@@ -98,7 +98,7 @@ class Sheet:
         return values
 
     def _revolved(self, places: np.ndarray, comm: MPI.Intracomm) -> np.ndarray:
-        """The axisymmetric state at the mesh's points, on every rank its own."""
+        """The axisymmetric state at this rank's points of the mesh."""
         everywhere = comm.allgather(places[:, 1])
         found = self.start.sampled(np.clip(np.concatenate(everywhere), 0.0, None))
         first = sum(len(part) for part in everywhere[: comm.rank])
@@ -133,7 +133,7 @@ class Sheet:
     def _conditions(
         self, mesh: dmesh.Mesh, space: fem.FunctionSpace, position: fem.Function
     ) -> list[fem.DirichletBC]:
-        """Disks held where they are; the planes of symmetry ``y = 0`` and ``x = 0``."""
+        """Conditions at the disks and at the planes of symmetry ``y = 0`` and ``x = 0``."""
         length = float(CYLINDER.length(self.start.state.loads))
         mesh.topology.create_connectivity(1, 2)
         ends = dmesh.locate_entities_boundary(
@@ -177,7 +177,7 @@ def sheet_densities(
 
 
 class WrinkledSheet:
-    """The membrane of Paper 4 at one load by a form that knows no axis."""
+    """The membrane of Paper 4 at one load, by a form without axial symmetry."""
 
     name: ClassVar[str] = "wrinkled_sheet"
     title: ClassVar[str] = "The cylindrical membrane of non-uniform thickness as a two-dimensional sheet"
@@ -196,7 +196,7 @@ class WrinkledSheet:
     control: ClassVar[str] = "zw or p; the quantities are at the load `at_load`"
 
     def check(self, parameters: SheetParameters, requests: Requests) -> None:
-        """Refuse states: the load ``at_load`` is the only one; and laws without a form in two dimensions."""
+        """Refuse requests for states, of which there is one, and laws without a two-dimensional form."""
         check_requests(self, requests)
         require_foldable(self.name, parameters, waves=True)
 
@@ -208,7 +208,7 @@ class WrinkledSheet:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Start from the axisymmetric state with its fronts, solve on two meshes."""
+        """Solve on two meshes, starting from the axisymmetric state with its fronts."""
         membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
         branch = WrinkledBranch(membrane, parameters.at_load, parameters.volume_end, 0.5, 12)
         plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)

@@ -45,12 +45,12 @@ class MaterialParameters(Parameters):
     l2: float = Field(1.5, gt=0, le=10, description="principal stretch 2")
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
     energy: Literal["relaxed", "modified_gradient", "standard"] = Field(
-        "relaxed", description="state table, modified deformation gradient, or no wrinkling"
+        "relaxed", description="table of states, modified deformation gradient, or no wrinkling"
     )
 
 
 class MaterialNumerics(Numerics):
-    """Nothing is discretised."""
+    """No numerics: nothing is discretised."""
 
 
 class WrinkledMaterial:
@@ -76,7 +76,7 @@ class WrinkledMaterial:
     control: ClassVar[str] = "none; the quantities are at l1, l2"
 
     def check(self, parameters: MaterialParameters, requests: Requests) -> None:
-        """Refuse states: there is only the one given."""
+        """Refuse requests for states, because there is only one."""
         check_requests(self, requests)
 
     def solve(
@@ -87,7 +87,7 @@ class WrinkledMaterial:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Evaluate the form's own expressions."""
+        """Evaluate the expressions of the forms."""
         begun = time.perf_counter()
         progress("energy", 0, 1)
         law = derivatives(lambda a, b: mooney_rivlin(a, b, parameters.c2), FORMS[parameters.energy])
@@ -103,11 +103,11 @@ class WrinkledMaterial:
 
 
 def derivatives(law: Law, form: Callable[[Law], Law]) -> Callable[[float, float], dict[str, float]]:
-    """Energy ``W``, stresses ``W1, W2`` and tangent ``W11, W12, W22`` by UFL, a function of two stretches.
+    """Energy ``W``, stresses ``W1, W2`` and tangent ``W11, W12, W22`` by UFL, as functions of two stretches.
 
     Args:
         law: Full energy of two principal stretches.
-        form: What makes of it an energy that allows for wrinkling.
+        form: Function that makes it an energy with wrinkling.
     """
     mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
     stretches = fem.Constant(mesh, np.ones(2))

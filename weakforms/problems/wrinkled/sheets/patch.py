@@ -2,8 +2,9 @@ r"""Problem ``wrinkled_patch`` (Paper 5, section 2.3): a flat wrinkled patch und
 
 .. math:: x = aX + e\sin nX, \quad y = bY, \quad z = c + e\cos nX, \qquad 0 \le X \le L_x
 
-The lines ``Y`` keep their stretch ``b`` exactly and stay normal to the others, so that the relaxed energy of
-a patch with tension along ``Y`` does not change while the pressure's potential falls with ``e^2 n``.
+The lines along ``Y`` keep their stretch ``b`` exactly and stay normal to those along ``X``. The relaxed
+energy of a patch with tension along ``Y`` therefore does not change, while the pressure's potential decreases
+like ``e^2 n``.
 """
 
 from __future__ import annotations
@@ -41,8 +42,8 @@ class PatchParameters(MaterialChoice):
 
     ratio: ClassVar[str] = "c2"
 
-    a: float = Given(0.3, gt=0, le=2, description="stretch along X, that is wrinkled")
-    b: float = Given(2.0, gt=0, le=5, description="stretch along Y, that bears the tension")
+    a: float = Given(0.3, gt=0, le=2, description="stretch along X, the wrinkled direction")
+    b: float = Given(2.0, gt=0, le=5, description="stretch along Y, the direction of tension")
     c: float = Given(0.1, ge=-10, le=10, description="height of the flat patch")
     n: float = Given(10.0, gt=0, le=100, description="wave number")
     Lx: float = Given(1.0, gt=0, le=100, description="length along X")
@@ -51,13 +52,13 @@ class PatchParameters(MaterialChoice):
 
 
 class PatchNumerics(MeshNumerics):
-    """Meshes of the patch along X."""
+    """Meshes of the patch along ``X``."""
 
     cells: int = Given(32, ge=8, le=20_000, description="cells on the finest mesh")
 
 
 class Patch:
-    """The energy of the perturbed patch on one mesh, and its derivatives in the amplitude."""
+    """The energy of the perturbed patch on one mesh, with its derivatives with respect to the amplitude."""
 
     def __init__(self, parameters: PatchParameters, cells: int, degree: int) -> None:
         given = parameters
@@ -90,7 +91,7 @@ class Patch:
 def _with_derivatives(
     name: str, density: Expr, e: Expr, compiled: Callable[[Expr], fem.Form]
 ) -> dict[str, fem.Form]:
-    """A functional with its first and second derivative in the amplitude."""
+    """A functional with its first and second derivative with respect to the amplitude."""
     first = ufl.diff(density, e)
     second = ufl.diff(first, e)
     return {
@@ -127,17 +128,17 @@ class PatchFamily:
         return Branch(self.name, "e", columns, spread if with_uncertainty else {})
 
     def special_points(self) -> list[SpecialPoint]:
-        """None."""
+        """There are none."""
         return []
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
         """The patch at an amplitude, and its shape.
 
         Raises:
-            InputError: When it is not asked for by its amplitude.
+            InputError: If the request does not give an amplitude.
         """
         if name != "e" or crossing != 1:
-            raise InputError(f"wrinkled_patch: a state is asked for by its amplitude e, not by {name}")
+            raise InputError(f"wrinkled_patch: request a state by its amplitude e, not by {name}")
         fields: tuple[Field, ...] = ()
         if profile is not None:
             given = self._given
@@ -164,9 +165,9 @@ class WrinkledPatch(PathProblem):
         "b": "stretch along Y",
         "e": "amplitude",
         "U": "strain energy over C1 and the width",
-        "U_e": "its derivative in e (and so on)",
+        "U_e": "derivative with respect to e (and so on)",
         "W": "potential of the pressure over the pressure and the width",
-        "W_e": "its derivative in e (and so on)",
+        "W_e": "derivative with respect to e (and so on)",
         "shear": "integral of the squared shear of the metric",
         "x": "deformed position along",
         "z": "deformed height",
@@ -180,7 +181,7 @@ class WrinkledPatch(PathProblem):
     control: ClassVar[str] = "e"
 
     def check(self, parameters: PatchParameters, requests: Requests) -> None:
-        """Refuse what no patch could answer.
+        """Refuse requests for states without a solution.
 
         Raises:
             InputError: For a column that cannot be prescribed.
@@ -199,11 +200,11 @@ class WrinkledPatch(PathProblem):
         _comm: MPI.Intracomm,
         _progress: Progress,
     ) -> dict[str, Family]:
-        """The only branch; so small that every rank has all of it."""
+        """The only branch, which every rank solves completely."""
         return {"primary": PatchFamily(parameters, numerics)}
 
     def points(self, parameters: PatchParameters) -> np.ndarray:
-        """20 points a wave."""
+        """20 points for each wave."""
         waves = math.ceil(parameters.n * parameters.Lx / (2 * math.pi))
         return np.linspace(0.0, parameters.Lx, 20 * waves + 1)
 

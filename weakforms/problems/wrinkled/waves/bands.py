@@ -1,4 +1,4 @@
-"""Which real wave numbers are unstable at a state of a wrinkled membrane, and which stiffness ends that."""
+"""Unstable real wave numbers at a state of a wrinkled membrane, and the stiffness that removes them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.solvers.support.roots import root
 
 TOLERANCE = 1e-11
-"""Relative, of roots."""
+"""Relative accuracy of roots."""
 
 STIFF = 1.0
-"""Bending stiffness above which none is looked for."""
+"""Largest bending stiffness of the search."""
 
 AROUND, NODES = 0.05, 9
-"""The largest stiffness is located on a polynomial through so many wave numbers, this far around it."""
+"""The largest stiffness is located on a polynomial: number of its wave numbers, and their relative range."""
 
 
 @dataclass(frozen=True)
@@ -38,14 +38,14 @@ class Bands:
         return waves_at(self.held).negative_count(n, self.beta) > 0
 
     def first_whole(self, most: int) -> int | None:
-        """Smallest unstable whole number up to ``most``."""
+        """Smallest unstable whole wave number up to ``most``."""
         return next((n for n in range(1, most + 1) if self.unstable(n)), None)
 
     def band(self, most: int) -> tuple[tuple[float, float], tuple[float, float]] | None:
-        """Brackets of the lower and upper end of the unstable whole numbers; ``None`` without any.
+        """Intervals around both ends of the unstable whole wave numbers; ``None`` if there are none.
 
         Raises:
-            ConvergenceError: When they reach beyond ``most``.
+            ConvergenceError: If they reach beyond ``most``.
         """
         unstable = [n for n in range(1, most + 1) if self.unstable(n)]
         if not unstable:
@@ -58,7 +58,7 @@ class Bands:
         """Wave number between two at which the lowest eigenvalue is zero.
 
         Raises:
-            ConvergenceError: When its sign is the same at both.
+            ConvergenceError: If its sign is the same at both.
         """
         low = max(low, 1e-3)
         if self.lowest(low) * self.lowest(high) > 0:
@@ -77,7 +77,7 @@ class Bands:
         return waves.stiffness(n, stiff)
 
     def most_stiffness(self, most: int) -> float | None:
-        """Wave number that takes most bending stiffness to be stable, roughly; ``None`` if all are stable."""
+        """Approximate wave number that needs the largest bending stiffness; ``None`` if all are stable."""
         tried = np.unique(np.round(np.geomspace(2, most, 24)))
         found = [self.stiffness(float(n)) for n in tried]
         k = int(np.argmax(found))
@@ -90,7 +90,7 @@ class Bands:
         return float(best.x)
 
     def peak(self, near: float) -> tuple[float, float]:
-        """``(n_c, beta_c)``: largest stiffness needed by any real wave number, and that number."""
+        """``(n_c, beta_c)``: the largest stiffness that any real wave number needs, and this wave number."""
         nodes = near * (1 + AROUND * np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES))
         values = np.array([self.stiffness(float(n)) for n in nodes])
         if values.min() == 0.0:

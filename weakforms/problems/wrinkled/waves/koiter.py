@@ -1,10 +1,10 @@
-r"""Waves around a wrinkled membrane with the whole bending energy of a thin shell (beyond Paper 5).
+r"""Waves around a wrinkled membrane with the complete bending energy of a thin shell (not in Paper 5).
 
 .. math:: \frac2\pi\Pi_{2b} = \int D R\,\big[k_{11}^2 + k_{22}^2 + 2\nu k_{11}k_{22} + 2(1-\nu)k_{12}^2\big]
           \,\mathrm dS, \qquad D = \beta H^3,\quad \nu = \tfrac12
 
-It holds second derivatives. On elements that are only continuous, the meridian's rotation is tied across
-nodes by an interior penalty: consistent, symmetric (Engel et al. 2002). Both ends are simply supported.
+It contains second derivatives. The elements are only continuous; a consistent symmetric interior penalty
+couples the meridian's rotation across nodes (Engel et al. 2002). Both ends are simply supported.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from weakforms.solvers.stability.modes import SecondVariation
 POISSON = 0.5
 
 PENALTY = 10.0
-"""Times the squared degree: stiffness of a node's tie over that of a cell."""
+"""Penalty factor, times the squared degree: stiffness of the coupling at a node over that of a cell."""
 
 
 class ShellWaves:
@@ -51,7 +51,7 @@ class ShellWaves:
         )
 
     def _bending(self, d: fem.Function) -> ufl.Form:
-        """Bending energy with the ties at nodes."""
+        """Bending energy with the penalty at nodes."""
         waves, model, e = self.waves, self.waves.model, self.waves.model.expressions
         width, radius, n = e["width"], e["radius"], waves.wave_number
         parts, slopes = waves.parts(d)
@@ -73,7 +73,7 @@ class ShellWaves:
         return rigidity * density * width / 2 * dx + (tie * kink**2 / 2 - ufl.avg(moment) * kink) * inside
 
     def lowest(self, n: float, beta: float) -> float:
-        """The lowest eigenvalue at the state held."""
+        """The lowest eigenvalue at the current state."""
         self.waves.wave_number.value, self.waves.bending.value, self.stiffness.value = n, 0.0, beta
         return self.variation.spectrum(1).eigenvalues[0]
 

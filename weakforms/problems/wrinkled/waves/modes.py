@@ -3,9 +3,9 @@ r"""Waves around a wrinkled membrane: its second variation for any wave number, 
 .. math:: K d = \Lambda M d, \qquad d^T K d = \frac2\pi\,\delta^2\Pi, \qquad
           d^T M d = \int H R\,(u^2 + q^2 + w^2)\,\mathrm dS
 
-The membrane is unstable to ``n`` waves iff the lowest ``Lambda`` is negative. Eigenvalues are over ``g/Ao``
-of a membrane of density ``C1/(Ao g)`` (Patil, Nordmark & Eriksson 2016, Paper 5). Break points stay where
-they are under a perturbation.
+The membrane is unstable to ``n`` waves if and only if the lowest ``Lambda`` is negative. Eigenvalues are
+divided by ``g/Ao``, for a membrane of density ``C1/(Ao g)`` (Patil, Nordmark & Eriksson 2016, Paper 5). A
+perturbation does not move break points.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ MODE = ("meridional", "circumferential", "normal")
 
 
 class Waves:
-    """Second variations of the state a model holds, and their spectra and modes.
+    """Second variations of the state that a model holds, with their spectra and modes.
 
     Args:
-        model: Whose states; it holds the one that is judged.
+        model: The model, which holds the state.
     """
 
     def __init__(self, model: WrinkledModel) -> None:
@@ -47,7 +47,8 @@ class Waves:
         self.space = fem.functionspace(model.mesh, element)
         self.wave_number = fem.Constant(model.mesh, 0.0)
         self.bending = fem.Constant(model.mesh, 0.0)
-        """``beta``: bending stiffness over ``H^3``, of the circumferential curvature alone."""
+        """Name of the load ``beta``: bending stiffness over ``H^3``, for the circumferential curvature
+        alone."""
         self._sheared = fem.Constant(model.mesh, 0.0)
         self._variations: dict[bool, SecondVariation] = {}
         e = model.expressions
@@ -58,7 +59,7 @@ class Waves:
     def parts(self, d: Expr) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
         """``(u, q, w)`` of the unknowns ``(u + q, q, w)`` or ``(u, q, w)``, and slopes in ``S``.
 
-        One wave at a pole shifts it sideways, ``u + q = 0``: a condition on the first unknown alone.
+        One wave shifts a pole sideways, ``u + q = 0``, which is a condition on the first unknown alone.
         """
         width = self.model.expressions["width"]
         mixed = [ufl.as_vector([v[0] - self._sheared * v[1], v[1], v[2]]) for v in (d, d.dx(0) / width)]
@@ -88,7 +89,7 @@ class Waves:
         return self.model.marked("taut", self.model.expressions["gw"] - 1)
 
     def formulation(self, shifts_pole: bool) -> Formulation:
-        """First variation at the displaced state, mass and conditions; the pole may be shifted or not."""
+        """First variation at the displaced state, mass and conditions, also for a shift of the pole."""
         model = self.model
         width, weight = model.expressions["width"], model.expressions["weight"]
         d, test, trial = fem.Function(self.space), ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
@@ -105,7 +106,7 @@ class Waves:
         )
 
     def _conditions(self, shifts_pole: bool) -> list[fem.DirichletBC]:
-        """No displacement at the edges; at a pole none either, but for one wave, which shifts it."""
+        """No displacement at the edges and at a pole, except for one wave, which shifts the pole."""
         out = []
         for tag in (LOWER, UPPER):
             moves = shifts_pole and tag == LOWER
@@ -116,20 +117,22 @@ class Waves:
         return out
 
     def variation(self, n: float, beta: float = 0.0) -> SecondVariation:
-        """The operator for ``n`` waves; ``n`` may be any number but 0, whose waves are axisymmetric."""
+        """The operator for ``n`` waves; any real ``n`` except 0, for which the mode is axisymmetric."""
         shifts = self.model.body.pole and n == 1
         self.wave_number.value, self.bending.value, self._sheared.value = n, beta, float(shifts)
         if shifts not in self._variations:
             self._variations[shifts] = SecondVariation(self.formulation(shifts), self.model.system)
         return self._variations[shifts]
 
-    # -- what one asks -------------------------------------------------------------------------
+    # -- spectra and modes -------------------------------------------------------------------------
 
     def spectrum(self, n: float, count: int = 3, beta: float = 0.0) -> Spectrum:
-        """The lowest eigenvalues at the state held and how many are negative; ``n = 0`` without torsion.
+        """The lowest eigenvalues at the current state, and the number of negative ones.
+
+        For ``n = 0`` torsion is left out.
 
         Raises:
-            ConvergenceError: When SLEPc and the inertia disagree on the negative ones.
+            ConvergenceError: If SLEPc and the inertia disagree on the number of negative ones.
         """
         if n == 0:
             system = self.model.system
@@ -138,17 +141,17 @@ class Waves:
         return self.variation(n, beta).spectrum(count)
 
     def negative_count(self, n: float, beta: float = 0.0) -> int:
-        """Negative eigenvalues at the state held, by inertia."""
+        """Number of negative eigenvalues at the current state, by inertia."""
         return self.variation(n, beta).negative_count()
 
     def stiffness(self, n: float, stiff: float) -> float:
-        r"""Bending stiffness at which the lowest eigenvalue is zero, given one at which all are positive.
+        r"""Bending stiffness at which the lowest eigenvalue is zero, from one at which all are positive.
 
-        The operator is linear in it, :math:`K(\beta) = K_0 + \beta K_1`: what is missing of the greater
-        stiffness is itself an eigenvalue, the lowest :math:`\nu` of :math:`K(\beta) x = \nu K_1 x`.
+        The operator is linear in the stiffness, :math:`K(\beta) = K_0 + \beta K_1`. The difference from the
+        larger stiffness is therefore the lowest eigenvalue :math:`\nu` of :math:`K(\beta) x = \nu K_1 x`.
 
         Raises:
-            ConvergenceError: When something is unstable at the greater stiffness as well.
+            ConvergenceError: If there is an instability at the larger stiffness too.
         """
         without = self.variation(n, 0.0).tangent().copy()
         variation = self.variation(n, stiff)
@@ -162,7 +165,7 @@ class Waves:
             without.destroy()
 
     def near_zero(self, n: float, beta: float = 0.0) -> float:
-        """The lowest eigenvalue where it is near zero: its sign is the inertia's."""
+        """The lowest eigenvalue where it is near zero, with its sign by inertia."""
         variation = self.variation(n, beta)
         return variation.stability.nearest_by_index(State(np.zeros(variation.size), {}), 0)
 
@@ -174,7 +177,7 @@ class Waves:
 
     @cached_property
     def _mode(self) -> tuple[fem.Function, Meridian]:
-        """The mode that is sampled, and how."""
+        """The mode and its sampler."""
         e, d = self.model.expressions, fem.Function(self.space)
         u, q, w = self.parts(d)[0]
         columns = {
@@ -185,7 +188,7 @@ class Waves:
         return d, Meridian(self.model, columns)
 
     def sampled(self, mode: Mode, s: np.ndarray, loads: dict[str, float]) -> dict[str, np.ndarray]:
-        """Components of a mode of unit length at material points, its largest normal one positive."""
+        """Components of a mode of unit length at material points, with a positive largest normal one."""
         function, meridian = self._mode
         function.x.array[: len(mode.vector)] = mode.vector
         function.x.scatter_forward()
@@ -202,6 +205,6 @@ def waves_of(model: WrinkledModel) -> Waves:
 
 
 def waves_at(held: Held) -> Waves:
-    """The waves of a state, put into its model."""
+    """The waves of a state, which is written into its model."""
     held.put()
     return waves_of(held.model)

@@ -1,4 +1,4 @@
-"""Wave numbers around an axis, as problems take them for a parameter."""
+"""Wave numbers around an axis, as a parameter of problems."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field
 
 MOST_WAVES = 400
-"""Largest wave number one may ask for: shorter waves than the default meshes were tried with."""
+"""Largest wave number that can be requested; larger ones were not tested on the default meshes."""
 
 
 def _waves(value: object) -> object:
-    """Wave numbers from a list, one number, or text such as ``20,50``; each once."""
+    """Wave numbers without repetition, from a list, one number, or text such as ``20,50``."""
     given = value.split(",") if isinstance(value, str) else value
     wanted = f"whole numbers from 0 to {MOST_WAVES} are wanted, such as 20,50"
     found = []
@@ -27,4 +27,4 @@ def _waves(value: object) -> object:
 
 
 WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], BeforeValidator(_waves)]
-"""Parameter ``n``: numbers of waves around the axis whose stability is judged."""
+"""Parameter ``n``: wave numbers around the axis for which stability is computed."""

@@ -1,7 +1,7 @@
 """Problems ``wrinkled_linear`` and ``wrinkled_bending`` (Paper 5): waves around the cylinder at one level.
 
-Both solve for the axisymmetric state at a level and look at it over real wave numbers ``n``: the linearised
-theory of the paper's section 2.4, and what a small bending stiffness changes (beyond the paper).
+Both solve for the axisymmetric state at a level and evaluate its stability over real wave numbers ``n``: by
+the linearised theory of the paper's section 2.4, and with a small bending stiffness (not in the paper).
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ from weakforms.solvers.uncertainty.refinement import estimate
 SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
 
 ROUND_OFF = 1e-10
-"""Relative error that round-off may leave."""
+"""Relative round-off error."""
 
 PLACE = 1e-6
-"""Relative error that is left in the place of a flat maximum."""
+"""Relative error of the position of a flat maximum."""
 
 
 class LevelParameters(MaterialChoice):
@@ -58,20 +58,20 @@ class LevelParameters(MaterialChoice):
 
 
 class LinearParameters(LevelParameters):
-    """Besides, the trial function."""
+    """In addition, the trial function."""
 
     f: int = Field(1, ge=1, le=2, description="trial function: 1 sin(pi S/S_level), 2 its square")
 
 
 class BendingParameters(LevelParameters):
-    """Besides, bending stiffness and a wave number."""
+    """In addition, bending stiffness and a wave number."""
 
     beta: float = Field(0.0, ge=0, le=1, description="bending stiffness over H^3 and C1 h Ao^2")
     n: float = Field(10.0, gt=0, le=MOST_WAVES, description="wave number, any real one")
 
 
 class AtLevel:
-    """What both have in common: states on all meshes, and quantities with uncertainties."""
+    """Base class of both: states on all meshes, and quantities with uncertainties."""
 
     name: ClassVar[str]
     paper: ClassVar[int] = 5
@@ -83,7 +83,7 @@ class AtLevel:
     scales: ClassVar[dict[str, str]]
 
     def check(self, parameters: Any, requests: Requests) -> None:
-        """Refuse states: there is only one; and laws without a form for waves."""
+        """Refuse requests for states, because there is only one, and laws without a form for waves."""
         check_requests(self, requests)
         require_foldable(self.name, parameters, waves=True)
 
@@ -95,7 +95,7 @@ class AtLevel:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """The state at the level on all meshes, and the quantities of each."""
+        """Solve for the state at the level on all meshes, and compute the quantities."""
         begun = time.perf_counter()
         result = Result(
             problem=self.name,
@@ -145,8 +145,8 @@ class WrinkledLinear(AtLevel):
     control: ClassVar[str] = "none; the quantities are those of one level and trial function"
     scales: ClassVar[dict[str, str]] = {
         **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw")},
-        "A": "part of Pi2/pi that does not depend on n, over C1 h Ao^2",
-        "B": "its rate in n",
+        "A": "the part of Pi2/pi that does not depend on n, over C1 h Ao^2",
+        "B": "derivative of Pi2/pi with respect to n",
         "B_exact": "-int p r0 f^2 (r0'^2 + z0'^2) dS",
         "curved": "second difference of Pi2/pi in n over its size: 0 when it is affine",
         "n_star": "A/(-B)",
@@ -172,7 +172,7 @@ class WrinkledLinear(AtLevel):
 
 
 class WrinkledBending(AtLevel):
-    """A bending energy of the incremental circumferential curvature, which leaves the equilibrium alone."""
+    """Bending energy of the incremental circumferential curvature, which keeps the equilibrium."""
 
     name: ClassVar[str] = "wrinkled_bending"
     title: ClassVar[str] = "Waves around a wrinkled cylinder with a small bending stiffness"
@@ -183,12 +183,12 @@ class WrinkledBending(AtLevel):
         **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw", "beta")},
         "n": "wave number, real",
         "Lambda_membrane": "lowest eigenvalue for n waves without bending stiffness",
-        "Lambda_B1": "the same with it",
-        "Lambda_B2": "the same with the whole bending energy of a shell, simply supported",
+        "Lambda_B1": "lowest eigenvalue for n waves with bending stiffness",
+        "Lambda_B2": "lowest eigenvalue for n waves with the bending energy of a shell, simply supported",
         "n_minus": "lower end of the band of unstable n with that stiffness",
-        "n_plus": "its upper end: without bending stiffness there is none",
+        "n_plus": "upper end of this band; without bending stiffness there is none",
         "beta_c": "smallest stiffness at which no real n is unstable",
-        "n_c": "the last unstable n: the wavelength is 2 pi r/n_c",
+        "n_c": "last unstable n; the wavelength is 2 pi r/n_c",
     }
 
     def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
@@ -205,7 +205,7 @@ class WrinkledBending(AtLevel):
                 ("n_c", "beta_c"), np.array(peaks).T.tolist(), (PLACE, 1e-14), strict=True
             ):
                 found = quantity(estimate(values, cap))
-                # beta_c is small: its error is counted against itself.
+                # beta_c is small, so that its error is relative to itself.
                 spread = found.uncertainty if name == "n_c" else _relative(values, cap)
                 out[name] = Quantity(found.value, spread + left * max(1.0, found.value), found.order)
         band = Bands(levels[-1], beta).band(MOST_WAVES) if beta else None
@@ -218,7 +218,7 @@ class WrinkledBending(AtLevel):
 
 
 def _relative(values: list[float], cap: float) -> float:
-    """Uncertainty of a small positive number from its logarithm's."""
+    """Uncertainty of a small positive number, from that of its logarithm."""
     return float(values[-1] * (estimate([float(np.log(v)) for v in values], cap).uncertainty + ROUND_OFF))
 
 

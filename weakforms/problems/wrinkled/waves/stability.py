@@ -1,4 +1,4 @@
-"""Loads at which a wrinkled membrane becomes unstable to waves around it, or stable again: root finding."""
+"""Loads at which a wrinkled membrane becomes unstable to waves around it, or stable again."""
 
 from __future__ import annotations
 
@@ -14,55 +14,56 @@ from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
 
 TOLERANCE = 1e-11
-"""Of a root, over the load or volume."""
+"""Accuracy of a root, relative to the load or volume."""
 
 STEPS, NOISE = 60, 1e-12
-"""Steps to a root at most, and an eigenvalue that is zero."""
+"""Largest number of steps to a root, and the magnitude of an eigenvalue that counts as zero."""
 
 JUMP = 1e-3
-"""Least eigenvalue on both sides of a change that is a jump, over those at the ends of the interval that is
-searched: the tangent jumps where a zone opens or closes."""
+"""A change is a jump if the eigenvalues on both sides exceed this fraction of those at the ends of the
+interval. The tangent jumps where a zone opens or closes."""
 
 CHORDS = 12
-"""Secant steps on a coarser mesh, from the finest one's root."""
+"""Largest number of secant steps on a coarser mesh, from the root on the finest one."""
 
 LOOKS = 3
-"""How often an eigenvalue of the other sign is looked for next to the point of least magnitude."""
+"""Number of searches for an eigenvalue of the other sign next to the point of smallest magnitude."""
 
 
 @dataclass(frozen=True)
 class Sample:
-    """A state of the finest mesh, where it lies on the branch, and its lowest eigenvalue."""
+    """A state of the finest mesh, its position on the branch, and its lowest eigenvalue."""
 
     value: float
-    """Of the column that is held."""
+    """Value of the prescribed column."""
     held: Held
     lowest: float
 
 
 @dataclass(frozen=True)
 class Change:
-    """Where the lowest eigenvalue of a wave number is zero, or jumps from one sign to the other."""
+    """A point where the lowest eigenvalue of a wave number is zero, or jumps from one sign to the other."""
 
     n: int
     direction: float
-    """1 where it turns negative along the branch, -1 where it turns positive."""
+    """1 if the eigenvalue becomes negative along the branch, -1 if it becomes positive."""
     after: int
-    """Point of the branch it comes after."""
+    """Index of the point of the branch before it."""
     levels: tuple[Held, ...]
     """The state on every mesh, coarse to fine."""
     beside: Held | None = None
-    """The finest mesh's state of least magnitude, where ``levels`` are those of a zone's event close by."""
+    """The finest mesh's state of smallest magnitude, if ``levels`` are those of a zone's event close to
+    it."""
 
 
 class StabilityChanges:
-    """All of them for one wave number.
+    """Computes all changes of stability for one wave number.
 
     Args:
         membrane: Solves for states.
         n: Wave number.
-        beta: Bending stiffness that waves meet besides.
-        events: Gives the zones that open or close along the branch; asked for where an eigenvalue jumps.
+        beta: Additional bending stiffness against waves.
+        events: Gives the zones that open or close along the branch; called if an eigenvalue jumps.
     """
 
     def __init__(
@@ -83,7 +84,7 @@ class StabilityChanges:
         """All changes between neighbours of a branch, in order.
 
         Args:
-            points: Number, name and value of the column held there, and state, of each point.
+            points: For each point its number, name and value of the prescribed column, and state.
         """
         found = []
         values = [self.lowest(held) for *_, held in points]
@@ -96,12 +97,12 @@ class StabilityChanges:
                     self.failures.append(Failure(what, str(error)))
         return found
 
-    # -- brackets ------------------------------------------------------------------------------
+    # -- intervals ------------------------------------------------------------------------------
 
     def _brackets(
         self, points: Sequence[tuple[int, str, float, Held]], values: Sequence[float], j: int
     ) -> list[tuple[Sample, Sample]]:
-        """Intervals between two neighbours in each of which the eigenvalue changes its sign once."""
+        """Intervals between two neighbours in which the eigenvalue changes its sign once."""
         name = points[j + 1][1]
         ends = [Sample(self._value(points[k], name), points[k][3], values[k]) for k in (j, j + 1)]
         if values[j] * values[j + 1] < 0:
@@ -120,7 +121,7 @@ class StabilityChanges:
         return held.model.system.monitor(name)
 
     def _around_a_dip(self, a: Sample, b: Sample, name: str, dip: float) -> list[tuple[Sample, Sample]]:
-        """Two changes between neighbours of one sign, if there are."""
+        """Two changes between neighbours of the same sign, if there are any."""
         for _ in range(LOOKS):
             try:
                 middle = self._at(name, a.value + dip * (b.value - a.value), a.held)
@@ -154,12 +155,12 @@ class StabilityChanges:
     def _on_all(
         self, tried: Sequence[Sample], name: str, sides: tuple[Sample, Sample] | None
     ) -> tuple[Held, ...]:
-        """The root on every mesh, from the finest one's."""
+        """The root on every mesh, starting from that of the finest one."""
         if sides is not None:
             before, beyond = sides
             raise ConvergenceError(
                 f"Lambda for n = {self.n} jumps from {before.lowest:.3g} to {beyond.lowest:.3g} at "
-                f"{name} = {before.value:.9g}, where no zone was found to open or close"
+                f"{name} = {before.value:.9g}, where no zone opens or closes"
             )
         fine = tried[0]
         slope = _slope(tried)
@@ -170,8 +171,8 @@ class StabilityChanges:
     def _event_at(self, fine: Sample, name: str) -> Event | None:
         """The zone that opens or closes where an eigenvalue changes its sign, if one does.
 
-        A zone that opens stiffens the membrane by a finite amount while it is too thin for a coarse mesh, or
-        for any: its width grows like the root of the load.
+        An opening zone stiffens the membrane by a finite amount while it is still too thin for a mesh,
+        because its width grows like the square root of the load.
         """
         for event in self._events():
             held = event.levels[-1]
@@ -183,13 +184,13 @@ class StabilityChanges:
         return None
 
     def _narrowed(self, a: Sample, b: Sample, name: str) -> list[Sample]:
-        """Samples up to the root between two, the nearest to it first.
+        """Samples up to the root between two samples, the nearest to the root first.
 
-        False position with halved weights (Illinois). A state that is not found, as where a zone has a
-        width of zero, is stepped around.
+        False position with halved weights (Illinois). If a state is not found, for example at zero width of a
+        zone, the next one is tried.
 
         Raises:
-            ConvergenceError: When there is no state near the root.
+            ConvergenceError: If there is no state near the root.
         """
         tried, fa, fb, side = [a, b], a.lowest, b.lowest, 0
         for _ in range(STEPS):
@@ -205,8 +206,8 @@ class StabilityChanges:
         raise ConvergenceError(f"no root of Lambda for n = {self.n} after {STEPS} steps")
 
     def _first_found(self, a: Sample, b: Sample, name: str, shares: Sequence[float]) -> Sample:
-        """The state at the first of some places between two at which there is one."""
-        last = ConvergenceError("no place was tried")
+        """The first state that is found at some positions between two samples."""
+        last = ConvergenceError("no position was tried")
         for share in shares:
             value = a.value + share * (b.value - a.value)
             nearest = a if share < 0.5 else b
@@ -217,7 +218,7 @@ class StabilityChanges:
         raise last
 
     def _on_mesh(self, level: int, held: Held, name: str, value: float, slope: float) -> Held:
-        """The root on a coarser mesh by secants, from the finest one's."""
+        """The root on a coarser mesh by secants, starting from that of the finest one."""
         last = None
         for _ in range(CHORDS):
             lowest = self.lowest(held)
@@ -233,7 +234,7 @@ class StabilityChanges:
 
 
 def _jump(tried: Sequence[Sample], a: Sample, b: Sample) -> tuple[Sample, Sample] | None:
-    """The samples next to a jump between two; none where the eigenvalue passes through zero."""
+    """The samples next to a jump between two samples; none if the eigenvalue passes through zero."""
     before, beyond = (
         min((s for s in tried if s.lowest * near.lowest > 0), key=lambda s: abs(s.value - far.value))
         for near, far in ((a, b), (b, a))
@@ -243,16 +244,16 @@ def _jump(tried: Sequence[Sample], a: Sample, b: Sample) -> tuple[Sample, Sample
 
 
 def _slope(nearest: Sequence[Sample]) -> float:
-    """Slope of the eigenvalue at the first of some samples; from those not too near each other."""
+    """Slope of the eigenvalue at the first of some samples, from samples that are not too close together."""
     first = nearest[0]
     far = next((s for s in nearest[1:] if abs(s.value - first.value) > 1e-6), nearest[-1])
     return (far.lowest - first.lowest) / (far.value - first.value)
 
 
 def _dips(values: Sequence[float], j: int) -> float | None:
-    """Where between two points of one sign the eigenvalue may come to zero, as a share of the interval.
+    """Position between two points of the same sign where the eigenvalue may be zero, as a fraction.
 
-    In the middle, if one of the two is a point of least magnitude on the branch.
+    It is the middle, if one of the two is a point of smallest magnitude on the branch.
     """
     k = j if abs(values[j]) < abs(values[j + 1]) else j + 1
     if not 0 < k < len(values) - 1:

@@ -1,8 +1,8 @@
-r"""The linearised theory's trial perturbation: second variation of the energy along it.
+r"""The trial perturbation of the linearised theory, and the second variation of the energy along it.
 
 .. math:: u = f z_0',\quad v = f,\quad w = -f r_0' \qquad (q = r_0 v)
 
-has no meridional displacement, so that the relaxed energy's part in ``n`` is linear:
+has no meridional displacement, so that the second variation is linear in ``n``:
 :math:`\Pi_2/\pi = A + nB` (Patil, Nordmark & Eriksson 2016, section 2.4).
 """
 
@@ -58,7 +58,7 @@ class Trial:
         self._rate = fem.form(rate * width * dx)
 
     def second(self, n: float) -> float:
-        """``Pi2/pi`` at the state held."""
+        """``Pi2/pi`` at the current state."""
         self.waves.wave_number.value, self.waves.bending.value = n, 0.0
         return self._sum(self._second) / 2
 
@@ -76,14 +76,14 @@ def _trial_of(model: WrinkledModel, power: int) -> Trial:
 
 
 def trial_form(held: Held, power: int) -> dict[str, float]:
-    """``A``, ``B`` (fitted and in closed form), ``n_star = A/(-B)``, and how far from affine in ``n``.
+    """``A``, ``B`` (fitted and in closed form), ``n_star = A/(-B)``, and how nonlinear ``n`` enters.
 
     Args:
-        held: A state; the perturbation is zero above the liquid, and above the lowest front.
-        power: Of the sine.
+        held: A state; the perturbation is zero above the liquid and above the lowest front.
+        power: Power of the sine.
 
     Raises:
-        InputError: When there is no part for it.
+        InputError: If there is no wrinkled wet part.
     """
     waves_at(held)
     if held.zones.first == TAUT or (held.zones.surface is None and not held.zones.wet):

@@ -1,5 +1,5 @@
-"""The audit: solves at parameters drawn over all that a problem allows, and what became of each.
+"""The audit: solves at random parameters from the whole ranges of a problem, and the outcome of each.
 
-A problem promises an answer anywhere in its ranges. The ranges are read off its ``Parameters``, values are
-drawn with a seed of the day, and each set is solved by the command line in a process of its own.
+A problem should have an answer everywhere in its ranges. The ranges come from its ``Parameters``. Values are
+drawn with the date as seed, and each set is solved by the command line in a separate process.
 """

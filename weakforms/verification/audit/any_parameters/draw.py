@@ -1,4 +1,4 @@
-"""Sets of parameters over the whole of what a problem allows; its ranges are found, not listed."""
+"""Random sets of parameters from the whole ranges of a problem."""
 
 from __future__ import annotations
 
@@ -14,39 +14,39 @@ from weakforms.problems.material_choice import MOONEY_RIVLIN, MaterialChoice
 from weakforms.problems.problem import Problem, Requests, validated
 
 WIDE, DECADES = 10.0, 3
-"""A range whose ends are further apart than that factor is drawn logarithmically; over so many decades below
-its upper end where it begins at zero, which itself is drawn once in ten where it is allowed."""
+"""A range whose ends differ by more than this factor is drawn logarithmically. If it starts at zero, it is
+drawn over this number of decades below its upper end; zero itself, if allowed, is one draw in ten."""
 
 FREE = 1e6
-"""A constant of a law with a range wider than this is over a stress that is free to choose: it is drawn
-within a factor of ten of its default."""
+"""A constant of a law with a wider range is relative to an arbitrary stress. It is drawn within a factor of
+ten of its default."""
 
 MANY = 4
-"""Of more choices than these, such as the laws, every second draw takes the default."""
+"""If there are more choices than this, such as the laws, every second draw uses the default."""
 
 ATTEMPTS = 400
-"""Draws, at most, for one set that the problem admits."""
+"""Largest number of draws for one admissible set."""
 
 MESHES: Mapping[str, Mapping[str, Any]] = {
     "fluid_tube": {"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 4},
     "surface": {"scan": 10},
 }
-"""Numerics other than the default, where the default takes minutes."""
+"""Numerics that replace defaults that take minutes."""
 
 HELD: Mapping[str, Mapping[str, Any]] = {
     "surface": {"meridional": 30, "circumferential": 12, "size": 0.25},
 }
-"""Parameters that are a mesh: held at what can be afforded."""
+"""Mesh sizes that are parameters, limited to affordable values."""
 
 
 def sets(problem: Problem, seed: int, count: int) -> tuple[list[dict[str, Any]], dict[str, int]]:
-    """The first ``count`` sets of a seed that a problem admits, the same however many are wanted.
+    """The first ``count`` admissible sets of a seed; a larger ``count`` starts with the same sets.
 
     Returns:
-        The sets, and how many draws each message refused: parameters that contradict one another.
+        The sets, and the number of refused draws for each message (contradictory parameters).
 
     Raises:
-        InputError: When next to nothing is admitted.
+        InputError: If nearly no set is admissible.
     """
     found: list[dict[str, Any]] = []
     refused: dict[str, int] = {}
@@ -65,7 +65,7 @@ def sets(problem: Problem, seed: int, count: int) -> tuple[list[dict[str, Any]],
 
 
 def drawn(problem: Problem, seed: int) -> Iterator[dict[str, Any]]:
-    """Sets of parameters without end: each in its own range, whatever they are together."""
+    """An endless sequence of sets: each parameter is in its range, and combinations are not checked."""
     rng = np.random.default_rng([seed, zlib.crc32(problem.name.encode())])
     described = problem.parameters.model_json_schema()["properties"]
     held = HELD.get(problem.name, {})
@@ -78,7 +78,7 @@ def drawn(problem: Problem, seed: int) -> Iterator[dict[str, Any]]:
 
 
 def _with_law(given: dict[str, Any], ratio: str, rng: np.random.Generator) -> dict[str, Any]:
-    """With constants of the law drawn; ``C2/C1`` stands among the parameters where it is one of them."""
+    """The set with random constants of the law, except C2/C1 if this is a parameter of the problem."""
     law = MATERIALS[given["model"]]
     if law.name == MOONEY_RIVLIN and ratio:
         return given
@@ -94,7 +94,7 @@ def _constant(constant: Any, rng: np.random.Generator) -> float:
 
 
 def _value(entry: Mapping[str, Any], rng: np.random.Generator) -> Any:
-    """A value for one property of a JSON schema; none where it says too little, or where none is drawn."""
+    """A value for one property of a JSON schema, or none if the schema has too little information."""
     if "anyOf" in entry:
         return _value(entry["anyOf"][rng.integers(len(entry["anyOf"]))], rng)
     if entry.get("type") == "array":
@@ -109,7 +109,7 @@ def _value(entry: Mapping[str, Any], rng: np.random.Generator) -> Any:
 
 
 def _within(entry: Mapping[str, Any], rng: np.random.Generator) -> float | None:
-    """A number in a range with two ends; none where it has not."""
+    """A number in a range with two ends, or none if it has fewer."""
     low = entry.get("minimum", entry.get("exclusiveMinimum"))
     high = entry.get("maximum", entry.get("exclusiveMaximum"))
     if entry.get("type") not in ("number", "integer") or low is None or high is None:
@@ -130,5 +130,5 @@ def _number(low: float, high: float, with_low: bool, rng: np.random.Generator) -
 
 
 def _rounded(value: float) -> float:
-    """Four digits, which a command line shows."""
+    """The number with four digits, as on a command line."""
     return float(f"{value:.4g}")

@@ -1,4 +1,4 @@
-"""What an audit leaves: its JSON, and the table on a terminal."""
+"""The outcome of an audit: its JSON, and its table for a terminal."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ STATUSES = {
     "broke down": "an internal error, or a process that ended otherwise",
     "too slow": "ended at the limit of time",
 }
-"""What becomes of a set of parameters, the best first."""
+"""Outcomes of a set of parameters, the best first."""
 
 
 @dataclass(frozen=True)
 class Draw:
-    """One set of parameters and what became of it."""
+    """One set of parameters and its outcome."""
 
     problem: str
     number: int
-    """Which of the problem's sets, from 1."""
+    """Number of the set within its problem, from 1."""
     parameters: dict[str, Any]
     numerics: dict[str, Any]
     status: str
     messages: tuple[str, ...] = ()
-    """What it said: the failures listed, or the last lines of its complaint."""
+    """Its messages: the listed failures, or the last lines of standard error."""
     seconds: float = 0.0
 
     @property
     def command(self) -> str:
-        """A command that repeats it."""
+        """A command that repeats the solve."""
         return shlex.join(["weakforms", *words(self.problem, self.parameters, self.numerics)])
 
 
@@ -74,12 +74,12 @@ class Row:
 
     @property
     def total(self) -> int:
-        """Sets solved."""
+        """Number of sets."""
         return sum(self.counts.values())
 
     @property
     def share(self) -> float:
-        """Of sets answered in whole."""
+        """Fraction of the sets that were answered completely."""
         return self.counts["answered"] / self.total
 
 
@@ -89,17 +89,17 @@ class AuditRun:
 
     seed: int
     count: int
-    """Sets a problem."""
+    """Number of sets for each problem."""
     limit: float
-    """Seconds a solve may take."""
+    """Time limit of a solve in seconds."""
     started: str
     """ISO 8601, UTC."""
     seconds: float
     tree: str
-    """Digest of the source it ran on."""
+    """Digest of the source code."""
     environment: dict[str, str]
     contradictions: dict[str, dict[str, int]] = field(default_factory=dict)
-    """By problem, how many draws each message refused before anything was solved; they were drawn again."""
+    """For each problem, the number of refused draws for each message; these were drawn again."""
     draws: list[Draw] = field(default_factory=list)
 
     @property
@@ -110,12 +110,12 @@ class AuditRun:
 
     @property
     def missed(self) -> list[Draw]:
-        """Sets that were not answered in whole."""
+        """Sets that were not answered completely."""
         return [draw for draw in self.draws if draw.status != "answered"]
 
     @property
     def headline(self) -> str:
-        """One sentence about the whole."""
+        """One sentence about the whole audit."""
         good, total = len(self.draws) - len(self.missed), len(self.draws)
         share = f" ({good / total:.1%})" if total else ""
         return f"{good} of {plural(total, 'set')} of parameters answered{share}, seed {self.seed}"
@@ -133,10 +133,10 @@ def row(problem: str, draws: Iterable[Draw]) -> Row:
 
 
 def load_audit(path: Path) -> AuditRun:
-    """An audit from its file.
+    """Read an audit from its file.
 
     Raises:
-        InputError: When it cannot be read, or is none.
+        InputError: If the file cannot be read, or is not an audit.
     """
     data = load_json(path, "audit")
     if data.get("schema") != SCHEMA:
@@ -155,14 +155,14 @@ def load_audit(path: Path) -> AuditRun:
 
 @dataclass(frozen=True)
 class Audited:
-    """What a report knows of an audit: one, or why there is none."""
+    """The audit of a report, or the reason why there is none."""
 
     run: AuditRun | None = None
     problem: str = ""
 
     @classmethod
     def beside(cls, folder: Path) -> Audited:
-        """From a report's own folder; a file that cannot be read is a problem to be shown, no failure."""
+        """Read the audit in a report's folder; if the file cannot be read, the report shows the reason."""
         if not (folder / NAME).exists():
             return cls()
         try:
@@ -172,7 +172,7 @@ class Audited:
 
 
 def print_audit(run: AuditRun, console: Console) -> None:
-    """One line a problem; then every set that was not answered, with what it said and how to repeat it."""
+    """Print one line for each problem, then every set that was not answered, with its message and command."""
     table = Table(box=SIMPLE_HEAD, pad_edge=False, header_style="bold")
     table.add_column("Problem", overflow="fold")
     met = [status for status in STATUSES if any(draw.status == status for draw in run.draws)]

@@ -1,4 +1,4 @@
-"""Solves the sets of an audit, each by the command line in a process of its own, and says what came of it."""
+"""Solves the sets of an audit, each by the command line in a separate process."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from weakforms.verification.audit.faults.scratch import tree_digest
 from weakforms.verification.run.machine import environment
 
 Report = Callable[[int, int, str], None]
-"""Progress: sets done, sets in all, what became of the last."""
+"""Progress callback: number of finished sets, number of sets, outcome of the last one."""
 
 SHOWN = 3
-"""Lines of a complaint that are kept."""
+"""Number of lines of standard error that are stored."""
 
 
 def run_audit(
@@ -44,12 +44,12 @@ def run_audit(
 
     Args:
         problems: Their names.
-        count: Sets a problem.
-        seed: Of the draws.
+        count: Number of sets for each problem.
+        seed: Seed of the draws.
         limit: Seconds after which a solve is ended.
         out: Output folder; every outcome is stored below it at once.
-        resume: Take over what is stored for the same source, set and limit.
-        report: Told about the progress.
+        resume: Keep stored outcomes for the same source, set and limit.
+        report: Called with the progress.
 
     Raises:
         InputError: For an unknown problem or a folder that cannot be written, before anything is solved.
@@ -92,13 +92,13 @@ def solved(call: list[str], limit: float) -> tuple[str, tuple[str, ...], float]:
 def classified(
     code: int | None, complaint: str, result: dict[str, Any], limit: float
 ) -> tuple[str, tuple[str, ...]]:
-    """What became of a solve, and what it said.
+    """The outcome of a solve, and its messages.
 
     Args:
         code: Exit status of its process; ``None`` when it was ended at the limit.
         complaint: Its standard error.
-        result: The result it left; empty when there is none.
-        limit: Seconds it was given.
+        result: Its result; empty if there is none.
+        limit: Time limit in seconds.
     """
     said = [line.removeprefix("weakforms: ") for line in complaint.splitlines() if line.strip()]
     last = tuple(said[-SHOWN:])
@@ -134,12 +134,12 @@ def _process(call: list[str], limit: float) -> tuple[int | None, str]:
         return None, ""
     finally:
         with suppress(ProcessLookupError):
-            os.killpg(child.pid, signal.SIGKILL)  # and what it started
+            os.killpg(child.pid, signal.SIGKILL)  # and its child processes
         child.wait()
 
 
 def _read(file: Path) -> dict[str, Any]:
-    """A stored object; empty where there is none or it was cut short."""
+    """A stored object; empty if there is none or it is incomplete."""
     try:
         return load_json(file, "stored outcome")
     except InputError:

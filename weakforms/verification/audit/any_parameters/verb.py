@@ -23,7 +23,7 @@ def audit_verb(
     as_json: bool,
     screen: Console,
 ) -> int:
-    """Solve problems at sets of parameters that a seed draws; 0 when all are answered, else 1.
+    """Solve problems at random sets of parameters; return 0 if all are answered, else 1.
 
     Raises:
         InputError: For an unknown problem, or in a run on several ranks.
@@ -44,7 +44,7 @@ def audit_verb(
 
         def report(done: int, total: int, what: str) -> None:
             progress(what, done, total)
-            if not sys.stderr.isatty():  # where there is no bar, a line a set
+            if not sys.stderr.isatty():  # without a bar, one line for each set
                 sys.stderr.write(f"weakforms: {done}/{total} {plain(what)}\n")
                 sys.stderr.flush()
 

@@ -1,1 +1,1 @@
-"""The kinds of checks a case is made of: what each needs solved, what it is called, and how it judges."""
+"""The kinds of checks of a case: the solutions that each needs, its names, and its judgement."""

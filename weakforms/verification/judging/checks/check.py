@@ -1,4 +1,4 @@
-"""What all checks have in common."""
+"""Base class of all checks."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ from weakforms.verification.judging.outcome import Convergence, Printed, Verdict
 from weakforms.verification.run.solutions import Solutions
 
 Wanted = tuple[Spec, At | None]
-"""A solution, and a state of it where one is needed."""
+"""A solution, and a state of it if needed."""
 
 Judged = Iterable[Verdict | Printed | Convergence]
-"""What a check leaves: verdicts, entries of the ledger, refinement histories."""
+"""The outcome of a check: verdicts, entries of the ledger, refinement histories."""
 
 
 class Check(ABC):
-    """A statement that solutions can contradict."""
+    """A statement about solutions that can be false."""
 
     verdict_kind: ClassVar[str]
-    """Kind of its verdicts."""
+    """Kind of the verdicts."""
 
     @abstractmethod
     def wants(self, paper: int | str) -> list[Wanted]:
-        """Solutions and states that must be there before it judges."""
+        """Solutions and states that the check needs."""
 
     @abstractmethod
     def names(self, paper: int | str) -> list[str]:
-        """What its verdicts will be called; known before anything is solved."""
+        """Names of the verdicts, which are known before anything is solved."""
 
     @abstractmethod
     def judge(self, paper: int | str, solutions: Solutions) -> Judged:
-        """Judge it by solutions.
+        """Judge the statement.
 
         Args:
-            paper: Whose tables it is held against.
-            solutions: That have all it wants.
+            paper: Paper with the tables.
+            solutions: Solutions, including all that the check needs.
         """
 
     def verdict(self, name: str, passed: bool, statement: str, detail: str = "", **numbers: Any) -> Verdict:

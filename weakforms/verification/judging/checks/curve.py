@@ -1,4 +1,4 @@
-"""Check of a curve: a branch or a profile against its table, at the table's own rows."""
+"""Check of a curve: a branch or a profile, compared with its table at the rows of the table."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ from weakforms.verification.run.solutions import Solutions
 
 @dataclass(frozen=True)
 class Curve(Check):
-    """A branch drawn over two of its columns, or with ``at`` a profile of one of its states."""
+    """A branch over two of its columns, or with ``at`` a profile of one of its states."""
 
     of: Spec
     label: str
     reference: str | None = None
     at: At | None = None
     y: str | None = None
-    """Column drawn, where a panel shows several (``None``: the panel's own)."""
+    """Drawn column, if a panel shows several (``None``: the column of the panel)."""
     branch: str = "primary"
-    """Branch drawn and compared; a profile is of the branch of its state."""
+    """Branch of the curve; a profile belongs to the branch of its state."""
     asked: Mapping[str, float] | None = None
-    """Relative accuracy wanted of the columns of its table, where it is not the case's."""
+    """Relative accuracy asked of the columns of its table, if it differs from that of the case."""
     columns: Mapping[str, str] = field(default_factory=dict)
-    """The solution's column for a column of the table, where it has another name there."""
+    """Column of the solution by column of the table, if the names differ."""
 
     @property
     def verdict_kind(self) -> str:
-        """A profile is a field."""
+        """The kind of the verdicts; a profile is a field."""
         return "curve" if self.at is None else "field"
 
     def wants(self, paper: int | str) -> list[Wanted]:
@@ -50,10 +50,10 @@ class Curve(Check):
         return [(self.of, None), *((self.of, self.row_at(table, float(v))) for v in rows)]
 
     def names(self, paper: int | str) -> list[str]:
-        """One a column of the table that an accuracy is asked of.
+        """One for each column of the table with an accuracy.
 
         Raises:
-            InputError: When none is asked of any.
+            InputError: If no column has an accuracy.
         """
         table = self.table(paper)
         judged = [] if table is None else self.judged_columns(table)
@@ -62,7 +62,7 @@ class Curve(Check):
         return [f"{table.name}:{column}" for column in judged]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
-        """Every row of every column agrees with the table."""
+        """Judge whether every row of every column agrees with the table."""
         table = self.table(paper)
         for column, found in self.comparisons(paper, solutions).items():
             i, places = found.worst, table.columns[table.abscissa]
@@ -83,17 +83,19 @@ class Curve(Check):
             )
 
     def table(self, paper: int | str) -> Reference | None:
-        """Its table, made sure to be for its parameters.
+        """The table of the curve, after a check of its parameters.
 
         Raises:
-            InputError: When table and case speak of different parameters.
+            InputError: If table and case have different parameters.
         """
         if self.reference is None:
             return None
         table = references.load_curve(paper, self.reference)
         for name, value in table.parameters.items():
             given = dict(self.of.parameters).get(name)
-            several = isinstance(given, tuple) and value in given  # one of those solved for together
+            several = (
+                isinstance(given, tuple) and value in given
+            )  # one of several values that are solved for together
             if given is not None and given != value and not several:
                 raise InputError(
                     f"table {table.name} is for {name} = {value}, the case compares {name} = {given} with it"
@@ -101,11 +103,11 @@ class Curve(Check):
         return table
 
     def judged_columns(self, table: Reference) -> list[str]:
-        """Columns of its table that an accuracy is asked of."""
+        """Columns of the table with an accuracy."""
         return [name for name in table.ordinates if name in (self.asked or {})]
 
     def comparisons(self, paper: int | str, solutions: Solutions) -> dict[str, Comparison]:
-        """How each column compares with the table, row by row."""
+        """Comparison of each column with the table, row by row."""
         table = self.table(paper)
         found = {}
         for name in [] if table is None else self.judged_columns(table):
@@ -124,11 +126,11 @@ class Curve(Check):
         return np.array([q.value for q in rows]), np.array([q.uncertainty for q in rows])
 
     def row_at(self, table: Reference, value: float) -> At:
-        """The state at a row of its table."""
+        """The state at a row of the table."""
         return At(table.abscissa, value, branch=self.branch)
 
     def shown_at(self, table: Reference | None) -> At:
-        """The state of a profile, sampled where its table has rows."""
+        """The state of a profile, sampled at the rows of its table."""
         points = () if table is None else tuple(float(v) for v in table.columns[table.abscissa])
         if table is not None and table.meridian is not None:
             return replace(self.at, profile=points, theta=table.meridian)

@@ -20,7 +20,7 @@ from weakforms.verification.run.solutions import Solutions
 
 @dataclass(frozen=True)
 class Order(Check):
-    """Observed order of convergence of a quantity with the mesh, one degree a verdict."""
+    """Observed order of convergence of a quantity with the mesh, one verdict for each degree."""
 
     quantity: str
     of: Spec
@@ -29,27 +29,27 @@ class Order(Check):
     cells: tuple[int, ...]
     at: At | None = None
     kind: str = ""
-    """Special point whose value it is, where there is no ``at``."""
+    """Special point whose value it is, if there is no ``at``."""
     reference: str = ""
     """Table with the exact value."""
     row: int = 0
-    """Row of the table, and index of the point, where there is no ``at``."""
+    """Row of the table, and index of the point, if there is no ``at``."""
     column: str = ""
-    """Column of the profile or of the point; ``quantity`` is what people read."""
+    """Column of the profile or of the point; ``quantity`` is its readable name."""
 
     verdict_kind: ClassVar[str] = "order"
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """A solution on each mesh, by each degree."""
+        """A solution on each mesh, for each degree."""
         at = self._sampled_at(paper)
         return [(self._on(degree, cells), at) for degree in self.expected for cells in self.cells]
 
     def names(self, paper: int | str) -> list[str]:
-        """One a degree."""
+        """One for each degree."""
         return [f"order:{self.quantity}:P{degree}" for degree in self.expected]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict | Convergence]:
-        """Errors against the table fall at the expected order or faster."""
+        """Judge whether errors relative to the table decrease at the expected order or faster."""
         table, at = references.load(paper, self.reference), self._sampled_at(paper)
         for called, (degree, expected) in zip(self.names(paper), self.expected.items(), strict=True):
             errors = stack(self._error(table, self._on(degree, n), at, solutions) for n in self.cells)
@@ -72,14 +72,14 @@ class Order(Check):
         return self.of.on(degree=degree, cells=cells, levels=2)
 
     def _sampled_at(self, paper: int | str) -> At | None:
-        """The state with its profile sampled where the table has rows."""
+        """The state with its profile sampled at the rows of the table."""
         if self.at is None:
             return None
         table = references.load(paper, self.reference)
         return replace(self.at, profile=tuple(float(v) for v in table.columns[table.abscissa]))
 
     def _error(self, table: Reference, spec: Spec, at: At | None, solutions: Solutions) -> Number:
-        """Relative error on one mesh, as uncertain as the table: of a point, or the largest in a profile."""
+        """Relative error on one mesh, at a point or the largest in a profile; as uncertain as the table."""
         exact = table.number(self.column)
         if at is None:
             value = solutions.points(spec, self.kind)[self.row].values[self.column]

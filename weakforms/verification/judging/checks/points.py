@@ -1,4 +1,4 @@
-"""Checks of special points and of single states: how many there are, and their numbers against tables."""
+"""Checks of special points and of single states: their count, and their numbers compared with tables."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ class Count(Check):
     verdict_kind: ClassVar[str] = "count"
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """The solutions that are counted on."""
+        """The solutions whose points are counted."""
         return [(spec, None) for spec in self.expected]
 
     def names(self, paper: int | str) -> list[str]:
-        """One a solution."""
+        """One for each solution."""
         return [f"count_{self.kind}:{spec}" for spec in self.expected]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
-        """Each solution has exactly the number expected."""
+        """Judge whether each solution has exactly the expected number."""
         for name, (spec, expected) in zip(self.names(paper), self.expected.items(), strict=True):
             found = len(solutions.points(spec, self.kind))
             statement, detail = f"{self.statement} ({spec})", f"expected {expected}, found {found}"
@@ -43,7 +43,7 @@ class Count(Check):
 
 
 class TableOfPoints(Check):
-    """Numbers of some points, each held against a row of a table."""
+    """Numbers of some points, each compared with a row of a table."""
 
     verdict_kind: ClassVar[str] = "point"
 
@@ -73,7 +73,7 @@ def _named(table: str, label: str, column: str) -> str:
 
 @dataclass(frozen=True)
 class Points(TableOfPoints):
-    """Special points held against a table with one row a point (kind ``quantity``: the problem's quantities).
+    """Special points, compared with a table with one row for each (``quantity``: quantities of the problem).
 
     The table's columns that are parameters of the problem select the solution, ``order`` the point on it.
     """
@@ -84,7 +84,7 @@ class Points(TableOfPoints):
     parameters: tuple[str, ...]
     asked: Mapping[str, float]
     where: Mapping[str, float] = field(default_factory=dict)
-    """Values of columns of the table: only rows that have them are looked at."""
+    """Values of columns of the table; only rows with these values are used."""
     branch: str = ""
     """Only points of this branch; empty for all."""
 
@@ -93,7 +93,7 @@ class Points(TableOfPoints):
         return [(spec, None) for spec, _, _ in self._rows(paper)]
 
     def names(self, paper: int | str) -> list[str]:
-        """One a row and column."""
+        """One for each row and column."""
         return [
             _named(self.reference, self._label(spec, index), column)
             for spec, _, index in self._rows(paper)
@@ -101,7 +101,7 @@ class Points(TableOfPoints):
         ]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
-        """Each point is there, and has the row's numbers."""
+        """Judge whether each point exists, with the numbers of its row."""
         table = references.load(paper, self.reference)
         for spec, row, index in self._rows(paper):
             points, label = self._selected(solutions.points(spec, self.kind)), self._label(spec, index)
@@ -126,19 +126,19 @@ class Points(TableOfPoints):
         return f"{spec}[{', '.join([*chosen, str(index + 1)])}]"
 
     def _selected(self, points: list[SpecialPoint]) -> list[SpecialPoint]:
-        """The points that have the values the check is for (such as a wave number)."""
+        """The points with given values (such as a wave number)."""
         here = [p for p in points if self.branch in ("", p.branch)]
         return [p for p in here if all(p.values.get(k, v) == v for k, v in self.where.items())]
 
     def _missing(self, column: str, label: str, found: int) -> Verdict:
         name, statement = _named(self.reference, label, column), f"{column} of {self.kind} of {label}"
-        missing = f"not there: the branch has {found}"
+        missing = f"missing: the branch has {found}"
         return self.verdict(name, False, statement, missing, reference=self.reference)
 
 
 @dataclass(frozen=True)
 class States(TableOfPoints):
-    """States held against a table with one row a state.
+    """States, compared with a table with one row for each.
 
     The table's columns that are parameters of the problem select the solution, ``at`` the state of it.
     """
@@ -154,11 +154,11 @@ class States(TableOfPoints):
         return [(spec, self.at) for spec in self._rows(paper)]
 
     def names(self, paper: int | str) -> list[str]:
-        """One a row and column."""
+        """One for each row and column."""
         return [_named(self.reference, str(spec), c) for spec in self._rows(paper) for c in self.asked]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
-        """Each state has the row's numbers."""
+        """Judge whether each state has the numbers of its row."""
         table = references.load(paper, self.reference)
         for row, spec in enumerate(self._rows(paper)):
             quantities = solutions.state(spec, self.at).quantities

@@ -1,4 +1,4 @@
-"""Checks of the ledger: numbers printed in the papers, reproduced to all digits, or what else they are."""
+"""Checks of the ledger: numbers printed in the papers, reproduced to all digits or explained otherwise."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from weakforms.verification.run.solutions import Solutions
 
 
 class LedgerCheck(Check):
-    """A printed number, which has one verdict and one entry in the ledger."""
+    """A printed number, with one verdict and one entry in the ledger."""
 
     what: str
     printed: str
     source: str
-    """Where in the paper."""
+    """Place in the paper."""
 
     verdict_kind: ClassVar[str] = "printed"
 
     def names(self, paper: int | str) -> list[str]:
-        """By what is printed."""
+        """The name of the printed number."""
         return [f"printed:{self.what}"]
 
     def _entry(self, value: float, uncertainty: float, status: str, evidence: str) -> Entry:
@@ -34,7 +34,7 @@ class LedgerCheck(Check):
     def _digits(
         self, value: float, uncertainty: float, reading: Reading | None, evidence: str
     ) -> Iterator[Verdict | Entry]:
-        """Verdict and entry of a printed number beside a computed one."""
+        """Verdict and entry of a printed number, compared with a computed one."""
         status = "reproduced" if rounds_to(value, uncertainty, self.printed) else "not reproduced"
         wanted, said = "reproduced", f"{self.what} is printed as {self.printed} ({self.source})"
         if reading is not None:
@@ -49,7 +49,7 @@ class LedgerCheck(Check):
 
 @dataclass(frozen=True)
 class Printed(LedgerCheck):
-    """A number printed in the paper: reproduced to all its digits, or read in another way that is proven."""
+    """A number printed in the paper: reproduced to all its digits, or explained otherwise with a proof."""
 
     what: str
     printed: str
@@ -60,14 +60,14 @@ class Printed(LedgerCheck):
     source: str
     index: int = 0
     reading: Reading | None = None
-    """What it is, where it is stated not to be the number rounded to its digits."""
+    """The explanation, if it is not the number rounded to its digits."""
 
     def wants(self, paper: int | str) -> list[Wanted]:
         """The solution that has the point."""
         return [(self.of, None)]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict | Entry]:
-        """The point's number is the printed one."""
+        """Judge whether the number of the point is the printed one."""
         points = solutions.points(self.of, self.kind)
         if self.index >= len(points):
             (name,) = self.names(paper)
@@ -82,7 +82,7 @@ class Printed(LedgerCheck):
 
 @dataclass(frozen=True)
 class PrintedExact(LedgerCheck):
-    """A printed number with a closed form: reproduced to all its digits, or read in another way."""
+    """A printed number with a closed form: reproduced to all its digits, or explained otherwise."""
 
     what: str
     printed: str
@@ -92,17 +92,17 @@ class PrintedExact(LedgerCheck):
     reading: Reading | None = None
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """Nothing needs to be solved."""
+        """Nothing, because no solution is needed."""
         return []
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict | Entry]:
-        """The closed form's value is the printed one."""
+        """Judge whether the value of the closed form is the printed one."""
         yield from self._digits(self.exact, 0.0, self.reading, self.evidence)
 
 
 @dataclass(frozen=True)
 class PrintedInput(LedgerCheck):
-    """A printed number that is an input of a figure: what it implies, and whether that is a round value."""
+    """A printed number that is an input of a figure: the value that it implies, and whether this is round."""
 
     what: str
     printed: str
@@ -110,19 +110,21 @@ class PrintedInput(LedgerCheck):
     at: At
     column: str
     searched: tuple[float, ...]
-    """Round values, rising, that ``column`` could have there if the number was read off a computation ..."""
+    """Ascending round values that ``column`` could have if the printed number was a result of a computation
+    ..."""
     within: float
     """... within this relative distance."""
     source: str
     decoded: bool = True
-    """What is stated: that it is decoded, or that it lies between two of the values and is neither."""
+    """Whether the case states that it is decoded, or that it lies between two of the values and is
+    neither."""
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """The state that the input gives."""
+        """The state for the input."""
         return [(self.of, self.at)]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict | Entry]:
-        """The state's ``column`` is one of the round values, or is shown to be none of them."""
+        """Judge whether the state's ``column`` is one of the round values, or is shown to be none of them."""
         found = solutions.quantity(self.of, self.at, self.column)
         near = min(self.searched, key=lambda value: abs(found.value - value))
         low, high = self.searched[0], self.searched[-1]
@@ -143,26 +145,26 @@ class PrintedInput(LedgerCheck):
 
 @dataclass(frozen=True)
 class PrintedState(LedgerCheck):
-    """A printed number at which a figure shows a state: the state is there, on the branch the paper says."""
+    """A printed number at which a figure shows a state: the state exists on the branch of the paper."""
 
     what: str
     printed: str
     of: Spec
     at: At
     column: str
-    """Whose value is printed; the state is asked for at it."""
+    """The column whose value is printed; the state is requested at this value."""
     shown: tuple[str, ...]
-    """Columns that tell in the ledger which state it is."""
+    """Columns that identify the state in the ledger."""
     n_negative: int
-    """Negative eigenvalues in the symmetric space, which tell the parts of the branch apart."""
+    """Number of negative eigenvalues in the symmetric space, which distinguishes parts of the branch."""
     source: str
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """The state shown."""
+        """The state of the figure."""
         return [(self.of, self.at)]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict | Entry]:
-        """The state is there, with the number of negative eigenvalues stated."""
+        """Judge whether the state exists, with the stated number of negative eigenvalues."""
         values = solutions.state(self.of, self.at).quantities
         found, negative = values[self.column], values["n_negative"].value
         placed = rounds_to(found.value, found.uncertainty, self.printed) and negative == self.n_negative

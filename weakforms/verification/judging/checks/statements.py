@@ -1,4 +1,4 @@
-"""Checks of statements: what a paper claims of its solutions, and first integrals of the exact equations."""
+"""Checks of statements: claims of a paper on its solutions, and first integrals of the exact equations."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ from weakforms.verification.run.solutions import Solutions
 class Claim(Check):
     """A statement of the paper that is true or false of some solutions.
 
-    ``holds`` looks at the solutions listed in ``needs`` and returns the truth and what was found.
+    ``holds`` evaluates the solutions listed in ``needs`` and returns whether the claim is true, and the
+    numbers.
     """
 
     name: str
@@ -29,20 +30,20 @@ class Claim(Check):
     needs: tuple[Wanted, ...]
     holds: Callable[[Solutions], Finding]
     differs: str = ""
-    """Where the paper says otherwise: what it says, and why that does not hold."""
+    """The different statement of the paper, if there is one, and why it is not true."""
 
     verdict_kind: ClassVar[str] = "claim"
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """As listed."""
+        """The listed solutions."""
         return list(self.needs)
 
     def names(self, paper: int | str) -> list[str]:
-        """The claim's own name."""
+        """The name of the claim."""
         return [f"claim:{self.name}"]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
-        """It holds, as :mod:`weakforms.verification.judging.decide` decides."""
+        """Judge whether it is true, by the rules of :mod:`weakforms.verification.judging.decide`."""
         holds, detail = self.holds(solutions)
         (name,) = self.names(paper)
         yield self.verdict(name, holds, self.statement, detail, differs=self.differs)
@@ -61,15 +62,15 @@ class Constant(Check):
     verdict_kind: ClassVar[str] = "exact"
 
     def wants(self, paper: int | str) -> list[Wanted]:
-        """The state whose profile it is."""
+        """The state of the profile."""
         return [(self.of, self.at)]
 
     def names(self, paper: int | str) -> list[str]:
-        """By column and state."""
+        """A name from column and state."""
         return [f"constant:{self.column}:{self.of}:{self.at}"]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
-        """Its spread over the profile is no more than its uncertainty allows."""
+        """Judge whether the spread over the profile is within its uncertainty."""
         found = solutions.column(self.of, self.at, self.column)
         scale = float(np.max(np.abs(found.value)))
         uncertainty = float(np.max(found.uncertainty)) / scale
