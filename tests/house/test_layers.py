@@ -126,7 +126,7 @@ def test_nothing_of_weakforms_is_imported_by_the_references_when_they_run():
 
 def test_no_folder_is_crowded():
     crowded = {}
-    for top in ("weakforms", "reference_data"):
+    for top in ("weakforms", "reference_data", "cases"):
         for folder in {path.parent for path in files(top)}:
             modules = [path.name for path in folder.glob("*.py") if path.name != "__init__.py"]
             if len(modules) > 15:

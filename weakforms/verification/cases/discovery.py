@@ -49,9 +49,9 @@ def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
         InputError: If a case file does not define ``CASE``.
     """
     found = []
-    for path in sorted(part("cases", root).glob("paper[1-5]/*.py")):
-        if not path.stem.startswith("_"):
-            found.append(_load(path, int(path.parent.name.removeprefix("paper"))))
+    for paper in range(1, 6):
+        paths = sorted((part("cases", root) / f"paper{paper}").rglob("*.py"))
+        found += [_load(path, paper) for path in paths if not path.stem.startswith("_")]
     found.sort(key=lambda item: (item.paper, item.id))
     for group in GROUPS:
         paths = sorted((part("cases", root) / group).glob("*.py"))
