@@ -71,8 +71,8 @@ def draw(branch: Branch, columns: Sequence[str], seed: int, without: Container[i
     left = np.random.default_rng(seed).permutation([i for i in inner if i not in without]).tolist()
     silent = {name for name in branch.columns if name not in DESCRIBE}
     while left:
-        # Prefer a point at which many columns have a value for the first time, such as those of contact or a
-        # front.
+        # Prefer a point at which many columns have a value for the first time, for example columns of contact
+        # or of a front.
         i = max(left, key=lambda at: sum(_speaks(branch.columns[name][at]) for name in silent))
         left.remove(i)
         for name in columns:

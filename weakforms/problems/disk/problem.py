@@ -68,7 +68,7 @@ SCALES = {
 ENERGY = (
     "Pi/(2 pi C1 h R_f^2) = int_0^{1/beta} [ W(lam1, lam2) x + (p/2) rho^2 eta' "
     "+ (k/2) chi (eta - l)^2 rho rho' ] dx,  rho = x lam2,  lam1 = sqrt(rho'^2 + eta'^2),  "
-    "W = I1 - 3 + alpha (I2 - 3), or that of another model (weakforms show material; its S for C1)"
+    "W = I1 - 3 + alpha (I2 - 3), or of another model (weakforms show material; its S for C1)"
 )
 
 PATCH_COLUMNS = (
@@ -264,7 +264,7 @@ class Circular(PathProblem):
 
 
 def peeling_pressure(parameters: CircularParameters, requests: Requests) -> float:
-    """The pressure of a peeling curve: the parameter ``p``, or that of the requested states.
+    """The pressure of a peeling curve: the parameter ``p``, or the pressure of the requested states.
 
     Raises:
         InputError: If there is none, or more than one.

@@ -70,11 +70,11 @@ ENERGY = (
 
 CAPS = {"r_mid": 4.0, "r_max": 4.0, **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 2.0)}
 """Highest assumed orders of convergence at material points of a partially filled tube. Because cells follow
-the front, the position of such a point in its cell varies: the order is that of the elements, but the size of
-the error varies."""
+the front, the position of such a point in its cell varies: the error has the order of the elements, but its
+size varies."""
 
 MATERIAL = {"r_mid": "r", "r_max": "r", "T1_mid": "T1", "T2_mid": "T2"}
-"""The columns at such points, and the fields of which they are values."""
+"""The columns at such points, each with the field that it evaluates."""
 
 TORN = "Z_front", "r_front"
 """Columns that only a partially filled tube has."""

@@ -77,7 +77,7 @@ class Continuation:
         solver: Newton solver whose ``m`` scalars are the unknown loads.
         fixed: Constraints that hold along the whole curve (the fold condition, for a fold line).
         control: Step lengths.
-        shift: The inertia is that of ``K + shift M``. On a fold line, where ``K`` is singular by definition,
+        shift: Inertia is computed for ``K + shift M``. On a fold line, where ``K`` is singular by definition,
             a small shift leaves the critical eigenvalue out of the count.
         allowed: True for admissible states; a step to another state is repeated shorter.
     """

@@ -41,7 +41,7 @@ PLACES = 101
 class BranchFamily:
     """A branch that is traced on several meshes from coarse to fine.
 
-    Every number is that of the finest mesh; the other meshes give its uncertainty.
+    Every number comes from the finest mesh; the other meshes give its uncertainty.
 
     Args:
         make: Builds the branch on the mesh of a level.

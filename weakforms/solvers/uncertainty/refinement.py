@@ -24,7 +24,7 @@ SAFETY_UNRESOLVED = 3.0
 """... and if the observed order is below one."""
 
 TOO_FAST = 0.5
-"""A field is resolved if its observed order exceeds that of its elements by less than this."""
+"""A field is resolved if its observed order exceeds the order of its elements by less than this."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ def _left(
     guard: float | None,
     most: float | np.ndarray = np.inf,
 ) -> np.ndarray:
-    """The uncertainty from two differences, of which at most ``most`` counts."""
+    """The uncertainty from two differences; a difference counts only up to ``most``."""
     used = np.clip(known, 1.0, cap)
     safety = np.where(known >= 1.0, SAFETY, SAFETY_UNRESOLVED)
     left = np.maximum(last, first / 2.0 ** (cap if guard is None else guard))

@@ -118,6 +118,6 @@ def _numbers(given: Mapping[str, object]) -> dict[str, float]:
 
 
 def abscissa_hint(problem: str, abscissa: str, constants: Mapping[str, object]) -> str:
-    """A hint for a curve most of which lies outside of its table."""
+    """A hint for a curve that lies mostly outside of its table."""
     unit = "" if constants else _unit(problem, abscissa)
     return f"is {abscissa} in units of {unit} (see --constant)?" if unit else ""

@@ -114,7 +114,7 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
 def _with_states(
     curve: Curve, table: Reference | None, solutions: Solutions, names: tuple[str, ...]
 ) -> dict[str, np.ndarray]:
-    """Columns of a branch, with those of the states at the rows of its table in between.
+    """Columns of a branch, with the states at the rows of its table in between.
 
     A branch traced in long steps would otherwise be a polygon beside these states.
     """

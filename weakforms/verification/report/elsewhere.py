@@ -20,10 +20,10 @@ TOLD = ("dolfinx", "ufl", "petsc", "slepc", "python", "system", "ranks")
 
 @dataclass(frozen=True)
 class Elsewhere:
-    """Another run, and the differences of its numbers from those of this run."""
+    """Another run, and the differences of its numbers from this run's numbers."""
 
     environment: dict[str, str]
-    """Facts of its environment that differ from those of this run."""
+    """Facts of its environment that differ from this run's environment."""
     rows: tuple[CaseRow, ...]
 
 

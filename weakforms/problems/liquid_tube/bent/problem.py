@@ -48,7 +48,8 @@ SCALES = {
     "zw_bent": "level of the secondary state with the prescribed amplitude over A",
     "V_bent": "its volume over A^3",
     "Pi_bent": "its potential over mu H A^2",
-    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference that of the rotation",
+    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference the eigenvalue of the "
+    "rotation",
     "phase": "force that prevents the rotation at that state: zero up to round-off",
     "amplitude": "root mean square displacement along the axisymmetric branch's mode over A",
     "uneven": "relative amplitude by which the widths of the cells vary around",

@@ -5,7 +5,7 @@ variation. Among the latter, the rotation of the pattern about the axis, :math:`
 needs no energy. Its eigenvalue is exactly zero, and its computed value, of either sign, shows the error. The
 inertia of ``K`` cannot distinguish it from an instability. The inertia of ``K + s M`` is therefore used, with
 ``s`` far above the error. The eigenvalues between ``-s`` and zero, whose vectors SLEPc returns, are added to
-this count, without that of the rotation, which its vector identifies.
+this count. The eigenvalue of the rotation, identified by its vector, is left out.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.spectra import Mode, Stability
 
 NEAR = 5
-"""Number of symmetry-breaking eigenvalues that are computed, including that of the rotation."""
+"""Number of symmetry-breaking eigenvalues that are computed, including the eigenvalue of the rotation."""
 
 SHIFT = 0.01
 """The shift ``s``, far above the error of a zero eigenvalue."""
@@ -44,8 +44,9 @@ LIKENESS = 0.9
 pattern."""
 
 UNBENT = 1e-6
-"""Norm of that displacement, relative to that of the tube, below which there is no pattern to rotate. At the
-bifurcation its direction tends to the partner of the critical mode, which has a zero eigenvalue too."""
+"""Norm of that displacement, relative to a unit displacement of the whole tube, below which there is no
+pattern to rotate. At the bifurcation its direction tends to the partner of the critical mode, which has a
+zero eigenvalue too."""
 
 
 class BentStability:
@@ -147,7 +148,7 @@ class BentStability:
         if min(map(abs, others)) <= abs(turn.eigenvalue):
             raise ConvergenceError(
                 f"stability: a symmetry-breaking eigenvalue of {min(others, key=abs):.1e} is as near to zero "
-                f"as that of the rotation, {turn.eigenvalue:.1e}: its sign is uncertain"
+                f"as the eigenvalue of the rotation, {turn.eigenvalue:.1e}: its sign is uncertain"
             )
         return {
             "Lambda_breaking": others[0],

@@ -52,8 +52,7 @@ class Change:
     levels: tuple[Held, ...]
     """The state on every mesh, coarse to fine."""
     beside: Held | None = None
-    """The finest mesh's state of smallest magnitude, if ``levels`` are those of a zone's event close to
-    it."""
+    """The finest mesh's state of smallest magnitude, if ``levels`` belong to a zone's event close to it."""
 
 
 class StabilityChanges:
@@ -155,7 +154,7 @@ class StabilityChanges:
     def _on_all(
         self, tried: Sequence[Sample], name: str, sides: tuple[Sample, Sample] | None
     ) -> tuple[Held, ...]:
-        """The root on every mesh, starting from that of the finest one."""
+        """The root on every mesh, starting from the root on the finest one."""
         if sides is not None:
             before, beyond = sides
             raise ConvergenceError(
@@ -218,7 +217,7 @@ class StabilityChanges:
         raise last
 
     def _on_mesh(self, level: int, held: Held, name: str, value: float, slope: float) -> Held:
-        """The root on a coarser mesh by secants, starting from that of the finest one."""
+        """The root on a coarser mesh by secants, starting from the root on the finest one."""
         last = None
         for _ in range(CHORDS):
             lowest = self.lowest(held)
