@@ -88,15 +88,15 @@ def estimate(
     tiny = np.finfo(float).tiny
     order = np.log2(np.maximum(first, tiny) / np.maximum(last, tiny))
     known = np.maximum(order, least)
-    spread = _left(first, last, known, cap, guard)
+    spread = _from_differences(first, last, known, cap, guard)
     if slow is not None:
         most = slow.size * np.maximum(np.abs(fine), 1.0)
-        spread += _left(first, last, known, np.minimum(cap, slow.order), None, most)
+        spread += _from_differences(first, last, known, np.minimum(cap, slow.order), None, most)
     observed = np.where(last > floor, order, np.nan)
     return Estimate(fine, spread + floor, observed)
 
 
-def _left(
+def _from_differences(
     first: np.ndarray,
     last: np.ndarray,
     known: np.ndarray,

@@ -201,7 +201,7 @@ class SecondaryFamily(BranchFamily):
         points = super().special_points()
         for below, level in pairwise(self.levels):
             for amplitude in COMPARED if level is self.fine else AMPLITUDES:
-                level.small[amplitude] = self._like(below, level, amplitude)
+                level.small[amplitude] = self._on_finer_mesh(below, level, amplitude)
         *_, last = coarser = self.levels[:-1]
         slopes = [level.initial() for level in coarser]
         fewer = last.initial(AMPLITUDES[:-1])  # for the error of the extrapolation
@@ -215,7 +215,7 @@ class SecondaryFamily(BranchFamily):
         return points
 
     @staticmethod
-    def _like(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
+    def _on_finer_mesh(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
         """The state of a small amplitude on a mesh, from the state of the next coarser one."""
 
         def guess() -> State:

@@ -186,7 +186,7 @@ class WholeRun:
         loads = {"zw": at.values["zw"]} | ({"phase": 0.0} if self.full else {})
         return State(self.model.interpolated(position(at)), loads)
 
-    def _pinned(self) -> list[Plane]:
+    def _no_rotation(self) -> list[Plane]:
         """Condition of no displacement along the rotated mode, so that a bent state cannot rotate."""
         return [Plane(self.rows[1], {}, 0.0)] if self.full else []
 
@@ -237,7 +237,7 @@ class WholeRun:
         offset = self.amplitude * self.size
         target = self.system.dot(self.rows[0], guess.u) + offset
         guess.u = guess.u + offset * self.modes[0]
-        state, _ = self.solver.solve(guess, [*self._pinned(), Plane(self.rows[0], {}, target)])
+        state, _ = self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])
         values = self.system.monitors()
         nearest = Stability(self.system).modes(state, 1)[0]
         return {
