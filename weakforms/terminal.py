@@ -26,10 +26,10 @@ _LACKS = (
 )
 """Errors of the operating system that mean that something is missing or full."""
 
-COMPLAINT = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+USAGE_ERROR = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 """Exceptions for wrong use of the command line; newer releases of typer contain their own click."""
 
-LONGEST_COMPLAINT = 600
+LONGEST_MESSAGE = 600
 """Number of characters after which a message is cut, because it may quote long input."""
 
 
@@ -211,8 +211,8 @@ def complain(text: str) -> None:
     if rank() != 0:
         return
     line = plain(" ".join(text.split()))
-    if len(line) > LONGEST_COMPLAINT:
-        line = f"{line[: LONGEST_COMPLAINT // 2]} ... {line[-LONGEST_COMPLAINT // 4 :]}"
+    if len(line) > LONGEST_MESSAGE:
+        line = f"{line[: LONGEST_MESSAGE // 2]} ... {line[-LONGEST_MESSAGE // 4 :]}"
     sys.stderr.write(f"weakforms: {line}\n")
 
 
@@ -242,7 +242,7 @@ def _verdict_on(error: BaseException) -> tuple[int, str]:
     """Exit status and message for an exception that ends a command."""
     if isinstance(error, WeakformsError):
         return error.exit_status, str(error)
-    if isinstance(error, COMPLAINT):
+    if isinstance(error, USAGE_ERROR):
         return 2, error.format_message()
     if isinstance(error, typer.Abort | KeyboardInterrupt):
         return 130, "interrupted"

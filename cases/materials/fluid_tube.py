@@ -22,7 +22,7 @@ KINDS = {"limit_point": 0, "bifurcation_point": 1}
 
 
 def zeros(solutions: Solutions) -> Finding:
-    """At the limit point the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
+    """The axisymmetric eigenvalue at the limit point, the eigenvalue of one wave at the first bifurcation."""
     return decide.all_of(
         decide.zero(f"{model} {name}", solutions.number(spec, at, name), 5e-10)
         for model, spec in TUBES.items()
@@ -114,7 +114,7 @@ CASE = Case(
         ),
         Claim(
             "same_law",
-            "the neo-Hookean tube with the catalogue's law is that of the paper",
+            "the neo-Hookean tube with the catalogue's law is the paper's tube",
             ((SAME, None), (NEO_HOOKEAN, None)),
             same_law,
         ),

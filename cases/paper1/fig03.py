@@ -1,6 +1,6 @@
 """Paper 1, figure 3: profiles and paths of material points in free inflation and frictionless contact.
 
-Mooney-Rivlin, alpha = 0.1, k = 50, l = 0.5; (a) beta = 1, (b) beta = 2. The pressures are those of the
+Mooney-Rivlin, alpha = 0.1, k = 50, l = 0.5; (a) beta = 1, (b) beta = 2. The pressures are taken from the
 paper's legends. Points in contact move outwards as the pressure grows; their paths diverge and have no
 inflexion.
 """

@@ -43,7 +43,7 @@ BEYOND = decide.Stated(1.01, "bulges beyond its clamp", "no number is printed; a
 
 
 def bulges(solutions: Solutions) -> Finding:
-    """Largest radius at p = 6, frictionless, Mooney-Rivlin, compared with that of the clamp."""
+    """Largest radius at p = 6, frictionless, Mooney-Rivlin, compared with the clamp's radius."""
     at = At("p", 6.0, profile=())
     reach = {b: solutions.column(PAIRS[0.1, b, LAWS[0]], at, "rho") for b in (1, 2)}
     return decide.all_of(

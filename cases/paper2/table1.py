@@ -1,8 +1,8 @@
 """Paper 2, table 1: orders of continuity at the contact front, measured.
 
 On each side of the front a polynomial is fitted to the solution (elements of degree 6) over a window, and
-its derivatives are compared at the front. The order is that of the first derivative with a jump. According to
-the printed table u, w, lam2 are in C^i and lam1, t1, t2 in C^(i-1) with i = 2 (frictionless), 1 (adhesive
+its derivatives are compared at the front. The order counts derivatives up to the first with a jump. According
+to the printed table u, w, lam2 are in C^i and lam1, t1, t2 in C^(i-1) with i = 2 (frictionless), 1 (adhesive
 inflation), 0 (adhesive deflation): the first jump is in derivative i + 1, or i. In frictionless contact lam1,
 t1 and t2 are smoother: w - lam1 w_1 is constant along the membrane, so that lam1 is a smooth function of
 lam2.

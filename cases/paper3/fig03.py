@@ -90,7 +90,7 @@ def work_conjugate(solutions: Solutions) -> Finding:
 
 
 def stable_in_volume(solutions: Solutions) -> Finding:
-    """Lowest axisymmetric eigenvalue at fixed volume, and that of one wave, up to the bifurcation."""
+    """Lowest eigenvalues of axisymmetric modes at fixed volume and of one wave, up to the bifurcation."""
     found = []
     for tube in TUBES.values():
         end = next(p for p in solutions.points(tube, "bifurcation_point") if p.values["n"] == 1)

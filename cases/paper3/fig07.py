@@ -77,7 +77,7 @@ CASE = Case(
     checks=(
         Claim(
             "delta_2_is_meant",
-            "zw = 8.356 is below the limit level of delta = 2 and above that of delta = 3",
+            "zw = 8.356 is below the limit level of delta = 2 and above the limit level of delta = 3",
             ((TUBE, None), (OTHER, None)),
             delta_2_is_meant,
         ),

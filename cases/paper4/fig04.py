@@ -1,7 +1,7 @@
 """Paper 4, figure 4: profiles of the fluid-filled membrane, Case 1, Af = (Af)_c; taut full, wrinkled dashed.
 
-(a) M = 0.5, (b) M = 1.5. The text does not give the pre-stretch; both are drawn. The states are those of
-figures 2 and 3.
+(a) M = 0.5, (b) M = 1.5. The text does not give the pre-stretch; both are drawn. Figures 2 and 3 show the
+same states.
 """
 
 from weakforms import At, Axis, Case, Curve, Dashed, Panel, wrinkled_tube

@@ -39,7 +39,7 @@ def wrinkled_zone_shrinks(solutions: Solutions) -> Finding:
 
 
 def mirror_images(solutions: Solutions) -> Finding:
-    """The state of M = 1.5 turned upside down is that of M = 0.5."""
+    """The state of M = 1.5 turned upside down is the state of M = 0.5."""
     return decide.all_of(
         decide.agree(
             name,
@@ -66,7 +66,7 @@ def hoop_changes_most(solutions: Solutions) -> Finding:
         ).largest()
         for n in ("lam2", "lam1")
     )
-    return decide.at_least("change of the hoop stretch over that of the meridional one", hoop / along, MUCH)
+    return decide.at_least("change of the hoop stretch over meridional change", hoop / along, MUCH)
 
 
 CASE = Case(
@@ -87,7 +87,7 @@ CASE = Case(
                 )
                 for p in PRESSURES
             ),
-            note="Without load the state is that of figures 2 and 3.",
+            note="Without load the state is the same as in figures 2 and 3.",
         )
         for name, d in (("a", 2), ("b", 3))
     ),

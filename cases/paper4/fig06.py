@@ -189,7 +189,7 @@ CASE = Case(
         ),
         Claim(
             "at_crests",
-            "crests and troughs are those of the reference",
+            "crests and troughs agree with the reference",
             tuple((TUBES[int(d)], at) for d, _, at in crest_states()),
             at_crests,
         ),

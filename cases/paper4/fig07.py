@@ -112,7 +112,7 @@ CASE = Case(
         ),
         Claim(
             "uniform_wrinkles_at_last",
-            "under gas, at pressures above those of the paper, a uniform membrane wrinkles at both disks too",
+            "under gas, at pressures above the paper's, a uniform membrane wrinkles at both disks too",
             tuple((UNIFORM_GAS, at) for at in FAR_INFLATED),
             uniform_wrinkles_at_last,
         ),

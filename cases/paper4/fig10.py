@@ -66,7 +66,7 @@ CASE = Case(
             curves=curves(GAS, d, "p", PRESSURES, "fig10a")
             if name == "a"
             else curves(FLUID, d, "zw", LEVELS, "fig10b"),
-            note="Without load the state is that of panel (a)." if name == "b" else "",
+            note="Without load the state is the same as in panel (a)." if name == "b" else "",
         )
         for name in "ab"
         for d, M in DATA.items()

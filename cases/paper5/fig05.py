@@ -12,7 +12,7 @@ TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, n=WAVES)
 RANGES = {1: (0, 1.2), 20: (-3, 1.2), 50: (-10, 1.2)}
 LAST = 5.73
 AXIS_END = 5.83
-"""Last level, a little beyond that of the figure."""
+"""Last level, a little beyond the figure's last level."""
 
 
 def shown(solutions: Solutions, n: int) -> tuple[decide.Number, decide.Number]:

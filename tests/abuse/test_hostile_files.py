@@ -150,7 +150,7 @@ def test_encodings(tmp_path, encoding, door):
     if encoding not in ("utf-8-sig", "utf-7"):
         assert called.status == 2
     if encoding == "utf-8-sig" and door in ("csv", "json", "result"):
-        assert called.status in (0, 1), "a byte order mark is no fault"
+        assert called.status in (0, 1), "a byte order mark is allowed"
 
 
 @quickly
@@ -174,7 +174,7 @@ def test_cut_and_spliced(tmp_path, place, splice):
         for damaged in (raw[:at] + splice, raw[:at] + splice + raw[at:]):
             path.write_bytes(damaged)
             called = call(*words)
-            assert called.status in (0, 1, 2, 5), "what is no request is refused, what is one is solved"
+            assert called.status in (0, 1, 2, 5), "a request is solved, anything else is refused"
             assert "internal error" not in called.err + called.out
             if words[0] != "batch":
                 orderly(called, 0, 1, 2, 5)

@@ -28,7 +28,7 @@ def called(node: ast.AST) -> str:
 def faults(source: str) -> list[str]:
     """Where a case decides by itself, and how."""
     tree, found = ast.parse(source), []
-    # An uncertainty may become that of another number, and nothing else.
+    # An uncertainty may become another number's uncertainty, and nothing else.
     passed_on = {id(part) for node in ast.walk(tree) if called(node) == "Number" for part in ast.walk(node)}
     for node in ast.walk(tree):
         name = getattr(node, "attr", getattr(node, "id", ""))
@@ -56,7 +56,7 @@ def own_verdicts(function: ast.FunctionDef) -> list[str]:
         if isinstance(argument, ast.Constant)
     }
     out = [
-        f"line {node.lineno}: returns what is no decision"
+        f"line {node.lineno}: returns something other than a decision"
         for node in ast.walk(function)
         if isinstance(node, ast.Return) and not isinstance(node.value, ast.Call)
     ]

@@ -283,7 +283,7 @@ def test_tag_follows_what_the_image_is_made_from(machine):
     assert re.fullmatch(r"weakforms-deps:[0-9a-f]{12}", before)
     assert tag(text) == before
     assert tag("# a remark\n" + text) == before
-    assert tag(text + "\nRUN true\n") == before, "the final stage is no part of it"
+    assert tag(text + "\nRUN true\n") == before, "the final stage does not belong to it"
     assert tag(text.replace("python3-gmsh", "python3-gmsh python3-h5py")) != before
 
 

@@ -11,8 +11,8 @@ TOLERANCE = 1e-9
 TRACTIONS = ("traction_front", "traction_max", "f_t")
 LOOSER = dict.fromkeys(("X_iso", "Lambda_B1", "Lambda_B2", "kappa", *TRACTIONS), 1e-8)
 """Numbers that multiply round-off. ``X_iso`` is the place where lam1 - lam2 is 1e-4, and its slope there
-is 1e-3. ``Lambda_B`` has that of the shell's bending stiffness, large beside it. ``kappa`` and the axial
-traction of a patch hold second derivatives.
+is 1e-3. ``Lambda_B`` has the round-off of the shell's bending stiffness, which is far larger. ``kappa`` and
+the axial traction of a patch hold second derivatives.
 """
 FRICTIONLESS, OF_DEGREE_6 = 2e-7, 1e-6
 """Without friction that traction is zero, and round-off is all there is, on the cells of a small patch."""

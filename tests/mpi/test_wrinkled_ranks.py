@@ -9,7 +9,7 @@ MESH = {"cells": 4, "levels": 2, "step": 1}
 def test_wrinkled_tube(same_on_ranks):
     fluid = {"problem": "wrinkled_tube", "M": 1.5, "load_end": 7, "at": [("zw", 6.0)]}
     gas = {"problem": "wrinkled_tube", "load": "gas", "load_end": 0.1, "at": [("p", 0.05)]}
-    # The place where a zone opens is that of a flat minimum: the least certain number of all.
+    # A zone opens at a flat minimum, whose place is the least certain number of all.
     same_on_ranks([item | {"numerics": MESH} for item in (fluid, gas)])
 
 

@@ -43,7 +43,7 @@ FAILED = {"failures": [{"what": "special points", "reason": "several eigenvalues
         (-11, "", {}, "broke down", "exit status -11"),
         (4, "weakforms: not enough memory", {}, "broke down", "not enough memory"),
         (None, "", {}, "too slow", "it did not end within 7 s"),
-        # What contradicts itself is no answer.
+        # An inconsistent result does not count as an answer.
         (0, "", {}, "broke down", "exit status 0"),
         (0, "", FAILED, "broke down", "exit status 0"),
         (3, "", {"failures": []}, "broke down", "exit status 3"),

@@ -12,7 +12,7 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.series import newton_series
 
-ROOM = 24
+CHUNK = 24
 """The number of stored coefficients is a multiple of this."""
 
 
@@ -28,7 +28,7 @@ class Series:
     """
 
     def __init__(self, mesh: Mesh, count: int, span: fem.Constant) -> None:
-        self._nodes = leja_points(max(1, -(-count // ROOM)) * ROOM)
+        self._nodes = leja_points(max(1, -(-count // CHUNK)) * CHUNK)
         self._constant = fem.Constant(mesh, np.zeros(len(self._nodes)))
         self._span = span
         self._known: dict[Expr, tuple[Expr, Expr]] = {}

@@ -22,7 +22,7 @@ class Parameters(BaseModel):
 
     @classmethod
     def further(cls) -> frozenset[str]:
-        """Names that may be given in addition to those of the fields."""
+        """Names that may be given in addition to the fields' names."""
         return frozenset()
 
 

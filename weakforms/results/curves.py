@@ -99,7 +99,7 @@ def _lines(path: Path, text: str) -> Iterator[str]:
 
 
 def _columns(path: Path, header: list[str], reader: Any, branch: str | None) -> dict[str, np.ndarray]:
-    """Columns of numbers; if the table has several branches, those of one, without its empty columns."""
+    """Columns of numbers; if the table has several branches, only one branch, without its empty columns."""
     if len(set(header)) != len(header):
         raise InputError(f"curve file {path}: a column name is repeated in {header}")
     columns = {name: array("d") for name in header}

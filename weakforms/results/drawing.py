@@ -71,19 +71,19 @@ def draw(branch: Branch, columns: Sequence[str], seed: int, without: Container[i
     left = np.random.default_rng(seed).permutation([i for i in inner if i not in without]).tolist()
     silent = {name for name in branch.columns if name not in DESCRIBE}
     while left:
-        # Prefer a point at which many columns have a value for the first time, such as those of contact or a
-        # front.
-        i = max(left, key=lambda at: sum(_speaks(branch.columns[name][at]) for name in silent))
+        # Prefer a point at which many columns have a value for the first time, for example columns of contact
+        # or of a front.
+        i = max(left, key=lambda at: sum(_has_value(branch.columns[name][at]) for name in silent))
         left.remove(i)
         for name in columns:
             values = branch.columns.get(name)
             if values is not None and _separates(values, i):
-                silent = {name for name in silent if not _speaks(branch.columns[name][i])}
+                silent = {name for name in silent if not _has_value(branch.columns[name][i])}
                 yield Drawn(i, name, float(values[i]))
                 break
 
 
-def _speaks(value: float) -> bool:
+def _has_value(value: float) -> bool:
     return bool(np.isfinite(value) and value != 0)
 
 

@@ -26,7 +26,7 @@ def isotropic_rest(solutions: Solutions) -> Finding:
 
 
 def film(solutions: Solutions) -> Finding:
-    """Limit pressure and pole height over the pre-stretch: differences from those of the film."""
+    """Limit pressure and pole height over the pre-stretch, as differences from the film's values."""
     p, t0 = (
         decide.stack(solutions.point(spec, "limit_point", name) for spec in FILM.values())
         for name in ("p", "t0")

@@ -41,7 +41,7 @@ def signs(solutions: Solutions) -> Finding:
 
 
 def limit_is_a_zero(solutions: Solutions) -> Finding:
-    """At the maximum of zw the axisymmetric eigenvalue, at the first bifurcation that of one wave."""
+    """The axisymmetric eigenvalue at the maximum of zw, and one wave's at the first bifurcation."""
     return decide.all_of(
         decide.zero(name, solutions.number(tube, at, name), 5e-10)
         for tube in EVERY

@@ -29,7 +29,7 @@ TUBES = {
 }
 """L = 24, delta = 1.5 is not compared with its table, because its dry part is slightly compressed. A membrane
 without bending stiffness wrinkles there as finely as the mesh allows. Inertia and eigenvalues depend on the
-mesh, and from some states of a coarse mesh Newton's method does not find those of a finer one."""
+mesh, and from some states of a coarse mesh Newton's method does not find the states of a finer one."""
 PUBLISHED = {
     length: At("zw", zw, branch="secondary", profile=()) for length, zw in {8: 7.336, 24: 7.779}.items()
 }
@@ -269,7 +269,7 @@ CASE = Case(
         Claim(
             "turns_down",
             "the radius at mid-length of the short tube rises, then falls before zw = 7.336 (the sudden "
-            "downward bend of figure 2a); that of the long tube rises through zw = 7.779",
+            "downward bend of figure 2a); the long tube's radius rises through zw = 7.779",
             EVERY,
             turns_down,
         ),
@@ -296,7 +296,7 @@ CASE = Case(
         ),
         Claim(
             "where_it_turns",
-            "the maximum of r_mid of the short tube is that of the reference",
+            "the maximum of r_mid of the short tube agrees with the reference",
             tuple((TUBES[8, 2], at) for at in TOP),
             where_it_turns,
         ),

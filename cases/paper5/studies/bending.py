@@ -180,7 +180,7 @@ CASE = Case(
         ),
         Claim(
             "within_real",
-            "the unstable levels of whole n lie next to the ends of those of any real n",
+            "the unstable levels for whole n lie next to the ends of the unstable range for any real n",
             ((STIFF, None),),
             within_real,
         ),

@@ -173,7 +173,7 @@ def sensitive(solutions: Solutions) -> Finding:
 
 
 def bloch(solutions: Solutions) -> Finding:
-    """All ends compared with those of another code, which reduces the matrices by wave number."""
+    """All ends compared with the results of another code, which reduces the matrices by wave number."""
     table, found = reference(5, "surface_ranges"), []
     rows = [(spec, 1.0, ("lower", "upper")) for spec in MESHES.values()]
     rows += [(spec, rule, ("upper",)) for spec, rule in zip(OTHERS.values(), (2.0, 3.0, 4.0), strict=True)]

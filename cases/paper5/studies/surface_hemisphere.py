@@ -40,7 +40,7 @@ ASKED = 0.1
 
 
 def spectrum(solutions: Solutions) -> Finding:
-    """The five lowest eigenvalues converge to those of the axisymmetric theory."""
+    """The five lowest eigenvalues converge to the eigenvalues of the axisymmetric theory."""
     found = []
     for at in LEVELS:
         one = decide.stack(solutions.number(REVOLVED, at, f"Lambda_n{n}_1") for n in SPECTRUM[at.value])
@@ -84,8 +84,8 @@ CASE = Case(
     checks=(
         Claim(
             "spectrum",
-            "the lowest eigenvalues of the whole surface agree with those of the axisymmetric theory for "
-            "each wave number",
+            "the lowest eigenvalues of the whole surface agree with the axisymmetric theory for each wave "
+            "number",
             WANTS,
             spectrum,
         ),

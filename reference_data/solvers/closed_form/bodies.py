@@ -1,7 +1,7 @@
 r"""Balloons, long tubes and test pieces: homogeneous states from derivatives by hand or from energies alone.
 
-Every function takes the derivatives of the law, ``d(l1, l2) -> (w, w1, w2, w11, w12, w22)``. With those of
-:func:`by_hand` and of :func:`by_contour` it computes the same number in two ways.
+Every function takes the derivatives of the law, ``d(l1, l2) -> (w, w1, w2, w11, w12, w22)``. With the
+derivatives by :func:`by_hand` and by :func:`by_contour` it computes the same number in two ways.
 """
 
 from __future__ import annotations

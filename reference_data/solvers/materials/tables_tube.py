@@ -1,6 +1,6 @@
 """Tables of the tube with laws other than Mooney-Rivlin, by the papers' reference codes.
 
-The codes are those of paper 2, with another law (``core.laws``).
+The codes of paper 2 are used with another law (``core.laws``).
 """
 
 from __future__ import annotations

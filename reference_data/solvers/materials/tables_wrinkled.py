@@ -1,7 +1,8 @@
 """Tables of the wrinkled cylinder with laws other than Mooney-Rivlin, by the codes of papers 4 and 5.
 
-The codes accept a law instead of C2/C1. They use its derivatives where the membrane is taut, those of ``w(l,
-l^(-1/2))`` where it is wrinkled, and for waves the derivatives with respect to the metric (``law_metric``).
+The codes accept a law instead of C2/C1. They use its derivatives where the membrane is taut, the derivatives
+of ``w(l, l^(-1/2))`` where it is wrinkled, and for waves the derivatives with respect to the metric
+(``law_metric``).
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 r"""Relaxed energy, data and unloaded state of the cylinder of non-uniform thickness.
 
 Source: Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids 54 (2015) 1-10, sections 2 and 3.
-With the full Mooney-Rivlin energy of :mod:`core.mooney_rivlin` (alpha = c2 = C2/C1), the energy of a
-sheet wrinkled along the meridian, over C1, is that of uniaxial tension,
+With the full Mooney-Rivlin energy of :mod:`core.mooney_rivlin` (alpha = c2 = C2/C1), the energy of a sheet
+wrinkled along the meridian, over C1, equals the energy of uniaxial tension,
 
 .. math:: W_r(l) = l^2 + 2/l - 3 + c_2\,(2 l + 1/l^2 - 3),
 

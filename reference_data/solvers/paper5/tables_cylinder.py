@@ -121,7 +121,7 @@ def mode(name: str, n: int, zw: float) -> Table:
         ends, vector = Transfer(parts, n).mode()
         at = np.abs(ends[:, None] - s[1:-1]).argmin(axis=0)
         if np.abs(ends[at] - s[1:-1]).max() > 1e-12:
-            raise RuntimeError(f"table {name}: a row is no end of a part")
+            raise RuntimeError(f"table {name}: a row is not an end of a part")
         where = np.abs(parts.s[:, None] - s[1:-1]).argmin(axis=0)
         tension = np.hypot(parts.y[where, 2], parts.y[where, 3])
         inner = physical(*vector[at].T, parts.y[where, 2] / tension, parts.y[where, 3] / tension)

@@ -205,7 +205,7 @@ class DiskModel:
         potential = self._potential()
         if self.bond is None or not self.bond.rigid:
             return potential * self.dx
-        # In a rigid patch the unknown height is that of the edge; a Laplacian makes it constant.
+        # In a rigid patch the unknown height is the height of the edge; a Laplacian makes it constant.
         _, eta = self.unknown
         return self._in_patch(eta.dx(0) ** 2 / 2, potential) * self.dx + self._vertex_potential()
 

@@ -235,7 +235,7 @@ def stick_guess(model: DiskModel, slipped: State, lam2_front: float) -> State:
     stretch = np.arange(len(u)) % 2 == 0
     outside = s > 1 + 1e-12
     u[stretch & ~outside] = 0.0
-    # Shifted by its own stretch at the front; that of the series differs and would cause a jump.
+    # Shifted by its own stretch at the front; the stretch of the series differs and would cause a jump.
     u[stretch & outside] -= (lam2_front * (2 - s))[stretch & outside]
     if model.bond.rigid:
         u[~stretch & ~outside] = model.data.l

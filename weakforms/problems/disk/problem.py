@@ -68,7 +68,7 @@ SCALES = {
 ENERGY = (
     "Pi/(2 pi C1 h R_f^2) = int_0^{1/beta} [ W(lam1, lam2) x + (p/2) rho^2 eta' "
     "+ (k/2) chi (eta - l)^2 rho rho' ] dx,  rho = x lam2,  lam1 = sqrt(rho'^2 + eta'^2),  "
-    "W = I1 - 3 + alpha (I2 - 3), or that of another model (weakforms show material; its S for C1)"
+    "W = I1 - 3 + alpha (I2 - 3), or of another model (weakforms show material; its S for C1)"
 )
 
 PATCH_COLUMNS = (
@@ -94,7 +94,7 @@ TRACES = ("lam1_rim", "lam1_contact", "lam1_contact_outer", "kappa", "lam1", "t1
 """Columns with first derivatives at a point, whose order is at most the degree."""
 
 
-MOVING = ("t_min",)
+MOVING_POINTS = ("t_min",)
 """Columns at points that move through the mesh; their error depends on the position in a cell."""
 
 
@@ -234,7 +234,7 @@ class Circular(PathProblem):
                 return part(runs[level])
 
             across = ("front", "rho_contact") if of is PeelingFamily else ("p", "t0")
-            caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
+            caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING_POINTS, 2.0)
             caps |= dict.fromkeys(POLE, order_at_pole(degree))
             caps["eigenvalue_1"] = min(cap, OF_EIGENVALUES)
             if of is PeelingFamily:  # where G is not zero, it is a jump of such derivatives
@@ -264,7 +264,7 @@ class Circular(PathProblem):
 
 
 def peeling_pressure(parameters: CircularParameters, requests: Requests) -> float:
-    """The pressure of a peeling curve: the parameter ``p``, or that of the requested states.
+    """The pressure of a peeling curve: the parameter ``p``, or the pressure of the requested states.
 
     Raises:
         InputError: If there is none, or more than one.
@@ -282,7 +282,7 @@ def peeling_pressure(parameters: CircularParameters, requests: Requests) -> floa
 
 def _onset(runs: list[DiskRun], degree: int) -> SpecialPoint:
     shown = [n for n in runs[-1].before_contact.shown if n not in NO_PATCH]
-    caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING, 2.0)
+    caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING_POINTS, 2.0)
     highest = order_at_pole(degree)  # for all columns, because the height of the pole is prescribed
     return special_point([run.onset for run in runs], shown, highest, "primary", "p", caps)
 

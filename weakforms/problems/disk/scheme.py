@@ -78,7 +78,7 @@ class FixedDisk:
     x: np.ndarray
     """Radii of the nodes from the pole outwards."""
     order: np.ndarray
-    """Degrees of freedom of ``lam2`` at these nodes; that of ``eta`` follows each."""
+    """Degrees of freedom of ``lam2`` at these nodes; the next one is ``eta`` at the same node."""
 
     @classmethod
     def build(cls, comm: MPI.Intracomm, given: CircularSchemeParameters, cells: int) -> FixedDisk:

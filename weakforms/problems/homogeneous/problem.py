@@ -70,7 +70,7 @@ def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -
     """Equilibria from the state of rest, by arc length, until a column passes its end."""
     system = system_of(body, chosen)
     control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
-    begin = _pulled(system, body, control) if body.force else system.state()
+    begin = _start_under_force(system, body, control) if body.force else system.state()
     continuation = Continuation(ExtendedNewton(system, [body.load]), control=control)
     rising = 1.0 if end > 1 else -1.0
     start = continuation.start(begin, Held(body.load, 0.0), towards={along: rising})
@@ -79,7 +79,7 @@ def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -
     )
 
 
-def _pulled(system: System, body: Body, control: StepControl) -> State:
+def _start_under_force(system: System, body: Body, control: StepControl) -> State:
     """The state under the body's force alone, reached from rest in steps, so that it is not inside out.
 
     Raises:

@@ -26,7 +26,7 @@ mesh would have no length and unbounded stiffness, and the ring leaves no room f
 NEARLY_FULL = 0.97
 """Front, as a fraction of the length, at which filling starts in steps of equal ratio ..."""
 
-TOPPING = 6
+TOP_STATES = 6
 """... and the number of these states."""
 
 ZW_END, STEP = 0.7, 0.5
@@ -194,7 +194,7 @@ class FluidPath:
         branch = self._branch(continuation, start, stop)
         if self._left_at_top(branch):
             left = 1 - branch.points[-1].state.loads["front"]
-            for exponent in np.linspace(np.log(left), np.log(EDGE), TOPPING)[1:]:
+            for exponent in np.linspace(np.log(left), np.log(EDGE), TOP_STATES)[1:]:
                 branch.extend_to("front", 1 - float(np.exp(exponent)))
         return branch
 

@@ -64,7 +64,7 @@ class FluidTubeCoincidence:
     columns = ()
     special_points = ()
     branches = ("primary",)
-    control: ClassVar[str] = "none: the quantities are those of the one state"
+    control: ClassVar[str] = "none: the quantities belong to the one state"
 
     def check(self, parameters: CoincidenceParameters, requests: Requests) -> None:
         """Refuse what the ranges of single parameters cannot.

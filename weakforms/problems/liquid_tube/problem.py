@@ -70,13 +70,13 @@ ENERGY = (
 
 CAPS = {"r_mid": 4.0, "r_max": 4.0, **dict.fromkeys(("T1_ring", "T2_ring", "T1_mid", "T2_mid"), 2.0)}
 """Highest assumed orders of convergence at material points of a partially filled tube. Because cells follow
-the front, the position of such a point in its cell varies: the order is that of the elements, but the size of
-the error varies."""
+the front, the position of such a point in its cell varies: the error has the order of the elements, but its
+size varies."""
 
 MATERIAL = {"r_mid": "r", "r_max": "r", "T1_mid": "T1", "T2_mid": "T2"}
-"""The columns at such points, and the fields of which they are values."""
+"""The columns at such points, each with the field that it evaluates."""
 
-TORN = "Z_front", "r_front"
+PARTLY_FILLED = "Z_front", "r_front"
 """Columns that only a partially filled tube has."""
 
 
@@ -220,7 +220,10 @@ def primary_family(
         )
 
     length = parameters.L / parameters.delta
-    dry, full = dict(zip(TORN, (0.0, 1.0), strict=True)), dict(zip(TORN, (length, np.nan), strict=True))
+    dry, full = (
+        dict(zip(PARTLY_FILLED, (0.0, 1.0), strict=True)),
+        dict(zip(PARTLY_FILLED, (length, np.nan), strict=True)),
+    )
     fixed = [dry if k == 0 else full if k % 2 == 0 else {} for k in range(counts[0])]
     return PiecewiseFamily([Piece(family(k), given) for k, given in enumerate(fixed)])
 

@@ -53,7 +53,7 @@ class SurfaceRun:
 
     On a structured tube the equilibrium is found among ring-periodic positions, and the residual of the whole
     surface is checked at every state. On any other mesh, SNES starts from the equilibrium among surfaces of
-    revolution and finds that of the whole discrete surface.
+    revolution and finds the equilibrium of the whole discrete surface.
 
     Args:
         model: The discrete equations.

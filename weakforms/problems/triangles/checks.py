@@ -19,7 +19,7 @@ COINCIDENT = 1e-6
 FLAT = 1e-12
 """Largest area, relative to the square of the surface's size, of a degenerate triangle."""
 
-ROUND = 1e-3
+CIRCULARITY = 1e-3
 """Largest spread of radius and height of a circular edge, relative to the size of the surface."""
 
 
@@ -99,10 +99,10 @@ def _require_clamped(points: np.ndarray, boundary: np.ndarray, size: float, refu
     for part in range(parts):
         x, y, z = points[nodes[which == part]].T
         spread = max(np.ptp(np.hypot(x, y)), np.ptp(z)) / size
-        if spread > ROUND:
+        if spread > CIRCULARITY:
             refuse(
                 f"an edge is not a circle about the z axis: its radius or height varies by {spread:.1e} "
-                f"of the size; allowed: {ROUND:g}"
+                f"of the size; allowed: {CIRCULARITY:g}"
             )
 
 

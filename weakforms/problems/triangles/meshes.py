@@ -30,7 +30,7 @@ class Triangulation:
     """Flat triangles in space, the same on every rank; their vertices are counterclockwise from outside."""
 
     points: np.ndarray
-    """Reference position of the nodes, ``(n, 3)``; the axis is that of ``z``."""
+    """Reference position of the nodes, ``(n, 3)``; the axis is the ``z`` axis."""
     triangles: np.ndarray
     """Nodes of the triangles, ``(m, 3)``."""
     rings: tuple[int, int] | None = None
@@ -74,7 +74,7 @@ class Triangulation:
 def tube(length: float, meridional: int, circumferential: int, mirrored: bool = False) -> Triangulation:
     """A cylinder of radius 1 with uniform nodes in ``(S, Theta)`` and all diagonals in the same direction.
 
-    The nodes lie on the cylinder and the triangles are flat, so that the metric is that of the inscribed
+    The nodes lie on the cylinder and the triangles are flat, so that the metric belongs to the inscribed
     prism, as in any finite element code.
 
     Args:

@@ -24,7 +24,7 @@ POLE = 1e-6
 """Largest distance from the axis, relative to the largest radius, of a node on the axis."""
 
 FINENESS = 1.5
-"""Approximate length of a spline's interval over that of an edge."""
+"""Approximate length of a spline's interval over the length of an edge."""
 
 ALIKE = 0.02
 """Largest distance of the nodes from one meridian, relative to the height, for a surface of revolution."""

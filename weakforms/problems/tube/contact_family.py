@@ -27,12 +27,12 @@ LET_GO = Slow(size=1e-7, order=2.0)
 """The same with the quadrature error at the kink of a unilateral spring's force inside a cell."""
 
 TRACES = ("line_force", "line_force_membrane")
-SECOND = ("traction_front", "traction_max", "f_t")
+EDGE_COLUMNS = ("traction_front", "traction_max", "f_t")
 """Columns with first derivatives at the edge of the patch, whose order is at most the degree, and with second
 derivatives. The curvature there follows from the balance of forces at a vertex, with an order one below that
 of energies."""
 
-KINKED = (
+KINK_ORDERS = (
     dict.fromkeys(("rho", "lam2"), 3.0)
     | dict.fromkeys(("lam1", "t1", "t2", "F_axial", "H", "f_k"), 2.0)
     | {"f_t": 1.0, "eigenvalue_1": 1.0}
@@ -56,7 +56,7 @@ NO_PATCH = {
 """Values of columns on the free part, where there is no patch."""
 
 
-class LettingGo(BranchFamily):
+class UnilateralFamily(BranchFamily):
     """The family of a tube with a unilateral spring, which goes slack inside a cell."""
 
     least: ClassVar[Mapping[str, float]] = {"eigenvalue_1": 1.0}
@@ -74,11 +74,11 @@ def contact_family(
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
-        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(SECOND, min(free, 2.0))
+        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(EDGE_COLUMNS, min(free, 2.0))
         caps["kappa"] = free - 1
         kind = BranchFamily
         if runs[-1].data.unilateral:
-            kind, caps = LettingGo, caps | KINKED
+            kind, caps = UnilateralFamily, caps | KINK_ORDERS
         return kind(make, numerics.levels, free, across=("p", "u_max"), caps=caps, slow=slow)
 
     runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)

@@ -33,7 +33,7 @@ from weakforms.solvers.equilibrium.system import Formulation, State, System
 
 MIDPLANE, DISK, FAR_DISK = 1, 2, 3
 
-WALK_FROM = 1.3
+START_STRETCH = 1.3
 """Pre-stretch at which the steps to a first state start. At ``delta1 = 1`` and ``p = 0`` the tube is slack
 and its tangent singular, and a direct guess may converge to a folded state."""
 
@@ -195,7 +195,7 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
             )
         return state, Held("p", 0.0)
     inflated = Held("u_max", FIRST_U)
-    for stretch in np.linspace(WALK_FROM, delta1, 7):
+    for stretch in np.linspace(START_STRETCH, delta1, 7):
         state.loads["delta1"] = float(stretch)
         state, _ = solver.solve(state, [inflated])
     return state, inflated

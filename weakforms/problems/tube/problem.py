@@ -60,7 +60,7 @@ ENERGY = (
     "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z "
     "+ (k/2) chi rho (rho - s)^2 eta_Z ] dZ,  "
     "lam1 = delta1 sqrt(rho_Z^2 + eta_Z^2),  lam2 = rho/sqrt(delta1),  "
-    "w = I1 - 3 + alpha (I2 - 3), or that of another model (weakforms show material; its S for C1)"
+    "w = I1 - 3 + alpha (I2 - 3), or of another model (weakforms show material; its S for C1)"
 )
 
 

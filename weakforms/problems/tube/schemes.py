@@ -79,8 +79,8 @@ class FixedMesh:
 
     system: System
     radial: np.ndarray
-    """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; that of ``eta`` follows
-    each."""
+    """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; the next one is ``eta``
+    at the same node."""
     parameters: SchemeParameters
     _held: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     _at: np.ndarray = field(default_factory=lambda: np.empty(0))

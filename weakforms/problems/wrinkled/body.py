@@ -65,7 +65,7 @@ CYLINDER = Body(
 """Paper 4: lengths over the undeformed radius; both ends are clamped at radius ``Af`` and stretched by
 ``delta``."""
 
-DEEPER = 1.02
+SHAPE_DEPTH = 1.02
 """Depth of the hemisphere's shape, so that no state has zero displacement."""
 
 HEMISPHERE = Body(
@@ -74,7 +74,7 @@ HEMISPHERE = Body(
     length=lambda _q: math.pi / 2,
     radius=lambda t, _q: ufl.sin(t),
     thickness=lambda _t, _q: 1.0,
-    shape=lambda t, _q: (1.0, -DEEPER * ufl.cos(t)),
+    shape=lambda t, _q: (1.0, -SHAPE_DEPTH * ufl.cos(t)),
     held=((False, False), (True, True)),
     pole=True,
 )

@@ -16,7 +16,7 @@ from weakforms.problems.wrinkled.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 
-SLIM = 0.05
+WRINKLED_RADIUS = 0.05
 """A radius of the disks at which the whole unloaded membrane is wrinkled."""
 
 ROUND_OFF, GROWTH = 1e-12, 2e-3
@@ -43,12 +43,14 @@ def critical_radii(
     Raises:
         ConvergenceError: If the unloaded state is not found.
     """
-    membrane = Membrane(comm, CYLINDER, {**values, "Af": SLIM}, False, cells, degree, "relaxed", (), material)
+    membrane = Membrane(
+        comm, CYLINDER, {**values, "Af": WRINKLED_RADIUS}, False, cells, degree, "relaxed", (), material
+    )
     found = []
     for level in range(len(cells)):
         held = membrane.unloaded(level, WRINKLED)
         ends = held.sampled(np.array([0.0, membrane.length]))
-        found.append(SLIM / ends["gw"].max())
+        found.append(WRINKLED_RADIUS / ends["gw"].max())
     return found
 
 

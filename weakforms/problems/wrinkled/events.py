@@ -18,7 +18,7 @@ from weakforms.solvers.equilibrium import constraints as fixed
 HALVINGS = 24
 """Largest number of times that a load interval is halved until only one zone opens or closes in it."""
 
-LEAP = 0.1
+LARGE_MOVE = 0.1
 """If a front moves by more than this fraction of the length, the states in between are examined."""
 
 SLACK = 1e-6
@@ -88,7 +88,7 @@ def _between(
 
 def _leaps(a: Held, b: Held, length: float) -> bool:
     """Whether a front has moved so far that it may be another one: one zone opened and another closed."""
-    return any(abs(x - y) > LEAP * length for x, y in zip(a.zones.fronts, b.zones.fronts, strict=True))
+    return any(abs(x - y) > LARGE_MOVE * length for x, y in zip(a.zones.fronts, b.zones.fronts, strict=True))
 
 
 def _in_halves(

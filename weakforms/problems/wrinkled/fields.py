@@ -20,7 +20,7 @@ PER_CELL = 9
 NEAR_ENDS = 10.0 ** -np.arange(1.0, 11.0)
 """Distances from the ends, relative to the length, at which thin zones are searched in addition."""
 
-INSIDE_OUT = 1e-9
+NEGATIVE_RADIUS = 1e-9
 """Largest negative radius, relative to the length, that is round-off (at a pole)."""
 
 FINE, ZOOMS, CANDIDATES = 24, 6, 3
@@ -184,7 +184,7 @@ def zones(meridian: Meridian, loads: Mapping[str, float], flat: float, liquid: b
     )
     s = np.unique(s)
     found = meridian.sampled(s, loads)
-    if found["r"].min() < -INSIDE_OUT * length:
+    if found["r"].min() < -NEGATIVE_RADIUS * length:
         raise ConvergenceError("the equilibrium is turned inside out")
     excess = found["gw"] - 1.0
     sign = np.where(np.abs(excess) > flat, np.sign(excess), 0.0)

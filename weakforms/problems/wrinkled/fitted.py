@@ -48,7 +48,7 @@ class Membrane(PlainMembrane):
         """The state given by a constraint on the control, on every mesh, coarse to fine, or the finest.
 
         Raises:
-            ConvergenceError: If no pattern of zones agrees with that of its solution.
+            ConvergenceError: If no pattern of zones agrees with the zones of its solution.
         """
         ways = [(THINNEST, True), (SLIVER, True)]
         if start.layout is not None:  # fitted already: its own zones may suffice if a plain mesh does not

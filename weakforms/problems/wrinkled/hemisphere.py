@@ -77,7 +77,7 @@ HEMISPHERE_SCALES = {
 ENERGY = (
     "Pi/(2 pi C1 h Ao^2) = int_0^{pi/2} [ R W - Phi r r' ] dt,  R = sin t,  Phi = gamma max(zw - z, 0)^2/2;  "
     "W = w(lam1, lam2) where gw = lam2 sqrt(lam1) > 1, else w(lam1, lam1^(-1/2));  "
-    "w = I1 - 3 + c2 (I2 - 3) or that of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r/R"
+    "w = I1 - 3 + c2 (I2 - 3) or of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r/R"
 )
 
 

@@ -33,7 +33,7 @@ from weakforms.solvers.equilibrium.system import Formulation, System
 
 LOWER, UPPER, BREAK = 1, 2, 3
 
-ON_THE_VERGE = 1e-9
+TAUT_TOLERANCE = 1e-9
 """In unmarked blocks ``gw`` below 1 by up to this counts as taut. A uniform membrane has ``gw = 1`` without
 load, and round-off must not choose its state. Because the energy has continuous slopes, this has no other
 effect."""
@@ -218,7 +218,7 @@ class WrinkledModel:
         full = self.full.stretches
         if self.energy == "standard":
             return full(lam1, lam2)
-        taut = self.marked("taut", wrinkling_function(lam1, lam2) - 1 + ON_THE_VERGE)
+        taut = self.marked("taut", wrinkling_function(lam1, lam2) - 1 + TAUT_TOLERANCE)
         eps = self.q["residual_stiffness"]
         if not self.full.bounded:
             # In wrinkled parts the law may be infinite at the actual stretches. It is therefore evaluated

@@ -87,7 +87,7 @@ ENERGY = (
     "Pi/(2 pi C1 h Ao^2) = int_0^L [ eta W - P r^2 z'/2 ] ds,  eta = M + 2 (1 - M) s/L,  "
     "P = p or gamma max(zw - z, 0);  W = w(lam1, lam2) where gw = lam2 sqrt(lam1) > 1, else "
     "w(lam1, lam1^(-1/2)) = lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3);  "
-    "w = I1 - 3 + c2 (I2 - 3) or that of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r"
+    "w = I1 - 3 + c2 (I2 - 3) or of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r"
 )
 
 

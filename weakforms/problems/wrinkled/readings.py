@@ -103,7 +103,7 @@ class Readings:
     # -- all meshes ----------------------------------------------------------------------------
 
     def order(self, name: str) -> float:
-        """Highest assumed order of convergence: that of energies, or that of stretches for all other columns.
+        """Highest assumed order of convergence: of energies, or of stretches for all other columns.
 
         If a radius follows from the stretches, energies depend on it and have the order of stretches too.
         """
@@ -122,7 +122,7 @@ class Readings:
         """Value and uncertainty from values on meshes, coarse to fine.
 
         If the mesh resolves the surroundings of a front, its position has the order of energies, and at least
-        that of stretches.
+        the order of stretches.
         """
         order = self.order(name)
         found = estimate(values, self.cap, order, order) if resolved else estimate(values, order)

@@ -21,7 +21,12 @@ from weakforms.solvers.equilibrium.system import State
 HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)
 """Residual hoop stiffness of wrinkled zones, in steps to zero."""
 
-EXCHANGE = ((0.5, 0.0), (0.5, 0.5), (0.5, 1.0), *((p, 1.0) for p in (0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)))
+GAS_TO_LIQUID = (
+    (0.5, 0.0),
+    (0.5, 0.5),
+    (0.5, 1.0),
+    *((p, 1.0) for p in (0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)),
+)
 """Gas pressure and fraction of the liquid's weight, in steps from a gas to a liquid."""
 
 VERGE, VERGE_FITTED = 1e-7, 1e-10
@@ -150,7 +155,7 @@ class PlainMembrane:
         state = self.prepare()
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
-        for gas, liquid in EXCHANGE:
+        for gas, liquid in GAS_TO_LIQUID:
             state.loads |= {"p": gas, "gamma": liquid * self.values["gamma"]}
             state, _ = solver.solve(state)
         return state

@@ -77,7 +77,7 @@ class Continuation:
         solver: Newton solver whose ``m`` scalars are the unknown loads.
         fixed: Constraints that hold along the whole curve (the fold condition, for a fold line).
         control: Step lengths.
-        shift: The inertia is that of ``K + shift M``. On a fold line, where ``K`` is singular by definition,
+        shift: Inertia is computed for ``K + shift M``. On a fold line, where ``K`` is singular by definition,
             a small shift leaves the critical eigenvalue out of the count.
         allowed: True for admissible states; a step to another state is repeated shorter.
     """
@@ -225,7 +225,7 @@ class Continuation:
         if turn < self.control.max_turn:
             raise ConvergenceError("the curve turns too sharply within a step")
         along = self._inner(chord, at.tangent) + self._inner(chord, new.tangent)
-        if _aside(along / length, turn) > self.control.max_aside:
+        if _chord_deviation(along / length, turn) > self.control.max_aside:
             raise ConvergenceError("the step leads to another curve")
         self._error = self.distance(state, guess)
         return new
@@ -267,7 +267,7 @@ def hermite(x: float) -> tuple[float, float, float, float]:
     )
 
 
-def _aside(along: float, turn: float) -> float:
+def _chord_deviation(along: float, turn: float) -> float:
     """Sine of the angle between a step's chord and the mean of the tangents at its ends.
 
     Args:

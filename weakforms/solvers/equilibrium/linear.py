@@ -172,7 +172,7 @@ class BorderedMatrix:
 
     # The few scalars are lists: a numpy call would cost more than the computation.
 
-    def _once(self, f: np.ndarray | None, g: list[float]) -> tuple[np.ndarray, list[float]]:
+    def _solve_once(self, f: np.ndarray | None, g: list[float]) -> tuple[np.ndarray, list[float]]:
         if f is None:
             z = np.zeros(self.system.size)
         else:
@@ -188,10 +188,10 @@ class BorderedMatrix:
         wide = [*mu]
         if self.factor.stiffened is not None:
             wide.append(self.system.dot(self.factor.stiffened[1], z))
-        r, h = self._defect(None, [0.0] * len(wide), z, wide)
+        r, h = self._residual(None, [0.0] * len(wide), z, wide)
         return -r, -np.array(h[: self._size])
 
-    def _defect(
+    def _residual(
         self, f: np.ndarray | None, g: list[float], z: np.ndarray, mu: list[float]
     ) -> tuple[np.ndarray, list[float]]:
         r = self.system.multiply(self.system.matrix, z)
@@ -211,14 +211,14 @@ class BorderedMatrix:
     def _refined(self, f: np.ndarray | None, g: list[float]) -> tuple[np.ndarray, list[float], float]:
         """Solution by elimination and refinement, and its residual relative to the right-hand side."""
         scale = self._norm(f, g) or 1.0
-        z, mu = self._once(f, g)
+        z, mu = self._solve_once(f, g)
         left = np.inf
         for _ in range(4):
-            r, h = self._defect(f, g, z, mu)
+            r, h = self._residual(f, g, z, mu)
             before, left = left, self._norm(r, h) / scale
             if left < REFINED or not left < before:
                 break
-            dz, dmu = self._once(r, h)
+            dz, dmu = self._solve_once(r, h)
             z += dz
             mu = [value + change for value, change in zip(mu, dmu, strict=True)]
         return z, mu, left

@@ -104,7 +104,7 @@ class Subspace:
 
         Args:
             guess: First guess; its part outside the subspace is dropped.
-            loads: Loads that replace those of the guess.
+            loads: Loads that replace the guess's loads.
 
         Raises:
             ConvergenceError: If the solve diverges or needs too many iterations.

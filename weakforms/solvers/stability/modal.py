@@ -17,7 +17,7 @@ from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
-NARROWED = 6
+BISECTIONS = 6
 """Number of bisections of an interval before the extended system is solved in it."""
 
 
@@ -190,7 +190,7 @@ class ModalBranch(FittedBranch):
         low, high = 0.0, 1.0
         before = self._count_at(self.points[i].state, n)
         after = self._count_at(self.points[i + 1].state, n)
-        for _ in range(NARROWED):
+        for _ in range(BISECTIONS):
             middle = (low + high) / 2
             if self._count_at(self._between(i, middle), n) == before:
                 low = middle

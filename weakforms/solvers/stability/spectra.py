@@ -156,7 +156,7 @@ class Stability:
         r"""Lowest eigenvalue of :math:`K + b b^T/c`, or for ``c = 0`` of ``K`` on :math:`b^T x = 0`.
 
         Solves go through the bordered matrix :math:`\begin{pmatrix} K & b \\ b^T & -c \end{pmatrix}`, whose
-        inertia, less one negative eigenvalue, is that of the operator.
+        inertia, less one negative eigenvalue, equals the inertia of the operator.
 
         Args:
             state: An equilibrium.

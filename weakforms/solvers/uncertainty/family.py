@@ -41,7 +41,7 @@ PLACES = 101
 class BranchFamily:
     """A branch that is traced on several meshes from coarse to fine.
 
-    Every number is that of the finest mesh; the other meshes give its uncertainty.
+    Every number comes from the finest mesh; the other meshes give its uncertainty.
 
     Args:
         make: Builds the branch on the mesh of a level.
@@ -188,7 +188,7 @@ class BranchFamily:
         quantities = self._columns(solved, held, orders)
         if profile is not None or self.judges_points:
             quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
-        quantities = self._doubted(quantities, orders)
+        quantities = self._widened_if_unresolved(quantities, orders)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)
 
@@ -203,7 +203,9 @@ class BranchFamily:
             for name in self.fine.shown
         }
 
-    def _doubted(self, quantities: dict[str, Quantity], orders: Mapping[str, float]) -> dict[str, Quantity]:
+    def _widened_if_unresolved(
+        self, quantities: dict[str, Quantity], orders: Mapping[str, float]
+    ) -> dict[str, Quantity]:
         """The same with larger uncertainties, if the coarse meshes do not resolve the state's fields."""
         element = self.fine.system.unknown.function_space.ufl_element()
         wider = doubt(orders.values(), element.embedded_superdegree + 1)

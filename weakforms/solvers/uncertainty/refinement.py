@@ -24,7 +24,7 @@ SAFETY_UNRESOLVED = 3.0
 """... and if the observed order is below one."""
 
 TOO_FAST = 0.5
-"""A field is resolved if its observed order exceeds that of its elements by less than this."""
+"""A field is resolved if its observed order exceeds the order of its elements by less than this."""
 
 
 @dataclass(frozen=True)
@@ -88,15 +88,15 @@ def estimate(
     tiny = np.finfo(float).tiny
     order = np.log2(np.maximum(first, tiny) / np.maximum(last, tiny))
     known = np.maximum(order, least)
-    spread = _left(first, last, known, cap, guard)
+    spread = _from_differences(first, last, known, cap, guard)
     if slow is not None:
         most = slow.size * np.maximum(np.abs(fine), 1.0)
-        spread += _left(first, last, known, np.minimum(cap, slow.order), None, most)
+        spread += _from_differences(first, last, known, np.minimum(cap, slow.order), None, most)
     observed = np.where(last > floor, order, np.nan)
     return Estimate(fine, spread + floor, observed)
 
 
-def _left(
+def _from_differences(
     first: np.ndarray,
     last: np.ndarray,
     known: np.ndarray,
@@ -104,7 +104,7 @@ def _left(
     guard: float | None,
     most: float | np.ndarray = np.inf,
 ) -> np.ndarray:
-    """The uncertainty from two differences, of which at most ``most`` counts."""
+    """The uncertainty from two differences; a difference counts only up to ``most``."""
     used = np.clip(known, 1.0, cap)
     safety = np.where(known >= 1.0, SAFETY, SAFETY_UNRESOLVED)
     left = np.maximum(last, first / 2.0 ** (cap if guard is None else guard))

@@ -25,7 +25,7 @@ from weakforms.verification.report.summary import duration, fraction
 REPEATS = {"tube": 5}
 """Number of measurements of a run and its floor; the best of each counts."""
 USUAL = 2
-COLD = ("tube", "bent", "surface-small")
+ALSO_COLD = ("tube", "bent", "surface-small")
 """Problems that are also started cold; other sizes compile the same forms."""
 STAGES = ("matrix assembly", "vector assembly", "functionals", "factorisation", "back substitution")
 
@@ -60,7 +60,7 @@ def run_bench(
         raise InputError(f"bench has no problem {unknown[0]!r}; it has {', '.join(known)}")
     alone = MPI.COMM_WORLD.size == 1
     chosen = [name for name in known if name in only or not only]
-    starts = [name for name in chosen if name in COLD] if cold and alone else []
+    starts = [name for name in chosen if name in ALSO_COLD] if cold and alone else []
     found: dict[str, dict[str, Any]] = {}
     for i, name in enumerate(chosen):
         progress(name, i, len(chosen) + len(starts))

@@ -28,10 +28,10 @@ EFFORT = ("residual", "iterations")
 ZERO = 1e-11
 """Magnitude of round-off in numbers of order one."""
 
-LEAST = 1e-5
+SMALLEST_SCALE = 1e-5
 """Smallest scale; smaller numbers are compared to 1e-14."""
 
-FRICTION = ("line_force", "line_force_membrane", "traction_front", "traction_max", "f_t")
+SCALED_BY_ONE = ("line_force", "line_force_membrane", "traction_front", "traction_max", "f_t")
 """Columns whose scale is at least 1. Without friction, and for line forces in inflation, they are zero, and
 their computed values are derivatives of round-off."""
 
@@ -125,9 +125,9 @@ def scales(*results: Result) -> dict[str, float]:
 
 def _least(name: str) -> float:
     """Smallest scale of a number by its name."""
-    if name in FRICTION:
+    if name in SCALED_BY_ONE:
         return 1.0
-    return USUAL if name.startswith(EIGENVALUES) else LEAST
+    return USUAL if name.startswith(EIGENVALUES) else SMALLEST_SCALE
 
 
 def differences(first: Result, second: Result) -> list[Difference]:
@@ -236,7 +236,7 @@ def _compared(spec: str, first: Result | None, second: Result | None) -> Compare
     return Compared(spec, tuple(differences(first, second)))
 
 
-HEAD = "| case | numbers | verdicts that differ | largest difference | where |"
+TABLE_HEAD = "| case | numbers | verdicts that differ | largest difference | where |"
 
 
 @dataclass(frozen=True)
@@ -271,7 +271,7 @@ def rows(first: Run, second: Run) -> list[CaseRow]:
 
 def table(first: Run, second: Run) -> str:
     """The comparison as a Markdown table."""
-    lines = [HEAD, "|---|---|---|---|---|"]
+    lines = [TABLE_HEAD, "|---|---|---|---|---|"]
     for row in rows(first, second):
         changed, where = ", ".join(row.changed) or "none", f"`{row.where}`" if row.where else ""
         largest = "missing in one" if row.largest is None else f"{row.largest:.1e}"

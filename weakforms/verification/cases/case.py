@@ -28,7 +28,7 @@ class Case:
     tags: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Give curves without an accuracy that of the case."""
+        """Give curves without an accuracy the accuracy of the case."""
 
         def complete(curve: Curve) -> Curve:
             return replace(curve, asked=self.asked) if curve.asked is None else curve

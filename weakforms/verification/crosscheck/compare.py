@@ -42,7 +42,7 @@ STATED = (
 )
 """Entry of the JSON of a verdict: the uncertainty of the curve is unknown."""
 
-LOOSEST = 0.1
+LARGEST_ACCURACY = 0.1
 """Largest accuracy that a curve may claim; with a larger one nearly every curve would pass."""
 
 
@@ -152,8 +152,8 @@ def compare(
     found = get_case(case)
     chosen = choose(found, name)
     table = references.load_curve(found.paper, chosen)
-    if accuracy is not None and not 0 < accuracy <= LOOSEST:
-        raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and {LOOSEST:g}")
+    if accuracy is not None and not 0 < accuracy <= LARGEST_ACCURACY:
+        raise InputError(f"accuracy = {accuracy!r}: must lie between 0 and {LARGEST_ACCURACY:g}")
     drawn = _drawn(found, chosen)
     first = drawn[0][1]
     given = _read(curve, branch, first)

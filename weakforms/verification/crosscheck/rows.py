@@ -20,7 +20,7 @@ EXIT_STATUS = {PASSED: 0, FAILED: 1, NOT_JUDGED: 5}
 FLOOR = 0.01
 """Errors are divided at least by this fraction of the column's largest value over the range of the curve."""
 
-FEWEST = 3
+FEWEST_ROWS = 3
 """Smallest number of judged rows for a verdict: two points are not a curve."""
 
 ROUNDING = 4 * np.finfo(float).eps
@@ -145,7 +145,7 @@ def judge_column(
 
     A row is judged if its bound is at most twice the accuracy asked, or if its error exceeds even a wider
     bound. The column fails if any judged row does. It passes if more than half of its rows, and at least
-    :data:`FEWEST`, are judged. Otherwise it is not judged.
+    :data:`FEWEST_ROWS`, are judged. Otherwise it is not judged.
 
     Args:
         table: The reference.
@@ -213,7 +213,7 @@ def judge_column(
 
 def fewest(table: Reference) -> int:
     """Rows that must be judged for a verdict."""
-    return min(FEWEST, len(table))
+    return min(FEWEST_ROWS, len(table))
 
 
 def scale_text(abscissa: str) -> str:

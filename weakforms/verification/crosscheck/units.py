@@ -11,7 +11,7 @@ import numpy as np
 from weakforms.scaling import SCALINGS
 from weakforms.verification.crosscheck.rows import FAILED, FLOOR, JudgedColumn
 
-SPREAD = 1e-2
+CONSTANT_SPREAD = 1e-2
 """Largest relative spread over all rows of a ratio that counts as constant."""
 
 MATCH = 1e-2
@@ -42,7 +42,7 @@ def forgotten(
     values = judged.expected + judged.error * np.maximum(size, judged.verdict.scale_floor)
     ratios = values[told] / judged.expected[told]
     ratio = float(np.median(ratios))
-    if len(ratios) < 3 or ratio == 0 or not np.all(np.abs(ratios / ratio - 1) <= SPREAD):
+    if len(ratios) < 3 or ratio == 0 or not np.all(np.abs(ratios / ratio - 1) <= CONSTANT_SPREAD):
         return ""
     spread = float(np.max(np.abs(ratios / ratio - 1)))
     if abs(ratio - 1) <= 10 * spread:  # scatter about the table, not a multiple of it
@@ -118,6 +118,6 @@ def _numbers(given: Mapping[str, object]) -> dict[str, float]:
 
 
 def abscissa_hint(problem: str, abscissa: str, constants: Mapping[str, object]) -> str:
-    """A hint for a curve most of which lies outside of its table."""
+    """A hint for a curve that lies mostly outside of its table."""
     unit = "" if constants else _unit(problem, abscissa)
     return f"is {abscissa} in units of {unit} (see --constant)?" if unit else ""

@@ -91,7 +91,7 @@ def agree(what: str, ours: Any, theirs: Any, asked: float, scale: Any = None) ->
         scale: Divisor of errors; by default the largest magnitude of the other side.
     """
     a, b = number(ours), number(theirs)
-    if not _some(a, b):
+    if not _all_given(a, b):
         return Finding(False, f"{what}: there is nothing to compare")
     size = np.max(np.abs(b.value)) if scale is None else number(scale).value
     values, others = np.broadcast_arrays(a.value, b.value)
@@ -132,7 +132,7 @@ def exact(what: str, found: Any, expected: Any, scale: float = 1.0) -> Finding:
 def positive(what: str, found: Any) -> Finding:
     """Decide whether a number, or every entry, is above zero."""
     x = number(found)
-    if not _some(x):
+    if not _all_given(x):
         return Finding(False, f"{what}: there are no numbers")
     i = np.argmin(np.where(np.isnan(x.uncertainty), -np.inf, x.value - CLEAR * x.uncertainty))
     worst = Number(x.value.flat[i], x.uncertainty.flat[i])
@@ -152,7 +152,7 @@ def not_negative(what: str, found: Any, asked: float, scale: float) -> Finding:
     This is for numbers that may be zero, whose sign is not definite.
     """
     x = number(found)
-    if not _some(x):
+    if not _all_given(x):
         return Finding(False, f"{what}: there are no numbers")
     wide = float(np.max(FACTOR * x.uncertainty)) / scale
     good = np.all(x.value >= -FACTOR * x.uncertainty) and wide <= asked
@@ -286,7 +286,7 @@ def all_of(*findings: Finding | Iterable[Finding]) -> Finding:
     return Finding(not failed, "; ".join([*said[:SHOWN], *more]))
 
 
-def _some(*numbers: Number) -> bool:
+def _all_given(*numbers: Number) -> bool:
     return all(x.value.size for x in numbers)
 
 

@@ -114,7 +114,7 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
 def _with_states(
     curve: Curve, table: Reference | None, solutions: Solutions, names: tuple[str, ...]
 ) -> dict[str, np.ndarray]:
-    """Columns of a branch, with those of the states at the rows of its table in between.
+    """Columns of a branch, with the states at the rows of its table in between.
 
     A branch traced in long steps would otherwise be a polygon beside these states.
     """
@@ -162,12 +162,12 @@ def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
     kinds = (panel.markers,) if isinstance(panel.markers, str) else panel.markers
     points = [p for kind in filter(None, kinds) for p in solutions.points(curve.of, kind)]
     return [
-        Marker(point.kind, _called(point), point.values[panel.x.name], point.values[panel.y.name])
+        Marker(point.kind, _marker_label(point), point.values[panel.x.name], point.values[panel.y.name])
         for point in points
         if point.branch == curve.branch
     ]
 
 
-def _called(point: SpecialPoint) -> str:
+def _marker_label(point: SpecialPoint) -> str:
     """The label of a marker; the legend shows its kind."""
     return f"n = {point.values['n']:g}" if "n" in point.values else point.kind.replace("_", " ")

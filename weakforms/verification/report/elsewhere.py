@@ -14,16 +14,16 @@ from weakforms.verification.audit.same import CaseRow, Run, rows
 
 NAME = "elsewhere.json"
 SCHEMA = "weakforms.elsewhere/1"
-TOLD = ("dolfinx", "ufl", "petsc", "slepc", "python", "system", "ranks")
+ENVIRONMENT = ("dolfinx", "ufl", "petsc", "slepc", "python", "system", "ranks")
 """Facts of the environment that may differ between two runs."""
 
 
 @dataclass(frozen=True)
 class Elsewhere:
-    """Another run, and the differences of its numbers from those of this run."""
+    """Another run, and the differences of its numbers from this run's numbers."""
 
     environment: dict[str, str]
-    """Facts of its environment that differ from those of this run."""
+    """Facts of its environment that differ from this run's environment."""
     rows: tuple[CaseRow, ...]
 
 
@@ -40,7 +40,7 @@ def elsewhere(own: Path, other: Path) -> Elsewhere:
     found = tuple(row for row in rows(first, second) if row.case in second.specs)
     if not found:
         raise InputError(f"{other}: has no case that {own} has")
-    facts = {name: second.environment[name] for name in TOLD if name in second.environment}
+    facts = {name: second.environment[name] for name in ENVIRONMENT if name in second.environment}
     return Elsewhere({k: v for k, v in facts.items() if first.environment.get(k) != v}, found)
 
 

@@ -112,7 +112,7 @@ def drawing(ident: str) -> Iterator[None]:
 
 
 def svg(figure: Figure, ident: str, title: str, description: str) -> str:
-    """The figure as an ``<svg>`` element, named and described, its colours those of the page."""
+    """The figure as an ``<svg>`` element with a title, a description and the colours of the page."""
     buffer = StringIO()
     figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
     colours = {value: f"--f-{name}" for name, value in LOOK["light"].items()}

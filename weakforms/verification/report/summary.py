@@ -304,7 +304,7 @@ def print_summary(run: RunOutcome, console: Console) -> None:
         _print_problems(case, console)
     ledger = ", ".join(f"{count} {name}" for name, count in ledger_counts(run.cases).items())
     if ledger:
-        console.print(Text(f"Printed numbers: {_said(ledger)}"))
+        console.print(Text(f"Printed numbers: {_for_terminal(ledger)}"))
     status = run_status(run)
     last = Text(f"{status.upper() if status != 'empty' else 'NOTHING JUDGED'}: ")
     last.stylize(STYLES.get(status, "bold"))
@@ -325,7 +325,7 @@ def _table(run: RunOutcome, narrow: bool) -> Table:
         status = case_status(case)
         top = worst(case.verdicts)
         cells = [
-            Text(_said(case.id)),
+            Text(_for_terminal(case.id)),
             Text(status, STYLES.get(status, "")),
             Text(f"{sum(v.passed for v in case.verdicts)}/{len(case.verdicts)}"),
             Text(fraction(ratio(top)) if top else "–"),
@@ -333,7 +333,7 @@ def _table(run: RunOutcome, narrow: bool) -> Table:
         if not narrow:
             place = f" at {top.where}" if top and top.where else ""
             cells += [
-                Text(_said(top.check + place) if top else "–"),
+                Text(_for_terminal(top.check + place) if top else "–"),
                 Text(duration(case.seconds)),
             ]
         table.add_row(*cells)
@@ -342,17 +342,21 @@ def _table(run: RunOutcome, narrow: bool) -> Table:
 
 def _print_problems(case: CaseOutcome, console: Console) -> None:
     for message in case.errors:
-        console.print(Text(f"error   {_said(case.id)}", STYLES["error"]))
-        console.print(Padding(Text(_said(message)), (0, 0, 0, 8)))
+        console.print(Text(f"error   {_for_terminal(case.id)}", STYLES["error"]))
+        console.print(Padding(Text(_for_terminal(message)), (0, 0, 0, 8)))
     for verdict in case.verdicts:
         if verdict.passed:
             continue
         line = Text("failed  ", STYLES["failed"])
-        line.append(f"{_said(case.id)}:{_said(verdict.check)}", "not red")
+        line.append(f"{_for_terminal(case.id)}:{_for_terminal(verdict.check)}", "not red")
         numbers = [f"{n} {scientific(getattr(verdict, n))}" for n in ("error", "bound", "asked")]
-        where = [f"at {_said(plain_tex(verdict.where))}"] if verdict.where else []
+        where = [f"at {_for_terminal(plain_tex(verdict.where))}"] if verdict.where else []
         judged = ", ".join(numbers * (verdict.bound is not None) + where)
-        texts = [judged, _said(plain_tex(verdict.statement)), _said(plain_tex(verdict.detail))]
+        texts = [
+            judged,
+            _for_terminal(plain_tex(verdict.statement)),
+            _for_terminal(plain_tex(verdict.detail)),
+        ]
         console.print(line)
         console.print(Padding(Text("\n".join(filter(None, texts))), (0, 0, 0, 8)))
 
@@ -361,6 +365,6 @@ def _rank(value: float | None) -> float:
     return math.inf if value is None or math.isnan(value) else value
 
 
-def _said(text: str) -> str:
+def _for_terminal(text: str) -> str:
     """The text for a terminal, without control characters except line ends."""
     return "\n".join(plain(line) for line in clean(text).split("\n"))

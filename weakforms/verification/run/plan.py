@@ -54,7 +54,7 @@ def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
 
 
 def checks_of(found: FoundCase) -> list[Check]:
-    """All checks of a case: those of its file, then those of every solution."""
+    """All checks of a case: first the checks in its file, then the checks of every solution."""
     drawn = [TableTrace(curve) for panel in found.case.panels for curve in panel.curves]
     specs = dict.fromkeys(spec for spec, _ in case_wants(found))
     return [*_written(found.case), *drawn, *(of(spec) for spec in specs for of in (Trace, Identities))]

@@ -67,7 +67,7 @@ def report(
         out: Folder for the report; by default where it was.
         as_pdf: Whether to write a PDF too.
         seeded: File with the outcome of ``faults``, if it is not in the folder.
-        others: Output folders of other runs, whose numbers are compared with those of this one.
+        others: Output folders of other runs, whose numbers are compared with this run's numbers.
         jobs: Number of parallel processes for drawing.
 
     Raises:

@@ -1,9 +1,9 @@
 r"""Front-fitted piecewise Chebyshev collocation for the half tube in contact.
 
 The half tube [0, L] is cut at fronts z_1 < z_2 < ... into zones. In a free-sliding zone the
-unknowns are (rho, eta, l1, b) and the equations those of ``tube_collocation``, P_eff containing
-the spring where it acts. In a stuck zone eta(z) is given, eta' = e(z), and only the radial
-equation is left; with a = rho', l1^2 = a^2 + e^2 and the radial force m = r0 w_1 a/l1,
+unknowns are (rho, eta, l1, b) and the equations of ``tube_collocation`` hold; P_eff contains the spring where
+it acts. In a stuck zone eta(z) is given, eta' = e(z), and only the radial equation is left; with a = rho',
+l1^2 = a^2 + e^2 and the radial force m = r0 w_1 a/l1,
 
 .. math:: \rho' = a, \qquad m(\rho, a, e)' = w_2 - P_{eff}(\rho)\, \rho\, e .
 

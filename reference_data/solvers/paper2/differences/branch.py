@@ -36,7 +36,7 @@ def richardson(coarse: Array, middle: Array, fine: Array, amplified: float | Arr
     """Eliminate h^2 and h^4 from values on grids n, 2n, 4n.
 
     The uncertainty is the change made by the h^4 term, that is the error estimate of the
-    two-grid value and an upper bound for that of the three-grid value, plus rounding: a slope
+    two-grid value and an upper bound for the error of the three-grid value, plus rounding: a slope
     is known to eps/h, the flux to w_11 ~ 8 times that. (Tables on 400 to 1600 cells scatter
     by about half of it.)
 

@@ -1,6 +1,6 @@
 r"""Finite differences for the half tube in frictionless contact, the front on a node.
 
-The difference equations are those of ``tube_fd``. The grid is z/L = tanh(a X)/tanh(a),
+The difference equations of ``tube_fd`` are used. The grid is z/L = tanh(a X)/tanh(a),
 X = x + c x (1 - x^2), x uniform, c such that the front z_1 is at node f = n j/25, j fixed: the
 kink of P_eff (slope -k on the inner side, 0 on the outer) sits on a node of every grid. With p
 given, z_1 (hence c and the grid) is the unknown that makes rho_f = s; the derivative of the

@@ -3,9 +3,9 @@ r"""Adhesive states with the front on a node at a given pressure, and deflation 
 ``fitted`` adjusts the grid until a node touches at exactly p_end (secant over whole inflations).
 Deflation keeps eta at all nodes up to the front and solves the radial equations everywhere.
 Bilateral: the spring acts at every stuck node, with half weight at the front, whose cell is
-half outside. Unilateral: it acts where rho > s; in the cell in which rho crosses s the force is
-that of the mean of (rho - s)+ over the cell, rho varying linearly there.
-Source: Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282.
+half outside. Unilateral: it acts where rho > s; in the cell in which rho crosses s the force follows from the
+mean of (rho - s)+ over the cell, where rho varies linearly. Source: Patil, Nordmark & Eriksson, Proc. R. Soc.
+A 470 (2014) 20140282.
 """
 
 from __future__ import annotations

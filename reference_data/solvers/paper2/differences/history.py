@@ -1,6 +1,6 @@
 r"""Adhesive contact by finite differences: the front followed node by node.
 
-The difference equations of ``tube_fd`` on a grid like that of ``tube_contact_fd``. Inflation:
+The difference equations of ``tube_fd`` are used on a grid as in ``tube_contact_fd``. Inflation:
 node f touches when rho_f = s; that equation determines p, all equations of the free nodes hold
 (at f too), eta_i is frozen for i < f; then eta_f is frozen and the front goes to f + 1. The
 node at the front is treated as free, half of its cell being stuck in the limit, so that every

@@ -234,7 +234,7 @@ class Linearised:
     def solve(self, rhs: Array, ends: Array, at: Array, scalar: float) -> tuple[Array, Array, float]:
         """Solve for (dy, d breakpoints, d load); rhs at the Gauss points, (elements, degree, 4).
 
-        The other right-hand sides are those of :meth:`reduced`.
+        The other right-hand sides are the same as in :meth:`reduced`.
         """
         k, m = len(self.zone), self.state.rule.degree
         right = [-self.block[:, :, :4], -self.sides, rhs.reshape(k, 4 * m, 1)]

@@ -8,9 +8,9 @@ Unknowns over s: r, z and the components A, F of the meridional tension, in the 
 
 which is valid in both taut and wrinkled parts (Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids
 54 (2015) 1-10, equilibrium with the relaxed energy), where l follows from T at every stage. The right-hand
-side is continuous, so that only a step that contains an event must be cut there. Steps are those of the
-eighth-order Runge-Kutta formula of Dormand and Prince at a fixed length, all segments in parallel;
-derivatives by complex step.
+side is continuous, so that only a step that contains an event must be cut there. The eighth-order Runge-Kutta
+formula of Dormand and Prince takes steps of fixed length, for all segments in parallel. Derivatives are
+computed by complex steps.
 """
 
 from __future__ import annotations

@@ -274,7 +274,7 @@ class Quadratic:
         Args:
             n: Wave number, real.
             count: How many.
-            extra: A further stiffness matrix, such as that of bending.
+            extra: A further stiffness matrix, for example of bending.
         """
         k, m, p = self.matrices(n)
         if extra is not None:

@@ -9,9 +9,9 @@ isotropic membrane of energy W(l1, l2), the second variation of the energy is
    + \frac{l_1 W_1 - l_2 W_2}{l_1^2 - l_2^2} (h_{12}^2 + h_{21}^2)
    + 2 \frac{l_2 W_1 - l_1 W_2}{l_1^2 - l_2^2} h_{12} h_{21},
 
-and that of the pressure is minus int p_z w (a . u) + p u . (u_Theta x x_s + x_Theta x u_s) with the
-normal area a = x_Theta x x_s (no potential is differentiated twice). The Lagrangian
-y'Ay'/2 + y'By + yCy/2 - Lambda H R y.y/2 in y = (u, q, w) gives, with momenta m = A y' + B y,
+and the second variation of the pressure is minus int p_z w (a . u) + p u . (u_Theta x x_s + x_Theta x u_s)
+with the normal area a = x_Theta x x_s (no potential is differentiated twice). The Lagrangian y'Ay'/2 + y'By +
+yCy/2 - Lambda H R y.y/2 in y = (u, q, w) gives, with momenta m = A y' + B y,
 
 .. math:: y' = A^{-1} (m - B y),\qquad m' = B^T y' + (C - \Lambda H R) y,
 

@@ -112,7 +112,7 @@ def bifurcation_on(
     """
     system, volume = model.system, at.values["V"]
     along = chebyshev.chebpts1(NODES) if below is None else np.array(below.finer)
-    solved, eigenvalues, modes, counts = _beside(model, primary, at, along)
+    solved, eigenvalues, modes, counts = _neighbouring_states(model, primary, at, along)
     rows = [
         [eigenvalue, *s.values.values(), *s.state.loads.values()]
         for eigenvalue, s in zip(eigenvalues, solved, strict=True)
@@ -138,7 +138,7 @@ def bifurcation_on(
     return Solved(values, state, "bifurcation_point"), mode, counts[0], trend
 
 
-def _beside(
+def _neighbouring_states(
     model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, along: np.ndarray
 ) -> tuple[list[Solved], list[float], list[np.ndarray], list[int]]:
     """States near a bifurcation, their critical eigenvalues and modes, and the others below zero."""

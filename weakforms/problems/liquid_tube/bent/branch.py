@@ -34,7 +34,7 @@ CORRECTIONS, EQUILIBRIUM = 3, 1e-11
 """Largest number of correction steps for an interpolated bifurcation point, and the residual at which they
 stop."""
 
-ASTRAY = 0.05
+OTHER_STATE = 0.05
 """Root mean square distance from a coarser mesh's state beyond which a solution is a different state."""
 
 
@@ -168,7 +168,7 @@ class SecondaryBranch(EquilibriumBranch):
         state = self.fitting.solve(guess, [constraint], near=True, chord=True)
         values = self._values(state)
         gap = self.fitting.apart(shape)
-        if gap > ASTRAY:
+        if gap > OTHER_STATE:
             raise ConvergenceError(f"converged {gap:.2g} away from another mesh's state")
         return Solved(values, state)
 

@@ -16,8 +16,8 @@ class EdgePoints:
 
     On each side of a point the weight :math:`\sum_j (2j+1) P_j(1 - 2t)/h`, with the distance ``t`` over the
     cell's size ``h`` and the Legendre polynomials ``P_j``, gives the value at ``t = 0`` of every polynomial
-    of the given degree; both sides are averaged. For other functions the error is that of their L2
-    projection. Every rank gets the value, and its derivatives are those of a form.
+    of the given degree; both sides are averaged. For other functions the error equals the error of their L2
+    projection. Every rank gets the value, and a form gives its derivatives.
 
     Args:
         mesh: A sheet of quadrilaterals along the axes.

@@ -1,4 +1,4 @@
-"""Lengths of tangent vectors at points of a mirror plane, one order more accurate than those of elements."""
+"""Lengths of tangent vectors at points of a mirror plane, one order more accurate than in elements."""
 
 from __future__ import annotations
 

@@ -177,7 +177,7 @@ class SecondaryFamily(BranchFamily):
         Args:
             begin: The state.
             constraint: The equation that it satisfies.
-            own: Finds it by a trace on the same mesh, if the coarser mesh's state is no good guess: on a
+            own: Finds it by a trace on the same mesh, if the coarser mesh's state is not a good guess: on a
                 slack membrane it may be far off.
         """
         solved = [begin]
@@ -201,7 +201,7 @@ class SecondaryFamily(BranchFamily):
         points = super().special_points()
         for below, level in pairwise(self.levels):
             for amplitude in COMPARED if level is self.fine else AMPLITUDES:
-                level.small[amplitude] = self._like(below, level, amplitude)
+                level.small[amplitude] = self._on_finer_mesh(below, level, amplitude)
         *_, last = coarser = self.levels[:-1]
         slopes = [level.initial() for level in coarser]
         fewer = last.initial(AMPLITUDES[:-1])  # for the error of the extrapolation
@@ -215,7 +215,7 @@ class SecondaryFamily(BranchFamily):
         return points
 
     @staticmethod
-    def _like(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
+    def _on_finer_mesh(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
         """The state of a small amplitude on a mesh, from the state of the next coarser one."""
 
         def guess() -> State:
@@ -250,7 +250,8 @@ class SecondaryFamily(BranchFamily):
 
         The coarsest mesh serves only for the order of convergence, because on a long tube it is too coarse
         for the dry part. A compressed membrane wrinkles as finely as the mesh allows. Only the lowest
-        eigenvalue at fixed level, far below those of the wrinkles, then converges, and no other is given.
+        eigenvalue at fixed level, far below the eigenvalues of the wrinkles, then converges, and no other is
+        given.
         """
         out = self._lowest(solved)
         least = out["T_min"]
@@ -284,8 +285,8 @@ class SecondaryFamily(BranchFamily):
     def _lowest(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
         """Lowest point and smallest resultant, from a grid finer than the meshes and parabolas.
 
-        The difference from a grid twice as coarse estimates the error of the grid, in addition to that of the
-        meshes.
+        The difference from a grid twice as coarse estimates the error of the grid; the error of the meshes is
+        added.
         """
         places = self._grid()
         found: dict[str, list[tuple[float, float]]] = {"z_min": [], "T_min": []}

@@ -29,7 +29,7 @@ the state by its square, and the second variation in proportion."""
 SMALL = 1e-3
 """Largest move, relative to the length, after which a factorised tangent is still used."""
 
-CAME_NEAR = 1e-6
+ALMOST_CONVERGED = 1e-6
 """If a solve does not converge but its residual is below this, the next solve starts from its end."""
 
 LOOKED_AT = 400
@@ -109,7 +109,7 @@ class Fitting:
                 state, self.record = self.solver.solve(guess, constraints, chord=True)
                 return state
             except ConvergenceError:
-                if self.solver.left < CAME_NEAR:
+                if self.solver.left < ALMOST_CONVERGED:
                     guess = self.system.state()
             finally:
                 self.solver.keep = False

@@ -312,7 +312,7 @@ class SurfaceModel:
     def _resultants_read(self) -> dict[str, float]:
         """Resultants of the current state at the quarter points.
 
-        On a mirror plane the principal directions are those of the meridian and the circumference.
+        On a mirror plane the principal directions lie along the meridian and the circumference.
         """
         out = {}
         for side, (lam1, lam2) in self._tangents(self.unknown).items():

@@ -48,7 +48,8 @@ SCALES = {
     "zw_bent": "level of the secondary state with the prescribed amplitude over A",
     "V_bent": "its volume over A^3",
     "Pi_bent": "its potential over mu H A^2",
-    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference that of the rotation",
+    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference the eigenvalue of the "
+    "rotation",
     "phase": "force that prevents the rotation at that state: zero up to round-off",
     "amplitude": "root mean square displacement along the axisymmetric branch's mode over A",
     "uneven": "relative amplitude by which the widths of the cells vary around",
@@ -185,7 +186,7 @@ class WholeRun:
         loads = {"zw": at.values["zw"]} | ({"phase": 0.0} if self.full else {})
         return State(self.model.interpolated(position(at)), loads)
 
-    def _pinned(self) -> list[Plane]:
+    def _no_rotation(self) -> list[Plane]:
         """Condition of no displacement along the rotated mode, so that a bent state cannot rotate."""
         return [Plane(self.rows[1], {}, 0.0)] if self.full else []
 
@@ -236,7 +237,7 @@ class WholeRun:
         offset = self.amplitude * self.size
         target = self.system.dot(self.rows[0], guess.u) + offset
         guess.u = guess.u + offset * self.modes[0]
-        state, _ = self.solver.solve(guess, [*self._pinned(), Plane(self.rows[0], {}, target)])
+        state, _ = self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])
         values = self.system.monitors()
         nearest = Stability(self.system).modes(state, 1)[0]
         return {

@@ -5,7 +5,7 @@ variation. Among the latter, the rotation of the pattern about the axis, :math:`
 needs no energy. Its eigenvalue is exactly zero, and its computed value, of either sign, shows the error. The
 inertia of ``K`` cannot distinguish it from an instability. The inertia of ``K + s M`` is therefore used, with
 ``s`` far above the error. The eigenvalues between ``-s`` and zero, whose vectors SLEPc returns, are added to
-this count, without that of the rotation, which its vector identifies.
+this count. The eigenvalue of the rotation, identified by its vector, is left out.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.spectra import Mode, Stability
 
 NEAR = 5
-"""Number of symmetry-breaking eigenvalues that are computed, including that of the rotation."""
+"""Number of symmetry-breaking eigenvalues that are computed, including the eigenvalue of the rotation."""
 
 SHIFT = 0.01
 """The shift ``s``, far above the error of a zero eigenvalue."""
@@ -36,16 +36,17 @@ BEYOND = 1.1
 """Relative distance of the target below another mesh's lowest eigenvalue, at which the tangent would be
 singular."""
 
-FURTHER = 12
+MOST_TARGETS = 12
 """Number of targets for a negative eigenvalue far from zero, each twice as far as the one before."""
 
 LIKENESS = 0.9
 """Smallest accepted overlap between the mode of the rotation and the displacement that rotates the
 pattern."""
 
-UNBENT = 1e-6
-"""Norm of that displacement, relative to that of the tube, below which there is no pattern to rotate. At the
-bifurcation its direction tends to the partner of the critical mode, which has a zero eigenvalue too."""
+SMALLEST_TURN = 1e-6
+"""Norm of that displacement, relative to a unit displacement of the whole tube, below which there is no
+pattern to rotate. At the bifurcation its direction tends to the partner of the critical mode, which has a
+zero eigenvalue too."""
 
 
 class BentStability:
@@ -80,7 +81,7 @@ class BentStability:
         """
         if coarser is not None and coarser["Lambda_1"] < -critical:
             self._lowest = BEYOND * coarser["Lambda_1"]
-        values, negative = self._keeping(state, critical)
+        values, negative = self._c1v_eigenvalues(state, critical)
         out: dict[str, float] = {f"Lambda_{i + 1}": value for i, value in enumerate(values[:3])}
         out["n_negative"] = negative
         if not critical:
@@ -94,7 +95,7 @@ class BentStability:
             ConvergenceError: If there are eigenvalues below every target.
         """
         target = 2 * self._lowest
-        for _ in range(FURTHER):
+        for _ in range(MOST_TARGETS):
             (mode, *_), below = self.keeps.about(state, target, 1)
             if not below:
                 self._lowest = mode.eigenvalue
@@ -102,12 +103,12 @@ class BentStability:
             target *= 2
         raise ConvergenceError(f"stability: there are eigenvalues below {target / 2:g}")
 
-    def _keeping(self, state: State, critical: float) -> tuple[list[float], int]:
+    def _c1v_eigenvalues(self, state: State, critical: float) -> tuple[list[float], int]:
         """The lowest C1v eigenvalues in ascending order, and the number of those below ``-critical``."""
         near, negative = self.keeps.about(state, -critical, 3)
         values = [mode.eigenvalue for mode in near]
         below, target = [v for v in values if v < -critical], self._lowest
-        for _ in range(FURTHER):
+        for _ in range(MOST_TARGETS):
             if len(below) >= negative:
                 break
             found, _ = self.keeps.about(state, target, negative)
@@ -147,7 +148,7 @@ class BentStability:
         if min(map(abs, others)) <= abs(turn.eigenvalue):
             raise ConvergenceError(
                 f"stability: a symmetry-breaking eigenvalue of {min(others, key=abs):.1e} is as near to zero "
-                f"as that of the rotation, {turn.eigenvalue:.1e}: its sign is uncertain"
+                f"as the eigenvalue of the rotation, {turn.eigenvalue:.1e}: its sign is uncertain"
             )
         return {
             "Lambda_breaking": others[0],
@@ -169,7 +170,7 @@ class BentStability:
         products[system.bc_dofs] = 0.0
         overlaps = np.array([abs(system.dot(products, mode.vector)) for mode in modes])
         size = float(np.sqrt(system.sum(fem.assemble_scalar(self._turning_squared))))
-        if size < UNBENT * np.sqrt(2 * np.pi * self.model.data.length):
+        if size < SMALLEST_TURN * np.sqrt(2 * np.pi * self.model.data.length):
             turn, likeness = min(modes, key=lambda mode: abs(mode.eigenvalue)), 1.0
         else:
             turn, likeness = modes[int(np.argmax(overlaps))], overlaps.max() / size

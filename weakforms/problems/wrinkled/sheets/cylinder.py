@@ -1,7 +1,7 @@
 r"""Problem ``wrinkled_sheet``: the cylinder of Paper 4 as a two-dimensional membrane, without axisymmetry.
 
 The reference surface is the unrolled cylinder, ``X = Theta in [0, pi/2]`` between two planes of symmetry and
-``Y = Z in [0, L]``; the unknown is the position in space. The relaxed energy is that of
+``Y = Z in [0, L]``; the unknown is the position in space. The relaxed energy is
 :func:`weakforms.forms.wrinkling.surface_tension_field`, by the principal stretches of ``C``. It checks the
 axisymmetric form with a few elements around. With many elements, the wrinkled membrane under pressure is
 unstable to waves around it (Paper 5).
@@ -196,7 +196,7 @@ class WrinkledSheet:
     control: ClassVar[str] = "zw or p; the quantities are at the load `at_load`"
 
     def check(self, parameters: SheetParameters, requests: Requests) -> None:
-        """Refuse requests for states, of which there is one, and laws without a two-dimensional form."""
+        """Refuse requests for states, because there is only one, and laws without a two-dimensional form."""
         check_requests(self, requests)
         require_foldable(self.name, parameters, waves=True)
 

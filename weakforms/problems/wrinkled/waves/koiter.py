@@ -25,7 +25,8 @@ from weakforms.solvers.stability.modes import SecondVariation
 POISSON = 0.5
 
 PENALTY = 10.0
-"""Penalty factor, times the squared degree: stiffness of the coupling at a node over that of a cell."""
+"""Penalty factor, times the squared degree: stiffness of the coupling at a node over the stiffness of a
+cell."""
 
 
 class ShellWaves:

@@ -142,7 +142,7 @@ class WrinkledLinear(AtLevel):
         "level; n_star = A/(-B)"
     )
     parameters = LinearParameters
-    control: ClassVar[str] = "none; the quantities are those of one level and trial function"
+    control: ClassVar[str] = "none; the quantities belong to one level and trial function"
     scales: ClassVar[dict[str, str]] = {
         **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw")},
         "A": "the part of Pi2/pi that does not depend on n, over C1 h Ao^2",
@@ -178,7 +178,7 @@ class WrinkledBending(AtLevel):
     title: ClassVar[str] = "Waves around a wrinkled cylinder with a small bending stiffness"
     energy: ClassVar[str] = "2 Pi2/pi of the membrane + int beta H^3 R k22^2 dS"
     parameters = BendingParameters
-    control: ClassVar[str] = "none; the quantities are those of one level"
+    control: ClassVar[str] = "none; the quantities belong to one level"
     scales: ClassVar[dict[str, str]] = {
         **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw", "beta")},
         "n": "wave number, real",
@@ -218,7 +218,7 @@ class WrinkledBending(AtLevel):
 
 
 def _relative(values: list[float], cap: float) -> float:
-    """Uncertainty of a small positive number, from that of its logarithm."""
+    """Uncertainty of a small positive number, from the uncertainty of its logarithm."""
     return float(values[-1] * (estimate([float(np.log(v)) for v in values], cap).uncertainty + ROUND_OFF))
 
 

@@ -23,10 +23,10 @@ JUMP = 1e-3
 """A change is a jump if the eigenvalues on both sides exceed this fraction of those at the ends of the
 interval. The tangent jumps where a zone opens or closes."""
 
-CHORDS = 12
+MOST_SECANTS = 12
 """Largest number of secant steps on a coarser mesh, from the root on the finest one."""
 
-LOOKS = 3
+MOST_SEARCHES = 3
 """Number of searches for an eigenvalue of the other sign next to the point of smallest magnitude."""
 
 
@@ -52,8 +52,7 @@ class Change:
     levels: tuple[Held, ...]
     """The state on every mesh, coarse to fine."""
     beside: Held | None = None
-    """The finest mesh's state of smallest magnitude, if ``levels`` are those of a zone's event close to
-    it."""
+    """The finest mesh's state of smallest magnitude, if ``levels`` belong to a zone's event close to it."""
 
 
 class StabilityChanges:
@@ -122,7 +121,7 @@ class StabilityChanges:
 
     def _around_a_dip(self, a: Sample, b: Sample, name: str, dip: float) -> list[tuple[Sample, Sample]]:
         """Two changes between neighbours of the same sign, if there are any."""
-        for _ in range(LOOKS):
+        for _ in range(MOST_SEARCHES):
             try:
                 middle = self._at(name, a.value + dip * (b.value - a.value), a.held)
             except ConvergenceError:
@@ -155,7 +154,7 @@ class StabilityChanges:
     def _on_all(
         self, tried: Sequence[Sample], name: str, sides: tuple[Sample, Sample] | None
     ) -> tuple[Held, ...]:
-        """The root on every mesh, starting from that of the finest one."""
+        """The root on every mesh, starting from the root on the finest one."""
         if sides is not None:
             before, beyond = sides
             raise ConvergenceError(
@@ -218,9 +217,9 @@ class StabilityChanges:
         raise last
 
     def _on_mesh(self, level: int, held: Held, name: str, value: float, slope: float) -> Held:
-        """The root on a coarser mesh by secants, starting from that of the finest one."""
+        """The root on a coarser mesh by secants, starting from the root on the finest one."""
         last = None
-        for _ in range(CHORDS):
+        for _ in range(MOST_SECANTS):
             lowest = self.lowest(held)
             if last is not None and value != last[0] and lowest != last[1]:
                 slope = (lowest - last[1]) / (value - last[0])

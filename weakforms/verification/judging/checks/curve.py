@@ -30,7 +30,7 @@ class Curve(Check):
     branch: str = "primary"
     """Branch of the curve; a profile belongs to the branch of its state."""
     asked: Mapping[str, float] | None = None
-    """Relative accuracy asked of the columns of its table, if it differs from that of the case."""
+    """Relative accuracy asked of the columns of its table, if it differs from the case's accuracy."""
     columns: Mapping[str, str] = field(default_factory=dict)
     """Column of the solution by column of the table, if the names differ."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, Decimal
 from typing import ClassVar
 
-PROVEN = 10
+MARGIN = 10
 """Every explanation but "reproduced" needs an uncertainty that is smaller than the deciding distance (half a
 printed digit, or the distance within which an input is decoded) by this factor. A large uncertainty then
 never proves a misprint."""
@@ -31,10 +31,10 @@ class Reading(ABC):
     def proven(self, value: float, uncertainty: float, printed: str) -> bool:
         """Whether a number is accurate enough to prove an explanation.
 
-        Its uncertainty must be ``PROVEN`` times smaller than half a unit of the last printed digit.
+        Its uncertainty must be ``MARGIN`` times smaller than half a unit of the last printed digit.
         """
         half = float(Decimal(1).scaleb(Decimal(printed).as_tuple().exponent)) / 2
-        known = math.isfinite(value) and 0 <= uncertainty <= half / PROVEN
+        known = math.isfinite(value) and 0 <= uncertainty <= half / MARGIN
         return known and self.fits(value, uncertainty, printed)
 
 
@@ -114,11 +114,11 @@ def decoding(value: float, uncertainty: float, searched: tuple[float, ...], with
     """Whether an input is one of the searched round values, none of them, or outside of the search.
 
     It is none of them only if it lies between two searched values. A number whose uncertainty is not
-    ``PROVEN`` times smaller than the distance for a round value is not judged.
+    ``MARGIN`` times smaller than the distance for a round value is not judged.
     """
     near = min(searched, key=lambda known: abs(value - known))
     distance = within * abs(near)
-    if not 0 <= uncertainty <= distance / PROVEN:
+    if not 0 <= uncertainty <= distance / MARGIN:
         return "input, not judged"
     if abs(value - near) + uncertainty <= distance:
         return "input, decoded"
