@@ -111,7 +111,7 @@ def test_killed_at_many_moments(tree, tmp_path, undisturbed, seed, jobs):
 SLOWLY = """
 from weakforms.results import io
 from weakforms.verification.report import report
-from weakforms.verification.run import runner
+from weakforms.verification.run import solving
 import os, time
 def halfway(path, text, *_):
     path = os.fspath(path)
@@ -120,7 +120,7 @@ def halfway(path, text, *_):
         stream.write(text[: len(text) // 2])
     print("half", flush=True)
     time.sleep(60)
-right, count = runner.write_atomically, []
+right, count = solving.write_atomically, []
 def third(path, text, *more):
     count.append(path)
     (halfway if len(count) == 3 else right)(path, text, *more)
@@ -130,7 +130,7 @@ def third(path, text, *more):
 @pytest.mark.parametrize("what", ["solution", "report"])
 def test_killed_while_writing(tree, tmp_path, undisturbed, what):
     patched = {
-        "solution": "runner.write_atomically = third\n",
+        "solution": "solving.write_atomically = third\n",
         "report": "report._replace = lambda p, t: halfway(p.with_name(p.name), t)\n",
     }[what]
     running = verify(tree, tmp_path, before=SLOWLY + patched)
@@ -200,7 +200,7 @@ def test_an_output_folder_that_may_not_be_written(tree, ours):
 
 
 def test_two_runs_in_one_folder(tree, tmp_path, undisturbed):
-    first = verify(tree, tmp_path, before=SLOWLY + "runner.write_atomically = third\n")
+    first = verify(tree, tmp_path, before=SLOWLY + "solving.write_atomically = third\n")
     assert first.process.stdout.readline() == "half\n"
     second = orderly(verify(tree, tmp_path, "--resume").wait(), 2)
     assert "another run is writing to folder" in second.err

@@ -9,7 +9,7 @@ import pytest
 
 from weakforms.errors import InputError
 from weakforms.verification.cases import discovery, references
-from weakforms.verification.run import runner
+from weakforms.verification.run import solving
 
 CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
 TUBE = "solve tube --out new/r.json"
@@ -30,7 +30,7 @@ def changed(before: dict, after: dict) -> list[Path]:
 def refused(weakforms, solves, tmp_path, monkeypatch):
     """Call the program in a separate folder and assert that it only reported an error."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(runner, "solve_spec", lambda spec, _: solves.append(spec))
+    monkeypatch.setattr(solving, "solve_spec", lambda spec, _: solves.append(spec))
 
     def call(words: str | list[str], *said: str) -> None:
         before = listing(tmp_path)
@@ -336,7 +336,7 @@ def test_the_copied_tree_itself_is_sound(tree, monkeypatch, weakforms):
     def first_solve(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(runner, "solve_spec", first_solve)
+    monkeypatch.setattr(solving, "solve_spec", first_solve)
     called = weakforms("verify", "-k", "fig03", "--out", tree.parents[2] / "out")
     assert (called.status, called.out) == (130, "")
     assert called.complaints == ["weakforms: interrupted; the same command with --resume continues"]
