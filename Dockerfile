@@ -1,5 +1,5 @@
 # Three stages:
-#   deps   Debian's DOLFINx, PETSc, SLEPc and the ordinary Python packages; no line of this tree.
+#   deps   Debian's DOLFINx, PETSc, SLEPc and the ordinary Python packages; nothing of this tree.
 #          `./run` works in it with the tree mounted. Its tag is a hash of the text of this stage.
 #   lint   deps, a browser that opens and prints the report, and ruff, which Debian does not have;
 #          only `./run test`, `./run lint` and `./run report --pdf` need it.
@@ -9,8 +9,8 @@
 ARG DEBIAN=trixie
 FROM debian:${DEBIAN}-slim AS deps
 
-# OpenBLAS takes the place of the reference BLAS, with which MUMPS and SLEPc take half as long again
-# on surfaces; gcc and g++ are what the JIT compiles the forms with; git tells a result's provenance;
+# OpenBLAS replaces the reference BLAS, with which MUMPS and SLEPc take 50 % longer
+# on surfaces. The JIT compiles forms with gcc and g++. git provides a result's provenance.
 # tini is the first process, so that Ctrl-C and `docker stop` reach the program.
 RUN apt-get -o Acquire::Retries=3 update \
  && DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 install -y --no-install-recommends \
@@ -24,18 +24,18 @@ RUN apt-get -o Acquire::Retries=3 update \
  && apt-get clean \
  && rm -rf /var/lib/apt/lists/*
 
-# One folder for everything that is written beside the results; any user may write there.
+# One folder for all files other than results; any user may write there.
 # `weakforms` finds the package through PYTHONPATH here; the final stage installs it properly.
-# The mounted tree belongs to whoever called, which git would refuse to read otherwise.
+# The mounted tree belongs to the caller; git would otherwise refuse to read it.
 RUN install -d -m 1777 /var/cache/weakforms /var/cache/weakforms/home /work \
  && printf '%s\n' '#!/usr/bin/python3' 'import sys' 'from weakforms.cli import main' \
         'if __name__ == "__main__":' '    sys.exit(main())' > /usr/local/bin/weakforms \
  && chmod 755 /usr/local/bin/weakforms \
  && git config --system safe.directory '*'
 
-# `run` reads this list too: one NAME=VALUE a line, no blanks. One thread per rank: the problems are
+# `run` reads this list too: one NAME=VALUE per line, no blanks. One thread per rank: the problems are
 # small. MPI stays within the machine, may run as root, may start more ranks than there are cores,
-# and binds none of them, for several mpirun at once would share the first core.
+# and binds none of them, because several mpirun at once would share the first core.
 ENV WEAKFORMS_IN_IMAGE=1 \
     LANG=C.UTF-8 \
     HOME=/var/cache/weakforms/home \
@@ -58,7 +58,7 @@ RUN apt-get -o Acquire::Retries=3 update \
  && apt-get clean \
  && rm -rf /var/lib/apt/lists/*
 
-# A certificate bundle may be handed in for networks that have their own authority.
+# A certificate bundle may be passed for networks with their own authority.
 RUN --mount=type=secret,id=ca,target=/run/secrets/ca \
     if [ -s /run/secrets/ca ]; then export PIP_CERT=/run/secrets/ca; fi; \
     pip install --break-system-packages --no-cache-dir --root-user-action=ignore ruff==0.17.5
@@ -81,7 +81,7 @@ RUN pip install --break-system-packages --no-cache-dir --root-user-action=ignore
  && weakforms warm \
  && python3 -m compileall -q weakforms cases reference_data \
  && chmod -R a+rwX /var/cache/weakforms
-# What the image is made of: every Debian package with its version and the licences its copyright file names.
+# The contents of the image: every Debian package with its version and the licences its copyright file names.
 RUN install -d /usr/share/doc/weakforms && cd /usr/share/doc \
  && dpkg-query -W -f '${db:Status-Abbrev}${Package} ${Version}\n' | sed -n 's/^ii *//p' \
   | while read -r package version; do \

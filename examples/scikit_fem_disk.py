@@ -1,8 +1,8 @@
-"""Another code, cross-checked: the inflated disk of Paper 1 by finite elements in scikit-fem.
+"""Cross-check of another code: the inflated disk of Paper 1 by finite elements in scikit-fem.
 
 A Mooney-Rivlin disk (alpha = 0.1), stretched by beta = 2 before it is clamped. Residual and tangent are
-written by hand, with quadratic elements; the height of the pole is prescribed and the pressure unknown. The
-curve covers part of the reference table, and the verdict says so.
+written by hand, with quadratic elements. The height of the pole is prescribed and the pressure is unknown.
+The curve covers only a part of the reference table, as the verdict says.
 Run: ``python examples/scikit_fem_disk.py`` (needs scikit-fem and weakforms; no DOLFINx).
 """
 
@@ -19,7 +19,7 @@ ALPHA, STRETCH, CELLS = 0.1, 2.0, 400
 
 
 def membrane(w: Any) -> tuple:
-    """Stretches, and derivatives of energy in them, at the state kept in ``w``."""
+    """Stretches, and derivatives of energy in them, at the state stored in ``w``."""
     r, slope = w["state"][0], w["state"].grad[:, 0]
     a, b = STRETCH * np.sqrt(slope[0] ** 2 + slope[1] ** 2), STRETCH * r / w.x[0]
     w1 = 2 * (a - 1 / (a**3 * b**2)) + 2 * ALPHA * (a * b**2 - 1 / a**3)
@@ -31,7 +31,7 @@ def membrane(w: Any) -> tuple:
 
 
 def stretching(v: Any, slope: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """Changes of both stretches with a displacement, the second one times the reference radius."""
+    """Change of the meridional stretch with a displacement."""
     along = v.grad[:, 0]
     return STRETCH**2 * (slope[0] * along[0] + slope[1] * along[1]) / a
 
@@ -45,7 +45,7 @@ def forces(v: Any, w: Any) -> np.ndarray:
 
 @LinearForm
 def pressure(v: Any, w: Any) -> np.ndarray:
-    """Work of a unit pressure: the change of the enclosed volume a radian."""
+    """Work of a unit pressure: the change of the enclosed volume per radian."""
     r, slope = w["state"][0], w["state"].grad[:, 0]
     return r * (slope[0] * v[1] - slope[1] * v[0])
 
@@ -81,7 +81,7 @@ def inflated(height: float, state: np.ndarray, p: float) -> tuple[np.ndarray, fl
     taller = height / state[z_pole]
     for _, axial in (basis.nodal_dofs, basis.interior_dofs):
         state[axial] *= taller
-    rows = np.append(free, z_pole)  # the pole's equation is the one that gives the pressure
+    rows = np.append(free, z_pole)  # the pole's equation determines the pressure
     for _ in range(30):
         at = {"state": basis.interpolate(state)}
         load = pressure.assemble(basis, **at)

@@ -1,7 +1,7 @@
-"""Another code, cross-checked: the inflated tube of Paper 2 by scipy's boundary value solver.
+"""Cross-check of another code: the inflated tube of Paper 2 by scipy's boundary value solver.
 
-A pre-stretched Mooney-Rivlin tube between two rigid disks (alpha = 0.1, delta1 = 1.1, lf = 6), over its
-limit points. The equations are the balance of forces, written here; of weakforms only the verdict is used.
+A pre-stretched Mooney-Rivlin tube between two rigid disks (alpha = 0.1, delta1 = 1.1, lf = 6), past its
+limit points. This file contains the equations (balance of forces) and uses only the verdict of weakforms.
 Run: ``python examples/scipy_tube.py`` (needs scipy and weakforms; no DOLFINx).
 """
 

@@ -1,8 +1,8 @@
-"""Another code, cross-checked: sfepy's own Mooney-Rivlin balloon, a 3-D ball in a membrane.
+"""Cross-check of another code: sfepy's Mooney-Rivlin balloon, a 3-D ball in a membrane.
 
-The model is the one that sfepy ships (``sfepy.examples.large_deformation.balloon``), unchanged: the volume of
-a coarse ball is prescribed and its pressure comes out. Its units are kept: c1 = 3e5, c2 = c1/10, r0 = 1,
-h0 = 0.01. The mesh is good for 2 %, so that is the accuracy claimed.
+The model is an example of sfepy (``sfepy.examples.large_deformation.balloon``), unchanged: the volume of
+a coarse ball is prescribed and its pressure is computed. Its units are kept: c1 = 3e5, c2 = c1/10, r0 = 1,
+h0 = 0.01. The mesh is accurate to about 2 %, and the curve claims this accuracy.
 Run: ``python examples/sfepy_balloon.py`` (needs sfepy and weakforms; no DOLFINx).
 """
 
