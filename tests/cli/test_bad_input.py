@@ -221,7 +221,7 @@ GOOD = "u_max,p\n" + "\n".join(f"{0.05 * k:g},{k / 9:g}" for k in range(1, 12))
         ("c.csv", b"u_max,q\n1,2\n2,3", "p, lam1_mid u_max, q"),
         ("c.csv", GOOD.replace(",", ";").encode(), "u_max;p"),
         ("c.csv", b"u_max,p\n1,2\n\n2,3,4\n", "line 4 3 cells 2 column"),
-        ("c.csv", b"u_max,p,p\n1,2,3\n2,3,4", "twice 'p'"),
+        ("c.csv", b"u_max,p,p\n1,2,3\n2,3,4", "repeated 'p'"),
         ("c.csv", b"u_max,p\n1,2\n2,nan", "'p' row 2 'nan'"),
         ("c.csv", b"u_max,p\n1,2\n2,", "'p' row 2 '' finite number"),
         ("c.csv", b"u_max,p\n1,2\n2,inf", "'inf' finite"),
