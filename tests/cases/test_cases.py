@@ -13,7 +13,7 @@ from shared_run import SharedRun
 from weakforms.errors import InputError
 from weakforms.verification.cases.discovery import FoundCase, find_cases
 from weakforms.verification.judging.outcome import Verdict
-from weakforms.verification.report.summary import scientific
+from weakforms.verification.report.wording import scientific
 from weakforms.verification.run.plan import check_ids
 
 CASES = find_cases()

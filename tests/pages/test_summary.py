@@ -10,7 +10,7 @@ from canned_run import passing_case, sample, verdict
 from rich.cells import cell_len
 from rich.console import Console
 
-from weakforms.verification.report import summary
+from weakforms.verification.report import summary, wording
 
 
 @pytest.mark.parametrize("width", [40, 60, 140])
@@ -77,15 +77,15 @@ def test_headlines():
     ],
 )
 def test_values_have_the_digits_their_uncertainty_justifies(value, uncertainty, text):
-    assert summary.with_uncertainty(value, uncertainty) == text
+    assert wording.with_uncertainty(value, uncertainty) == text
 
 
 def test_tex_becomes_html_without_a_way_out():
-    assert summary.plain_tex(r"$\delta_1 = 1$") == "δ1 = 1"
-    assert summary.html_tex(r"$u_{max}$ & <b>") == "<i>u</i><sub>max</sub> &amp; &lt;b&gt;"
-    assert "<script" not in summary.html_tex(r"$\lt script\gt$ $\ltscript$ $&lt;$")
-    assert [summary.scientific(v) for v in (3.21e-10, 0.0, None)] == ["3.2e-10", "0", "–"]
-    assert [summary.duration(s) for s in (0.431, 12, 185, 7800)] == [
+    assert wording.plain_tex(r"$\delta_1 = 1$") == "δ1 = 1"
+    assert wording.html_tex(r"$u_{max}$ & <b>") == "<i>u</i><sub>max</sub> &amp; &lt;b&gt;"
+    assert "<script" not in wording.html_tex(r"$\lt script\gt$ $\ltscript$ $&lt;$")
+    assert [wording.scientific(v) for v in (3.21e-10, 0.0, None)] == ["3.2e-10", "0", "–"]
+    assert [wording.duration(s) for s in (0.431, 12, 185, 7800)] == [
         "0.43 s",
         "12.0 s",
         "3 min 05 s",

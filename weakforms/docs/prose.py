@@ -16,7 +16,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.mathtext import MathTextParser
 
 from weakforms.verification.report.figures import drawing, svg
-from weakforms.verification.report.summary import html_tex
+from weakforms.verification.report.wording import html_tex
 
 SIZE = 13.0
 """Font size of formulas in points; on the page they scale with the text."""

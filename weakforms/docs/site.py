@@ -26,7 +26,7 @@ from weakforms.verification.cases.catalogue import describe
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import ROOT
 from weakforms.verification.report.look import LOOK, TEMPLATES
-from weakforms.verification.report.summary import html_tex
+from weakforms.verification.report.wording import html_tex
 
 VARIATIONS = (
     r"\delta\Pi(u; v) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} \Pi(u + \epsilon v) \,|_{\epsilon = 0} = 0, "

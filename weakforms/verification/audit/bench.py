@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from weakforms.errors import InputError
-from weakforms.verification.report.summary import duration, fraction
+from weakforms.verification.report.wording import duration, fraction
 
 REPEATS = {"tube": 5}
 """Number of measurements of a run and its floor; the best of each counts."""

@@ -14,7 +14,7 @@ from weakforms.verification.cases import gallery, references
 from weakforms.verification.cases.discovery import FoundCase, among, find_cases
 from weakforms.verification.crosscheck.compare import Verdicts, tables_of
 from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, scale_text
-from weakforms.verification.report.summary import plain_tex, plural, scientific, signed
+from weakforms.verification.report.wording import plain_tex, plural, scientific, signed
 
 
 def _problems() -> dict[str, Any]:

@@ -26,7 +26,8 @@ from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
 from weakforms.verification.judging.outcome import Convergence, CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.report.junit import clean, inline_svg
 from weakforms.verification.report.look import HEIGHT, LEFT, LOOK, RIGHT, WIDTH
-from weakforms.verification.report.summary import describe, describe_histories, of_curve, plain_tex
+from weakforms.verification.report.summary import describe, describe_histories, of_curve
+from weakforms.verification.report.wording import plain_tex
 
 INK, MUTED = LOOK["light"]["ink"], LOOK["light"]["muted"]
 POINTS, MARKERS = LOOK["points"], LOOK["markers"]

@@ -26,7 +26,7 @@ from weakforms.verification.judging.outcome import (
     SurfaceOutcome,
     Verdict,
 )
-from weakforms.verification.report import summary
+from weakforms.verification.report import summary, wording
 from weakforms.verification.report.elsewhere import Elsewhere
 from weakforms.verification.report.figures import convergence_figure, panel_figure
 from weakforms.verification.report.junit import clean
@@ -148,13 +148,16 @@ def _environment() -> Environment:
         finalize=lambda value: clean(value) if type(value) is str else value,
     )
     filters: dict[str, Callable[..., Any]] = {
-        name: getattr(summary, name)
-        for name in ("scientific", "signed", "fraction", "ratio", "duration", "order", "plural", "worst")
+        **{name: getattr(summary, name) for name in ("ratio", "worst")},
+        **{
+            name: getattr(wording, name)
+            for name in ("scientific", "signed", "fraction", "duration", "order", "plural")
+        },
     }
     environment.filters |= filters | {
-        "tex": lambda text: Markup(summary.html_tex(text)),
-        "plain_tex": summary.plain_tex,
-        "value": summary.with_uncertainty,
+        "tex": lambda text: Markup(wording.html_tex(text)),
+        "plain_tex": wording.plain_tex,
+        "value": wording.with_uncertainty,
         "flat": lambda value: list(_flat(value)),
         "label": lambda status: summary.LABELS.get(status, status),
         "when": lambda text: re.sub(r"^(\d{4}-\d\d-\d\d)T(\d\d:\d\d).*$", r"\1, \2 UTC", text),
@@ -340,7 +343,7 @@ def _numbers(verdict: Verdict) -> dict[str, str]:
     values = {name: getattr(verdict, name) for name in ("error", "bound", "asked")}
     known = [value for value in values.values() if value is not None]
     for digits in range(2, 7):
-        texts = {name: summary.scientific(value, digits) for name, value in values.items()}
+        texts = {name: wording.scientific(value, digits) for name, value in values.items()}
         if len({texts[n] for n, v in values.items() if v is not None}) == len(set(known)):
             break
     return texts

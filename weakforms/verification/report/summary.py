@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import html
 import math
-import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -25,6 +23,7 @@ from weakforms.verification.judging.outcome import (
     Verdict,
 )
 from weakforms.verification.report.junit import clean
+from weakforms.verification.report.wording import duration, fraction, order, plain_tex, plural, scientific
 
 NARROW = 90
 """On narrower terminals the table leaves out some columns."""
@@ -152,32 +151,6 @@ def of_curve(curve: CurveOutcome, verdicts: Iterable[Verdict]) -> list[Verdict]:
     return [v for v in at_rows if name and (v.reference == name or v.check.split(":")[0] == name)]
 
 
-def plain_tex(text: str) -> str:
-    r"""TeX between dollars as plain Unicode: ``$\delta_1 = 1$`` becomes ``δ1 = 1``."""
-    return re.sub(r"\$([^$]*)\$", lambda hit: re.sub(r"[{}^_]", "", _symbols(hit[1])), clean(text))
-
-
-def html_tex(text: str) -> str:
-    """Any text as safe HTML; TeX between dollars becomes italics, Greek, sub- and superscripts."""
-    parts = re.split(r"\$([^$]*)\$", clean(text))
-    parts[::2] = [html.escape(part) for part in parts[::2]]
-    for index in range(1, len(parts), 2):
-        math_part = html.escape(_symbols(parts[index]), quote=False)
-        math_part = re.sub(r"(?<![A-Za-zα-ω])([A-Za-zα-ω])(?![A-Za-z;])", r"<i>\1</i>", math_part)
-        for sign, tag in (("_", "sub"), ("\\^", "sup")):
-            pattern = sign + r"(?:\{([^{}]*)\}|(<i>.</i>|[^<\s]))"
-            math_part = re.sub(pattern, lambda hit, tag=tag: f"<{tag}>{hit[1] or hit[2]}</{tag}>", math_part)
-        parts[index] = re.sub("[{}]", "", math_part)
-    return "".join(parts)
-
-
-def _symbols(tex: str) -> str:
-    tex = re.sub(r"\\[,;: ]|~", "\u2009", re.sub(r"\\(mathrm|text|mathit|left|right)\b", "", tex))
-    tex = tex.replace("\\sqrt", "√")
-    named = re.sub(r"\\([A-Za-z]+)", lambda hit: html.unescape(f"&{hit[1]};").strip("&;"), tex)
-    return named.replace("\\", "")
-
-
 def describe(panel: PanelOutcome, verdicts: Iterable[Verdict] = ()) -> str:
     """A panel in words, for screen readers."""
     x, y = panel.x_range, panel.y_range
@@ -204,67 +177,6 @@ def describe_histories(records: Sequence[Convergence]) -> str:
         f"observed order {order(r.observed_order)}, expected {order(r.expected_order)}."
         for r in records
     )
-
-
-def order(value: float | None) -> str:
-    """An order of convergence: ``3.98``, or a dash."""
-    return "–" if value is None or not math.isfinite(value) else f"{value:.2f}"
-
-
-def plural(count: int, noun: str) -> str:
-    """``1 check``, ``2 checks``."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
-def scientific(value: float | None, digits: int = 2) -> str:
-    """A relative error as text: ``3.2e-10``; an exact zero is ``0``."""
-    if value is None or math.isnan(value):
-        return "–"
-    if math.isinf(value):
-        return "∞" if value > 0 else "-∞"
-    return "0" if value == 0 else f"{value:.{digits - 1}e}"
-
-
-def signed(value: float | None) -> str:
-    """A relative error with its sign: ``+3.2e-10``."""
-    text = scientific(value)
-    return f"+{text}" if value is not None and value > 0 else text
-
-
-def fraction(value: float | None) -> str:
-    """A ratio as text: at most three decimals, large ones rounded."""
-    if value is None or math.isnan(value):
-        return "–"
-    if math.isinf(value):
-        return "∞"
-    if 0 < value < 0.0005 or 1 < value < 1.0005:
-        return "<0.001" if value < 1 else ">1.000"
-    return f"{value:.3f}" if value < 10 else f"{value:.3g}"
-
-
-def with_uncertainty(value: float | None, uncertainty: float | None) -> str:
-    """A value with the digits that its uncertainty justifies: ``1.16299 ± 2e-05``."""
-    if value is None or not math.isfinite(value):
-        return "–"
-    if not uncertainty or not math.isfinite(uncertainty):
-        return f"{value:.12g}"
-    places = -math.floor(math.log10(abs(uncertainty)))
-    if abs(uncertainty) * 10.0**places < 2:
-        places += 1
-    if places > 15 or abs(value) >= 1e9:
-        return f"{value:.12g} ± {uncertainty:.0e}"
-    return f"{round(value, places):.{max(places, 0)}f} ± {uncertainty:.0e}"
-
-
-def duration(seconds: float) -> str:
-    """``0.43 s``, ``12 s``, ``3 min 05 s``, ``2 h 10 min``."""
-    if not math.isfinite(seconds):
-        return "–"
-    if seconds < 59.95:
-        return f"{seconds:.2f} s" if seconds < 9.995 else f"{seconds:.1f} s"
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s"
 
 
 def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:

@@ -10,7 +10,7 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from weakforms.verification.judging.outcome import SurfaceOutcome
 from weakforms.verification.report.figures import LOOK, as_math, drawing, svg
-from weakforms.verification.report.summary import plain_tex
+from weakforms.verification.report.wording import plain_tex
 
 LINES = 36
 """Largest number of lines in each direction."""

@@ -18,7 +18,8 @@ from weakforms.verification.judging.checks.check import Judged
 from weakforms.verification.judging.consistency import marks
 from weakforms.verification.judging.outcome import CaseOutcome, Convergence, RunOutcome, Verdict
 from weakforms.verification.judging.panels import draw_panel
-from weakforms.verification.report.summary import case_line, plural
+from weakforms.verification.report.summary import case_line
+from weakforms.verification.report.wording import plural
 from weakforms.verification.run.machine import environment
 from weakforms.verification.run.plan import Plan, checks_of
 from weakforms.verification.run.solutions import Solutions

@@ -17,7 +17,7 @@ from rich.text import Text
 from weakforms.errors import InputError
 from weakforms.results.io import load_json
 from weakforms.verification.report.junit import clean
-from weakforms.verification.report.summary import duration, plural
+from weakforms.verification.report.wording import duration, plural
 
 SCHEMA = "weakforms.audit/1"
 

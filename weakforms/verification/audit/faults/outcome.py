@@ -20,7 +20,7 @@ from rich.text import Text
 from weakforms.errors import InputError
 from weakforms.results.io import load_json, write_atomically
 from weakforms.verification.report.junit import clean
-from weakforms.verification.report.summary import duration, plural, scientific
+from weakforms.verification.report.wording import duration, plural, scientific
 
 SCHEMA = "weakforms.faults/1"
 

@@ -13,7 +13,7 @@ from weakforms.terminal import print_json, progress_bar
 from weakforms.verification.audit.faults.catalogue import Fault, select
 from weakforms.verification.audit.faults.outcome import NAME, RANDOM, FaultsRun, print_faults
 from weakforms.verification.cases.discovery import Expression
-from weakforms.verification.report.summary import plural
+from weakforms.verification.report.wording import plural
 
 
 def faults_verb(
