@@ -54,10 +54,10 @@ ASIDE = (
     "pytest_plugin.py",
     "__main__.py",
 )
-"""Parts of the package that do not change solutions: judging, drawing and messages ..."""
+"""Parts of the package that do not change solutions: judging, drawing and messages."""
 
 SOLVING = ("verification/cases/specs.py", "verification/run/plan.py", "verification/run/solving.py")
-"""... except for the modules that define the requested solutions and states."""
+"""Modules in these parts that do change solutions: they define the requested solutions and states."""
 
 
 @cache
