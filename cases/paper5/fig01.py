@@ -18,9 +18,9 @@ CONTINUOUS = decide.Stated(
 )
 JUMPS = decide.Stated(0.1, "the tangent is not", "a million times that; the tangent's own size is about 2")
 ALONG = (1.2, 2.0, 3.5, 5.0)
-"""Larger stretch of the points ..."""
+"""Larger stretch of the points."""
 ACROSS = (0.2, 0.5, 0.9)
-"""... and the smaller one at the boundary to the slack state."""
+"""Smaller stretch of the points, at the boundary to the slack state."""
 BOUNDARIES = {
     "A/B": [lambda e, v=v: (v, v**-0.5 * (1 + e)) for v in ALONG],
     "A/C": [lambda e, v=v: (v**-0.5 * (1 + e), v) for v in ALONG],

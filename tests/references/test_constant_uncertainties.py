@@ -20,9 +20,9 @@ MAKERS = {
     *("Column", "Estimate", "Extrapolated", "Pair", "Quantity", "Resolved", "Slow"),
     *("_on_all", "columns_of", "refined", "round_up", "shifted"),
 }
-"""Calls that are given an uncertainty, or make one ..."""
+"""Functions that take an uncertainty or return one."""
 NAMES = re.compile(r"floor|uncertain|^left$|^loose$|^rest$")
-"""... and names under which one is kept, passed or returned."""
+"""Names of variables, arguments and columns that hold an uncertainty."""
 
 
 def small(node: ast.AST) -> list[ast.Constant]:

@@ -64,4 +64,4 @@ def test_no_column_of_any_stored_solution_is_missed(tmp_path_factory):
     missed = {f"{m.problem}: {m.column}" for m in audit(cases, solver.results)}
     assert sorted(missed - set(KNOWN)) == []
     if stored and len(plan.states) == len(Plan.of(cases).states):
-        assert sorted(set(KNOWN) - missed) == [], "what is seen by now is no debt any more"
+        assert sorted(set(KNOWN) - missed) == [], "a known gap is closed: remove it from the list"

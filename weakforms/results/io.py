@@ -21,10 +21,10 @@ from weakforms.errors import InputError
 from weakforms.results.model import Result
 
 MAX_JSON_BYTES = 32 * 2**20
-"""Largest size of a JSON file, which needs up to thirty times as much memory ..."""
+"""Largest size of a JSON file, which needs up to thirty times as much memory."""
 
 MAX_REPORT_BYTES = 256 * 2**20
-"""... and the largest size of a ``report.json``."""
+"""Largest size of a ``report.json``."""
 
 BRANCH = "branch"
 """The column with names instead of numbers in the table that :func:`branch_csv` writes."""

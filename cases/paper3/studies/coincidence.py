@@ -31,7 +31,7 @@ OTHERS = "Lambda_n2", "Lambda_n3", "Lambda_torsion", "LambdaV_n0"
 
 
 def state_of_a_branch(solutions: Solutions) -> Finding:
-    """Numbers and eigenvalues of the state, and of the limit point of a branch at that pre-stretch."""
+    """Numbers and eigenvalues of the state, and of the limit point of a branch at its pre-stretch."""
     return decide.all_of(
         decide.agree(
             f"L = {length}: {name}",

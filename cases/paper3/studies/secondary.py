@@ -215,7 +215,7 @@ def double_zero(solutions: Solutions) -> Finding:
 
 
 def of_the_branch(solutions: Solutions) -> Finding:
-    """Level and volume at which the whole surface bends, and those of the primary branch's bifurcation."""
+    """Level and volume at which the whole surface bends, compared with the primary branch's bifurcation."""
     whole = quantities(solutions, HALF)
     return decide.all_of(
         decide.at_most(

@@ -21,9 +21,9 @@ from weakforms import (
 
 DATA = {"M": 1.5, "delta": 3, "Af": 0.4362}
 PAPER = 2 / 3 * 1.01 * 0.01**2
-"""Koiter's (2/3)(1 + C2/C1)(h/Ao)^2 for the paper's cylinder ..."""
+"""Koiter's (2/3)(1 + C2/C1)(h/Ao)^2 for the paper's cylinder."""
 THIN = 2 / 3 * 0.001**2
-"""... and for its hemisphere, of 0.1 mm and 0.1 m."""
+"""The same for the paper's hemisphere, of 0.1 mm and 0.1 m."""
 ALL = (0, 1, *sorted({int(n) for n in reference(5, "stability_changes_fluid").columns["n"]}))
 WAVES, TRIED = (6, 8, 10, 12), (2, 5, 10, 15, 20, 30, 40, 60, 100)
 PLAIN = wrinkled_tube(**DATA, n=ALL, load_end=20.0)

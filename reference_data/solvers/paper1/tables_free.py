@@ -123,7 +123,7 @@ def limit_points(name: str) -> Table:
 
 
 def onset(name: str) -> Table:
-    """First touch of free inflation."""
+    """First contact of free inflation."""
     disks = [c.disk for c in (*dc.PAPER, *dc.OFF)]
     disks += [
         Disk(alpha, beta, 50.0, height)

@@ -150,7 +150,7 @@ def agreed(table: str, name: str, a: Pair, b: Pair, about: tuple[str, str]) -> C
 
 
 def stacked(pairs: list[tuple[Pair, Pair]]) -> tuple[Pair, Pair]:
-    """One row each, to a column by both methods."""
+    """Combine pairs of single numbers into columns by both methods."""
     out = []
     for i in (0, 1):
         parts = [p[i] for p in pairs]

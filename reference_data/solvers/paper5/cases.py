@@ -117,7 +117,7 @@ class Hemisphere:
 
     @cached_property
     def spectrum(self) -> Spectrum:
-        """Its second variation."""
+        """Second variation of the state."""
         forms = tuple(rhm.quadratic(x, k) for x, k in zip(self.tracked, SPLITS, strict=True))
 
         def parts(n: float) -> tuple[Parts, Parts]:

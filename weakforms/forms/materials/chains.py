@@ -51,10 +51,10 @@ SERIES = (
     43867 / 350813659321125,
     -174611 / 15313294652906250,
 )
-r"""Coefficients of :math:`\ln(\sinh y/y)` in powers of :math:`y^2`, from the first on ..."""
+r"""Coefficients of :math:`\ln(\sinh y/y)` in powers of :math:`y^2`, from the first power."""
 
 SMALL = 0.5
-"""... used below this ``y``, where differences of large numbers would cost digits."""
+"""Largest ``y`` for the series; the exact function would lose digits by differences of large numbers."""
 
 
 def _polynomial(coefficients: tuple[float, ...], x: Expr) -> Expr:

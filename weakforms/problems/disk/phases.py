@@ -104,7 +104,7 @@ class DiskRun:
 
     @cached_property
     def onset(self) -> Solved:
-        """First touch.
+        """State of first contact.
 
         Raises:
             InputError: If it comes after the pressure at which inflation ends.

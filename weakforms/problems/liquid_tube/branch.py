@@ -24,10 +24,10 @@ EDGE = 1e-4
 mesh would have no length and unbounded stiffness, and the ring leaves no room for the membrane."""
 
 NEARLY_FULL = 0.97
-"""Front, as a fraction of the length, at which filling starts in steps of equal ratio ..."""
+"""Front, as a fraction of the length, from which the tube is filled in steps of equal ratio."""
 
 TOP_STATES = 6
-"""... and the number of these states."""
+"""Number of the states in these steps."""
 
 ZW_END, STEP = 0.7, 0.5
 """Default end of the branch, as a fraction of its highest level, and default largest step."""

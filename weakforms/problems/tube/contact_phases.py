@@ -70,7 +70,7 @@ class ContactRun:
 
     @cached_property
     def onset(self) -> Solved:
-        """First touch.
+        """State of first contact.
 
         Raises:
             InputError: If it comes after the pressure at which inflation ends.

@@ -18,10 +18,10 @@ ALGEBRAIC = 1e-11
 """Relative error of Newton's stopping rule and of round-off; it is added to every uncertainty."""
 
 SAFETY = 1.25
-"""Factor of the grid convergence index if the meshes converge (Roache 1998) ..."""
+"""Factor of the grid convergence index if the meshes converge (Roache 1998)."""
 
 SAFETY_UNRESOLVED = 3.0
-"""... and if the observed order is below one."""
+"""Factor of the grid convergence index if the observed order is below one."""
 
 TOO_FAST = 0.5
 """A field is resolved if its observed order exceeds the order of its elements by less than this."""
@@ -32,9 +32,10 @@ class Slow:
     """Part of an error that converges more slowly than the rest and dominates on fine meshes."""
 
     size: float
-    """Its largest contribution to the difference between two meshes, relative to the number or to 1 ..."""
+    """Largest contribution of this part to the difference between two meshes, relative to the number or to 1
+    ..."""
     order: float
-    """... and its highest order."""
+    """Highest order of this part."""
 
 
 @dataclass(frozen=True)

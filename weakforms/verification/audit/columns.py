@@ -64,9 +64,9 @@ def columns_of(result: Result) -> list[str]:
 
 
 def falsified(result: Result, name: str, factor: float) -> Result | None:
-    """A solution with one column multiplied; ``None`` where that changes no number that is clear of zero.
+    """A solution with one column multiplied, or ``None`` if all its numbers are zero.
 
-    What is zero within its uncertainty remains so: that it is zero is for an identity or a claim to say.
+    A number counts as zero within twice its uncertainty. That it is zero is stated by identities and claims.
     """
     changed = [False]
 

@@ -131,9 +131,9 @@ class Statistics:
     bounded: float
     """Fraction within the bound of verdicts."""
     median: float
-    """Median overestimate of the columns ..."""
+    """Median overestimate of the columns."""
     largest: float
-    """... and the largest one."""
+    """Largest overestimate of the columns."""
 
 
 def statistics(found: Iterable[Judged]) -> list[Statistics]:

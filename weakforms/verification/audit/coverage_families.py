@@ -175,7 +175,7 @@ FAMILIES = (
 
 
 QUICK = {"tube": 4, "circular": 2, "circular, contact": 2, "wrinkled_tube, gas": 1, "wrinkled_tube, fluid": 1}
-"""Number of sets of each family for a test of a minute or two ..."""
+"""Number of sets of each family for a test of a minute or two."""
 
 WIDE = 16
-"""... and number of sets of every family for a long test."""
+"""Number of sets of every family for a long test."""

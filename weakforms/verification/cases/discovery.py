@@ -32,7 +32,7 @@ class FoundCase:
 
     @property
     def group(self) -> str:
-        """Its folder, such as ``paper2`` or ``materials``."""
+        """Folder of the case, such as ``paper2`` or ``materials``."""
         return folder_of(self.paper)
 
     @property

@@ -68,9 +68,9 @@ class Dashed:
     column: str
     below: float
     full: str
-    """Meaning of full lines ..."""
+    """Meaning of full lines."""
     dashed: str
-    """... and of dashed lines."""
+    """Meaning of dashed lines."""
 
 
 @dataclass(frozen=True)

@@ -15,13 +15,13 @@ CONSTANT_SPREAD = 1e-2
 """Largest relative spread over all rows of a ratio that counts as constant."""
 
 MATCH = 1e-2
-"""Relative distance within which a ratio counts as a product of constants; their largest number ..."""
+"""Relative distance within which a ratio counts as a product of powers of constants."""
 
 POWERS = range(-3, 4)
-"""... their powers, ..."""
+"""Powers of the constants in such a product."""
 
 NUMBERS = {"": 1.0, "2": 2.0, "pi": math.pi, "2 pi": 2 * math.pi}
-"""... and an additional factor, or its inverse."""
+"""Additional factors of such a product; their inverses count too."""
 
 
 def forgotten(

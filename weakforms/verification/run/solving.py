@@ -54,10 +54,10 @@ ASIDE = (
     "pytest_plugin.py",
     "__main__.py",
 )
-"""Parts of the package that do not change solutions: judging, drawing and messages ..."""
+"""Parts of the package that do not change solutions: judging, drawing and messages."""
 
 SOLVING = ("verification/cases/specs.py", "verification/run/plan.py", "verification/run/solving.py")
-"""... except for the modules that define the requested solutions and states."""
+"""Modules in these parts that do change solutions: they define the requested solutions and states."""
 
 
 @cache
@@ -82,7 +82,7 @@ def solution_key(spec: Spec, states: list[At]) -> str:
 
 
 def _as_compared(value: Any) -> Any:
-    """Parameters as equality sees them: cases that say ``L=8`` and ``L=8.0`` mean one solution."""
+    """Parameters in a form that compares equal for ``L=8`` and ``L=8.0``: both belong to one solution."""
     if isinstance(value, tuple | list):
         return [_as_compared(item) for item in value]
     return float(value) if isinstance(value, int) and not isinstance(value, bool) else value

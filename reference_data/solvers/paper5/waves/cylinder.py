@@ -40,5 +40,5 @@ def profile(state: State) -> Profile:
 
 
 def quadratic(state: State, split: int = 1, all_tense: bool = False) -> Quadratic:
-    """Its matrices, on polynomials of the state's own degree."""
+    """Matrices of the second variation at a state, with polynomials of the state's degree."""
     return Quadratic(profile(state), state.rule.degree, split, all_tense)

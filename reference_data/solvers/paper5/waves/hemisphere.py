@@ -26,5 +26,5 @@ def profile(state: Hanging) -> Profile:
 
 
 def quadratic(state: Hanging, split: int = 1) -> Quadratic:
-    """Its matrices, on polynomials of the state's own degree."""
+    """Matrices of the second variation at a state, with polynomials of the state's degree."""
     return Quadratic(profile(state), state.rule.degree, split)

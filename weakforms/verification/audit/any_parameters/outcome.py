@@ -46,7 +46,7 @@ class Draw:
     numerics: dict[str, Any]
     status: str
     messages: tuple[str, ...] = ()
-    """Its messages: the listed failures, or the last lines of standard error."""
+    """Messages of the solve: the listed failures, or the last lines of standard error."""
     seconds: float = 0.0
 
     @property

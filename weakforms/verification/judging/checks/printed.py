@@ -110,10 +110,9 @@ class PrintedInput(LedgerCheck):
     at: At
     column: str
     searched: tuple[float, ...]
-    """Ascending round values that ``column`` could have if the printed number was a result of a computation
-    ..."""
+    """Ascending round values that ``column`` may have if the printed number comes from a computation."""
     within: float
-    """... within this relative distance."""
+    """Relative distance from a round value within which the column counts as this value."""
     source: str
     decoded: bool = True
     """Whether the case states that it is decoded, or that it lies between two of the values and is

@@ -59,9 +59,9 @@ class OnGrid(Reading):
     """A scan was stopped at a value of its grid."""
 
     step: str
-    """Step of the grid; the printed number is a multiple of it ..."""
+    """Step of the grid; the printed number is a multiple of it."""
     upwards: bool
-    """... and the number lies less than a step above the printed one, or below it."""
+    """Whether the computed number lies less than a step above the printed one; otherwise below it."""
 
     status: ClassVar[str] = "grid of a scan"
 
