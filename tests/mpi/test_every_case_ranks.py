@@ -9,7 +9,7 @@ from weakforms.verification.audit.same import Run, runs
 from weakforms.verification.cases.discovery import find_cases
 
 pytestmark = [pytest.mark.mpi, pytest.mark.usefixtures("launcher")]
-CHEAP = ("paper4.fig11", "paper5.fig02", "closed_form.infinite_tube")
+CHEAP = ("paper4.fig11", "closed_form.infinite_tube")
 
 
 @pytest.fixture(scope="module")
