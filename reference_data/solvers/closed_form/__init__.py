@@ -1,1 +1,1 @@
-"""Closed and nearly closed forms."""
+"""Tables of closed forms (balloons, long tubes, homogeneous bodies), some up to the root of an equation."""

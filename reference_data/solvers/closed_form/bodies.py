@@ -38,7 +38,7 @@ def by_contour(law: Any) -> Derivatives:
 
 
 def roots(f: Callable[[float], float], low: float, high: float, steps: int) -> list[float]:
-    """All roots that a scan separates."""
+    """All roots that a scan over an interval separates."""
     grid = np.linspace(low, high, steps + 1)
     values = [f(x) for x in grid]
     pairs = zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)

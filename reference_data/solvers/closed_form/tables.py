@@ -1,4 +1,4 @@
-"""Tables of closed and nearly closed forms: balloons, long tubes, test pieces of every law."""
+"""Tables of closed forms, some up to a root: balloons, long tubes, test pieces of every law."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ def tube(model: str) -> FluidTube:
 
 
 def facts(model: str) -> dict[str, object]:
-    """Parameters as stored."""
+    """Parameters as stored with the table."""
     return {"model": model, **CONSTANTS[model], "L": 8.0, "delta": 2.0, "gamma": GAMMA}
 
 

@@ -53,7 +53,7 @@ class Case:
 
     @property
     def title(self) -> str:
-        """For headings."""
+        """Description of the case for headings."""
         return ", ".join(f"{name} = {value:g}" for name, value in self.disk.parameters.items())
 
 
@@ -83,7 +83,7 @@ def onset_b(disk: Disk, i: int) -> Batch:
 
 
 def touching(disk: Disk) -> float:
-    """Pressure of first touch."""
+    """Pressure of first contact."""
     return float(onset_b(disk, 1).p[0])
 
 
@@ -212,7 +212,7 @@ def columns(
 
 
 def given(name: str, values: Any) -> Column:
-    """A prescribed column."""
+    """A prescribed column of a table."""
     return prescribed(name, np.asarray(values, dtype=float), text.COLUMNS[name])
 
 

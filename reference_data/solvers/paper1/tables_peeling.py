@@ -34,7 +34,7 @@ SAID = (
 
 
 def described(case: Case) -> dict[str, object]:
-    """Parameters."""
+    """Parameters of a case as stored with the table."""
     return case.disk.parameters | {"contact": "adhesive", "adhesion": "locked", "phase": "peeling"}
 
 
@@ -99,7 +99,7 @@ def every() -> list[tuple[Case, float]]:
 
 
 def keyed(pairs: list[tuple[Case, float]]) -> list[object]:
-    """Key columns."""
+    """Key columns of a table: parameters and pressure of each row."""
     values = [{**case.disk.parameters, "p": p} for case, p in pairs]
     return [dc.given(c, [v[c] for v in values]) for c in KEYS]
 

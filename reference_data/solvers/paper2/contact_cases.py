@@ -39,12 +39,12 @@ class Case:
 
     @property
     def parameters(self) -> dict[str, object]:
-        """As stored."""
+        """Parameters as stored with the tables."""
         return given(self.tube) | {"k": float(self.substrate.k), "s": float(self.substrate.s)}
 
     @property
     def title(self) -> str:
-        """For headings."""
+        """Description of the case for headings."""
         names = {"alpha": self.tube.alpha, "delta1": self.tube.delta1, "lf": self.tube.lf}
         names |= {"k": self.substrate.k, "s": self.substrate.s}
         return ", ".join(f"{name} = {value:g}" for name, value in names.items())

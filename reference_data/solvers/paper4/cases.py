@@ -70,7 +70,7 @@ class Solved:
 
     @cached_property
     def shots(self) -> list[sho.Solution]:
-        """By shooting."""
+        """States by shooting."""
         starts = sho.from_grid(grid_at(self.membrane, self.load))
         first = sho.solve(self.membrane, starts, self.load, "load", self.load, STEPS[0])
         return [first, sho.refined(first, self.load, STEPS[1])]

@@ -23,7 +23,7 @@ from reference_data.solvers.registry import Builder
 
 
 def gas(delta: float, M: float = 0.5) -> Membrane:
-    """Gas, critical radius."""
+    """The membrane under gas, with disks of the critical radius."""
     return Membrane(M, delta, load="gas")
 
 

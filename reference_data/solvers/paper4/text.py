@@ -76,7 +76,7 @@ def given(membrane: Membrane) -> dict[str, object]:
 
 
 def described(membrane: Membrane) -> str:
-    """One line for titles."""
+    """Description of a membrane in one line, for titles."""
     radius = "critical" if membrane.Af is None else f"{membrane.Af:g}"
     energy = ", standard energy everywhere" if membrane.energy == "standard" else ""
     return (

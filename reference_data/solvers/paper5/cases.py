@@ -47,7 +47,7 @@ class Spectrum:
 
 
 def refined(parts: Parts, times: int) -> Parts:
-    """Parts halved some times."""
+    """Parts after repeated halving."""
     for _ in range(times):
         parts = halved(parts)
     return parts
@@ -101,13 +101,13 @@ class Hemisphere:
 
     @cached_property
     def tracked(self) -> list[Hanging]:
-        """By collocation."""
+        """States by collocation."""
         coarse = WALK.at(self.zw)
         return [coarse, hem.polished(hem.moved_to(coarse, hem.RULES[1]), "zw", self.zw)]
 
     @cached_property
     def shots(self) -> list[hsh.Shot]:
-        """By shooting."""
+        """States by shooting."""
         _, z0, stretch0, _ = self.tracked[0].y[0, 0]
         out = []
         for tol in hsh.TOLERANCES:

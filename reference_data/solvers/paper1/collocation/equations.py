@@ -104,7 +104,7 @@ def gauss(mesh: Mesh) -> Array:
 
 
 def components(y: Array) -> list[Array]:
-    """Last axis first."""
+    """Components of an array, with its last axis first."""
     return list(np.moveaxis(y, -1, 0))
 
 

@@ -89,7 +89,7 @@ class History:
 
     @cached_property
     def fronts(self) -> Array:
-        """Chebyshev points."""
+        """Positions of the front: Chebyshev points."""
         n = len(self.g)
         return self.reach * (1 - np.cos(np.pi * (np.arange(n) + 0.5) / n)) / 2
 

@@ -57,7 +57,7 @@ class Edge:
         return self.height + self.patch.depth
 
     def outside(self, x: Sequence[float], totals: bool = False) -> list[Array]:
-        """States at rising x >= x*."""
+        """States with the front at rising x >= x*."""
         y = [self.patch.rho, self.height, self.slope, -self.dip, *([0.0, 0.0] if totals else [])]
         return shoot(self.disk, self.p, False, y, [self.patch.x, *x], self.how.rtol, totals)
 
@@ -150,7 +150,7 @@ class Inflation:
         return Edge(self.disk, patch, p, self.disk.l, slope, dip, self.how)
 
     def frozen(self, x: float) -> Patch:
-        """The frozen patch up to x."""
+        """The patch frozen up to x."""
         if x not in self.known:
             self.known[x] = self.at(x).patch
         return self.known[x]

@@ -51,10 +51,10 @@ class History(Protocol):
     """Axial position frozen in the stuck zone, as a function of z (real or complex)."""
 
     def slope(self, z: Any) -> Any:
-        """The frozen eta'."""
+        """Slope eta' at which the patch is frozen."""
 
     def position(self, z: Any) -> Any:
-        """The frozen eta."""
+        """Height eta at which the patch is frozen."""
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ class Resolved:
 
 
 def resolved(coarse: Array, fine: Array) -> Resolved:
-    """Pair up the two resolutions."""
+    """Combine values at two resolutions."""
     coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
     floor = ROUNDING * np.maximum(1.0, np.abs(fine))
     return Resolved(fine, np.abs(fine - coarse) + floor)

@@ -49,11 +49,11 @@ class Frozen:
         return cls(end, to_series(len(values)) @ values)
 
     def slope(self, z: Any) -> Any:
-        """The frozen eta'."""
+        """Slope eta' at which the patch is frozen."""
         return cheb.chebval(2 * z / self.end - 1, self.series)
 
     def position(self, z: Any) -> Any:
-        """The frozen eta."""
+        """Height eta at which the patch is frozen."""
         whole = cheb.chebint(self.series, lbnd=-1, scl=self.end / 2)
         return cheb.chebval(2 * z / self.end - 1, whole)
 

@@ -1,1 +1,1 @@
-"""The hanging hemisphere."""
+"""Solvers of the hanging hemisphere."""

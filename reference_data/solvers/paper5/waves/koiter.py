@@ -87,7 +87,7 @@ def constrained(form: Quadratic) -> Array:
 
 
 def spectral(form: Quadratic, n: float, beta: float) -> float:
-    """Lowest eigenvalue by way (a)."""
+    """Lowest eigenvalue by method (a)."""
     size = form.s.shape
     base = base_at(form, form.s.ravel())
     x, _ = np.polynomial.legendre.leggauss(size[1])
@@ -124,7 +124,7 @@ def hermite(x: Array, h: float) -> Array:
 
 
 def hermitian(form: Quadratic, n: float, beta: float, elements: int) -> float:
-    """Lowest eigenvalue by way (b), the elements equal in each zone.
+    """Lowest eigenvalue by method (b), with equal elements in each zone.
 
     Raises:
         RuntimeError: If the state is taut anywhere.

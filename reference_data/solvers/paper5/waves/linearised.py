@@ -54,13 +54,13 @@ def nodal(form: Quadratic, level: float, power: int) -> tuple[Array, Array]:
 
 
 def closed_form(form: Quadratic, level: float, power: int) -> float:
-    """B by its integral."""
+    """B by its integral in closed form."""
     f = amplitude(form.s, level, power)
     return -float(np.sum(form.weights * form.p * form.r * f**2 * form.l1**2))
 
 
 def by_matrices(form: Quadratic, level: float, power: int) -> Affine:
-    """Way (a)."""
+    """The second variation by method (a), the matrices."""
     _, field = nodal(form, level, power)
     d = np.zeros(form.size)
     d[form.index] = field.reshape(len(field), -1)
@@ -69,7 +69,7 @@ def by_matrices(form: Quadratic, level: float, power: int) -> Affine:
 
 
 def by_principal_axes(form: Quadratic, level: float, power: int) -> Affine:
-    """Way (b): the value at n = 0, 1, 2, and from them the coefficients."""
+    """The second variation by method (b): coefficients from the values at n = 0, 1, 2."""
     _, field = nodal(form, level, power)
     x, _ = np.polynomial.legendre.leggauss(form.s.shape[1])
     rows = lagrange(form.nodes, (x + 1) / 2)

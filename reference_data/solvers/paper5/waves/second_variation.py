@@ -218,7 +218,7 @@ class Quadratic:
 
     @cached_property
     def stiffness(self) -> list[sparse.csc_matrix]:
-        """K0, K1, K2."""
+        """The matrices K0, K1, K2."""
         return [self.assembled(f) for f in self.forms()]
 
     @cached_property
