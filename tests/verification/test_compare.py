@@ -38,7 +38,7 @@ def verdict_on(which, curve, *more, **how):
 
 
 def stress(lam):
-    """Nominal stress of the neo-Hookean specimen, uniaxial."""
+    """Nominal stress of the neo-Hookean test piece, uniaxial."""
     return 2 * (lam - lam**-2)
 
 

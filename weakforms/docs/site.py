@@ -97,7 +97,7 @@ class Site:
         self._environment.filters["tex"] = lambda text: Markup(html_tex(text))
 
     def write(self, page: str, template: str, title: str, section: str, **facts: Any) -> None:
-        """One page."""
+        """Write one page."""
         text = self._environment.get_template(template).render(
             title=title,
             section=section,

@@ -54,7 +54,7 @@ class Family(Protocol):
         """Solves that did not converge."""
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
-        """All columns."""
+        """The branch with all its columns."""
 
     def special_points(self) -> list[SpecialPoint]:
         """Special points in their order along the branch."""

@@ -58,7 +58,7 @@ SMALL = 0.5
 
 
 def _polynomial(coefficients: tuple[float, ...], x: Expr) -> Expr:
-    """Horner's scheme."""
+    """Value of a polynomial by Horner's scheme."""
     value = coefficients[-1]
     for c in reversed(coefficients[:-1]):
         value = c + x * value

@@ -132,7 +132,7 @@ class FixedDisk:
         return {"p": state.loads["p"], "lam_pole": float(state.u[self.order[0]]), **self._edge(state, given)}
 
     def _touch(self, solver: ExtendedNewton, given: CircularSchemeParameters) -> State:
-        """Free inflation to ``t0 = l``."""
+        """State of first contact, by free inflation to ``t0 = l``."""
         state = self.system.state()
         x = np.empty(len(state.u))
         x[self.order], x[self.order + 1] = self.x, self.x

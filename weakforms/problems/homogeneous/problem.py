@@ -248,7 +248,7 @@ class InfiniteTube(ClosedProblem):
         _comm: MPI.Intracomm,
         progress: Progress,
     ) -> dict[str, Family]:
-        """The branch."""
+        """The family of the branch."""
         body, chosen = closed_body.infinite_tube(parameters.force), parameters.material
 
         def make(level: int) -> EquilibriumBranch:
@@ -274,7 +274,7 @@ class InfiniteTube(ClosedProblem):
 
 
 class HomogeneousParameters(MaterialChoice):
-    """A test piece."""
+    """A test piece and its law."""
 
     loading: Literal["uniaxial", "equibiaxial", "pure_shear"] = Field("uniaxial", description="loading")
     lam_end: float = Field(
@@ -323,7 +323,7 @@ class Homogeneous(ClosedProblem):
         _comm: MPI.Intracomm,
         progress: Progress,
     ) -> dict[str, Family]:
-        """The curve."""
+        """The family of the curve."""
         body, chosen = closed_body.coupon(parameters.loading), parameters.material
 
         def make(level: int) -> EquilibriumBranch:

@@ -204,7 +204,7 @@ class Readings:
         return replace(point, uncertainty=spread | dict.fromkeys(exact, 0.0))
 
     def fronts(self, levels: Sequence[Held], branch: str) -> list[SpecialPoint]:
-        """Fronts of a state."""
+        """Fronts of a state as special points."""
         values = [self.columns(held) for held in levels]
         out, control = [], self.membrane.control
         for name in filter(self._is_front, values[-1]):

@@ -81,7 +81,7 @@ def model_on(mesh: Mesh, blocks: int) -> WrinkledModel:
 
 @lru_cache(maxsize=64)
 def meridian_of(model: WrinkledModel) -> Meridian:
-    """The fields of a model; kept."""
+    """The fields of a model, kept for later calls."""
     return Meridian(model)
 
 

@@ -270,11 +270,11 @@ class SinglePoint(ModalBranch):
         return self._itself()
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
-        """The point itself."""
+        """The point of the branch."""
         return self._itself()
 
     def special(self) -> list[Solved]:
-        """There are none."""
+        """None: a single point has no special points."""
         return []
 
     def _itself(self) -> Solved:

@@ -1,4 +1,4 @@
-"""Parallel processes."""
+"""Solve problems in parallel processes."""
 
 from __future__ import annotations
 

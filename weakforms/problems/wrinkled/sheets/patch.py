@@ -128,7 +128,7 @@ class PatchFamily:
         return Branch(self.name, "e", columns, spread if with_uncertainty else {})
 
     def special_points(self) -> list[SpecialPoint]:
-        """There are none."""
+        """None: a patch has no special points."""
         return []
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:

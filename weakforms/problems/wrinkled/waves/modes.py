@@ -200,7 +200,7 @@ class Waves:
 
 @lru_cache(maxsize=32)
 def waves_of(model: WrinkledModel) -> Waves:
-    """The waves of a model; kept."""
+    """The waves of a model, kept for later calls."""
     return Waves(model)
 
 

@@ -45,7 +45,7 @@ class Order(Check):
         return [(self._on(degree, cells), at) for degree in self.expected for cells in self.cells]
 
     def names(self, paper: int | str) -> list[str]:
-        """One for each degree."""
+        """One name for each degree."""
         return [f"order:{self.quantity}:P{degree}" for degree in self.expected]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict | Convergence]:

@@ -31,7 +31,7 @@ class Count(Check):
         return [(spec, None) for spec in self.expected]
 
     def names(self, paper: int | str) -> list[str]:
-        """One for each solution."""
+        """One name for each solution."""
         return [f"count_{self.kind}:{spec}" for spec in self.expected]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
@@ -93,7 +93,7 @@ class Points(TableOfPoints):
         return [(spec, None) for spec, _, _ in self._rows(paper)]
 
     def names(self, paper: int | str) -> list[str]:
-        """One for each row and column."""
+        """One name for each row and column."""
         return [
             _named(self.reference, self._label(spec, index), column)
             for spec, _, index in self._rows(paper)
@@ -154,7 +154,7 @@ class States(TableOfPoints):
         return [(spec, self.at) for spec in self._rows(paper)]
 
     def names(self, paper: int | str) -> list[str]:
-        """One for each row and column."""
+        """One name for each row and column."""
         return [_named(self.reference, str(spec), c) for spec in self._rows(paper) for c in self.asked]
 
     def judge(self, paper: int | str, solutions: Solutions) -> Iterator[Verdict]:
