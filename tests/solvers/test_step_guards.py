@@ -47,7 +47,7 @@ def test_a_step_to_a_parallel_branch_is_refused(monkeypatch):
     continuation, first = line()
     assert continuation.advance(None, first, 0.1).arclength == pytest.approx(0.1)
     beside(continuation, monkeypatch)
-    refused("the step leads aside, to another curve", continuation.advance, None, first, 0.1)
+    refused("the step leads to another curve", continuation.advance, None, first, 0.1)
 
 
 def test_a_step_out_of_the_range_of_the_problem_is_refused():
