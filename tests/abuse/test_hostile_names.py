@@ -72,7 +72,7 @@ def run_of(text: str) -> dict:
         text,
         text,
         "failed",
-        [Verdict(text, text, False, text, text, 1e-3, 1e-9, 1e-7, None, None, text, text, text)],
+        [Verdict(text, text, False, text, text, 1e-3, 1e-9, 1e-7, where=text, reference=text, differs=text)],
         [panel],
         [Printed(text, text, 1.0, 0.1, text, text, text)],
         [Convergence(text, 1, [1, 2], [1e-2, 1e-3], 2.0, 2.0, text)],
@@ -126,20 +126,17 @@ def test_reports_escape_what_is_known_to_be_hostile(tmp_path, text):
     escapes(tmp_path, text)
 
 
-@settings(quickly, max_examples=max(len(TEXTS), quickly.max_examples) // 2)
+@settings(quickly, max_examples=max(len(TEXTS), quickly.max_examples) // 4)
 @given(texts)
 def test_reports_escape_what_they_show(tmp_path_factory, text):
     escapes(tmp_path_factory.mktemp("run"), text)
 
 
 def escapes(folder: Path, text: str) -> None:
-    """The report of a run with the text in every place is harmless, or it is not written."""
+    """A report of a run that says the text everywhere is written, and harmless."""
     (folder / "report.json").write_text(json.dumps(run_of(text)))
     new = folder / "new"
-    called = orderly(call("report", folder, "--out", new), 0, 2)
-    if called.status == 2:
-        assert not new.exists(), "nothing is written of what cannot be drawn"
-        return
+    called = orderly(call("report", folder, "--out", new), 0)
     for path in new.rglob("*"):
         assert path.resolve().is_relative_to(new)
         if path.suffix == ".html":
@@ -324,11 +321,14 @@ def test_verdicts_on_curves_of_such_names(tmp_path, text):
     columns = references.load(2, CURVE).columns
     theirs = {text + "u": columns["u_max"].tolist(), text + "p": columns["p"].tolist()}
     (tmp_path / "c.json").write_text(json.dumps(theirs))
-    words = ("--map", f"u_max={text}u", "--map", f"p={text}p", "--out", tmp_path / "out")
-    called = orderly(call(*COMPARE, tmp_path / "c.json", *words), 0, 2)
-    if called.status == 0:
-        harmless((tmp_path / "out" / "index.html").read_text())
-        assert {p.name for p in (tmp_path / "out").iterdir()} == {"index.html", "p.svg", "verdicts.json"}
+    names = ("--map", f"u_max={text}u", "--map", f"p={text}p") if text else ("--map", "u_max=u")
+    words = (*names, "--out", tmp_path / "out")
+    if text != text.lstrip():  # white space around a name of --map is none of it
+        assert "the curve has no column 'u'" in orderly(call(*COMPARE, tmp_path / "c.json", *words), 2).err
+        return
+    orderly(call(*COMPARE, tmp_path / "c.json", *words), 0)
+    harmless((tmp_path / "out" / "index.html").read_text())
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {"index.html", "p.svg", "verdicts.json"}
 
 
 def test_what_is_stored_is_one_thing():

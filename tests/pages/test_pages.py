@@ -159,6 +159,25 @@ def test_rows_out_of_bound_are_drawn_filled():
     assert drawn[False] == [[2.0, 3e-8], [4.0, 5e-8]]
 
 
+def test_what_is_unstable_is_drawn_dashed():
+    x = [0.0, 1.0, 2.0, 3.0, 4.0]
+    one = CurveOutcome("one", "", x, x, unstable=[False, False, False, True, True])
+    axes = Figure().subplots()
+    figures._draw_curve(axes, one, 0)
+    drawn = {line.get_linestyle(): line.get_xdata().tolist() for line in axes.lines if len(line.get_xdata())}
+    assert drawn == {"-": [0.0, 1.0, 2.0], "--": [2.0, 3.0, 4.0]}
+
+
+def test_reference_rows_outside_the_axes_are_left_out():
+    one = CurveOutcome(
+        "one", "", reference_x=[0.0, 1.0, 2.0, 3.0], reference_y=[10.0, 11.0, 12.0, 13.0], x=[], y=[]
+    )
+    axes = Figure().subplots()
+    axes.set(xlim=(0.5, 2.5), ylim=(9.0, 14.0))
+    figures._draw_curve(axes, one, 0)
+    assert axes.lines[-1].get_xydata().tolist() == [[1.0, 11.0], [2.0, 12.0]]
+
+
 def test_odd_panels_are_drawn():
     one = CurveOutcome("one", "one point", [1.8], [2.0], residual_x=[1.0], residual=[0.0])
     odd = replace(panel([one, curve("two", 1.1)]), x_range=(0.0, 0.0), y_range=(math.nan, 1.0))

@@ -7,7 +7,7 @@ import pytest
 from mpi4py import MPI
 
 import weakforms.problems.tube.contact as contact_module
-from weakforms import ConvergenceError, InputError, WeakformsError, reference, solve
+from weakforms import ConvergenceError, InputError, reference, solve
 from weakforms.forms import loads
 from weakforms.problems.tube.contact import ContactData
 from weakforms.problems.tube.contact_phases import ContactRun
@@ -175,11 +175,7 @@ def test_without_a_fault_the_value_is_the_references():
 @pytest.mark.parametrize("fault", [reference_area, half_stiffness, outside_instead])
 def test_a_fault_in_the_foundation_is_noticed(fault, monkeypatch):
     monkeypatch.setattr(contact_module, "substrate_potential", fault)
-    try:
-        found = u_max_at_2()
-    except WeakformsError as error:
-        assert "onverge" in str(error) or "crossed" in str(error) or "not taken" in str(error)  # noqa: PT017
-        return
+    found = u_max_at_2()
     assert abs(found.value - table_value()) > 1e4 * found.uncertainty
 
 

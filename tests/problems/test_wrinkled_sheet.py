@@ -1,5 +1,7 @@
 """Problems of the wrinkled cylinder's two-dimensional form, of the thresholds and of the material."""
 
+from math import cos, sin
+
 import pytest
 
 from weakforms import solve
@@ -42,3 +44,25 @@ def test_the_material_problem_has_the_states_of_the_table():
     full = solve("wrinkled_material", l1=1.5, l2=0.5, energy="standard").quantities
     assert full["W2"].value < 0
     assert full["W"].value > wrinkled["W"].value
+
+
+def test_the_patch_has_the_potential_of_equation_33_and_the_shape_it_says():
+    """``W = -b int z x' dX`` with its derivatives in ``e``, and no strain energy that goes with ``e``."""
+    a, b, c, n, length, e = 0.4, 1.8, 0.2, 7.0, 1.3, 0.02
+    (state,) = solve("wrinkled_patch", a=a, b=b, c=c, n=n, Lx=length, at={"e": e}).states
+    linear, square = (a / n + c) * sin(n * length), n * length / 2 + sin(2 * n * length) / 4
+    expected = {
+        "W": -b * (a * length * c + e * linear + e**2 * square),
+        "W_e": -b * (linear + 2 * e * square),
+        "W_ee": -2 * b * square,
+    }
+    for name, value in expected.items():
+        found = state.quantities[name]
+        assert abs(found.value - value) <= 2 * found.uncertainty + 1e-13, name
+        assert found.value == pytest.approx(value, rel=1e-9)
+    rest = [state.quantities[name].value for name in ("U_e", "U_ee", "shear")]
+    assert rest == pytest.approx([0.0] * 3, abs=1e-13)
+    shape = state.fields[0].columns
+    assert shape["X"][-1] == length
+    assert shape["x"] == pytest.approx([a * s + e * sin(n * s) for s in shape["X"]], abs=1e-15)
+    assert shape["z"] == pytest.approx([c + e * cos(n * s) for s in shape["X"]], abs=1e-15)

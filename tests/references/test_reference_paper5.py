@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from reference_data.solvers.paper4 import material as wri
 from reference_data.solvers.paper5 import cases as rel
 from reference_data.solvers.paper5.hemisphere import limit as lim
 from reference_data.solvers.paper5.waves import bending as ben
+from reference_data.solvers.paper5.waves import koiter as koi
 from reference_data.solvers.paper5.waves import linearised as lin
 from reference_data.solvers.paper5.waves import second_variation as sec
 from reference_data.solvers.paper5.waves.cylinder import FLUID, GAS, quadratic
@@ -234,6 +236,30 @@ def test_bending():
     assert f.first(300) < 0 < bent.first(300, beta)[0]
     shot = Transfer(rel.cylinder(FLUID, 5.73).parts(10)[1], 10, beta)
     assert shot.lowest(1)[0] == pytest.approx(bent.first(10, beta)[0], abs=1e-9)
+
+
+def test_a_rigid_motion_bends_nothing():
+    """Koiter's changes of curvature of a sideways and an upward shift, on a cylinder, a cone and a bulge."""
+    base = {"r": [1.0, 1.2, 1.5], "dr": [0.0, 0.4, 0.3], "dz": [1.0, 0.9, 1.1], "dj": [0.0, 0.0, 0.2]}
+    base = {name: np.array(values) for name, values in base.items()} | {"R": np.array([1.0, 1.1, 0.9])}
+    base["j"] = np.hypot(base["dr"], base["dz"])
+    sideways, upwards = np.zeros(9), np.zeros(9)
+    sideways[[koi.U0, koi.Q0]] = 1.0, -1.0
+    upwards[koi.W0] = 1.0
+    for n, shift in ((1, sideways), (0, upwards)):
+        for change in koi.curvatures(base, n):
+            assert np.abs(change @ shift).max() < 1e-14
+
+
+def test_koiters_bending_energy_by_two_ways_is_the_committed_table():
+    """Polynomials with continuous slopes, and Hermite elements, at the first row of ``bending_models``."""
+    rows = (Path(__file__).parents[2] / "reference_data/paper5/bending_models.csv").read_text().splitlines()
+    row = dict(zip(rows[0].split(","), map(float, rows[1].split(",")), strict=True))
+    solved = cas.solved(FLUID, row["zw"])
+    spectral = koi.spectral(quadratic(solved.tracked[0][0]), row["n"], row["beta"])
+    hermite = koi.hermitian(form(row["zw"]), row["n"], row["beta"], 150)
+    assert spectral == pytest.approx(row["Lambda_B2"], abs=2e-7)
+    assert hermite == pytest.approx(row["Lambda_B2"], abs=2e-7)
 
 
 def test_mass_scales_eigenvalues_only():

@@ -85,11 +85,12 @@ def test_a_zero_has_no_scale_of_its_own():
 
 
 def test_what_is_missing_or_failed_on_one_side_is_infinitely_far():
-    less, failed, shorter = solution(), solution(), solution()
+    less, failed, shorter, without = (solution() for _ in range(4))
     less.states.clear()
     failed.failures.append(Failure("state at p = 2", "diverged"))
     shorter.branches[0].columns["p"] = np.zeros(2)
-    for other in (less, failed, shorter):
+    without.branches[0].columns["p"][1] = np.nan  # where the other has a number
+    for other in (less, failed, shorter, without):
         assert differences(solution(), other)[0].relative == np.inf
 
 

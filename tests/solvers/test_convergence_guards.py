@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from small_systems import system_of
-from test_mesh_guards import bare, refused
+from stand_ins import bare, refused
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent import stability as bent

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stand_ins import bare, refused
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.liquid_tube import problem as fluid_tube_problem
@@ -21,18 +22,6 @@ from weakforms.solvers.uncertainty.family import BranchFamily
 
 ANY = SimpleNamespace(state=SimpleNamespace(u=None, loads=None))
 """A state that only stands for one."""
-
-
-def bare(kind, **attributes):
-    """An object of a class without calling its constructor."""
-    made = kind.__new__(kind)
-    vars(made).update(attributes)
-    return made
-
-
-def refused(what, call, *given):
-    with pytest.raises(ConvergenceError, match=what):
-        call(*given)
 
 
 @pytest.mark.parametrize("counts", [(0, 1, 1), (0, 0, 1), (1, 0, 0)])

@@ -350,7 +350,8 @@ def test_every_table_passes_itself_and_no_wrong_row_does(data):
     found, name, asked = ALL[data.draw(st.integers(0, len(ALL) - 1))]
     table = references.load_curve(found.paper, name)
     verdicts = compare(found.id, table.columns, name)
-    assert verdicts.status in ("passed", "not judged")
+    too_coarse = (found.id, name) == ("paper5.fig06", "mode_n_100_zw_3")
+    assert verdicts.status == ("not judged" if too_coarse else "passed")
     assert not verdicts.missing
     column = data.draw(st.sampled_from([v.column for v in verdicts.verdicts if v.status == "passed"]))
     row = data.draw(st.integers(0, len(table) - 1))

@@ -53,7 +53,10 @@ def printed(text, reading, value, uncertainty):
 def test_a_printed_number_is_what_it_is_stated_to_be(text, reading, value, uncertainty, passes):
     passed, status = printed(text, reading, value, uncertainty)
     assert passed is passes
-    assert (status in ("reproduced", "cut off", "grid of a scan", "misprint")) is passes
+    stated = "reproduced" if reading is None else reading.status
+    refused = "not reproduced" if reading is None else f"{reading.status}, not proven"
+    assert status == (stated if passes else refused)
+    assert stated == {None: "reproduced", CUT: "cut off", GRID: "grid of a scan", WRONG: "misprint"}[reading]
 
 
 @pytest.mark.parametrize("reading", [None, CUT, GRID, WRONG])

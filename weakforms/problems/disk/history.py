@@ -73,7 +73,7 @@ class History:
             locked = self._value @ coefficients
             defect = np.abs(radial - self._radial @ coefficients).max()
             # The defect of F', not of F'/x, whose round-off at a small front has little effect.
-            defect = max(defect, np.abs(self.fronts * (axial - steepness)).max())
+            defect = np.maximum(defect, np.abs(self.fronts * (axial - steepness)).max())  # keeps what is NaN
             if defect < ACCURACY:
                 return
             coefficients = np.linalg.solve(self._radial + self._value, radial + locked)

@@ -1,0 +1,354 @@
+"""States, fronts and histories that are no answer are refused, problem by problem, on stand-ins."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from stand_ins import always, bare, raising, refused
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.disk.history import SWEEPS, History
+from weakforms.problems.liquid_tube import coincidence
+from weakforms.problems.liquid_tube.bent import bifurcation_point, fitted
+from weakforms.problems.liquid_tube.bent import branch as bent_branch
+from weakforms.problems.liquid_tube.bent import problem as whole_surface
+from weakforms.problems.liquid_tube.bent.family import SecondaryFamily
+from weakforms.problems.triangles import branch as triangles
+from weakforms.problems.tube import contact_phases
+from weakforms.problems.tube import problem as tube_problem
+from weakforms.problems.wrinkled import branch as wrinkled_branch
+from weakforms.problems.wrinkled import critical as wrinkled_critical
+from weakforms.problems.wrinkled import events as wrinkled_events
+from weakforms.problems.wrinkled import fields as wrinkled_fields
+from weakforms.problems.wrinkled import fitted as wrinkled_fitted
+from weakforms.problems.wrinkled.fields import Zones
+from weakforms.problems.wrinkled.waves.stability import Sample, StabilityChanges
+from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.equilibrium.system import State
+
+STALLED = ConvergenceError("Newton stalled")
+
+# -- histories of a stuck patch --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("radial", "axial"), [(1.0, 3.0), (4.0, -1.0), (np.nan, 3.0), (4.0, np.nan)])
+def test_a_history_of_the_disk_that_does_not_settle(radial, axial):
+    told = bare(History, _value=np.eye(1), _radial=2 * np.eye(1), fronts=np.ones(1), _write=always(None))
+    given = [None], np.array([2.0]), np.array([3.0])
+    told._outside = always((np.array([4.0]), np.array([3.0])))
+    told.solve(*given)  # rho_c' = 2 Lc: nothing is left to mend
+    turns = iter(range(SWEEPS))
+
+    def outside():
+        way = (-1.0) ** next(turns)
+        return np.array([4.0 + way * (radial - 4.0)]), np.array([3.0 + way * (axial - 3.0)])
+
+    told._outside = outside
+    refused(f"history of the stuck patch: defect .* after {SWEEPS} sweeps", told.solve, *given)
+
+
+def test_a_history_of_the_tube_that_does_not_settle(monkeypatch):
+    """The slope outside is another one after every sweep."""
+    slopes, solved = iter(range(10**6)), SimpleNamespace(values={"slope_outside": 1.0})
+    model = SimpleNamespace(history=np.zeros(1), set_history=always(None))
+    model.system = SimpleNamespace(monitor=lambda _: float(next(slopes)))
+    monkeypatch.setattr(contact_phases, "ContactModel", always(model))
+    monkeypatch.setattr(
+        contact_phases, "ExtendedNewton", always(SimpleNamespace(solve=lambda s, _: (s, None)))
+    )
+    monkeypatch.setattr(contact_phases, "stick_guess", always(None))
+    monkeypatch.setattr(contact_phases, "replace", always(None))
+    told = bare(
+        contact_phases.ContactRun,
+        comm=None,
+        data=SimpleNamespace(delta1=1.0),
+        terms=2,
+        frictionless=None,
+        onset=SimpleNamespace(values={"lam1_mid": 1.0}),
+        _slipped=always(solved),
+        _reached=always(SimpleNamespace(state=SimpleNamespace(loads={"front": 1.0}))),
+    )
+    words = f"history of the stuck patch: defect .* after {contact_phases.SWEEPS} sweeps"
+    refused(words, lambda: told.stick)
+
+
+# -- tubes under gas and liquid --------------------------------------------------------------------
+
+
+def test_a_fold_line_that_finer_meshes_do_not_have(monkeypatch):
+    branches = iter(([1], [1], []))
+    maker = lambda *_: lambda _level: SimpleNamespace(turns=lambda: next(branches))  # noqa: E731
+    monkeypatch.setattr(tube_problem, "branch_maker", maker)
+    monkeypatch.setattr(tube_problem, "fold_line", always(SimpleNamespace(stalled="")))
+    problem = tube_problem.TubeFold()
+    given = problem.parameters(), problem.numerics(cells=32, levels=2), None, None, None
+    refused("delta1 = 1: a limit point on 16 cells, but none on 32: raise cells", problem.families, *given)
+
+
+def pieces(*kinds):
+    located = [Solved({"V": 1.0, "n": n}, None, kind) for kind, n in kinds]
+    return SimpleNamespace(data=SimpleNamespace(delta=2.0), pieces=[SimpleNamespace(special=lambda: located)])
+
+
+def test_a_coincidence_needs_both_points():
+    told = bare(coincidence._Finder)
+    found = told._points(pieces(("limit_point", 0), ("bifurcation_point", 1)))
+    assert (found[0][1].kind, found[1].kind) == ("limit_point", "bifurcation_point")
+    words = "at delta = 2 the branch has 1 limit points and 0 bifurcations with one wave"
+    refused(words, told._points, pieces(("limit_point", 0), ("bifurcation_point", 2)))
+    words = "at delta = 2 the branch has 0 limit points and 1 bifurcations with one wave"
+    refused(words, told._points, pieces(("bifurcation_point", 1)))
+
+
+def test_a_coincidence_far_from_where_it_was_looked_for(monkeypatch):
+    variation = SimpleNamespace(mass_times=always(None), nearest=always(SimpleNamespace(vector=None)))
+    system = SimpleNamespace(set_state=always(None), monitors=lambda: {"V": 1.0})
+    path = SimpleNamespace(
+        model=SimpleNamespace(system=system),
+        modes=SimpleNamespace(variation=always(variation), observe=dict),
+    )
+    limit = SimpleNamespace(state=State(np.zeros(1), {}))
+    told = bare(coincidence._Finder, _path=always(path))
+    told._points = always(((SimpleNamespace(loads=()), limit), None))
+    solver = SimpleNamespace(solve=lambda *_: (State(np.zeros(1), {"delta": 2.5}), None))
+    monkeypatch.setattr(coincidence, "ExtendedNewton", always(solver))
+    assert told.exactly(0, 2.5)["V"] == 1.0
+    refused(r"converged to delta = 2\.5, far from 2$", told.exactly, 0, 2.0)
+
+
+# -- bent tubes ------------------------------------------------------------------------------------
+
+
+def beside(eigenvalues, counts, overlap):
+    """What is solved for beside a bifurcation: eigenvalues over the volume, negative ones, the mode."""
+    solved = [Solved({"zw": 1.0}, State(np.ones(2), {"zw": 1.0})) for _ in eigenvalues]
+    mode = np.array([overlap, np.sqrt(1 - overlap**2)])
+    return solved, eigenvalues, [mode] * len(eigenvalues), counts
+
+
+def test_a_bifurcation_that_the_surface_does_not_have(monkeypatch):
+    along = bifurcation_point.chebyshev.chebpts1(bifurcation_point.NODES)
+    system = SimpleNamespace(dot=np.dot, mass_times=lambda u: u)
+    model = SimpleNamespace(system=system, interpolated=always(np.array([1.0, 0.0])))
+    monkeypatch.setattr(bifurcation_point, "displacement", always(None))
+    at = SimpleNamespace(values={"V": 5.0})
+    same = [1] * len(along)
+
+    def told(*given):
+        monkeypatch.setattr(bifurcation_point, "_neighbouring_states", always(beside(*given)))
+        return lambda: bifurcation_point.bifurcation_on(model, None, at)
+
+    found, mode, negative, _ = told(list(along - 0.1), same, 1.0)()
+    assert (found.kind, negative, mode.tolist()) == ("bifurcation_point", 1, [1.0, 0.0])
+    refused(r"no bifurcation on the surface within 0\.005 of V = 5", told(list(along + 2), same, 1.0))
+    refused("no bifurcation on the surface", told(list(along), [0, *same[1:]], 1.0))
+    refused(
+        "the null vector on the surface is not the axisymmetric branch's mode", told(list(along), same, 0.8)
+    )
+
+
+def test_a_bifurcation_point_that_is_no_equilibrium(monkeypatch):
+    monkeypatch.setattr(bent_branch, "BorderedMatrix", always(bordered := SimpleNamespace()))
+    bordered.solve = lambda rhs, _: (np.ones(1), None)
+    monkeypatch.setattr(bent_branch, "residual_limit", always(1e-8))
+    left = [1e-3]
+    system = SimpleNamespace(
+        size=1,
+        dot=np.dot,
+        mass_times=lambda u: u,
+        set_state=always(None),
+        residual=lambda: np.array(left),
+        monitors=dict,
+    )
+    told = bare(bent_branch.SecondaryBranch, model=SimpleNamespace(system=system), mode=np.ones(1))
+    told.bifurcation = Solved({}, State(np.ones(1), {"zw": 1.0}), "bifurcation_point")
+    factor = SimpleNamespace(update=always(None))
+    refused(r"^the bifurcation point has a residual of 1\.0e-03$", told._first, factor, 1)
+    left[0] = np.nan
+    refused(r"^the bifurcation point has a residual of nan$", told._first, factor, 1)
+    left[0] = 1e-12
+    assert told._first(factor, 1).n_negative == 1
+
+
+def test_a_bent_state_that_is_not_another_meshs():
+    gaps = iter((0.01, 0.2))
+    state = State(np.ones(1), {})
+    fitting = SimpleNamespace(shape=always(None), solve=always(state), apart=lambda _: next(gaps))
+    told = bare(bent_branch.SecondaryBranch, system=SimpleNamespace(set_state=always(None)), fitting=fitting)
+    told._values = always({"zw": 1.0})
+    assert told.at_guess(state, None).state is state
+    refused(r"^converged 0\.2 away from another mesh's state$", told.at_guess, state, None)
+
+
+def test_a_bent_branch_of_which_no_point_is_on_all_meshes():
+    told = bare(SecondaryFamily, name="secondary", failures=[], fine=SimpleNamespace(shown=["zw"]))
+    told.levels, told._on_all = [SimpleNamespace(points=[1, 2])], raising(STALLED)
+    refused("^branch secondary: no point could be solved for on all meshes$", told.branch)
+    (failure,) = told.failures
+    assert (failure.what, failure.reason) == ("branch secondary, points 0 to 1, 2 left out", "Newton stalled")
+
+
+def test_a_mesh_that_never_comes_to_rest_on_the_free_surface():
+    moves = []
+    told = bare(fitted.Fitting, system=SimpleNamespace(set_state=always(None)), find_front=always(None))
+    told.model = SimpleNamespace(data=SimpleNamespace(length=8.0))
+    told._refitted, told._solved, told._move = always(None), always("state"), moves.append
+    told._length_of = always(0.0)
+    assert told.solve(State(np.zeros(1), {}), []) == "state"
+    told._length_of = always(1.0)
+    refused("^the mesh does not come to rest on the free surface$", told.solve, State(np.zeros(1), {}), [])
+    assert len(moves) == fitted.FITS
+
+
+def test_a_bifurcation_of_the_whole_surface_that_is_not_near():
+    told = bare(whole_surface.WholeRun, full=False, begin=SimpleNamespace(values={"V": 5.0}))
+    told._near = lambda volume: (volume, np.array([volume - 5.001]), 1.0)
+    assert told.critical()["V_bifurcation"] == pytest.approx(5.001)
+    told._near = lambda volume: (volume, np.array([volume]), 1.0)
+    refused(r"^the n = 1 eigenvalue is not zero within 0\.01 of V = 5$", told.critical)
+
+
+@pytest.mark.parametrize(("overlaps", "fits"), [((0.9, 0.1), True), ((0.4, 0.4), False)])
+def test_modes_of_one_wave_that_are_not_among_those_found(overlaps, fits, monkeypatch):
+    modes = [SimpleNamespace(eigenvalue=i + 1.0, vector=np.sqrt(x)) for i, x in enumerate(overlaps)]
+    monkeypatch.setattr(whole_surface, "Stability", always(SimpleNamespace(modes=always(modes))))
+    solver = SimpleNamespace(solve=always((State(None, {"zw": 2.0}), None)))
+    monkeypatch.setattr(whole_surface, "ExtendedNewton", always(solver))
+    told = bare(whole_surface.WholeRun, rows=[1.0], system=SimpleNamespace(dot=lambda a, b: a * b))
+    told.primary, told.begin = SimpleNamespace(at=always(None)), SimpleNamespace(Z=None)
+    told._guess = always(None)
+    if fits:
+        assert told._near(5.0) == (2.0, [1.0], 2.0)
+    else:
+        refused("the n = 1 modes are not among the eigenvalues nearest to zero", told._near, 5.0)
+
+
+# -- triangles -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("residual", [1e-3, np.nan])
+def test_a_ring_periodic_state_that_is_none_of_the_whole_surface(residual, monkeypatch):
+    monkeypatch.setattr(triangles, "residual_limit", always(1e-8))
+    told = bare(triangles.SurfaceRun, rings=True, control="zw")
+    told._subspace = SimpleNamespace(solve=always((None, None)))
+    told.system = SimpleNamespace(residual=lambda: np.array([residual]), dot=np.dot)
+    words = f"zw = 2: the ring-periodic equilibrium is not one of the whole surface, its residual is {residual:.1e}"
+    refused(words, told._point, 2.0, None)
+
+
+# -- wrinkled tubes --------------------------------------------------------------------------------
+
+
+def test_a_wrinkled_branch_without_a_single_state():
+    told = bare(wrinkled_branch.WrinkledBranch, name="primary", _failures=[])
+    told._prescribed, told._fine_state = lambda: [(None, "zw")] * 2, raising(STALLED)
+    refused("^branch primary: no point could be solved for on fitted meshes$", lambda: told._fine)
+    assert [f.what for f in told._failures] == ["branch primary, point 0", "branch primary, point 1"]
+
+
+@pytest.mark.parametrize("limits", [0, 2])
+def test_a_limit_load_that_is_not_one(limits, monkeypatch):
+    continuation = SimpleNamespace(start=always(None))
+    monkeypatch.setattr(wrinkled_branch, "Continuation", always(continuation))
+    monkeypatch.setattr(wrinkled_branch, "solver_of", always(None))
+    found = SimpleNamespace(special=always([None] * limits))
+    monkeypatch.setattr(wrinkled_branch, "FittedBranch", always(found))
+    model = SimpleNamespace(system=SimpleNamespace(update_mass=always(None)))
+    held = SimpleNamespace(model=model, put=always(None), scalars=("p",), constraints=(), state=None)
+    told = bare(wrinkled_branch.WrinkledBranch, control="p")
+    words = f"^{limits} limit loads between V = 4 and 6 on a fitted mesh$"
+    refused(words, told._limit_from, held, 4.0, 6.0)
+
+
+def unloaded(gw):
+    """A membrane whose least ``gw`` without a load is a function of the thickness ratio."""
+    membrane = SimpleNamespace(values={"M": 1.0})
+    state = SimpleNamespace(put=lambda: SimpleNamespace(extreme=lambda *_: gw(membrane.values["M"])))
+    membrane.unloaded = membrane.unloaded_from = always(state)
+    return membrane
+
+
+def test_a_threshold_of_the_thickness_ratio_that_does_not_exist():
+    first = wrinkled_critical._first_wrinkled
+    membrane = unloaded(lambda M: 0.8 + M / 2)
+    first(membrane, 0, -1)
+    assert membrane.values["M"] == pytest.approx(0.4, abs=0.051)
+    words = "^the membrane of uniform thickness is not taut: there is no threshold$"
+    refused(words, first, unloaded(always(0.9)), 0, -1)
+    refused("^the membrane is taut for every M from 1 to 0.05$", first, unloaded(always(1.5)), 0, -1)
+    refused("^the membrane is taut for every M from 1 to 1.95$", first, unloaded(always(1.5)), 0, 1)
+
+
+def at_load(load, touched=2.0):
+    return SimpleNamespace(state=SimpleNamespace(loads={"p": load}), touched=touched, zones=None)
+
+
+@pytest.mark.parametrize(("load", "touched"), [(3.5, 2.0), (0.5, 2.0), (1.5, -0.1), (1.5, 4.1)])
+def test_an_event_of_a_zone_outside_its_bracket(load, touched):
+    membrane = SimpleNamespace(length=4.0, meshes=[8, 16], control="p", fit=always(at_load(1.5)))
+    located = wrinkled_events._located
+    given = membrane, at_load(1.0), at_load(3.0), (1.0, 3.0, 1.0), 0, True
+    assert located(*given)[0].kind == "zone_opening"
+    membrane.fit = always(at_load(load, touched))
+    refused(rf"^a zone's event was found at {load:g}, outside \[1, 3\]$", located, *given)
+
+
+@pytest.mark.parametrize(("radius", "inside_out"), [(1.0, False), (-0.1, True)])
+def test_an_equilibrium_that_is_turned_inside_out(radius, inside_out):
+    model = SimpleNamespace(breaks_of=always(np.array([0.0, 4.0])), blocks=1, cells=2)
+    model.material = lambda x, _: 4 * x
+    sampled = lambda s, _: {"r": np.full_like(s, radius), "gw": np.full_like(s, 2.0)}  # noqa: E731
+    meridian = SimpleNamespace(model=model, sampled=sampled)
+    given = meridian, {}, 1e-9, False
+    if inside_out:
+        refused("^the equilibrium is turned inside out$", wrinkled_fields.zones, *given)
+    else:
+        assert wrinkled_fields.zones(*given).fronts == ()
+
+
+def test_a_pattern_of_zones_that_its_solution_never_shows(monkeypatch):
+    """Solved for with a front it shows none, and solved for without one it does."""
+    front, none = Zones(1.0, (2.0,)), Zones(1.0, ())
+    told = bare(wrinkled_fitted.Membrane, length=4.0, meshes=[8], liquid=False, near_fronts=())
+    told.fit = lambda _level, _start, wanted, _constraints: SimpleNamespace(
+        zones=wanted, put=always(None), state=SimpleNamespace(loads={})
+    )
+    given = SimpleNamespace(zones=front), None, 1e-3, False
+    monkeypatch.setattr(wrinkled_fitted, "zones", always(front))
+    assert told._pattern(*given).zones == front
+    shown = iter([none, front] * wrinkled_fitted.ATTEMPTS)
+    monkeypatch.setattr(wrinkled_fitted, "zones", lambda *_: next(shown))
+    refused(r"^no pattern of zones agrees with its own solution \(none tried\)$", told._pattern, *given)
+    told.fit = raising(STALLED)
+    refused("^Newton stalled$", told._pattern, SimpleNamespace(zones=none), None, 1e-3, False)
+
+
+def test_fronts_that_pass_each_other(monkeypatch):
+    told = bare(wrinkled_fitted.Membrane, length=4.0, meshes=[8], near_fronts=(), on_meshes=[{}], control="p")
+    told._moved = always(SimpleNamespace(loads={}))
+    model = SimpleNamespace(mark=always(None), breaks_of=always(np.array([0.0, 3.0, 2.0, 4.0])))
+    monkeypatch.setattr(wrinkled_fitted, "model_on", always(model))
+    solver = SimpleNamespace(solve=always((SimpleNamespace(loads={}), None)))
+    monkeypatch.setattr(wrinkled_fitted, "solver_of", always(solver))
+    wanted = Zones(1.0, (), None, True)
+    refused("^fronts changed their order$", told.fit, 0, None, wanted, ())
+    model.breaks_of = always(np.array([0.0, 2.0, 3.0, 4.0]))
+    assert told.fit(0, None, wanted, ()).zones == wanted
+
+
+def test_an_eigenvalue_that_leaps_where_no_zone_does():
+    told = bare(StabilityChanges, n=20)
+    sides = Sample(1.25, None, -0.5), Sample(1.25, None, 0.25)
+    words = r"^Lambda for n = 20 jumps from -0\.5 to 0\.25 at zw = 1\.25, where no zone opens or closes$"
+    refused(words, told._on_all, [], "zw", sides)
+
+
+def test_a_root_that_a_coarser_mesh_does_not_have():
+    told = bare(StabilityChanges, n=20, membrane=SimpleNamespace(fit=always(SimpleNamespace(zones=None))))
+    told.lowest = always(1.0)
+    start = SimpleNamespace(zones=None)
+    refused(
+        "^the root of Lambda for n = 20 was not found on mesh 1$", told._on_mesh, 1, start, "zw", 2.0, 1.0
+    )
+    told.lowest = always(0.0)
+    assert told._on_mesh(1, start, "zw", 2.0, 1.0) is start
