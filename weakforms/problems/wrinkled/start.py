@@ -32,8 +32,8 @@ GAS_TO_LIQUID = (
 VERGE, VERGE_FITTED = 1e-7, 1e-10
 """Deviation of ``gw`` from 1 that counts as zero, on a plain mesh and on a fitted mesh."""
 
-WALK = 0.1
-"""Largest step of a parameter on the way from an easy membrane to the requested one."""
+WALK, SHORTEST = 0.1, 1e-3
+"""Largest step of a parameter on the way from an easy membrane to the one wanted, and the shortest."""
 
 
 class PlainMembrane:
@@ -113,18 +113,24 @@ class PlainMembrane:
         return self.values.get("delta", 1.0) ** -0.5
 
     def _widened(self, load: float) -> tuple[State, SolveRecord]:
-        """The state for large disks, from disks at which the unloaded membrane has its natural width."""
-        goal, low = self.values["Af"], self._easy_radius
-        steps = int(np.ceil((goal - low) / WALK))
+        """The state of wide disks, from disks that leave the unloaded membrane its natural width."""
+        goal, at = self.values["Af"], self._easy_radius
         try:
-            self.values["Af"] = low
+            self.values["Af"] = at
             state, record = self._by_homotopy(load)
         finally:
             self.values["Af"] = goal
-        solver = solver_of(self.plain_model, ())
-        for radius in np.linspace(low, goal, steps + 1)[1:]:
-            state.loads["Af"] = float(radius)
-            state, record = solver.solve(state)
+        solver, step = solver_of(self.plain_model, ()), WALK
+        while at < goal:
+            to = min(at + step, goal)
+            try:
+                guess = State(state.u.copy(), state.loads | {"Af": to})
+                state, record = solver.solve(guess)
+                at = to
+            except ConvergenceError:
+                step /= 2
+                if step < SHORTEST:
+                    raise
         return state, record
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
