@@ -13,8 +13,9 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.fitted import PLACE, Membrane
 from weakforms.problems.wrinkled.model import TAUT, WRINKLED
-from weakforms.problems.wrinkled.start import SHORTEST, WALK
+from weakforms.problems.wrinkled.start import WALK
 from weakforms.problems.wrinkled.state import Held, Touch
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 
 WRINKLED_RADIUS = 0.05
@@ -170,17 +171,13 @@ def natural_radius(delta: float) -> float:
 
 
 def _walked(membrane: Membrane, level: int, held: Held, name: str, goal: float, step: float) -> Held:
-    """The taut state with one parameter at a goal, by steps that are halved where they do not converge."""
-    at = membrane.values[name]
-    while at != goal:
-        to = goal if abs(goal - at) <= step else at + float(np.copysign(step, goal - at))
-        membrane.values[name] = to
-        try:
-            held, at = membrane.unloaded_from(level, TAUT, held), to
-        except ConvergenceError as error:
-            step /= 2
-            if step < SHORTEST:
-                raise ConvergenceError(
-                    f"the taut membrane was followed to {name} = {at:.4g}: {error}"
-                ) from error
-    return held
+    """The taut state with one parameter at a goal, by steps that shorten where they do not converge."""
+
+    def solve(before: Held, value: float) -> Held:
+        membrane.values[name] = value
+        return membrane.unloaded_from(level, TAUT, before)
+
+    try:
+        return walk(solve, held, membrane.values[name], goal, step)
+    except ConvergenceError as error:
+        raise ConvergenceError(f"{name} of the taut membrane: {error}") from error

@@ -15,6 +15,7 @@ from weakforms.problems.wrinkled.body import Body
 from weakforms.problems.wrinkled.fields import Zones, zones
 from weakforms.problems.wrinkled.model import BY_STATE, DRY, TAUT, WRINKLED, WrinkledModel
 from weakforms.problems.wrinkled.state import BLOCKS, Held, Mesh, Touch, model_on, solver_of
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord
 from weakforms.solvers.equilibrium.system import State
 
@@ -32,8 +33,8 @@ GAS_TO_LIQUID = (
 VERGE, VERGE_FITTED = 1e-7, 1e-10
 """Deviation of ``gw`` from 1 that counts as zero, on a plain mesh and on a fitted mesh."""
 
-WALK, SHORTEST = 0.1, 1e-3
-"""Largest step of a parameter on the way from an easy membrane to the one wanted, and the shortest."""
+WALK = 0.1
+"""Largest step of a parameter on the way from an easy membrane to the one wanted."""
 
 
 class PlainMembrane:
@@ -120,18 +121,12 @@ class PlainMembrane:
             state, record = self._by_homotopy(load)
         finally:
             self.values["Af"] = goal
-        solver, step = solver_of(self.plain_model, ()), WALK
-        while at < goal:
-            to = min(at + step, goal)
-            try:
-                guess = State(state.u.copy(), state.loads | {"Af": to})
-                state, record = solver.solve(guess)
-                at = to
-            except ConvergenceError:
-                step /= 2
-                if step < SHORTEST:
-                    raise
-        return state, record
+        solver = solver_of(self.plain_model, ())
+
+        def widened(before: tuple[State, SolveRecord], radius: float) -> tuple[State, SolveRecord]:
+            return solver.solve(State(before[0].u, before[0].loads | {"Af": radius}))
+
+        return walk(widened, (state, record), at, goal, WALK)
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
