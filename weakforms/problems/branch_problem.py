@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, sample_points, silent
 from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
-from weakforms.results.drawing import draw, seed_of
+from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.solvers.continuation.branch import DIAGNOSTICS
 from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.support.provenance import provenance
@@ -84,7 +84,7 @@ class PathProblem:
         raise NotImplementedError
 
     def resolving(self, _parameters: Any, numerics: Any) -> Any:
-        """Numerics that resolve the problem at its parameters, where the default does not everywhere."""
+        """Numerics that resolve the problem at its parameters, if the default does not."""
         return numerics
 
     def points(self, parameters: Any) -> np.ndarray:
@@ -99,10 +99,10 @@ class PathProblem:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Trace the branches on all meshes, locate their special points, solve for the states wanted.
+        """Trace the branches on all meshes, locate their special points, solve for the requested states.
 
         Raises:
-            AbsentError: When there is no branch to look for states on.
+            AbsentError: If states are requested and there is no branch.
         """
         begun = time.perf_counter()
         numerics = self.resolving(parameters, numerics)
