@@ -162,7 +162,14 @@ def test_adhesion_to_a_stiff_substrate_is_followed():
     assert run.end_of_inflation.loads["front"] < run.stick.bond.span
 
 
-def test_a_step_of_a_scheme_that_is_too_long_is_halved():
-    given = {"alpha": 0.8742, "beta": 1.015, "k": 742.6, "l": 0.1863, "t_end": 0.5}
-    long = solve("circular_scheme", **given, numerics={"cells": 64, "steps": 4}).quantities
-    assert long["p"].value > 0
+DEEP = {"alpha": 0.8742, "beta": 1.015, "k": 742.6, "l": 0.1863}
+
+
+def test_a_scheme_that_goes_too_deep_is_refused():
+    with pytest.raises(InputError, match=r"t_end = 2\.87 is more than 3 l = 0\.5589.*lower t_end"):
+        solve("circular_scheme", **DEEP, t_end=2.87)
+
+
+def test_a_scheme_whose_steps_are_too_long_gives_no_membrane_turned_inside_out():
+    with pytest.raises(ConvergenceError, match=r"turned inside out|followed to"):
+        solve("circular_scheme", **DEEP, t_end=0.5, numerics={"cells": 64, "steps": 4})

@@ -25,7 +25,7 @@ from mpi4py import MPI
 from pydantic import Field
 from ufl.core.expr import Expr
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.kinematics import Slope, disk_stretches
 from weakforms.forms.loads import bed_potential, gas_potential
 from weakforms.forms.materials import mooney_rivlin
@@ -149,7 +149,10 @@ class FixedDisk:
             guess.u[self.order + 1] *= height / before.u[pole]
             guess.u[nodes + 1] = height - depth
             held = Held("balance", 0.0) if len(nodes) else Held("t0", height)
-            return solver.solve(guess, [held])[0]
+            found, _ = solver.solve(guess, [held])
+            if found.u[self.order].min() <= 0:
+                raise ConvergenceError("Newton's method found a membrane turned inside out")
+            return found
 
         at = float(state.u[pole])
         return walk(solve, state, at, t0, t0 - at)
