@@ -2,20 +2,23 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from mpi4py import MPI
 
 from weakforms import solve
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.disk.history import History
 from weakforms.problems.disk.model import DiskData, DiskModel
 from weakforms.problems.disk.phases import DiskRun
+from weakforms.problems.liquid_tube import coincidence
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import validated
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
+from weakforms.results import validate
 from weakforms.solvers.continuation.walk import walk
 
 
@@ -173,3 +176,19 @@ def test_a_scheme_that_goes_too_deep_is_refused():
 def test_a_scheme_whose_steps_are_too_long_gives_no_membrane_turned_inside_out():
     with pytest.raises(ConvergenceError, match=r"turned inside out|followed to"):
         solve("circular_scheme", **DEEP, t_end=0.5, numerics={"cells": 64, "steps": 4})
+
+
+def test_points_in_one_order_at_both_ends_coincide_nowhere_that_is_known(monkeypatch):
+    limit, fork = (SimpleNamespace(values={"V": volume}) for volume in (2.0, 1.0))
+    monkeypatch.setattr(coincidence._Finder, "_path", lambda *_: None)
+    monkeypatch.setattr(coincidence._Finder, "_points", lambda *_: ((None, limit), fork))
+    result = solve("fluid_tube_coincidence", delta_low=3.0, delta_high=5.0)
+    assert (result.quantities, result.failures) == ({}, [])
+    assert "the same order at delta = 3 and 5" in result.absent[0].reason
+    validate(result.to_json())
+
+
+def test_branches_without_limit_point_or_bifurcation_have_no_coincidence():
+    path = SimpleNamespace(pieces=[], data=SimpleNamespace(delta=4.783), zw_end=0.7)
+    with pytest.raises(AbsentError, match=r"at delta = 4\.783 the branch has 0 limit points and 0 bifurc"):
+        coincidence._Finder._points(None, path)
