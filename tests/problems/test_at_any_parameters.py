@@ -171,6 +171,8 @@ DEEP = {"alpha": 0.8742, "beta": 1.015, "k": 742.6, "l": 0.1863}
 def test_a_scheme_that_goes_too_deep_is_refused():
     with pytest.raises(InputError, match=r"t_end = 2\.87 is more than 3 l = 0\.5589.*lower t_end"):
         solve("circular_scheme", **DEEP, t_end=2.87)
+    with pytest.raises(InputError, match=r"k = 5435.0: input should be less than or equal to 1000"):
+        solve("circular_scheme", k=5435.0)
 
 
 def test_a_scheme_whose_steps_are_too_long_gives_no_membrane_turned_inside_out():

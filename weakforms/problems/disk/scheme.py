@@ -58,13 +58,14 @@ DEEPEST = 3.0
 class CircularSchemeParameters(Parameters):
     """The disk, its substrate, and where inflation ends: at most at :data:`DEEPEST` times its height.
 
-    Beyond that the edge of the patch is steep, and Newton's method goes round between states with a node more
-    and a node less of the fixed mesh in contact.
+    Beyond that, and on a substrate stiffer than ``k = 1000``, Newton's method alternates between states with
+    one node more and one node less of the fixed mesh in contact, however short the steps. The problem
+    ``circular``, whose mesh follows the front, has neither limit.
     """
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
-    k: float = Field(50.0, gt=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h)")
+    k: float = Field(50.0, gt=0, le=1000, description="substrate stiffness K R_f^2/(C1 h)")
     l: float = Field(0.5, gt=0.06, le=5, description="height of the substrate L/R_f")  # noqa: E741
     t_end: float = Field(0.57, gt=0.06, le=5, description="pole height at which inflation ends")
 
