@@ -154,12 +154,12 @@ def test_a_substrate_that_is_never_touched_is_told_with_the_largest_radius_that_
 
 def test_a_pressure_that_is_not_reached_is_told():
     given = {"model": "varga", "lf": 20.0, "delta1": 1.4, "s": 1.4, "k": 8.0, "p_end": 10.0, "numerics": MESH}
-    result = solve("tube", **given, contact="adhesive")
     told = r"followed up to p = .*, not p_end = 10.*lower p_end"
+    result = solve("tube", **given, contact="frictionless")
     assert result.failures == []
     assert re.search(told, result.absent[0].reason)
     with pytest.raises(InputError, match=told):
-        solve("tube", **given, contact="adhesive", phase="deflation")
+        solve("tube", **given, contact="adhesive")
 
 
 def test_default_meshes_resolve_the_edge_of_a_bulge_in_a_long_tube():

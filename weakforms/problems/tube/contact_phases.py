@@ -27,6 +27,9 @@ HISTORY_ACCURACY = 2e-11
 BEYOND = 1e-6
 """By how much a patch may pass the end of its history, relative to that."""
 
+SPANS, WIDER = 4, 1.02
+"""Histories tried for a patch that outgrows them, and how much further the next one goes."""
+
 PASSED = 0.1
 """By how much of ``p_end`` a step of deflation may pass ``p = 0``."""
 
@@ -175,23 +178,49 @@ class ContactRun:
 
     # -- stick ---------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def stick(self) -> ContactModel:
-        r"""The stuck model with its history.
+        """The stuck model with its history, as far as the patch grows."""
+        return self._stuck[0]
+
+    @property
+    def adhesive(self) -> FittedBranch:
+        """Adhesive inflation: every point that touched keeps its axial position."""
+        return self._stuck[1]
+
+    @cached_property
+    def _stuck(self) -> tuple[ContactModel, FittedBranch]:
+        """Both, with a history as far as the patch grows: at times that is further than without friction.
+
+        Raises:
+            InputError: If contact without friction ends before ``p_end``.
+            ConvergenceError: If no history covers the patch.
+        """
+        span = self._reached(self.frictionless).state.loads["front"]
+        for _ in range(SPANS):
+            model = self._with_history(span)
+            branch = self._follow(model, stick_guess(model, self._first_slip()), self.p_end)
+            crosses = len(branch.crossings("p", self.p_end))
+            state = branch.at("p", self.p_end).state if crosses else branch.points[-1].state
+            if state.loads["front"] <= span * (1 + BEYOND):
+                return model, branch
+            span = min(WIDER * state.loads["front"], LAST_FRONT * model.half)
+        raise ConvergenceError(
+            f"tube: the stuck patch grows beyond Z = {model.data.span:.6g}, up to which its history is "
+            "known; lower p_end"
+        )
+
+    def _with_history(self, span: float) -> ContactModel:
+        r"""A stuck model with its history up to a front.
 
         While the patch grows there is no line force at its front, so the position frozen there continues
         the free part with its slope: :math:`E'(z_f) = \eta'(z_f^+)` at every front. This condition is
-        collocated at Chebyshev points ``z_j`` of the patch at ``p_end``, and iterated: each sweep solves one
-        front-fitted problem for each ``z_j`` with the last ``E``, and uses the slopes for the next sweep.
+        collocated at Chebyshev points ``z_j`` of the patch, and iterated: each sweep solves one front-fitted
+        problem for each ``z_j`` with the last ``E``, and uses the slopes for the next sweep.
 
         Raises:
             ConvergenceError: If the sweeps do not converge.
         """
-        trace = self.frictionless
-        if trace.ended:  # as far as contact goes; what sticks may go less far
-            span = trace.points[-1].state.loads["front"]
-        else:
-            span = self._reached(trace).state.loads["front"]
         model = ContactModel(self.comm, replace(self.data, terms=self.terms, span=span))
         t = -np.cos(np.pi * np.arange(self.terms) / (self.terms - 1))
         fronts = span * (1 + t[1:]) / 2
@@ -213,8 +242,11 @@ class ContactRun:
     def _slipped(self, front: float) -> Solved:
         """Frictionless contact with the edge of the patch at a position, even before the traced ones."""
         trace = self.frictionless
-        first = trace.points[0].state
-        return trace.near(first, "front", front) if front < first.loads["front"] else trace.at("front", front)
+        ends = (trace.points[0].state, trace.points[-1].state)
+        for end, beyond in zip(ends, (-1, 1), strict=True):
+            if beyond * (front - end.loads["front"]) > 0:
+                return trace.near(end, "front", front)
+        return trace.at("front", front)
 
     def _reached(self, branch: FittedBranch) -> Solved:
         """The state at ``p_end``.
@@ -228,20 +260,6 @@ class ContactRun:
         if branch.ended:
             raise InputError(f"tube: {branch.ended}")
         raise ConvergenceError(f"tube: {branch.stalled}; lower p_end")
-
-    @cached_property
-    def adhesive(self) -> FittedBranch:
-        """Adhesive inflation: every point that touched keeps its axial position."""
-        model = self.stick
-        branch = self._follow(model, stick_guess(model, self._first_slip()), self.p_end)
-        reached = branch.at("p", self.p_end).state if len(branch.crossings("p", self.p_end)) else None
-        front = (reached or branch.points[-1].state).loads["front"]
-        if front > model.data.span * (1 + BEYOND):
-            raise ConvergenceError(
-                f"tube: the stuck patch grows beyond Z = {model.data.span:.6g}, up to which its history is "
-                "known; lower p_end"
-            )
-        return branch
 
     def _first_slip(self) -> Solved:
         point = self.frictionless.points[0]
