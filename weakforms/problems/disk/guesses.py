@@ -9,6 +9,9 @@ from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.solvers.equilibrium.system import State
 
+HIGHEST_P = 50.0
+"""Largest pressure at which inflation may end."""
+
 FIRST_T0 = 0.05
 """Pole height of the first state of a disk without tension at rest, whose tangent is singular there."""
 

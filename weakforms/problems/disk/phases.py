@@ -9,7 +9,7 @@ from mpi4py import MPI
 from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.disk.guesses import FIRST_T0, parabola, stick_guess
+from weakforms.problems.disk.guesses import FIRST_T0, HIGHEST_P, parabola, stick_guess
 from weakforms.problems.disk.history import STIFFER, History
 from weakforms.problems.disk.model import Bond, DiskData, DiskModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
@@ -121,10 +121,10 @@ class DiskRun:
         """What ``p_end`` below first contact means, for people; empty when there is contact."""
         if self.onset.values["p"] < self.p_end:
             return ""
-        return (
-            f"p_end = {self.p_end:g} is below first contact at p = {self.onset.values['p']:.6g}; "
-            "raise p_end above it (allowed: up to 50), or choose a smaller l or beta"
-        )
+        first = self.onset.values["p"]
+        higher = "raise p_end above it, or " if first < HIGHEST_P else ""
+        below = f"p_end = {self.p_end:g} is below first contact at p = {first:.6g}"
+        return f"{below}; {higher}choose a smaller l or beta (allowed: p_end up to {HIGHEST_P:g})"
 
     @cached_property
     def until_end(self) -> EquilibriumBranch:

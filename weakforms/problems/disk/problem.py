@@ -13,6 +13,7 @@ from pydantic import Field
 
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import Family, MeshNumerics, PathProblem
+from weakforms.problems.disk.guesses import HIGHEST_P
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.peeling import PeelingBranch, PeelingFamily
 from weakforms.problems.disk.phases import DiskRun
@@ -133,7 +134,7 @@ class CircularParameters(MaterialChoice):
     )
     phase: Literal["inflation", "deflation", "peeling"] = Field("inflation", description="loading phase")
     p_end: float = Field(
-        3.477, gt=0, le=50, description="pressure at which inflation towards and in contact ends"
+        3.477, gt=0, le=HIGHEST_P, description="pressure at which inflation towards and in contact ends"
     )
     p: float | None = Field(None, ge=0, le=50, description="pressure of a peeling curve")
     t_end: float = Field(2.0, gt=0.06, le=10, description="pole height at which free inflation ends")

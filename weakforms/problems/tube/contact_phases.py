@@ -30,6 +30,9 @@ BEYOND = 1e-6
 SPANS, WIDER = 4, 1.02
 """Histories tried for a patch that outgrows them, and how much further the next one goes."""
 
+HIGHEST_P = 20.0
+"""Largest pressure at which inflation may end."""
+
 PASSED = 0.1
 """By how much of ``p_end`` a step of deflation may pass ``p = 0``."""
 
@@ -106,10 +109,10 @@ class ContactRun:
             return f"{error}; p_end = {self.p_end:g} is reached before"
         if self.onset.values["p"] < self.p_end:
             return ""
-        return (
-            f"tube: p_end = {self.p_end:g} is below first contact at p = {self.onset.values['p']:.6g}; "
-            "raise p_end above it (allowed: up to 20), or lower s"
-        )
+        first = self.onset.values["p"]
+        higher = "raise p_end above it, or " if first < HIGHEST_P else ""
+        below = f"tube: p_end = {self.p_end:g} is below first contact at p = {first:.6g}"
+        return f"{below}; {higher}lower s (allowed: p_end up to {HIGHEST_P:g})"
 
     @cached_property
     def until_end(self) -> EquilibriumBranch:
