@@ -66,7 +66,7 @@ class UnilateralFamily(BranchFamily):
 def contact_family(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> PiecewiseFamily:
-    """The branch of a constrained tube: free and in contact, or deflating."""
+    """The branch of a constrained tube: free and in contact, or in deflation."""
     cap = 2 * numerics.degree
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 
@@ -75,11 +75,11 @@ def contact_family(
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
-        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(SECOND, min(cap, 2.0))
+        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(EDGE_COLUMNS, min(cap, 2.0))
         caps["kappa"] = cap - 1
         kind = BranchFamily
         if runs[-1].data.unilateral:
-            kind, caps = LettingGo, caps | KINKED
+            kind, caps = UnilateralFamily, caps | KINK_ORDERS
         return kind(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
 
     none = NO_PATCH | {"kappa": float("nan")}
