@@ -132,6 +132,8 @@ def solve(
             sys.stdout.write(text)
         else:
             write_atomically(out, text)
+        for absence in result.absent:
+            complain(f"not there: {absence.what}: {absence.reason}")
         for failure in result.failures:
             complain(f"not converged: {failure.what}: {failure.reason}")
     if result.failures:

@@ -15,6 +15,19 @@ class InputError(WeakformsError):
     exit_status = 2
 
 
+class AbsentError(InputError):
+    """What was asked for is not there; a result says so, or a request that needs it is refused.
+
+    Args:
+        what: What was asked for.
+        reason: What was searched, and what to change.
+    """
+
+    def __init__(self, what: str, reason: str) -> None:
+        super().__init__(reason)
+        self.what = what
+
+
 class ConvergenceError(WeakformsError):
     """A solve ended without a converged state; no number of it may be shown."""
 

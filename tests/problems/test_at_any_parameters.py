@@ -1,17 +1,25 @@
 """Allowed parameters for which an audit once got no answer, on coarse meshes."""
 
+import re
+from dataclasses import replace
+from types import SimpleNamespace
+
 import pytest
 from mpi4py import MPI
 
 from weakforms import solve
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems import registry
-from weakforms.problems.disk.model import DiskData
+from weakforms.problems.disk.history import History
+from weakforms.problems.disk.model import DiskData, DiskModel
 from weakforms.problems.disk.phases import DiskRun
+from weakforms.problems.liquid_tube import coincidence
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import validated
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
+from weakforms.results import validate
+from weakforms.solvers.continuation.walk import walk
 
 
 def test_a_stiff_balloon_is_inflated_to_its_end():
@@ -74,11 +82,32 @@ def test_a_membrane_with_nothing_to_perturb_is_refused_in_terms_of_its_parameter
         solve("wrinkled_linear", **given, zw=0.05942, numerics={"cells": 8, "degree": 4, "levels": 2})
 
 
-def test_a_disk_of_large_pre_stretch_reaches_its_substrate():
-    given = {"alpha": 0.8089, "beta": 9.496, "k": 88.36, "l": 1.084, "contact": "frictionless"}
-    meshes = {"cells": 16, "degree": 3, "levels": 2}
-    with pytest.raises(InputError, match=r"first contact at p = 63\d\.\d+; raise p_end above it, or"):
-        solve("circular", **given, p_end=0.3871, numerics=meshes)
+FAR = {"alpha": 0.8089, "beta": 9.496, "k": 88.36, "l": 1.084, "p_end": 0.3871}
+DISK = {"cells": 16, "degree": 3, "levels": 2}
+
+
+@pytest.mark.parametrize(
+    "given", [{"contact": "frictionless"}, {"contact": "adhesive", "phase": "deflation"}]
+)
+def test_a_disk_that_does_not_reach_its_substrate_stays_free_and_says_so(given):
+    result = solve("circular", **FAR, **given, at={"p": 0.2}, numerics=DISK)
+    assert result.failures == []
+    assert re.search(
+        r"p_end = 0\.3871 is below first contact at p = 63\d\.\d+; choose", result.absent[0].reason
+    )
+    columns = result.branch().columns
+    assert columns["p"].max() == pytest.approx(0.3871, abs=1e-9)
+    assert not columns["X_contact"].any()
+    assert columns["t0"].max() < 1.084
+    free = solve("circular", beta=9.496, alpha=0.8089, t_end=0.07, at={"p": 0.2}, numerics=DISK)
+    assert result.states[0].quantities["t0"].value == pytest.approx(
+        free.states[0].quantities["t0"].value, rel=1e-6
+    )
+
+
+def test_a_patch_that_is_not_there_does_not_peel():
+    with pytest.raises(InputError, match=r"needs a patch, and p_end = 0.3871 is below first contact"):
+        solve("circular", **FAR, contact="adhesive", phase="peeling", p=0.1, numerics=DISK)
 
 
 def test_a_branch_that_ends_before_a_value_says_why():
@@ -90,14 +119,80 @@ def test_a_branch_that_ends_before_a_value_says_why():
         branch.end_at("t0", 0.9)
 
 
-def test_a_scheme_that_touches_nothing_says_so():
-    given = {
-        "alpha": 0.6091,
-        "delta1": 3.757,
-        "lf": 3.978,
-        "k": 98.02,
-        "s": 3.575,
-        "scheme": "pressure_steps",
-    }
-    with pytest.raises(InputError, match=r"p_end = 0\.05848 is below first contact at p = "):
-        solve("tube_scheme", **given, p_end=0.05848, numerics={"cells": 32, "steps": 8})
+def test_a_scheme_that_touches_nothing_says_so_and_stays_free():
+    tube = {"alpha": 0.6091, "delta1": 3.757, "lf": 3.978}
+    given = tube | {"k": 98.02, "s": 3.575, "scheme": "pressure_steps", "p_end": 0.05848}
+    result = solve("tube_scheme", **given, numerics={"cells": 32, "steps": 8})
+    assert "p_end = 0.05848 is reached before first contact" in result.absent[0].reason
+    assert result.quantities["contact_length"].value == 0.0
+    free = solve("tube", **tube, at={"p": 0.05848}, numerics={"cells": 16, "levels": 2}).states[0]
+    assert result.quantities["u_max"].value == pytest.approx(free.quantities["u_max"].value, rel=1e-3)
+
+
+def test_a_walk_shortens_its_steps_and_says_how_far_it_came():
+    seen = []
+
+    def solve_near(before, value):
+        seen.append(value)
+        if abs(value - before) > 0.3 or value > 2.0:
+            raise ConvergenceError("too far")
+        return value
+
+    assert walk(solve_near, 0.0, 0.0, 1.9, 1.0) == 1.9
+    assert seen[:2] == [1.0, 0.5]
+    with pytest.raises(ConvergenceError, match=r"followed to 2, not 3: too far"):
+        walk(solve_near, 0.0, 0.0, 3.0, 0.25)
+
+
+def test_the_history_on_a_stiff_substrate_by_newtons_method_is_that_of_plain_sweeps():
+    """Where both converge; sweeps diverge on stiffer ones."""
+    run = DiskRun(
+        MPI.COMM_SELF, DiskData(0.1, 1.0, 100.0, 0.5, 8, 3, mooney_rivlin_of(0.1)), "locked", 2, 0.2, 6
+    )
+    swept = run.history
+    newton = History(DiskModel(run.comm, run.data, run.stick.bond))
+    softened = [run._softened(v.state, 20.0) for v in run._slipped(newton.fronts)]
+    newton.solve_stiff(*run._guesses(newton.model, softened, newton.fronts), 100.0)
+    assert newton._found == pytest.approx(swept._found, abs=1e-9)
+    finer = History(DiskModel(run.comm, replace(run.data, cells=16), run.stick.bond))
+    finer.solve_like(newton)
+    assert finer._found == pytest.approx(swept._found, abs=1e-4)
+
+
+def test_adhesion_to_a_stiff_substrate_is_followed():
+    run = DiskRun(
+        MPI.COMM_SELF, DiskData(0.1, 1.0, 2000.0, 0.5, 8, 3, mooney_rivlin_of(0.1)), "locked", 2.43, 0.2, 6
+    )
+    assert run.end_of_inflation.loads["p"] == pytest.approx(2.43, abs=1e-12)
+    assert run.end_of_inflation.loads["front"] < run.stick.bond.span
+
+
+DEEP = {"alpha": 0.8742, "beta": 1.015, "k": 742.6, "l": 0.1863}
+
+
+def test_a_scheme_that_goes_too_deep_is_refused():
+    with pytest.raises(InputError, match=r"t_end = 2\.87 is more than 3 l = 0\.5589.*lower t_end"):
+        solve("circular_scheme", **DEEP, t_end=2.87)
+    with pytest.raises(InputError, match=r"k = 5435.0: input should be less than or equal to 1000"):
+        solve("circular_scheme", k=5435.0)
+
+
+def test_a_scheme_whose_steps_are_too_long_gives_no_membrane_turned_inside_out():
+    with pytest.raises(ConvergenceError, match=r"turned inside out|followed to"):
+        solve("circular_scheme", **DEEP, t_end=0.5, numerics={"cells": 64, "steps": 4})
+
+
+def test_points_in_one_order_at_both_ends_coincide_nowhere_that_is_known(monkeypatch):
+    limit, fork = (SimpleNamespace(values={"V": volume}) for volume in (2.0, 1.0))
+    monkeypatch.setattr(coincidence._Finder, "_path", lambda *_: None)
+    monkeypatch.setattr(coincidence._Finder, "_points", lambda *_: ((None, limit), fork))
+    result = solve("fluid_tube_coincidence", delta_low=3.0, delta_high=5.0)
+    assert (result.quantities, result.failures) == ({}, [])
+    assert "the same order at delta = 3 and 5" in result.absent[0].reason
+    validate(result.to_json())
+
+
+def test_branches_without_limit_point_or_bifurcation_have_no_coincidence():
+    path = SimpleNamespace(pieces=[], data=SimpleNamespace(delta=4.783), zw_end=0.7)
+    with pytest.raises(AbsentError, match=r"at delta = 4\.783 the branch has 0 limit points and 0 bifurc"):
+        coincidence._Finder._points(None, path)

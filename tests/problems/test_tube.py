@@ -13,6 +13,7 @@ from weakforms import Axis, Case, Curve, InputError, Panel, Points, solve, tube
 from weakforms.forms import loads, materials
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.tube.model import TubeMesh, formulation, free_branch
+from weakforms.results import Result, validate
 from weakforms.solvers.equilibrium.system import System
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.run.runner import verify
@@ -103,8 +104,9 @@ def test_a_law_that_gives_way_has_the_same_limit_points_on_all_meshes():
     result = solve("tube", model="varga", delta1=1.011, lf=6.72, numerics={"cells": 96})
     (point,) = result.points("limit_point")
     assert point.uncertainty["p"] < 1e-9
-    (failure,) = result.failures
-    assert "hardly resists meridional stretch" in failure.reason
+    assert result.failures == []
+    (rest,) = result.absent
+    assert "hardly resists meridional stretch" in rest.reason
     columns, spread = result.branch().columns, result.branch().uncertainty
     assert 1.85 < columns["u_max"][-1] < 1.95
     assert np.all(spread["p"] < 1e-4)
@@ -125,8 +127,9 @@ def test_stresses_beyond_the_largest_stretch_are_no_numbers():
 def test_a_law_that_locks_ends_its_branch_with_the_reason():
     numerics = {"cells": 16, "degree": 3, "levels": 2, "step": 0.4}
     result = solve("tube", model="gent", jm=10.0, delta1=2.0, lf=6.0, u_end=9.0, numerics=numerics)
-    (failure,) = result.failures
-    assert re.match(r"free inflation was followed up to u_max = [12]\..*lower u_end", failure.reason)
+    assert result.failures == []
+    (rest,) = result.absent
+    assert re.match(r"tube: free inflation was followed up to u_max = [12]\..*lower u_end", rest.reason)
 
 
 def test_a_fold_line_that_does_not_reach_the_unstretched_tube_begins_at_the_other_end():
@@ -143,8 +146,14 @@ def test_a_fold_line_that_does_not_reach_the_unstretched_tube_begins_at_the_othe
 
 def test_a_tube_without_limit_points_says_where_they_were_looked_for():
     searched = r"no limit point of alpha = 0\.8, lf = 6 up to u_max = 2 at any of 17 .* from 1 to .* = 1\.5"
+    given = {"alpha": 0.8, "u_end": 2.0, "delta1_end": 1.5, "numerics": COARSE}
+    result = solve("tube_fold", **given)
+    assert (result.branches, result.failures) == ([], [])
+    assert re.search(searched, result.absent[0].reason)
+    assert Result.from_json(result.to_json()).absent == result.absent
+    validate(result.to_json())
     with pytest.raises(InputError, match=searched):
-        solve("tube_fold", alpha=0.8, u_end=2.0, delta1_end=1.5, numerics=COARSE)
+        solve("tube_fold", **given, at={"delta1": 1.2})
 
 
 # -- seeded faults ---------------------------------------------------------------------------------

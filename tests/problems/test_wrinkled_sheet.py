@@ -5,6 +5,7 @@ from math import cos, sin
 import pytest
 
 from weakforms import solve
+from weakforms.errors import InputError
 
 pytestmark = pytest.mark.paper4
 COARSE = {"cells": 6, "levels": 2}
@@ -30,10 +31,51 @@ def test_thresholds_mirror_each_other():
     assert below["Z"].value + above["Z"].value == pytest.approx(8, abs=1e-5)
 
 
-def test_a_threshold_that_is_not_there_is_a_failure_not_a_number():
+def test_a_membrane_that_wrinkles_at_no_thickness_ratio_is_told_by_how_far_it_is_taut():
     result = solve("wrinkled_tube_threshold", delta=6, L=2, numerics=COARSE)
-    assert result.quantities == {}
-    assert "taut" in result.failures[0].reason
+    assert result.failures == []
+    assert set(result.quantities) == {"M_taut", "gw_min"}
+    assert result.quantities["M_taut"].value == pytest.approx(0.05)
+    least = result.quantities["gw_min"]
+    assert least.value - 1 > 1e3 * least.uncertainty
+
+
+WIDE = {"Af": 2.5, "delta": 1.05}, {"Af": 2.2, "delta": 4.36, "c2": 0.78}
+
+
+@pytest.mark.parametrize("given", WIDE)
+def test_thresholds_between_wide_disks_are_found_and_mirror_each_other(given):
+    below, above = (
+        solve("wrinkled_tube_threshold", **given, upper=upper, numerics=COARSE).quantities
+        for upper in (False, True)
+    )
+    assert 0.05 < below["M"].value < 1
+    assert below["M"].value + above["M"].value == pytest.approx(2, abs=1e-7)
+    gw = solve("wrinkled_tube", M=below["M"].value, load="gas", **given, at={"p": 0.0}, numerics=COARSE)
+    assert gw.states[0].quantities["gw_min"].value == pytest.approx(1, abs=1e-8)
+
+
+def test_a_threshold_at_the_thick_end_is_where_that_end_wrinkles():
+    """Disks hardly wider than the natural radius: ``Af sqrt(lam1) = 1`` at the thick end."""
+    given = {"delta": 5.364, "c2": 0.019, "L": 13.597, "Af": 0.435}
+    found = solve("wrinkled_tube_threshold", **given, numerics=COARSE).quantities
+    assert found["Z"].value == pytest.approx(13.597, abs=1e-9)
+    assert found["M"].value == pytest.approx(0.984819, abs=1e-6)
+
+
+def test_a_threshold_of_a_long_membrane_is_as_uncertain_as_round_off_leaves_it():
+    """``1 - gw`` grows as ``(1 - M)^2`` from nothing: 1.3e-9 at ``M = 0.9945``."""
+    given = {"delta": 2.032, "c2": 0.8876, "L": 36.06, "Af": 2.098}
+    result = solve("wrinkled_tube_threshold", **given, numerics=COARSE)
+    assert result.failures == []
+    found = result.quantities["M"]
+    assert found.value + found.uncertainty == 1.0
+    assert 1e-5 < found.uncertainty < 1e-3
+
+
+def test_disks_between_which_no_membrane_is_taut_are_refused():
+    with pytest.raises(InputError, match=r"allowed: Af above delta\^\(-1/2\) = 0.533"):
+        solve("wrinkled_tube_threshold", delta=3.517, Af=0.1635)
 
 
 def test_the_material_problem_has_the_states_of_the_table():

@@ -29,6 +29,7 @@ from weakforms.verification.audit.any_parameters.runner import classified, run_a
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.pages import render
 
+NO_CONTACT = {"failures": [], "absent": [{"what": "contact", "reason": "p_end is below first contact"}]}
 FAILED = {"failures": [{"what": "special points", "reason": "several eigenvalues change sign"}]}
 
 
@@ -36,6 +37,7 @@ FAILED = {"failures": [{"what": "special points", "reason": "several eigenvalues
     ("code", "said", "result", "status", "message"),
     [
         (0, "", {"failures": []}, "answered", None),
+        (0, "", NO_CONTACT, "not there", "contact: p_end is below first contact"),
         (3, "weakforms: not converged: ...", FAILED, "in part", "special points: several eigenvalues"),
         (2, "weakforms: tube: s = 9 is out of reach", {}, "refused", "tube: s = 9 is out of reach"),
         (3, "weakforms: SNES ended with X", {}, "not converged", "SNES ended with X"),

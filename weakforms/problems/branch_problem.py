@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any, ClassVar, Protocol, Self
 
@@ -10,9 +11,9 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field, model_validator
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, sample_points, silent
-from weakforms.results import Branch, Failure, Result, SpecialPoint, State
+from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
 from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.solvers.continuation.branch import DIAGNOSTICS
 from weakforms.solvers.equilibrium.newton import STOPPING
@@ -50,6 +51,10 @@ class Family(Protocol):
         """Quadrature degree of the form that is solved."""
 
     @property
+    def absent(self) -> Sequence[Absence]:
+        """What was asked for and is not there."""
+
+    @property
     def failures(self) -> list[Failure]:
         """Solves that did not converge."""
 
@@ -78,6 +83,10 @@ class PathProblem:
         """The branches by name, in the order of the results."""
         raise NotImplementedError
 
+    def resolving(self, _parameters: Any, numerics: Any) -> Any:
+        """Numerics that resolve the problem at its parameters, if the default does not."""
+        return numerics
+
     def points(self, parameters: Any) -> np.ndarray:
         """Default sample points of fields, from one end of the body to the other."""
         raise NotImplementedError
@@ -90,11 +99,22 @@ class PathProblem:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Trace the branches on all meshes, locate their special points, solve for the requested states."""
+        """Trace the branches on all meshes, locate their special points, solve for the requested states.
+
+        Raises:
+            AbsentError: If states are requested and there is no branch.
+        """
         begun = time.perf_counter()
+        numerics = self.resolving(parameters, numerics)
         result = self._result(parameters, numerics)
-        families = self.families(parameters, numerics, requests, comm, progress)
-        self._answer(result, families, requests, self.points(parameters), progress)
+        try:
+            families = self.families(parameters, numerics, requests, comm, progress)
+        except AbsentError as error:
+            if requests.states:
+                raise
+            result.absent.append(Absence(error.what, str(error)))
+        else:
+            self._answer(result, families, requests, self.points(parameters), progress)
         result.provenance = provenance(comm, time.perf_counter() - begun)
         return result
 
@@ -143,6 +163,7 @@ class PathProblem:
             self._solve_drawn(result, name, family, requests.drawn, default_points)
         for family in families.values():
             result.failures.extend(family.failures)
+            result.absent.extend(family.absent)
 
     def _solve_drawn(
         self, result: Result, name: str, family: Family, count: int, default_points: np.ndarray

@@ -3,6 +3,7 @@
 from weakforms.results.curves import CurveFile, read_curve
 from weakforms.results.io import load_result, validate, write_atomically
 from weakforms.results.model import (
+    Absence,
     Branch,
     Failure,
     Field,
@@ -13,6 +14,7 @@ from weakforms.results.model import (
 )
 
 __all__ = [
+    "Absence",
     "Branch",
     "CurveFile",
     "Failure",

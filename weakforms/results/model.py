@@ -179,6 +179,11 @@ class Failure:
         return {"what": self.what, "reason": self.reason}
 
 
+@dataclass(frozen=True)
+class Absence(Failure):
+    """Something asked for that is not there, and what was searched for it: no failure of a solve."""
+
+
 @dataclass
 class Result:
     """Everything that one ``solve`` returns; its JSON form is the contract with other programs."""
@@ -193,6 +198,7 @@ class Result:
     quantities: dict[str, Quantity] = field(default_factory=dict)
     states: list[State] = field(default_factory=list)
     failures: list[Failure] = field(default_factory=list)
+    absent: list[Absence] = field(default_factory=list)
 
     def branch(self, name: str = "primary") -> Branch:
         """The branch of that name.
@@ -212,7 +218,8 @@ class Result:
         ]
 
     def to_json(self) -> dict[str, Any]:
-        """JSON object of schema ``weakforms.result/1``."""
+        """JSON object of schema ``weakforms.result/1``; ``absent`` is there when something is."""
+        absent = {"absent": [item.to_json() for item in self.absent]} if self.absent else {}
         return {
             "schema": SCHEMA,
             "problem": self.problem,
@@ -225,6 +232,7 @@ class Result:
             "quantities": {key: q.to_json() for key, q in self.quantities.items()},
             "states": [state.to_json() for state in self.states],
             "failures": [failure.to_json() for failure in self.failures],
+            **absent,
         }
 
     @classmethod
@@ -241,6 +249,7 @@ class Result:
             {key: Quantity.from_json(q) for key, q in data["quantities"].items()},
             [State.from_json(item) for item in data["states"]],
             [Failure(item["what"], item["reason"]) for item in data["failures"]],
+            [Absence(item["what"], item["reason"]) for item in data.get("absent", [])],
         )
 
 

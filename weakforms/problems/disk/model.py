@@ -22,6 +22,7 @@ import ufl
 from dolfinx import fem
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
+from scipy.interpolate import CubicSpline
 from ufl.core.expr import Expr
 
 from weakforms.forms.kinematics import Slope, Stretches, disk_stretches
@@ -30,7 +31,7 @@ from weakforms.forms.materials import stress_resultants
 from weakforms.problems.contact_series import Series
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meshes import tag_points
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.system import Formulation, State, System
 
 POLE, FRONT, RIM = 1, 2, 3
 
@@ -143,6 +144,24 @@ class DiskModel:
         front, x = loads["front"], np.asarray(big_x) * self.data.edge
         outside = 1 + np.log(np.maximum(x, front) / front) / np.log(self.data.edge / front)
         return np.where(x <= front, x / front, outside)
+
+    def like(self, other: DiskModel, state: State) -> State:
+        """A state of another mesh of the same disk, as a guess: splines on either side of the front."""
+        own, theirs = self._mesh_coordinates(), other._mesh_coordinates()
+        u = np.empty(len(own))
+        for component in (0, 1):
+            parts = self.mesh.comm.allgather((theirs[component::2], state.u[component::2]))
+            s, first = np.unique(np.concatenate([p[0] for p in parts]), return_index=True)
+            values = np.concatenate([p[1] for p in parts])[first]
+            inner, wanted = s <= 1 + 1e-12, own[component::2]
+            outer = s >= 1 - 1e-12
+            sides = (CubicSpline(s[side], values[side])(wanted) for side in (inner, outer))
+            u[component::2] = np.where(wanted <= 1, *sides)
+        return State(u, dict(state.loads))
+
+    def _mesh_coordinates(self) -> np.ndarray:
+        """``s`` of every degree of freedom of this rank."""
+        return np.repeat(self.space.tabulate_dof_coordinates()[: self.system.size // 2, 0], 2)
 
     def _set_flat_state(self) -> None:
         beta = self.data.beta

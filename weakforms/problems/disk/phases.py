@@ -8,19 +8,16 @@ import numpy as np
 from mpi4py import MPI
 from scipy.interpolate import CubicSpline
 
-from weakforms.errors import InputError
-from weakforms.problems.disk.history import History
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.disk.guesses import FIRST_T0, HIGHEST_P, parabola, stick_guess
+from weakforms.problems.disk.history import STIFFER, History
 from weakforms.problems.disk.model import Bond, DiskData, DiskModel
-from weakforms.problems.homogeneous.material_point import evaluated
-from weakforms.problems.material_choice import Chosen
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import State
-
-FIRST_T0 = 0.05
-"""Pole height of the first state of a disk without pre-stretch, whose tangent at rest is singular."""
 
 TAUT = 1.02
 """Pre-stretch above which the branch starts at ``p = 0``."""
@@ -33,6 +30,15 @@ USUAL = 10.0
 
 FIRST_FRONT = 0.02
 """Smallest front at which contact is followed, as a fraction of the radius."""
+
+SOFT = 2.0
+"""Stiffness of a soft substrate, over the pressure of first contact and its height."""
+
+SPANS, WIDER = 6, 1.02
+"""Spans tried for a history that the patch outgrows, or that is not found, and by how much they change."""
+
+PASSED = 0.1
+"""By how much of ``p_end`` a step of deflation may pass its last pressure."""
 
 LAST_FRONT = 0.97
 """Largest front at which contact is followed."""
@@ -56,6 +62,8 @@ class DiskRun:
     ) -> None:
         self.comm, self.data, self.adhesion = comm, data, adhesion
         self.p_end, self.step, self.terms = p_end, step, terms
+        self.coarser: DiskRun | None = None
+        """The run on the next coarser mesh, if there is one: its history is a guess."""
         self.slip = DiskModel(comm, data)
         self._flat = self.slip.system.state()
         """Start of every branch; it is kept, because each run changes the state of its system."""
@@ -104,19 +112,51 @@ class DiskRun:
 
     @cached_property
     def onset(self) -> Solved:
-        """State of first contact.
+        """First touch."""
+        last = self.before_contact.points[-1]
+        return Solved({**last.monitors, "p": last.state.loads["p"]}, last.state, "contact_onset")
+
+    @property
+    def untouched(self) -> str:
+        """What ``p_end`` below first contact means, for people; empty when there is contact."""
+        if self.onset.values["p"] < self.p_end:
+            return ""
+        first = self.onset.values["p"]
+        higher = "raise p_end above it, or " if first < HIGHEST_P else ""
+        below = f"p_end = {self.p_end:g} is below first contact at p = {first:.6g}"
+        return f"{below}; {higher}choose a smaller l or beta (allowed: p_end up to {HIGHEST_P:g})"
+
+    @cached_property
+    def until_end(self) -> EquilibriumBranch:
+        """Free inflation up to ``p_end``, where that is below first contact.
 
         Raises:
-            InputError: If it comes after the pressure at which inflation ends.
+            InputError: When it is below the first state of a disk that is slack without pressure, too.
         """
-        last = self.before_contact.points[-1]
-        solved = Solved({**last.monitors, "p": last.state.loads["p"]}, last.state, "contact_onset")
-        if solved.values["p"] >= self.p_end:
+        branch = self.free(self.data.l)
+        pressures = np.array([point.state.loads["p"] for point in branch.points])
+        if pressures[0] >= self.p_end:
             raise InputError(
-                f"circular: p_end = {self.p_end:g} is below first contact at p = {solved.values['p']:.6g}; "
-                "raise p_end above it, or choose a smaller l or beta"
+                f"circular: p_end = {self.p_end:g} is below p = {pressures[0]:.6g}, where a disk with "
+                f"beta = {self.data.beta:g} is first taut enough; raise p_end"
             )
-        return solved
+        passed = int(np.argmax(pressures >= self.p_end))
+        del branch.points[passed + 1 :]
+        branch.end_at("p", self.p_end)
+        return branch
+
+    @cached_property
+    def emptied(self) -> EquilibriumBranch:
+        """The way back from there to ``p = 0``, or to where the disk is slack."""
+        continuation = self._deflating(ExtendedNewton(self.slip.system, ["p"]), 0.0)
+        end = self.until_end.points[-1].state
+        start = continuation.start(end, Held("p", self.p_end), towards={"p": -1.0})
+        slack = FIRST_T0 if self.data.beta < TAUT else -np.inf
+
+        def stop(point: CurvePoint) -> bool:
+            return point.state.loads["p"] < 0.0 or point.monitors["t0"] < slack
+
+        return EquilibriumBranch(continuation, "p", start, stop)
 
     @cached_property
     def frictionless(self) -> FittedBranch:
@@ -138,40 +178,132 @@ class DiskRun:
         start = continuation.start(state, first, towards={"front": 1.0})
         last = LAST_FRONT * self.data.edge
 
-        def stop(point: CurvePoint) -> bool:
-            return point.state.loads["p"] > p_end or point.state.loads["front"] > last
+        def ends(point: CurvePoint) -> str:
+            if point.state.loads["front"] > last:
+                return f"the patch holds {LAST_FRONT:g} of the radius"
+            shrinks = model.bond is not None and point.tangent.loads["front"] < 0
+            return "the patch stops growing, and what sticks would have to peel" if shrinks else ""
 
-        branch = FittedBranch(continuation, "p", start, stop)
-        if branch.points[-1].state.loads["p"] < p_end and branch.stalled is None:
-            branch.stalled = f"the front reaches {LAST_FRONT:g} of the radius before p = {p_end:g}"
+        branch = FittedBranch(continuation, "p", start, lambda q: q.state.loads["p"] > p_end or bool(ends(q)))
+        end = branch.points[-1]
+        if end.state.loads["p"] < p_end and ends(end):
+            branch.ended = (
+                f"circular: contact was followed up to p = {end.state.loads['p']:.6g}, not "
+                f"p_end = {p_end:g}: there {ends(end)}; lower p_end"
+            )
         return branch
 
     # -- stick ---------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def stick(self) -> DiskModel:
-        """The model with the bond and its history, up to a front beyond that at ``p_end``.
+        """The model with the bond and its history, up to the front reached.
 
         Raises:
             ConvergenceError: If the history does not converge.
         """
-        span = self.frictionless.at("p", self.p_end).state.loads["front"]
-        bond = Bond(self.adhesion == "locked", self.terms, span)
-        model = DiskModel(self.comm, self.data, bond)
+        return self._stuck[0]
+
+    @property
+    def history(self) -> History:
+        """Of the stuck patch."""
+        return self._stuck[1]
+
+    @property
+    def adhesive(self) -> FittedBranch:
+        """Adhesive inflation: every point that touched keeps its stretches, or its radius."""
+        return self._stuck[2]
+
+    @cached_property
+    def _stuck(self) -> tuple[DiskModel, History, FittedBranch]:
+        """With a history that is known as far as the patch grows: further than without friction, at times."""
+        span, failed = self._slipping_span(), np.inf
+        for _ in range(SPANS):
+            model = DiskModel(self.comm, self.data, Bond(self.adhesion == "locked", self.terms, span))
+            try:
+                history = self._history_of(model)
+            except ConvergenceError:
+                failed, span = span, span / WIDER**4  # a patch that sticks may not grow so far
+                continue
+            first = self.frictionless.points[0]
+            lam2 = first.monitors["rho_contact"] / first.state.loads["front"]
+            branch = self._follow(model, stick_guess(model, first.state, lam2), self.p_end)
+            if len(branch.crossings("p", self.p_end)):
+                reached = branch.at("p", self.p_end).state.loads["front"]
+            else:
+                reached = max(point.state.loads["front"] for point in branch.points)
+            if reached <= span:
+                return model, history, branch
+            span = min(WIDER * reached, LAST_FRONT * self.data.edge)
+            if span >= failed:
+                break
+        raise ConvergenceError(
+            f"circular: the history of the stuck patch is not found up to X = {span * self.data.beta:.4g}; "
+            "lower p_end, or k"
+        )
+
+    def _slipping_span(self) -> float:
+        """The largest front without friction up to ``p_end``."""
+        trace = self.frictionless
+        crossed = trace.crossings("p", self.p_end)
+        if not len(crossed):
+            return max(point.state.loads["front"] for point in trace.points)
+        before = max(point.state.loads["front"] for point in trace.points[: int(crossed[0]) + 1])
+        return max(before, trace.at("p", self.p_end).state.loads["front"])
+
+    def _history_of(self, model: DiskModel) -> History:
+        """The history of a model, whose series are written."""
         history = History(model)
         slipped = self._slipped(history.fronts)
-        lam2 = np.array([v.values["rho_contact"] for v in slipped]) / history.fronts
+        try:
+            history.solve(*self._guesses(model, slipped, history.fronts))
+        except ConvergenceError:
+            self._solve_stiff(model, history, slipped)
+        return history
+
+    def _solve_stiff(self, model: DiskModel, history: History, slipped: list[Solved]) -> None:
+        """The history where plain sweeps diverge: from that of the coarser mesh, or of a soft substrate."""
+        if self.coarser is not None:
+            history.solve_like(self.coarser.history)
+        else:
+            soft = SOFT * self.onset.values["p"] / self.data.l
+            if soft >= self.data.k:
+                raise ConvergenceError("history of the stuck patch: sweeps diverge on a soft substrate")
+            softened = [self._softened(v.state, soft) for v in slipped]
+            history.solve_stiff(*self._guesses(model, softened, history.fronts), self.data.k)
+
+    def _guesses(
+        self, model: DiskModel, slipped: list[Solved], fronts: np.ndarray
+    ) -> tuple[list[State], np.ndarray, np.ndarray]:
+        """States at the fronts, their hoop stretches and steepness, as guesses for a stuck patch."""
+        lam2 = np.array([v.values["rho_contact"] for v in slipped]) / fronts
         steepness = np.array([v.values["steepness"] for v in slipped])
-        guesses = [stick_guess(model, v.state, start) for v, start in zip(slipped, lam2, strict=True)]
-        history.solve(guesses, lam2, steepness)
-        return model
+        return [stick_guess(model, v.state, at) for v, at in zip(slipped, lam2, strict=True)], lam2, steepness
+
+    def _softened(self, state: State, k: float) -> Solved:
+        """A frictionless state with its front where it is, on a softer substrate."""
+        solver = ExtendedNewton(self.slip.system, ["p", "front"])
+        held = [Held("gap", 0.0), Held("front", state.loads["front"])]
+
+        def solve(before: State, log_k: float) -> State:
+            return solver.solve(State(before.u, before.loads | {"k": float(np.exp(log_k))}), held)[0]
+
+        state = walk(solve, state, float(np.log(self.data.k)), float(np.log(k)), STIFFER)
+        self.slip.system.set_state(state.u, state.loads)
+        return Solved(self.slip.system.monitors(), state)
 
     def _slipped(self, fronts: np.ndarray) -> list[Solved]:
         """Frictionless states at some fronts, as guesses."""
         first = self.frictionless.points[0].state
+        last = max(
+            (point.state for point in self.frictionless.points), key=lambda state: state.loads["front"]
+        )
         solver = ExtendedNewton(self.slip.system, ["p", "front"])
         solved = []
         for front in fronts:
+            if front > last.loads["front"]:
+                solved.append(self.frictionless.near(last, "front", float(front)))
+                continue
             if front > first.loads["front"]:
                 solved.append(self.frictionless.at("front", float(front)))
                 continue
@@ -182,16 +314,18 @@ class DiskRun:
         return solved
 
     @cached_property
-    def adhesive(self) -> FittedBranch:
-        """Adhesive inflation: every point that touched keeps its stretches, or its radius."""
-        first = self.frictionless.points[0]
-        lam2 = first.monitors["rho_contact"] / first.state.loads["front"]
-        return self._follow(self.stick, stick_guess(self.stick, first.state, lam2), self.p_end)
-
-    @cached_property
     def end_of_inflation(self) -> State:
-        """The adhesive state at ``p_end``."""
-        return self.adhesive.at("p", self.p_end).state
+        """The adhesive state at ``p_end``.
+
+        Raises:
+            InputError: When contact ends before.
+            ConvergenceError: When its trace does.
+        """
+        if len(self.adhesive.crossings("p", self.p_end)):
+            return self.adhesive.at("p", self.p_end).state
+        if self.adhesive.ended:
+            raise InputError(self.adhesive.ended)
+        raise ConvergenceError(f"p_end = {self.p_end:g} is not reached: {self.adhesive.stalled}")
 
     @cached_property
     def deflation(self) -> EquilibriumBranch:
@@ -201,42 +335,16 @@ class DiskRun:
     def lowered(self, p: float) -> EquilibriumBranch:
         """Deflation down to a given pressure."""
         solver = ExtendedNewton(self.stick.system, ["p"])
-        continuation = Continuation(solver, control=self.steps(4))
+        continuation = self._deflating(solver, p)
         held = Held("p", self.p_end)
         start = continuation.start(self.end_of_inflation, held, towards={"p": -1.0})
         return EquilibriumBranch(continuation, "p", start, lambda point: point.state.loads["p"] < p)
 
+    def _deflating(self, solver: ExtendedNewton, end: float) -> Continuation:
+        """Steps that do not pass the last pressure by much; those of a large load are long."""
+        least = end - PASSED * self.p_end
+        return Continuation(solver, control=self.steps(4), allowed=lambda state: state.loads["p"] > least)
+
     def steps(self, fraction: int) -> StepControl:
         """Step control that starts with a fraction of the largest step."""
         return StepControl(first=self.step / fraction, largest=self.step, usual_load=USUAL)
-
-
-def parabola(x: np.ndarray, law: Chosen, beta: float) -> tuple[np.ndarray, float]:
-    """A slightly stretched first state of pole height ``FIRST_T0``, and the pressure it carries.
-
-    Args:
-        x: Radius of every degree of freedom, ``lam2`` and ``eta`` in turn.
-        law: Material law.
-        beta: Pre-stretch.
-    """
-    lam = beta + 0.3 * FIRST_T0**2
-    square = (x * beta) ** 2
-    u = np.empty_like(x)
-    u[0::2] = beta + (lam - beta) * (1 - square[0::2])
-    u[1::2] = FIRST_T0 * (1 - square[1::2])
-    tension = evaluated(law, lam, lam)["W1"]
-    return u, 4 * FIRST_T0 * tension / beta
-
-
-def stick_guess(model: DiskModel, slipped: State, lam2_front: float) -> State:
-    """A frictionless state as a guess for the stuck model with the same mesh and front."""
-    s = np.repeat(model.space.tabulate_dof_coordinates()[: model.system.size // 2, 0], 2)
-    u = slipped.u.copy()
-    stretch = np.arange(len(u)) % 2 == 0
-    outside = s > 1 + 1e-12
-    u[stretch & ~outside] = 0.0
-    # Shifted by its own stretch at the front; the stretch of the series differs and would cause a jump.
-    u[stretch & outside] -= (lam2_front * (2 - s))[stretch & outside]
-    if model.bond.rigid:
-        u[~stretch & ~outside] = model.data.l
-    return State(u, dict(slipped.loads))

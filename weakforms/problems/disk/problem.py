@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from itertools import pairwise
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -12,12 +13,13 @@ from pydantic import Field
 
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import Family, MeshNumerics, PathProblem
+from weakforms.problems.disk.guesses import HIGHEST_P
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.peeling import PeelingBranch, PeelingFamily
 from weakforms.problems.disk.phases import DiskRun
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Progress, Requests, check_requests, registry
-from weakforms.results import SpecialPoint
+from weakforms.results import Absence, SpecialPoint
 from weakforms.solvers.continuation.branch import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
@@ -131,7 +133,9 @@ class CircularParameters(MaterialChoice):
         "locked", description="locked: both stretches stick; radial: the radius sticks"
     )
     phase: Literal["inflation", "deflation", "peeling"] = Field("inflation", description="loading phase")
-    p_end: float = Field(3.477, gt=0, le=50, description="pressure at which inflation in contact ends")
+    p_end: float = Field(
+        3.477, gt=0, le=HIGHEST_P, description="pressure at which inflation towards and in contact ends"
+    )
     p: float | None = Field(None, ge=0, le=50, description="pressure of a peeling curve")
     t_end: float = Field(2.0, gt=0.06, le=10, description="pole height at which free inflation ends")
 
@@ -225,6 +229,8 @@ class Circular(PathProblem):
             )
             for cells, count in zip(numerics.meshes, terms, strict=True)
         ]
+        for coarse, fine in pairwise(runs):
+            fine.coarser = coarse
 
         def family(
             part: Callable[[DiskRun], SolutionCurve], slow: Slow | None = None, of: type = BranchFamily
@@ -243,12 +249,17 @@ class Circular(PathProblem):
 
         if parameters.phase == "peeling":
             p = peeling_pressure(parameters, requests)
-            runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
+            if runs[-1].untouched:
+                raise InputError(f"circular: phase = 'peeling' needs a patch, and {runs[-1].untouched}")
             return {"primary": family(lambda run: PeelingBranch(run, p), SERIES, PeelingFamily)}
         if parameters.contact == "none":
             free = family(lambda run: run.free(parameters.t_end))
             return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)])}
-        runs[-1].onset  # noqa: B018
+        if runs[-1].untouched:
+            deflates = parameters.phase == "deflation"
+            free = family(lambda run: run.emptied if deflates else run.until_end)
+            absent = Absence("contact", f"circular: {runs[-1].untouched}")
+            return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)], absent=[absent])}
         if parameters.phase == "deflation":
             return {"primary": family(lambda run: run.deflation, SERIES)}
         history = SERIES if parameters.contact == "adhesive" else None

@@ -25,11 +25,11 @@ from mpi4py import MPI
 from pydantic import Field
 from ufl.core.expr import Expr
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.kinematics import Slope, disk_stretches
 from weakforms.forms.loads import bed_potential, gas_potential
 from weakforms.forms.materials import mooney_rivlin
-from weakforms.problems.disk.phases import FIRST_T0, parabola
+from weakforms.problems.disk.guesses import FIRST_T0, parabola
 from weakforms.problems.disk.problem import ENERGY, SCALES, SOURCE
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.meshes import graded_interval, tag_points
@@ -44,19 +44,28 @@ from weakforms.problems.problem import (
 )
 from weakforms.problems.quantity_problem import solve_twice
 from weakforms.results import Result
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import Formulation, State, System
 
 POLE, RIM = 1, 2
 
+DEEPEST = 3.0
+"""Height of the pole, over that of the substrate, up to which the scheme is followed."""
+
 
 class CircularSchemeParameters(Parameters):
-    """The disk, its substrate, and the end of inflation."""
+    """The disk, its substrate, and where inflation ends: at most at :data:`DEEPEST` times its height.
+
+    Beyond that, and on a substrate stiffer than ``k = 1000``, Newton's method alternates between states with
+    one node more and one node less of the fixed mesh in contact, however short the steps. The problem
+    ``circular``, whose mesh follows the front, has neither limit.
+    """
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
-    k: float = Field(50.0, gt=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h)")
+    k: float = Field(50.0, gt=0, le=1000, description="substrate stiffness K R_f^2/(C1 h)")
     l: float = Field(0.5, gt=0.06, le=5, description="height of the substrate L/R_f")  # noqa: E741
     t_end: float = Field(0.57, gt=0.06, le=5, description="pole height at which inflation ends")
 
@@ -116,13 +125,7 @@ class FixedDisk:
         state = self._touch(solver, given)
         stuck, depth, lam2 = 0, np.empty(0), np.empty(0)
         for t0 in np.linspace(given.l, given.t_end, steps + 1)[1:]:
-            nodes = self.order[:stuck]
-            self.system.hold(np.concatenate([nodes, nodes + 1]), np.concatenate([lam2, t0 - depth]))
-            # A guess without a jump at the edge: the free part rises in proportion.
-            state.u[self.order + 1] *= t0 / state.u[self.order[0] + 1]
-            state.u[nodes + 1] = t0 - depth
-            held = Held("balance", 0.0) if stuck else Held("t0", float(t0))
-            state, _ = solver.solve(state, [held])
+            state = self._raised(solver, state, float(t0), lam2, depth)
             above = state.u[self.order + 1] > given.l
             stuck = int(above.argmin()) if not above.all() else len(above)
             nodes = self.order[:stuck]
@@ -131,16 +134,42 @@ class FixedDisk:
             self.rigid.x.array[nodes + 1] = 1.0
         return {"p": state.loads["p"], "lam_pole": float(state.u[self.order[0]]), **self._edge(state, given)}
 
+    def _raised(
+        self, solver: ExtendedNewton, state: State, t0: float, lam2: np.ndarray, depth: np.ndarray
+    ) -> State:
+        """The pole at a height, the nodes that are stuck below it as they were.
+
+        Where Newton's method does not reach it at once, heights between come first; nothing sticks there.
+        """
+        nodes, pole = self.order[: len(lam2)], self.order[0] + 1
+
+        def solve(before: State, height: float) -> State:
+            self.system.hold(np.concatenate([nodes, nodes + 1]), np.concatenate([lam2, height - depth]))
+            # A guess without a tear at the edge: what is free rises in proportion.
+            guess = State(before.u.copy(), dict(before.loads))
+            guess.u[self.order + 1] *= height / before.u[pole]
+            guess.u[nodes + 1] = height - depth
+            held = Held("balance", 0.0) if len(nodes) else Held("t0", height)
+            found, _ = solver.solve(guess, [held])
+            if found.u[self.order].min() <= 0:
+                raise ConvergenceError("Newton's method found a membrane turned inside out")
+            return found
+
+        at = float(state.u[pole])
+        return walk(solve, state, at, t0, t0 - at)
+
     def _touch(self, solver: ExtendedNewton, given: CircularSchemeParameters) -> State:
         """State of first contact, by free inflation to ``t0 = l``."""
         state = self.system.state()
         x = np.empty(len(state.u))
         x[self.order], x[self.order + 1] = self.x, self.x
         u, p = parabola(x, mooney_rivlin_of(given.alpha), given.beta)
-        state = State(u, {"p": p})
-        for t0 in np.linspace(FIRST_T0, given.l, 10):
-            state, _ = solver.solve(state, [Held("t0", float(t0))])
-        return state
+        state, _ = solver.solve(State(u, {"p": p}), [Held("t0", FIRST_T0)])
+
+        def solve(before: State, t0: float) -> State:
+            return solver.solve(before, [Held("t0", t0)])[0]
+
+        return walk(solve, state, FIRST_T0, given.l, (given.l - FIRST_T0) / 9)
 
     def _edge(self, state: State, given: CircularSchemeParameters) -> dict[str, float]:
         """Deformed radius of the front, interpolated linearly between the nodes around it."""
@@ -183,12 +212,18 @@ class CircularScheme:
         """Refuse requests for states; the only state is that at ``t_end``.
 
         Raises:
-            InputError: For such a request, or an end below the substrate.
+            InputError: For a state, or an end below the substrate or far above it.
         """
         check_requests(self, requests)
         if parameters.t_end <= parameters.l:
             raise InputError(
                 f"circular_scheme: t_end = {parameters.t_end:g} must be above l = {parameters.l:g}"
+            )
+        if parameters.t_end > DEEPEST * parameters.l:
+            raise InputError(
+                f"circular_scheme: t_end = {parameters.t_end:g} is more than {DEEPEST:g} l = "
+                f"{DEEPEST * parameters.l:g}, up to which the scheme converges on its fixed mesh; lower "
+                "t_end or raise l"
             )
 
     def solve(

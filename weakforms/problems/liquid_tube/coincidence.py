@@ -13,14 +13,14 @@ from typing import ClassVar
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.problem import CAPS, ENERGY, SCALES, SOURCE, FluidTubeNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_model
 from weakforms.problems.problem import Progress, Requests, registry, silent
-from weakforms.results import Quantity, Result
+from weakforms.results import Absence, Quantity, Result
 from weakforms.solvers.continuation.branch import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -91,29 +91,32 @@ class FluidTubeCoincidence:
     ) -> Result:
         """Search on the coarsest mesh, then solve on all meshes.
 
-        Raises:
-            InputError: If the points have the same order at both ends.
+        Where the points come in the same order at both ends, or there are none, it is absent.
         """
         begun = time.perf_counter()
         find = _Finder(parameters, numerics, comm)
-        progress("coincidence", 0, numerics.levels + 1)
-        delta = find.near()
-        found = []
-        for level in range(numerics.levels):
-            progress("coincidence", level + 1, numerics.levels + 1)
-            found.append(find.exactly(level, delta))
-        quantities = {}
-        for name in ("delta", *SHOWN):
-            value = estimate([values[name] for values in found], CAPS.get(name, 2 * numerics.degree))
-            quantities[name] = Quantity(float(value.value), float(value.uncertainty))
-        return Result(
+        result = Result(
             problem=self.name,
             parameters=parameters.model_dump(),
             scales=self.scales,
             numerics={**numerics.model_dump(), "meshes": numerics.meshes},
-            provenance=provenance(comm, time.perf_counter() - begun),
-            quantities=quantities,
+            provenance={},
         )
+        progress("coincidence", 0, numerics.levels + 1)
+        try:
+            delta = find.near()
+        except AbsentError as error:
+            result.absent.append(Absence(error.what, str(error)))
+        else:
+            found = []
+            for level in range(numerics.levels):
+                progress("coincidence", level + 1, numerics.levels + 1)
+                found.append(find.exactly(level, delta))
+            for name in ("delta", *SHOWN):
+                value = estimate([values[name] for values in found], CAPS.get(name, 2 * numerics.degree))
+                result.quantities[name] = Quantity(float(value.value), float(value.uncertainty))
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
 
 
 class _Finder:
@@ -139,14 +142,25 @@ class _Finder:
         return FluidPath(self.comm, data, 3, step=numerics.step)
 
     def _points(self, path: FluidPath) -> tuple[tuple[ModalBranch, Solved], Solved]:
-        """The limit point, the part of the branch around it, and the first bifurcation with one wave."""
+        """The limit point with its piece, and the first bifurcation with one wave.
+
+        Raises:
+            AbsentError: When the branch has none of either.
+            ConvergenceError: When it ends before they could be told.
+        """
         located = [(piece, solved) for piece in path.pieces for solved in piece.special()]
         limits = [found for found in located if found[1].kind == "limit_point"]
         forks = [solved for _, solved in located if solved.values.get("n") == 1]
         if not limits or not forks:
-            raise ConvergenceError(
-                f"fluid_tube_coincidence: at delta = {path.data.delta:g} the branch has {len(limits)} limit "
-                f"points and {len(forks)} bifurcations with one wave"
+            where = f"fluid_tube_coincidence: at delta = {path.data.delta:g}"
+            stalled = [piece.stalled for piece in path.pieces if piece.stalled]
+            if stalled:
+                raise ConvergenceError(f"{where}: {stalled[0]}")
+            raise AbsentError(
+                "coincidence",
+                f"{where} the branch has {len(limits)} limit points and {len(forks)} bifurcations with one "
+                f"wave up to where its level has fallen to {path.zw_end:g} of the highest; choose a "
+                "delta_low and delta_high at which it has both, or another law",
             )
         return limits[0], forks[0]
 
@@ -160,9 +174,10 @@ class _Finder:
 
         gaps = [ahead(delta) for delta in ends]
         if gaps[0] * gaps[1] > 0:
-            raise InputError(
-                "fluid_tube_coincidence: limit point and bifurcation have the same order at "
-                f"delta = {ends[0]:g} and {ends[1]:g}; allowed: a range over which the order changes"
+            raise AbsentError(
+                "coincidence",
+                "fluid_tube_coincidence: limit point and bifurcation come in the same order at "
+                f"delta = {ends[0]:g} and {ends[1]:g}; allowed: a range over which the order changes",
             )
         return root(ahead, *ends, "delta of equal volumes", xtol=NEAR, rtol=NEAR)
 

@@ -7,11 +7,12 @@ from typing import ClassVar
 
 from mpi4py import MPI
 
+from weakforms.errors import AbsentError, InputError
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.contact import ContactData
 from weakforms.problems.tube.contact_phases import ContactRun
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
-from weakforms.results import SpecialPoint
+from weakforms.results import Absence, SpecialPoint
 from weakforms.solvers.continuation.branch import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
@@ -66,7 +67,7 @@ def contact_family(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> PiecewiseFamily:
     """The branch of a constrained tube: free and in contact, or in deflation."""
-    free = 2 * numerics.degree
+    cap = 2 * numerics.degree
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
 
     def family(part: Callable[[ContactRun], SolutionCurve], slow: Slow | None) -> BranchFamily:
@@ -74,27 +75,38 @@ def contact_family(
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
-        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(EDGE_COLUMNS, min(free, 2.0))
-        caps["kappa"] = free - 1
+        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(EDGE_COLUMNS, min(cap, 2.0))
+        caps["kappa"] = cap - 1
         kind = BranchFamily
         if runs[-1].data.unilateral:
             kind, caps = UnilateralFamily, caps | KINK_ORDERS
-        return kind(make, numerics.levels, free, across=("p", "u_max"), caps=caps, slow=slow)
+        return kind(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
 
-    runs[-1].onset  # noqa: B018  (refuses a p_end before contact, before more is solved)
-    if parameters.phase == "deflation":
+    none = NO_PATCH | {"kappa": float("nan")}
+    deflates = parameters.phase == "deflation"
+    try:
+        untouched = runs[-1].untouched
+    except AbsentError as error:
+        if deflates:
+            raise InputError(str(error)) from error
+        free = family(lambda run: run.inflated, None)
+        return PiecewiseFamily([Piece(free, none)], absent=[Absence(error.what, str(error))])
+    if untouched:
+        free = family(lambda run: run.emptied if deflates else run.until_end, None)
+        return PiecewiseFamily([Piece(free, none)], absent=[Absence("contact", untouched)])
+    if deflates:
         slow = LET_GO if runs[-1].data.unilateral else SERIES
         return PiecewiseFamily([Piece(family(lambda run: run.deflation, slow), {})])
     history = SERIES if parameters.contact == "adhesive" else None
     pieces = [
-        Piece(family(lambda run: run.free, None), NO_PATCH | {"kappa": float("nan")}),
+        Piece(family(lambda run: run.free, None), none),
         Piece(family(lambda run: getattr(run, parameters.contact), history), {}),
     ]
 
     def onset() -> list[SpecialPoint]:
         shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
         same = [run.onset for run in runs]
-        return [special_point(same, shown, free, "primary", "p", {"t2_min": 2.0})]
+        return [special_point(same, shown, cap, "primary", "p", {"t2_min": 2.0})]
 
     return PiecewiseFamily(pieces, onset)
 

@@ -9,7 +9,7 @@ import numpy as np
 from mpi4py import MPI
 from numpy.polynomial import chebyshev
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError, WeakformsError
 from weakforms.problems.tube.contact import FIRST_FRONT, ContactData, ContactModel
 from weakforms.problems.tube.model import FIRST_U, TAUT, free_branch, yielding, yields
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
@@ -23,6 +23,18 @@ SWEEPS = 60
 
 HISTORY_ACCURACY = 2e-11
 """Largest accepted defect of ``E'(z_f) = eta'(z_f+)``."""
+
+BEYOND = 1e-6
+"""By how much a patch may pass the end of its history, relative to that."""
+
+SPANS, WIDER = 4, 1.02
+"""Histories tried for a patch that outgrows them, and how much further the next one goes."""
+
+HIGHEST_P = 20.0
+"""Largest pressure at which inflation may end."""
+
+PASSED = 0.1
+"""By how much of ``p_end`` a step of deflation may pass ``p = 0``."""
 
 LAST_FRONT = 0.999
 """Largest front, as a fraction of the half length, up to which contact is followed."""
@@ -51,39 +63,81 @@ class ContactRun:
     # -- inflation -----------------------------------------------------------------------------
 
     @cached_property
+    def inflated(self) -> EquilibriumBranch:
+        """Free inflation up to first touch, as far as it goes."""
+        return free_branch(self.slip.system, self.data.delta1, self._touch, self.step)
+
+    @cached_property
     def free(self) -> EquilibriumBranch:
         """Free inflation up to first touch.
 
         Raises:
-            ConvergenceError: If the branch ends before.
+            AbsentError: When the law gives way, or locks, before.
+            ConvergenceError: When the branch is not followed that far.
         """
-        branch = free_branch(self.slip.system, self.data.delta1, self._touch, self.step)
+        branch = self.inflated
         last = branch.points[-1]
         if last.monitors["u_max"] < self._touch:
-            raise ConvergenceError(
-                f"tube: s = {self.data.s:g} is not touched: {branch.stalled}; "
-                f"lower s to less than {1 + last.monitors['u_max']:.6g}"
-            )
-        branch.stalled = None
+            refused = f"tube: s = {self.data.s:g} is not touched: {branch.ended or branch.stalled}; "
+            refused += f"lower s to less than {1 + max(p.monitors['u_max'] for p in branch.points):.6g}"
+            if branch.ended:
+                raise AbsentError("contact", refused)
+            raise ConvergenceError(refused)
+        branch.stalled = branch.ended = None
         branch.end_at("u_max", self._touch)
         return branch
 
     @cached_property
     def onset(self) -> Solved:
-        """State of first contact.
+        """First touch."""
+        last = self.free.points[-1]
+        return Solved({**last.monitors, "p": last.state.loads["p"]}, last.state, "contact_onset")
+
+    @property
+    def untouched(self) -> str:
+        """What ``p_end`` below first contact means, for people; empty when there is contact.
 
         Raises:
-            InputError: If it comes after the pressure at which inflation ends.
+            ConvergenceError: When neither first contact nor ``p_end`` is reached.
+            AbsentError: The same, where free inflation ends.
         """
-        last = self.free.points[-1]
-        values = {**last.monitors, "p": last.state.loads["p"]}
-        solved = Solved(values, last.state, "contact_onset")
-        if solved.values["p"] >= self.p_end:
+        try:
+            self.onset  # noqa: B018
+        except WeakformsError as error:
+            if max(point.state.loads["p"] for point in self.inflated.points) < self.p_end:
+                raise
+            return f"{error}; p_end = {self.p_end:g} is reached before"
+        if self.onset.values["p"] < self.p_end:
+            return ""
+        first = self.onset.values["p"]
+        higher = "raise p_end above it, or " if first < HIGHEST_P else ""
+        below = f"tube: p_end = {self.p_end:g} is below first contact at p = {first:.6g}"
+        return f"{below}; {higher}lower s (allowed: p_end up to {HIGHEST_P:g})"
+
+    @cached_property
+    def until_end(self) -> EquilibriumBranch:
+        """Free inflation up to ``p_end``, where that is below first contact.
+
+        Raises:
+            InputError: When it is below the first state of a tube that is slack without pressure, too.
+        """
+        branch = free_branch(self.slip.system, self.data.delta1, self._touch, self.step)
+        pressures = np.array([point.state.loads["p"] for point in branch.points])
+        if pressures[0] >= self.p_end:
             raise InputError(
-                f"tube: p_end = {self.p_end:g} is below first contact at p = {solved.values['p']:.6g}; "
-                "raise p_end (allowed: up to 20) or lower s"
+                f"tube: p_end = {self.p_end:g} is below p = {pressures[0]:.6g}, where a tube with "
+                f"delta1 = {self.data.delta1:g} is first taut enough; raise p_end"
             )
-        return solved
+        passed = int(np.argmax(pressures >= self.p_end))
+        del branch.points[passed + 1 :]
+        branch.stalled = branch.ended = None
+        branch.end_at("p", self.p_end)
+        return branch
+
+    @cached_property
+    def emptied(self) -> EquilibriumBranch:
+        """The way back from there to ``p = 0``, or to where the tube is slack."""
+        return self._deflated(self.slip, self.until_end.points[-1].state, self.data.delta1 < TAUT)
 
     @cached_property
     def frictionless(self) -> FittedBranch:
@@ -117,28 +171,59 @@ class ContactRun:
         branch = FittedBranch(continuation, "p", start, stop)
         end = branch.points[-1]
         if end.state.loads["p"] < p_end:
-            why = branch.stalled or f"there the patch covers {LAST_FRONT:g} of the tube's length"
-            branch.stalled = (
-                f"contact was followed up to p = {end.state.loads['p']:.6g}, not p_end = {p_end:g}: "
-                f"{yielding(end) if yields(end) else why}"
-            )
+            followed = f"contact was followed up to p = {end.state.loads['p']:.6g}, not p_end = {p_end:g}"
+            if branch.stalled:
+                branch.stalled = f"{followed}: {branch.stalled}"
+            else:
+                full = f"there the patch holds {LAST_FRONT:g} of the tube's length"
+                branch.ended = f"{followed}: {yielding(end) if yields(end) else full}; lower p_end"
         return branch
 
     # -- stick ---------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def stick(self) -> ContactModel:
-        r"""The stuck model with its history.
+        """The stuck model with its history, as far as the patch grows."""
+        return self._stuck[0]
+
+    @property
+    def adhesive(self) -> FittedBranch:
+        """Adhesive inflation: every point that touched keeps its axial position."""
+        return self._stuck[1]
+
+    @cached_property
+    def _stuck(self) -> tuple[ContactModel, FittedBranch]:
+        """Both, with a history as far as the patch grows: at times that is further than without friction.
+
+        Raises:
+            InputError: If contact without friction ends before ``p_end``.
+            ConvergenceError: If no history covers the patch.
+        """
+        span = self._reached(self.frictionless).state.loads["front"]
+        for _ in range(SPANS):
+            model = self._with_history(span)
+            branch = self._follow(model, stick_guess(model, self._first_slip()), self.p_end)
+            crosses = len(branch.crossings("p", self.p_end))
+            state = branch.at("p", self.p_end).state if crosses else branch.points[-1].state
+            if state.loads["front"] <= span * (1 + BEYOND):
+                return model, branch
+            span = min(WIDER * state.loads["front"], LAST_FRONT * model.half)
+        raise ConvergenceError(
+            f"tube: the stuck patch grows beyond Z = {model.data.span:.6g}, up to which its history is "
+            "known; lower p_end"
+        )
+
+    def _with_history(self, span: float) -> ContactModel:
+        r"""A stuck model with its history up to a front.
 
         While the patch grows there is no line force at its front, so the position frozen there continues
         the free part with its slope: :math:`E'(z_f) = \eta'(z_f^+)` at every front. This condition is
-        collocated at Chebyshev points ``z_j`` of the patch at ``p_end``, and iterated: each sweep solves one
-        front-fitted problem for each ``z_j`` with the last ``E``, and uses the slopes for the next sweep.
+        collocated at Chebyshev points ``z_j`` of the patch, and iterated: each sweep solves one front-fitted
+        problem for each ``z_j`` with the last ``E``, and uses the slopes for the next sweep.
 
         Raises:
             ConvergenceError: If the sweeps do not converge.
         """
-        span = self._reached(self.frictionless).state.loads["front"]
         model = ContactModel(self.comm, replace(self.data, terms=self.terms, span=span))
         t = -np.cos(np.pi * np.arange(self.terms) / (self.terms - 1))
         fronts = span * (1 + t[1:]) / 2
@@ -160,24 +245,24 @@ class ContactRun:
     def _slipped(self, front: float) -> Solved:
         """Frictionless contact with the edge of the patch at a position, even before the traced ones."""
         trace = self.frictionless
-        first = trace.points[0].state
-        return trace.near(first, "front", front) if front < first.loads["front"] else trace.at("front", front)
+        ends = (trace.points[0].state, trace.points[-1].state)
+        for end, beyond in zip(ends, (-1, 1), strict=True):
+            if beyond * (front - end.loads["front"]) > 0:
+                return trace.near(end, "front", front)
+        return trace.at("front", front)
 
     def _reached(self, branch: FittedBranch) -> Solved:
         """The state at ``p_end``.
 
         Raises:
-            ConvergenceError: If the branch ends before.
+            InputError: When contact ends before.
+            ConvergenceError: When the trace does.
         """
         if len(branch.crossings("p", self.p_end)):
             return branch.at("p", self.p_end)
+        if branch.ended:
+            raise InputError(f"tube: {branch.ended}")
         raise ConvergenceError(f"tube: {branch.stalled}; lower p_end")
-
-    @cached_property
-    def adhesive(self) -> FittedBranch:
-        """Adhesive inflation: every point that touched keeps its axial position."""
-        model = self.stick
-        return self._follow(model, stick_guess(model, self._first_slip()), self.p_end)
 
     def _first_slip(self) -> Solved:
         point = self.frictionless.points[0]
@@ -194,11 +279,18 @@ class ContactRun:
             history = model.history
             model = ContactModel(self.comm, replace(model.data, unilateral=True))
             model.set_history(history)
+        # With a spring that does not pull, a tube without pre-stretch goes slack, as a free one does.
+        return self._deflated(model, state, self.data.unilateral and self.data.delta1 < TAUT)
+
+    def _deflated(self, model: ContactModel, state: State, goes_slack: bool) -> EquilibriumBranch:
+        """From a state at ``p_end`` to ``p = 0``."""
         solver = ExtendedNewton(model.system, ["p"])
-        continuation = Continuation(solver, control=self._steps(4))
+        least = -PASSED * self.p_end
+        continuation = Continuation(
+            solver, control=self._steps(4), allowed=lambda state: state.loads["p"] > least
+        )
         start = continuation.start(state, Held("p", self.p_end), towards={"p": -1.0})
-        # With a unilateral spring, a tube without pre-stretch goes slack, as a free tube does.
-        slack = FIRST_U if self.data.unilateral and self.data.delta1 < TAUT else -np.inf
+        slack = FIRST_U if goes_slack else -np.inf
 
         def stop(point: CurvePoint) -> bool:
             return point.state.loads["p"] < 0.0 or point.monitors["u_max"] < slack

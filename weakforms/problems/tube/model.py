@@ -213,14 +213,16 @@ def free_branch(system: System, delta1: float, u_end: float, step: float) -> Equ
 
     branch = EquilibriumBranch(continuation, "p", start, stop)
     last = branch.points[-1]
+    followed = (
+        f"free inflation was followed up to u_max = {last.monitors['u_max']:.6g}, "
+        f"p = {last.state.loads['p']:.6g}"
+    )
     if yields(last):
-        branch.stalled = f"free inflation ends: {yielding(last)}"
+        branch.ended = f"free inflation ends: {yielding(last)}"
+    elif last.monitors["u_max"] < u_end and branch.stalled is None:
+        branch.ended = f"{followed}: there the membrane is all but inextensible"
     elif last.monitors["u_max"] < u_end:
-        why = branch.stalled or "there the membrane is nearly inextensible"
-        branch.stalled = (
-            f"free inflation was followed up to u_max = {last.monitors['u_max']:.6g}, "
-            f"p = {last.state.loads['p']:.6g}: {why}"
-        )
+        branch.stalled = f"{followed}: {branch.stalled}"
     return branch
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import ceil, log2
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -16,6 +17,22 @@ class TubeNumerics(MeshNumerics):
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
 
 
+LONG = 16.0
+"""Length from which on the default meshes have more cells, in proportion. On the coarsest a bulge's edge, as
+wide as the tube, would fill less than a cell, and the pressure of a bulge that spreads would waver."""
+
+LONGEST_WHOLE = 30.0
+"""Length up to which the whole tube is solved: the force that holds a bulge in its middle falls exponentially
+with the length, and beyond that is too near to round-off for its branch to be told from its neighbours."""
+
+
+def resolving(lf: float, numerics: TubeNumerics) -> TubeNumerics:
+    """Default meshes with as many cells as a long tube needs; meshes that are asked for stay."""
+    if "cells" in numerics.model_fields_set or lf <= LONG:
+        return numerics
+    return numerics.model_copy(update={"cells": numerics.cells * 2 ** ceil(log2(lf / LONG))})
+
+
 class TubeParameters(MaterialChoice):
     """The tube and its substrate."""
 
@@ -23,13 +40,17 @@ class TubeParameters(MaterialChoice):
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")
-    lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
+    lf: float = Field(
+        6.0, ge=1, le=60, description=f"stretched length L_f/R_f; of extent = full up to {LONGEST_WHOLE:g}"
+    )
     k: float = Field(20.0, ge=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h_o)")
     s: float = Field(1.3, gt=1, le=20, description="substrate radius S/R_f")
     contact: Literal["none", "frictionless", "adhesive"] = Field("none", description="contact law")
     phase: Literal["inflation", "deflation"] = Field("inflation", description="loading phase")
     spring: Literal["bilateral", "unilateral"] = Field("bilateral", description="bond in deflation")
-    p_end: float = Field(3.0, gt=0, le=20, description="pressure at which constrained inflation ends")
+    p_end: float = Field(
+        3.0, gt=0, le=20, description="pressure at which inflation towards and in contact ends"
+    )
     u_end: float = Field(5.0, gt=0.05, le=10, description="u_max at which free inflation ends")
     extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
 

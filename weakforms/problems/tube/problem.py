@@ -8,13 +8,19 @@ from typing import ClassVar
 import numpy as np
 from mpi4py import MPI
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.branch_problem import Family, PathProblem
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
 from weakforms.problems.problem import Progress, Requests, check_requests, registry
 from weakforms.problems.tube.contact_family import contact_family
 from weakforms.problems.tube.model import TubeMesh, fold_line, formulation, free_branch
-from weakforms.problems.tube.parameters import TubeFoldParameters, TubeNumerics, TubeParameters
+from weakforms.problems.tube.parameters import (
+    LONGEST_WHOLE,
+    TubeFoldParameters,
+    TubeNumerics,
+    TubeParameters,
+    resolving,
+)
 from weakforms.solvers.continuation.branch import EquilibriumBranch, SolutionCurve
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -128,6 +134,12 @@ class Tube(PathProblem):
                 "tube: frictionless contact has no history, it deflates as it inflates; "
                 "phase = 'deflation' is allowed with contact = 'adhesive'"
             )
+        if parameters.extent == "full" and parameters.lf > LONGEST_WHOLE:
+            raise InputError(
+                f"tube: lf = {parameters.lf:g} with extent = 'full': nothing that can be computed holds a "
+                f"bulge in the middle of so long a tube; allowed: lf up to {LONGEST_WHOLE:g}, or "
+                "extent = 'half'"
+            )
         if parameters.contact != "none" and parameters.extent != "half":
             raise InputError("tube: contact is solved on the half tube; allowed: extent = 'half'")
 
@@ -146,6 +158,10 @@ class Tube(PathProblem):
         return {
             "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max")),
         }
+
+    def resolving(self, parameters: TubeParameters, numerics: TubeNumerics) -> TubeNumerics:
+        """More cells for long tubes."""
+        return resolving(parameters.lf, numerics)
 
     def points(self, parameters: TubeParameters) -> np.ndarray:
         """61 points over the body."""
@@ -168,6 +184,8 @@ def branch_maker(
         )
         system = System(formulation(comm, parameters.material, parameters.delta1, parameters.lf, at))
         branch = free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
+        if branch.ended is not None:
+            branch.ended = f"tube: {branch.ended}; lower u_end"
         if branch.stalled is not None:
             branch.stalled += f" (on {at.cells} cells); lower u_end, or raise cells if a solve failed"
         return branch
@@ -226,6 +244,10 @@ class TubeFold(PathProblem):
             "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("delta1", "u_max"))
         }
 
+    def resolving(self, parameters: TubeFoldParameters, numerics: TubeNumerics) -> TubeNumerics:
+        """More cells for long tubes."""
+        return resolving(parameters.lf, numerics)
+
     def points(self, parameters: TubeFoldParameters) -> np.ndarray:
         """61 points from the mid-plane to the disk."""
         return np.linspace(0, parameters.lf / 2, 61)
@@ -235,7 +257,8 @@ def _fold_start(parameters: TubeFoldParameters, has_limit_point: Callable[[float
     """Pre-stretch at which a fold line starts: 1, or else ``delta1_end``.
 
     Raises:
-        InputError: If there is no limit point; the message says which range was searched.
+        AbsentError: When no limit point is anywhere between; says what was searched.
+        InputError: When there is one between only.
     """
     low, high = 1.0, parameters.delta1_end
     for delta1 in (low, high):
@@ -248,10 +271,11 @@ def _fold_start(parameters: TubeFoldParameters, has_limit_point: Callable[[float
             f"tube_fold: no limit point at delta1 = 1 or delta1_end = {high:g}, where a fold line is begun; "
             f"there are some from delta1 = {inside[0]:.4g} to {inside[-1]:.4g}: set delta1_end to one"
         )
-    raise InputError(
+    raise AbsentError(
+        "fold line",
         f"tube_fold: no limit point of {_named(parameters.material)}, lf = {parameters.lf:g} up to "
         f"u_max = {parameters.u_end:g} at any of {SCANNED} pre-stretches from 1 to delta1_end = {high:g}: no "
-        f"fold line to follow; change the law or lf, or raise u_end or delta1_end (allowed: up to 10 and 5)"
+        f"fold line to follow; change the law or lf, or raise u_end or delta1_end (allowed: up to 10 and 5)",
     )
 
 

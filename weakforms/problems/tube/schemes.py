@@ -25,7 +25,6 @@ from dolfinx import fem
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import InputError
 from weakforms.forms.kinematics import tube_stretches
 from weakforms.forms.loads import gas_potential, substrate_potential
 from weakforms.forms.materials import mooney_rivlin
@@ -42,7 +41,8 @@ from weakforms.problems.problem import (
 from weakforms.problems.quantity_problem import solve_twice
 from weakforms.problems.tube.model import first_state
 from weakforms.problems.tube.problem import ENERGY, SCALES, SOURCE
-from weakforms.results import Result
+from weakforms.results import Absence, Result
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import Formulation, State, System
@@ -127,21 +127,35 @@ class FixedMesh:
 
     # -- the schemes ---------------------------------------------------------------------------
 
-    def touch(self) -> State:
-        """Free inflation to first touch."""
-        solver = ExtendedNewton(self.system, ["p"])
-        state, _ = first_state(solver, self.parameters.delta1)
-        for u in np.linspace(0.02, self.parameters.s - 1, 8):
-            state, _ = solver.solve(state, [Held("u_max", float(u))])
-        state.loads["k"] = self.parameters.k
-        return state
+    def touch(self) -> tuple[State, bool]:
+        """Free inflation to first touch or, where it is below that, to the last pressure; which of both."""
+        solver, given = ExtendedNewton(self.system, ["p"]), self.parameters
+        state, _ = first_state(solver, given.delta1)
+        passed: list[State] = []
+
+        def solve(before: State, u: float) -> State:
+            found, _ = solver.solve(before, [Held("u_max", u)])
+            if found.loads["p"] >= given.p_end:
+                passed.append(found)
+            return found
+
+        state = solve(state, 0.02)
+        state = walk(solve, state, 0.02, given.s - 1, abs(given.s - 1.02) / 7)
+        if state.loads["p"] >= given.p_end:
+            return solver.solve(passed[0], [Held("p", given.p_end)])[0], False
+        state.loads["k"] = given.k
+        return state, True
 
     def pressure_steps(self, state: State, steps: int, stick: bool) -> State:
         """Pressure steps from a state to the last pressure."""
         solver = ExtendedNewton(self.system, line_search="bt", max_iterations=60)
+
+        def solve(before: State, p: float) -> State:
+            return solver.solve(State(before.u, before.loads | {"p": p}))[0]
+
         for p in np.linspace(state.loads["p"], self.parameters.p_end, steps + 1)[1:]:
-            state.loads["p"] = float(p)
-            state, _ = solver.solve(state)
+            at = state.loads["p"]
+            state = walk(solve, state, at, float(p), float(p) - at)
             if stick:
                 touched = self.radial[state.u[self.radial] > self.parameters.s] + 1
                 self._hold(touched, state)
@@ -158,8 +172,8 @@ class FixedMesh:
                 break
             state = new
             self._hold(self.radial[: i + 1] + 1, state)
-        state, _ = solver.solve(state, [Held("p", self.parameters.p_end)])
-        return state
+        at, end = state.loads["p"], self.parameters.p_end
+        return walk(lambda before, p: solver.solve(before, [Held("p", p)])[0], state, at, end, abs(end - at))
 
     def _hold(self, dofs: np.ndarray, state: State) -> None:
         fresh = np.setdiff1d(dofs, self.system.bc_dofs)
@@ -207,20 +221,30 @@ class TubeScheme:
         """Run the scheme on two meshes (and numbers of steps); uncertainties assume first order."""
         alone = MPI.COMM_SELF if comm.size > 1 else comm
 
+        absent: list[Absence] = []
+
         def run(coarser: int) -> dict[str, float]:
-            return _run(alone, parameters, numerics.cells // coarser, numerics.steps // coarser)
+            cells, steps = numerics.cells // coarser, numerics.steps // coarser
+            return _run(alone, parameters, cells, steps, absent)
 
-        return solve_twice(self, parameters, numerics, comm, progress, run, order=1.0)
+        result = solve_twice(self, parameters, numerics, comm, progress, run, order=1.0)
+        result.absent.extend(absent[-1:])
+        return result
 
 
-def _run(comm: MPI.Intracomm, parameters: SchemeParameters, cells: int, steps: int) -> dict[str, float]:
+def _run(
+    comm: MPI.Intracomm, parameters: SchemeParameters, cells: int, steps: int, absent: list[Absence]
+) -> dict[str, float]:
+    """The quantities on one mesh; contact that is not there is noted in a list."""
     tube = FixedMesh.build(comm, parameters, cells)
-    state = tube.touch()
-    if state.loads["p"] >= parameters.p_end:
-        raise InputError(
-            f"tube_scheme: p_end = {parameters.p_end:g} is below first contact at "
-            f"p = {state.loads['p']:.6g}; raise p_end above it, or choose a smaller s"
+    state, touched = tube.touch()
+    if not touched:
+        reason = (
+            f"tube_scheme: p_end = {parameters.p_end:g} is reached before first contact; raise p_end "
+            "(allowed: up to 20) or choose a smaller s"
         )
+        absent.append(Absence("contact", reason))
+        return {"u_max": float(state.u[tube.radial[0]] - 1), "contact_length": 0.0}
     if parameters.scheme == "front_nodes":
         state = tube.front_nodes(state)
     else:

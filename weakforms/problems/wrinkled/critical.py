@@ -13,7 +13,9 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.fitted import PLACE, Membrane
 from weakforms.problems.wrinkled.model import TAUT, WRINKLED
+from weakforms.problems.wrinkled.start import WALK
 from weakforms.problems.wrinkled.state import Held, Touch
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 
 WRINKLED_RADIUS = 0.05
@@ -24,6 +26,15 @@ ROUND_OFF, GROWTH = 1e-12, 2e-3
 
 SEARCH, LAST = 0.05, 0.05
 """Step of the thickness ratio in the search for a threshold, and the ratio at which the search ends."""
+
+COMPRESSED = 1e-11
+"""How far from 1 the least ``gw`` counts: in the middle of a long membrane it is 1 to round-off."""
+
+SAMPLES = 801
+"""Places at which ``gw`` is looked at to find the least, and again around it."""
+
+NEAR, STEEP = 1e-3, 1.2
+"""Width in the ratio from which a threshold is solved for, and pre-stretch from which a first state is."""
 
 
 def critical_radii(
@@ -61,11 +72,14 @@ def threshold(
     degree: int,
     towards: int,
     material: Chosen | None = None,
-) -> tuple[Estimate, Estimate]:
-    """Thickness ratio ``M`` beyond which the unloaded membrane wrinkles, and the first wrinkled point.
+) -> dict[str, Estimate]:
+    """Thickness ratio ``M`` beyond which the unloaded membrane wrinkles, and where it does first, ``Z``.
 
-    It solves ``min gw = 1`` for the taut state: ``gw = 1`` and ``gw' = 0`` at a point of the mesh; this point
-    and ``M`` are unknowns.
+    The root of ``min gw = 1`` on the wholly taut state: ``gw = 1`` at an end, or ``gw = 1`` and ``gw' = 0``
+    at a point of the mesh that is an unknown, as ``M`` is. In a long membrane ``gw`` may be so level that no
+    such point is found: then ``M`` alone, from between the last ratio that is taut beyond round-off and the
+    first that is not. Between wide disks a short membrane is taut at every ratio: then the last ratio looked
+    at, ``M_taut``, and the least ``gw`` there, ``gw_min``.
 
     Args:
         comm: Ranks.
@@ -76,34 +90,94 @@ def threshold(
         material: A law that replaces the Mooney-Rivlin law.
 
     Raises:
-        ConvergenceError: If the membrane is taut, or wrinkled, in the whole range of the search.
+        ConvergenceError: When the membrane of uniform thickness is wrinkled, or a step does not converge.
     """
     membrane = Membrane(comm, CYLINDER, {**values, "M": 1.0}, False, cells, degree, "relaxed", (), material)
-    held = _first_wrinkled(membrane, len(cells) - 1, towards)
-    s = np.linspace(0.0, membrane.length, 801)
+    held, taut = _first_wrinkled(membrane, len(cells) - 1, towards)
+    beyond = held.state.loads["M"]
+    if _least(held) >= 1 - COMPRESSED:
+        found = [_least(membrane.fit(k, held, held.zones, (), free=(), same=True)) for k in range(len(cells))]
+        exact = np.array(0.0)
+        return {"M_taut": Estimate(np.array(beyond), exact, exact), "gw_min": estimate(found, degree)}
+    try:
+        return _touching(membrane, held, degree)
+    except ConvergenceError:
+        middle, half = (taut + beyond) / 2, abs(taut - beyond) / 2
+        return {"M": Estimate(np.array(middle), np.array(half), np.array(0.0))}
+
+
+def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate]:
+    """The threshold and its place, from a state close by."""
+    s = np.linspace(0.0, membrane.length, SAMPLES)
     place = float(s[np.argmin(held.sampled(s)["gw"])])
-    found = []
-    for level in reversed(range(len(cells))):
-        touch = Touch(place, at_end=False)
+    at_end = place in (0.0, membrane.length)
+    if not at_end:
+        s = place + np.linspace(-1.0, 1.0, SAMPLES) * membrane.length / (SAMPLES - 1)
+        place = float(s[np.argmin(held.sampled(s)["gw"])])
+    found, levels = [], range(len(membrane.meshes))
+    for level in reversed(levels):
+        touch = Touch(place, at_end)
         held = membrane.fit(level, held, held.zones, (), free=("M",), touch=touch, same=bool(found))
         place = held.touched
         found.append((held.state.loads["M"], place))
     thickness, places = zip(*reversed(found), strict=True)
-    place = estimate(list(places), 2 * degree)
-    place = replace(place, uncertainty=place.uncertainty + PLACE)
+    where = estimate(list(places), 2 * degree)
+    where = replace(where, uncertainty=where.uncertainty + PLACE)
     ratio = estimate(list(thickness), 2 * degree)
-    return replace(ratio, uncertainty=ratio.uncertainty + ROUND_OFF / GROWTH), place
+    return {"M": replace(ratio, uncertainty=ratio.uncertainty + ROUND_OFF / GROWTH), "Z": where}
 
 
-def _first_wrinkled(membrane: Membrane, level: int, towards: int) -> Held:
-    """The taut state at the first thickness ratio at which it is compressed somewhere."""
-    held, ratio = membrane.unloaded(level, TAUT), 1.0
-    if held.put().extreme("gw", -1) <= 1.0:
+def _least(held: Held) -> float:
+    return held.put().extreme("gw", -1)
+
+
+def _first_wrinkled(membrane: Membrane, level: int, towards: int) -> tuple[Held, float]:
+    """The taut state at a thickness ratio just beyond the threshold, or at the last ratio.
+
+    Returns:
+        The state, and the last ratio at which the membrane is taut beyond round-off.
+
+    Taut states of uniform thickness are followed from a cylinder in uniaxial tension, whose radius is
+    ``delta^(-1/2)``, to the disks' radius and the pre-stretch, and from there over the ratio.
+    """
+    values = membrane.values
+    radius, delta = values["Af"], values["delta"]
+    values["delta"] = max(delta, STEEP)
+    values["Af"] = min(radius, natural_radius(values["delta"]))
+    held = membrane.unloaded_from(level, TAUT, None)
+    held = _walked(membrane, level, held, "Af", radius, WALK)
+    held = _walked(membrane, level, held, "delta", delta, SEARCH)
+    if _least(held) < 1 - COMPRESSED:
         raise ConvergenceError("the membrane of uniform thickness is not taut: there is no threshold")
-    while held.put().extreme("gw", -1) > 1.0:
-        ratio += towards * SEARCH
-        if not LAST < ratio < 2 - LAST:
-            raise ConvergenceError(f"the membrane is taut for every M from 1 to {ratio:.3g}")
-        membrane.values["M"] = ratio
-        held = membrane.unloaded_from(level, TAUT, held)
-    return held
+    last, step, clear = 1 + towards * (1 - LAST), towards * SEARCH, 1.0
+    while values["M"] != last:
+        taut, at = held, values["M"]
+        goal = last if abs(last - at) < 1.5 * abs(step) else at + step
+        held = _walked(membrane, level, taut, "M", goal, SEARCH)
+        if _least(held) > 1 + COMPRESSED:
+            clear = goal
+        if _least(held) >= 1 - COMPRESSED:
+            continue
+        if abs(step) < NEAR:
+            break
+        step /= 4
+        held, values["M"] = taut, at
+    return held, clear
+
+
+def natural_radius(delta: float) -> float:
+    """Radius over that undeformed of an incompressible cylinder in uniaxial tension."""
+    return delta**-0.5
+
+
+def _walked(membrane: Membrane, level: int, held: Held, name: str, goal: float, step: float) -> Held:
+    """The taut state with one parameter at a goal, by steps that shorten where they do not converge."""
+
+    def solve(before: Held, value: float) -> Held:
+        membrane.values[name] = value
+        return membrane.unloaded_from(level, TAUT, before)
+
+    try:
+        return walk(solve, held, membrane.values[name], goal, step)
+    except ConvergenceError as error:
+        raise ConvergenceError(f"{name} of the taut membrane: {error}") from error

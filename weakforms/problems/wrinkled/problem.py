@@ -45,6 +45,7 @@ LOAD_END = {"fluid": 16.0, "gas": 0.6}
 SCALES = {
     "length": "Ao, undeformed radius",
     "M": "thickness at the lower end over its mean h (2 - M at the upper end)",
+    "M_taut": "thickness ratio M up to which, from 1 on, the unloaded membrane is taut: it wrinkles at none",
     "delta": "axial pre-stretch L_f/L_o",
     "c2": "C2/C1",
     "C1": "for another model the stress S by which its constants are divided (weakforms show material)",

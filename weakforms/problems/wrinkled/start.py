@@ -15,6 +15,7 @@ from weakforms.problems.wrinkled.body import Body
 from weakforms.problems.wrinkled.fields import Zones, zones
 from weakforms.problems.wrinkled.model import BY_STATE, DRY, TAUT, WRINKLED, WrinkledModel
 from weakforms.problems.wrinkled.state import BLOCKS, Held, Mesh, Touch, model_on, solver_of
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord
 from weakforms.solvers.equilibrium.system import State
 
@@ -33,7 +34,7 @@ VERGE, VERGE_FITTED = 1e-7, 1e-10
 """Deviation of ``gw`` from 1 that counts as zero, on a plain mesh and on a fitted mesh."""
 
 WALK = 0.1
-"""Largest step of a parameter on the way from an easy membrane to the requested one."""
+"""Largest step of a parameter on the way from an easy membrane to the one wanted."""
 
 
 class PlainMembrane:
@@ -113,19 +114,19 @@ class PlainMembrane:
         return self.values.get("delta", 1.0) ** -0.5
 
     def _widened(self, load: float) -> tuple[State, SolveRecord]:
-        """The state for large disks, from disks at which the unloaded membrane has its natural width."""
-        goal, low = self.values["Af"], self._easy_radius
-        steps = int(np.ceil((goal - low) / WALK))
+        """The state of wide disks, from disks that leave the unloaded membrane its natural width."""
+        goal, at = self.values["Af"], self._easy_radius
         try:
-            self.values["Af"] = low
+            self.values["Af"] = at
             state, record = self._by_homotopy(load)
         finally:
             self.values["Af"] = goal
         solver = solver_of(self.plain_model, ())
-        for radius in np.linspace(low, goal, steps + 1)[1:]:
-            state.loads["Af"] = float(radius)
-            state, record = solver.solve(state)
-        return state, record
+
+        def widened(before: tuple[State, SolveRecord], radius: float) -> tuple[State, SolveRecord]:
+            return solver.solve(State(before[0].u, before[0].loads | {"Af": radius}))
+
+        return walk(widened, (state, record), at, goal, WALK)
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)

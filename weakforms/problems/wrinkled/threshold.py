@@ -8,17 +8,21 @@ from typing import ClassVar
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.problem import Progress, Requests, check_requests, registry, silent
-from weakforms.problems.wrinkled.critical import threshold
+from weakforms.problems.wrinkled.critical import natural_radius, threshold
 from weakforms.problems.wrinkled.problem import ENERGY, SCALES, SOURCE, WrinkledNumerics, quantity
 from weakforms.results import Failure, Result
 from weakforms.solvers.support.provenance import provenance
 
 
 class ThresholdParameters(MaterialChoice):
-    """Unloaded membrane with disks attached before stretching."""
+    """Unloaded membrane whose disks were attached before it was stretched.
+
+    Disks no wider than the natural radius of the stretched membrane, ``Af <= delta^(-1/2)``, hold none that
+    is taut at uniform thickness; there is no threshold to look for then.
+    """
 
     ratio: ClassVar[str] = "c2"
 
@@ -43,12 +47,26 @@ class WrinkledTubeThreshold:
     columns = ()
     special_points = ()
     branches = ("primary",)
-    control: ClassVar[str] = "none; the quantity M is the root of min gw = 1 at zero load, Z its position"
+    control: ClassVar[str] = (
+        "none; the quantity M is the root of min gw = 1 at zero load, Z where it is reached; a membrane that "
+        "is taut at every ratio looked at has M_taut, the last of them, and gw_min there instead"
+    )
 
     def check(self, parameters: ThresholdParameters, requests: Requests) -> None:
-        """Refuse requests for states, because there is only the unloaded one."""
+        """Refuse states (there is only the unloaded one), and disks between which no membrane is taut.
+
+        Raises:
+            InputError: For these, or a law without a form.
+        """
         check_requests(self, requests)
         require_foldable(self.name, parameters, waves=False)
+        natural = natural_radius(parameters.delta)
+        if parameters.Af <= natural:
+            raise InputError(
+                f"{self.name}: Af = {parameters.Af:g} with delta = {parameters.delta:g}: the membrane of "
+                "uniform thickness is not taut, and there is no threshold; allowed: Af above "
+                f"delta^(-1/2) = {natural:.6g}"
+            )
 
     def solve(
         self,
@@ -58,7 +76,11 @@ class WrinkledTubeThreshold:
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Solve for the threshold ``M`` and the point ``Z`` where the membrane wrinkles first."""
+        """The threshold ``M`` and the place ``Z`` where the membrane wrinkles first.
+
+        Where it wrinkles at no ratio: the last one looked at, ``M_taut``, and the least ``gw`` there,
+        ``gw_min``.
+        """
         begun = time.perf_counter()
         progress("threshold", 0, 1)
         result = Result(
@@ -73,7 +95,7 @@ class WrinkledTubeThreshold:
             side = 1 if parameters.upper else -1
             mesh = numerics.meshes, numerics.degree
             found = threshold(comm, values, *mesh, side, parameters.other_law)
-            result.quantities |= {name: quantity(one) for name, one in zip("MZ", found, strict=True)}
+            result.quantities |= {name: quantity(one) for name, one in found.items()}
         except ConvergenceError as error:
             result.failures.append(Failure("threshold", str(error)))
         result.provenance = provenance(comm, time.perf_counter() - begun)

@@ -48,8 +48,11 @@ class SolutionCurve:
 
     Attributes:
         points: The converged points in order.
-        stalled: The reason why the trace ended early; ``None`` if it did not.
+        stalled: Why the trace ended early; ``None`` if it did not.
+        ended: Why there is no more to trace, such as a law that gives way; ``None`` if that is not so.
     """
+
+    ended: str | None = None
 
     def __init__(
         self,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from weakforms.errors import InputError
-from weakforms.results import Branch, Failure, Quantity, SpecialPoint, State
+from weakforms.results import Absence, Branch, Failure, Quantity, SpecialPoint, State
 from weakforms.solvers.uncertainty.family import KINDS, BranchFamily
 
 
@@ -24,13 +24,24 @@ class PiecewiseFamily:
     """Consecutive parts combined into one branch: columns joined, special points and crossings in order.
 
     Args:
-        pieces: The parts in their order along the branch.
-        joints: Special points between the parts, one for each joint.
+        pieces: In the order in which the branch runs through them.
+        joints: Special points at which a piece ends and the next begins, one a joint.
+        absent: What was asked for and is not there, such as contact.
     """
 
-    def __init__(self, pieces: Sequence[Piece], joints: Callable[[], Sequence[SpecialPoint]] = tuple) -> None:
-        self.pieces, self._joints = list(pieces), joints
+    def __init__(
+        self,
+        pieces: Sequence[Piece],
+        joints: Callable[[], Sequence[SpecialPoint]] = tuple,
+        absent: Sequence[Absence] = (),
+    ) -> None:
+        self.pieces, self._joints, self._absent = list(pieces), joints, absent
         self.name = self.pieces[0].family.name
+
+    @property
+    def absent(self) -> list[Absence]:
+        """What was asked for and is not there, of the whole and of all pieces."""
+        return [*self._absent, *(item for piece in self.pieces for item in piece.family.absent)]
 
     @property
     def failures(self) -> list[Failure]:

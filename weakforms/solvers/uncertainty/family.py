@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.continuation.branch import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.stability.spectra import Spectrum, Stability
 from weakforms.solvers.support.provenance import quadrature_degree
@@ -82,6 +82,8 @@ class BranchFamily:
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
         self.failures: list[Failure] = []
+        ended = self.fine.ended
+        self.absent: list[Absence] = [Absence(f"rest of branch {name}", ended)] if ended else []
         self._located: list[tuple[Solved, ...]] | None = None
         self._samplers: dict[tuple[int, bytes], Sampler] = {}
         stalled = [level.stalled for level in self.levels if level.stalled]

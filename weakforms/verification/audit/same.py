@@ -135,6 +135,8 @@ def differences(first: Result, second: Result) -> list[Difference]:
     of, a, b = scales(first, second), numbers(first), numbers(second)
     found = [_difference(a.get(place), b.get(place), of) for place in dict.fromkeys([*a, *b])]
     failed = [[f"failure: {item.what}" for item in result.failures] for result in (first, second)]
+    for names, result in zip(failed, (first, second), strict=True):
+        names += [f"not there: {item.what}" for item in result.absent]
     for what in sorted(set(failed[0]) ^ set(failed[1])):
         found.append(Difference(what, float(what in failed[0]), float(what in failed[1]), np.inf))
     return sorted(found, key=lambda difference: -difference.relative)

@@ -27,7 +27,7 @@ from weakforms.forms.wrinkling import metric, principal_stretches, tension_field
 from weakforms.problems.branch_problem import Family, MeshNumerics, PathProblem
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.problem import Progress, Requests, check_requests, registry
-from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.uncertainty.refinement import estimate
 
@@ -106,6 +106,7 @@ class PatchFamily:
 
     name = "primary"
     failures: Sequence[Failure] = ()
+    absent: Sequence[Absence] = ()
 
     def __init__(self, parameters: PatchParameters, numerics: PatchNumerics) -> None:
         self._given, self._cap = parameters, 2 * numerics.degree

@@ -26,6 +26,7 @@ NAME = "audit.json"
 
 STATUSES = {
     "answered": "everything was solved for",
+    "not there": "everything was solved for, and a part of what was asked for is shown not to be there",
     "in part": "a result that lists failures",
     "refused": "refused with a message while it was solved",
     "not converged": "no result: a solve did not converge",
@@ -33,6 +34,9 @@ STATUSES = {
     "too slow": "ended at the limit of time",
 }
 """Outcomes of a set of parameters, the best first."""
+
+ANSWERS = ("answered", "not there")
+"""Those that are answers in whole."""
 
 
 @dataclass(frozen=True)
@@ -79,8 +83,8 @@ class Row:
 
     @property
     def share(self) -> float:
-        """Fraction of the sets that were answered completely."""
-        return self.counts["answered"] / self.total
+        """Of sets answered in whole."""
+        return sum(self.counts[status] for status in ANSWERS) / self.total
 
 
 @dataclass
@@ -110,15 +114,17 @@ class AuditRun:
 
     @property
     def missed(self) -> list[Draw]:
-        """Sets that were not answered completely."""
-        return [draw for draw in self.draws if draw.status != "answered"]
+        """Sets that were not answered in whole."""
+        return [draw for draw in self.draws if draw.status not in ANSWERS]
 
     @property
     def headline(self) -> str:
         """One sentence about the whole audit."""
         good, total = len(self.draws) - len(self.missed), len(self.draws)
         share = f" ({good / total:.1%})" if total else ""
-        return f"{good} of {plural(total, 'set')} of parameters answered{share}, seed {self.seed}"
+        bare = sum(draw.status == "not there" for draw in self.draws)
+        without = f", {bare} of them by what is not there" if bare else ""
+        return f"{good} of {plural(total, 'set')} of parameters answered{share}{without}, seed {self.seed}"
 
     def to_json(self) -> dict[str, Any]:
         """JSON object of schema ``weakforms.audit/1``."""

@@ -106,7 +106,8 @@ def classified(
         return "too slow", (f"it did not end within {limit:g} s",)
     failures = tuple(f"{item['what']}: {item['reason']}" for item in result.get("failures", []))
     if code == 0 and result and not failures:
-        return "answered", ()
+        absent = tuple(f"{item['what']}: {item['reason']}" for item in result.get("absent", []))
+        return ("not there" if absent else "answered"), absent
     if code == 3 and failures:
         return "in part", failures
     if code in (2, 3) and not result:
