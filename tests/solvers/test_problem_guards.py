@@ -232,7 +232,10 @@ def test_a_ring_periodic_state_that_is_none_of_the_whole_surface(residual, monke
     told = bare(triangles.SurfaceRun, rings=True, control="zw")
     told._subspace = SimpleNamespace(solve=always((None, None)))
     told.system = SimpleNamespace(residual=lambda: np.array([residual]), dot=np.dot)
-    words = f"zw = 2: the ring-periodic equilibrium is not one of the whole surface, its residual is {residual:.1e}"
+    words = (
+        "zw = 2: the ring-periodic equilibrium is not one of the whole surface, "
+        f"its residual is {residual:.1e}"
+    )
     refused(words, told._point, 2.0, None)
 
 
