@@ -14,7 +14,7 @@ from weakforms.problems.wrinkled.fitted import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
-from weakforms.results import Branch, Failure, SpecialPoint, State
+from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
 from weakforms.solvers.continuation.branch import DIAGNOSTICS, FittedBranch, SolutionCurve, Solved
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium import constraints as fixed
@@ -88,6 +88,11 @@ class WrinkledBranch:
         state, _ = self.membrane.by_homotopy(0.0)
         unloaded = fixed.Held(self.control, 0.0)
         return continuation.start(state, unloaded, towards={self.control: 1.0})
+
+    @property
+    def absent(self) -> list[Absence]:
+        """Nothing: a branch of any membrane begins without load, and ends where it was asked to."""
+        return []
 
     @property
     def failures(self) -> list[Failure]:
