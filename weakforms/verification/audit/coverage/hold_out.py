@@ -13,7 +13,7 @@ from dataclasses import replace
 from weakforms.problems import registry
 from weakforms.verification.audit.coverage.families import BLOCKS, FAMILIES, LINE, MORE, Family
 
-SEED = 94298
+SEED = 20261123
 
 WIDER = 1.5
 """Width of a range over that of the tuned set."""
