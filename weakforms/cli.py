@@ -423,6 +423,32 @@ def audit(
 
 
 @app.command()
+def coverage(
+    families: Annotated[
+        list[str] | None,
+        typer.Option("--family", metavar="NAME", help="Only this family; may be repeated."),
+    ] = None,
+    sets: Annotated[int, typer.Option(min=1, max=256, help="Sets of parameters a family.")] = 2,
+    held: Annotated[
+        bool, typer.Option("--hold-out", help="Other sets, over wider ranges, which no rule was tuned on.")
+    ] = False,
+    out: Out = Path("out"),
+    resume: Resume = False,
+    as_json: Json = False,
+) -> None:
+    """Hold stated uncertainties against true errors, over the tuned sets or those held out."""
+    from weakforms.verification.audit.coverage.verb import coverage_verb
+
+    try:
+        status = coverage_verb(families or [], sets, held, out, resume, as_json, console())
+    except KeyboardInterrupt:
+        complain("interrupted; the same with --resume goes on from what is known")
+        raise typer.Exit(130) from None
+    if status:
+        raise typer.Exit(status)
+
+
+@app.command()
 def docs(
     jobs: Jobs,
     out: Annotated[Path, typer.Option("--out", help="Folder for the pages.")] = Path("out/docs"),

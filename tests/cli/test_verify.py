@@ -19,7 +19,15 @@ from weakforms.verification.cases.specs import tube
 from weakforms.verification.run import runner, solving
 from weakforms.verification.run.effort import Effort
 
-PAGES = {"audit.html", "faults.html", "index.html", "junit.xml", "paper2.html", "report.json"}
+PAGES = {
+    "audit.html",
+    "coverage.html",
+    "faults.html",
+    "index.html",
+    "junit.xml",
+    "paper2.html",
+    "report.json",
+}
 
 TINY = '''"""Two short branches."""
 from weakforms import At, Axis, Case, Claim, Curve, Panel, tube

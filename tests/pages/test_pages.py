@@ -28,9 +28,17 @@ def words(*readers: Reader) -> str:
 
 def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder):
     assert [name for name, reader in readers.items() if reader.open] == []
-    expected = {"index.html", "audit.html", "faults.html", "junit.xml", "report.json", "shapes"}
+    expected = {
+        "index.html",
+        "audit.html",
+        "coverage.html",
+        "faults.html",
+        "junit.xml",
+        "report.json",
+        "shapes",
+    }
     assert expected | {"paper2.html"} < set(os.listdir(folder))
-    assert len(os.listdir(folder)) == 8, "and one page for the hostile group"
+    assert len(os.listdir(folder)) == 9, "and one page for the hostile group"
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
 
 
@@ -115,7 +123,15 @@ def test_close_numbers_are_told_apart(pages):
 def test_groups_have_pages_of_their_own():
     names = ("paper2.fig02", "materials.laws", "closed_form.sphere", "index", "a:b.c", "A B.c", "A-B.d")
     pages = render(sample(*(CaseOutcome(name, "T", "S", "", "passed", [verdict("x")]) for name in names)))
-    known = {"audit.html", "index.html", "faults.html", "paper2.html", "materials.html", "closed_form.html"}
+    known = {
+        "audit.html",
+        "coverage.html",
+        "index.html",
+        "faults.html",
+        "paper2.html",
+        "materials.html",
+        "closed_form.html",
+    }
     known |= {"index-2.html"}
     assert set(pages) == {*known, "a-b.html", "A-B.html", "A-B-2.html"}
     assert 'href="materials.html#materials.laws"' in pages["index.html"]

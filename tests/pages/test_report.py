@@ -102,7 +102,16 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
     write_report(sample(passing_case()), tmp_path)
     assert {"paper2.html", "shapes"} < set(os.listdir(tmp_path))
     write_report(sample(), tmp_path)
-    left = {"audit.html", "faults.html", "index.html", "junit.xml", "mine.html", "report.json", "shapes"}
+    left = {
+        "audit.html",
+        "coverage.html",
+        "faults.html",
+        "index.html",
+        "junit.xml",
+        "mine.html",
+        "report.json",
+        "shapes",
+    }
     assert set(os.listdir(tmp_path)) == left
     assert os.listdir(tmp_path / "shapes") == []
 

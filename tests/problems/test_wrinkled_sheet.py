@@ -6,6 +6,7 @@ import pytest
 
 from weakforms import solve
 from weakforms.errors import InputError
+from weakforms.problems.wrinkled import critical
 
 pytestmark = pytest.mark.paper4
 COARSE = {"cells": 6, "levels": 2}
@@ -29,6 +30,16 @@ def test_thresholds_mirror_each_other():
     assert below["M"].value == pytest.approx(0.7351817, abs=1e-6)
     assert below["M"].value + above["M"].value == pytest.approx(2, abs=1e-7)
     assert below["Z"].value + above["Z"].value == pytest.approx(8, abs=1e-5)
+
+
+def test_round_off_counts_for_more_where_the_least_gw_hardly_changes(monkeypatch):
+    """The rate of the least ``gw`` at the threshold, 9.5e-4 here, is that of this membrane."""
+    spread = []
+    for left in (0.0, 1e-6):
+        monkeypatch.setattr(critical, "ROUND_OFF", left)
+        found = solve("wrinkled_tube_threshold", delta=1.5, numerics=COARSE).quantities
+        spread.append(found["M"].uncertainty)
+    assert spread[1] - spread[0] == pytest.approx(1e-6 / 9.54e-4, rel=0.02)
 
 
 def test_a_membrane_that_wrinkles_at_no_thickness_ratio_is_told_by_how_far_it_is_taut():

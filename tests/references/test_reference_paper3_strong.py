@@ -124,6 +124,25 @@ def test_a_column_on_which_the_methods_differ_is_not_written():
         both.paired("t", "V", (fine + 1e-7, fine), (fine + 1.1e-6, fine + 1e-6))
 
 
+def test_nets_of_the_least_stretched_tubes_resolve_the_bend_over_the_lower_ring():
+    """With six elements of degree 17 along the meridian the volume is 1.2e-7 off, and waves do not help."""
+    tube = FluidTube(8, 1.5)
+    shape = secondary.start(tube)[1]
+    guess = branch.injected(shape, OFFSET, Grid(Elements(12, 0, 10, 1.0), 10, 36))
+    volume = states.quantities(galerkin.newton(guess, OFFSET))["V"]
+    few = [(wet, dry, degree, 12) for wet, dry, degree, _ in both.chosen(tube)]
+    for sizes in (few, both.SLOPE_NETS):
+        fine = both.balanced(guess, OFFSET, sizes)[1]
+        assert balance.quantities(fine)["V"] == pytest.approx(volume, abs=2e-9)
+
+
+def test_extrapolation_that_does_not_converge_is_not_written():
+    full, fewer, least = (np.array([1.0, 2.0]) + e for e in (1e-9, 1e-8, 5e-8))
+    assert secondary.remainder("t", full, fewer, least) == pytest.approx(9e-9)
+    with pytest.raises(RuntimeError, match="t: a state more changes it by"):
+        secondary.remainder("t", full, fewer, np.array([1.0, 2.0]) + 2e-8)
+
+
 def test_what_newton_leaves_is_far_below_what_is_allowed_for(pair, monkeypatch):
     """``LEFT`` compares with the same states after iterations until steps are a hundred times smaller."""
     monkeypatch.setattr(galerkin, "CONVERGED", 2e-12)
@@ -164,6 +183,7 @@ def test_tables_of_the_branch_are_made_by_both_methods(monkeypatch):
     monkeypatch.setattr(secondary, "LEVELS", {TUBE: (7.85, 7.89)})
     monkeypatch.setattr(branch, "GRIDS", ((6, 3, 6, 9), (7, 3, 6, 11), (8, 3, 7, 12), (8, 3, 8, 12)))
     monkeypatch.setattr(both, "STEEP_NETS", ((4, 3, 10, 10), (5, 3, 11, 12)))
+    monkeypatch.setattr(both, "SLOPE_NETS", ((5, 3, 10, 8), (6, 3, 11, 10)))
     monkeypatch.setattr(secondary, "SLOPE_OFFSETS", np.array([0.04, 0.06, 0.08]))
     monkeypatch.setattr(secondary, "SLOPE_GRIDS", ((6, 3, 7, 8), (7, 3, 8, 10)))
     for cached in (branch.grid, secondary.start, secondary.followed, secondary.on_levels):

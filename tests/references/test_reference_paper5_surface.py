@@ -7,6 +7,7 @@ import pytest
 
 from reference_data.solvers.core.tables import Array
 from reference_data.solvers.paper5 import bloch as blo
+from reference_data.solvers.paper5 import bloch_metric as met
 from reference_data.solvers.paper5.waves.cylinder import FLUID
 
 pytestmark = pytest.mark.paper5
@@ -118,3 +119,66 @@ def test_critical_wave_number_is_a_quarter_of_the_sectors():
     assert all(abs(n - 48 / 4) < 5 for n in found)
     other = blo.newton(replace(mesh, flipped=True), blo.from_profile(mesh, 5.2), 5.2).unstable()
     assert other == found
+
+
+OTHERS = [
+    *MESHES,
+    blo.Polyhedron(FLUID, 8, 6, rule="nodes"),
+    blo.Polyhedron(FLUID, 8, 6, rule="nodes", potential="volume"),
+]
+
+
+def bent_rings(mesh: blo.Polyhedron) -> Array:
+    """Rings' nodes off equilibrium, turned and shifted, wrinkled and taut, wet and dry."""
+    rng = np.random.default_rng(2)
+    nodes = blo.from_profile(mesh, LEVEL)
+    return nodes + 0.03 * rng.standard_normal(nodes.shape)
+
+
+@pytest.mark.parametrize("mesh", OTHERS)
+def test_both_codes_have_the_same_energy(mesh):
+    """Elastic part and load apart, gradient and second derivative, at positions that are no equilibrium."""
+    sector, nodes = met.Sector(mesh), bent_rings(mesh)
+    # by corners, in an order of triangles of each code's own: sums over rings compare
+    x, y = mesh.points(nodes), sector.corners(nodes)
+    elastic, hessian = mesh.elastic(x)
+    own, bend = sector.elastic(y)
+    liquid = mesh.load_gradient(x, LEVEL)
+    other, _ = sector.load(y, LEVEL)
+    for first, second in (
+        (elastic.reshape(-1, 3, 3), np.einsum("an,tai->tni", met.EDGES, own)),
+        (liquid, other),
+    ):
+        assert np.abs(second).max() > 0.01
+        assert ringwise(mesh.corners[0], first) == pytest.approx(ringwise(sector.ring, second), abs=1e-12)
+    traces = np.einsum("tkk->t", hessian), np.einsum("an,taibi,bn->t", met.EDGES, bend, met.EDGES)
+    assert np.sort(traces[0]) == pytest.approx(np.sort(traces[1]), rel=1e-12)
+    gradient, local = mesh.local(nodes, LEVEL)
+    force, bands = sector.assembled(nodes, LEVEL)
+    assert force == pytest.approx(mesh.residual(gradient), abs=1e-12)
+    assert bands == pytest.approx(mesh.bands(local), abs=1e-11)
+
+
+def ringwise(ring: Array, values: Array) -> Array:
+    """Lengths of the sums of (triangles, corners, 3) over the corners on each ring and triangles there."""
+    out = np.zeros((ring.max() + 1, 1))
+    np.add.at(out, ring, np.sum(values**2, axis=-1, keepdims=True))
+    return out
+
+
+def test_both_codes_find_the_same_end():
+    mesh = blo.Polyhedron(FLUID, 60, 48)
+    start = blo.from_profile(mesh, 5.14)
+    found, n = met.change(met.Sector(mesh), start, 5.142, 5.144, 1e-9)
+    assert found == pytest.approx(5.14293044537, abs=2e-9)
+    assert n == 11
+    for level, unstable in ((found - 2e-9, []), (found + 2e-9, [n])):
+        assert blo.newton(mesh, start, level).unstable() == unstable
+
+
+def test_no_change_is_found_where_there_is_none():
+    mesh = blo.Polyhedron(FLUID, 60, 48)
+    start = blo.from_profile(mesh, 5.14)
+    for ends in ((5.130, 5.140), (5.144, 5.142)):
+        with pytest.raises(RuntimeError, match="no change of stability"):
+            met.change(met.Sector(mesh), start, *ends, 1e-9)

@@ -12,10 +12,12 @@ import pytest
 from weakforms import solve
 from weakforms.api import solve_requests
 from weakforms.problems.problem import StateRequest
-from weakforms.verification.audit.coverage import Judged, judged, statistics
-from weakforms.verification.audit.coverage_families import FAMILIES, QUICK, WIDE, Family
-
-RATE, MOST = 0.95, 30.0
+from weakforms.problems.tube import contact, contact_family
+from weakforms.problems.wrinkled import fitted
+from weakforms.verification.audit.coverage.families import FAMILIES, QUICK, WIDE, Family
+from weakforms.verification.audit.coverage.judged import Judged, judged, solved, statistics
+from weakforms.verification.audit.coverage.outcome import MOST, RATE
+from weakforms.verification.audit.same import numbers
 
 
 def checked(found: list[Judged]) -> None:
@@ -25,7 +27,9 @@ def checked(found: list[Judged]) -> None:
     ]
     assert outside == []
     assert np.mean([item.within for item in found]) >= RATE
-    wide = {f"{row.family}, {row.kind}": row.largest for row in statistics(found) if row.largest > MOST}
+    wide = {
+        f"{row.family}, {row.kind}": row.largest for row in statistics(found) if (row.largest or 0) > MOST
+    }
     assert wide == {}
 
 
@@ -70,6 +74,53 @@ def test_an_uncertainty_does_not_depend_on_what_else_is_asked():
     bare, full = (StateRequest("u_max", 1.5, profile=profile) for profile in (None, (0.3,)))
     states = solve_requests("tube", given, family.coarse, [bare, full], branch_uncertainty=False).states
     assert states[0].quantities["p"] == states[1].quantities["p"]
+
+
+# -- constants: what is left where no mesh shows it (docs/reference-methods.md) --------------------
+
+
+def moved(name: str, numerics: dict, module: object, constant: str, value: float) -> dict[str, float]:
+    """How far each number is moved, of itself or of 1, when a constant of the method has another value."""
+    family, found = named(name), []
+    given = family.sets(1)[0]
+    for one in (getattr(module, constant), value):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(module, constant, one)
+            found.append(numbers(solved(family, given, numerics)))
+    out: dict[str, float] = {}
+    for place, number in found[0].items():
+        if not place.startswith("branch") and number.name not in ("n_negative",):
+            size = max(1.0, float(np.abs(number.values).max()))
+            change = float(np.abs(number.values - found[1][place].values).max()) / size
+            out[number.name] = max(change, out.get(number.name, 0.0))
+    return out
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["tube, adhesive", "tube, deflation"])
+def test_terms_left_out_of_the_stuck_patchs_series(name):
+    """Eight terms more on every mesh; ``f_t`` is a second derivative beside the front."""
+    change = moved(name, named(name).coarse, contact_family, "FIRST_TERMS", contact_family.FIRST_TERMS + 8)
+    assert change.pop("f_t") <= 5e-6
+    assert max(change.values()) <= contact_family.SERIES.size
+
+
+@pytest.mark.slow
+def test_what_quadrature_leaves_of_the_kink_of_a_unilateral_spring():
+    """Four times as many points; columns with orders of their own, and two beside the kink, apart."""
+    name = "tube, unilateral"
+    change = moved(name, named(name).coarse, contact, "UNILATERAL_QUADRATURE", 640)
+    apart = {*contact_family.KINKED, *contact_family.SECOND, *contact_family.TRACES, "t2"}
+    beside = {column: change.pop(column) for column in ("kappa", "t2_min")}
+    assert max(beside.values()) <= 3e-7
+    assert max(v for column, v in change.items() if column not in apart) <= contact_family.LET_GO.size
+
+
+@pytest.mark.parametrize("name", ["wrinkled_tube, fluid", "hemisphere"])
+def test_place_of_a_minimum_where_newtons_method_stops(name):
+    """With a thousandth of the step that is accepted."""
+    change = moved(name, named(name).coarse, fitted, "FLAT", fitted.FLAT / 1000)
+    assert max(change.values()) <= fitted.PLACE / 100
 
 
 # -- closed forms: all that is left is round-off and Newton's stopping rule ------------------------

@@ -164,7 +164,8 @@ def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, s
 
 
 SLOPE_OFFSETS = np.array([0.03, 0.045, 0.06, 0.075, 0.09])
-SLOPE_GRIDS = ((11, 5, 9, 12), (12, 6, 10, 15))
+SLOPE_GRIDS = ((12, 6, 10, 12), (14, 7, 11, 15))
+FEWER = range(3)  # states left out of a polynomial, at the far end: what is left falls with each one added
 
 
 def _special(partial_filling: bool, which: int) -> Grid:
@@ -183,8 +184,8 @@ def _limit(values: Array, count: int) -> float:
     )
 
 
-def _slopes(tube: FluidTube) -> list[tuple[dict[str, float], dict[str, float]]]:
-    """Initial slopes with all offsets and with all but the largest.
+def _slopes(tube: FluidTube) -> list[list[dict[str, float]]]:
+    """Initial slopes with all offsets, with all but the largest and with all but the two largest.
 
     By Galerkin's method on both grids, then by collocation on both nets.
     """
@@ -193,14 +194,14 @@ def _slopes(tube: FluidTube) -> list[tuple[dict[str, float], dict[str, float]]]:
     for offset in SLOPE_OFFSETS:
         guesses = [branch.injected(shape, float(offset), _special(critical.partial, i)) for i in (0, 1)]
         rows = [states.quantities(newton(guess, float(offset))) for guess in guesses]
-        rows += [balance.quantities(s) for s in bent.balanced(guesses[0], float(offset))]
+        rows += [balance.quantities(s) for s in bent.balanced(guesses[0], float(offset), bent.SLOPE_NETS)]
         for part, row in zip(found, rows, strict=True):
             part.append(row)
     return [_initial(rows, axisymmetric(critical)) for rows in found]
 
 
-def _initial(rows: Rows, base: dict[str, float]) -> tuple[dict[str, float], dict[str, float]]:
-    """Slopes at the bifurcation from states at all offsets, and at all but the largest."""
+def _initial(rows: Rows, base: dict[str, float]) -> list[dict[str, float]]:
+    """Slopes at the bifurcation from states at all offsets, and at fewer."""
     a = SLOPE_OFFSETS
     zw, volume, near, far = (np.array([r[k] for r in rows]) for k in ("zw", "V", "r_mid", "r_mid_pi"))
     series = {
@@ -210,7 +211,7 @@ def _initial(rows: Rows, base: dict[str, float]) -> tuple[dict[str, float], dict
         "even": ((near + far) / 2 - base["r_mid"]) / a**2,
     }
     out = []
-    for count in (len(a), len(a) - 1):
+    for count in (len(a) - fewer for fewer in FEWER):
         at = {k: _limit(v, count) for k, v in series.items()}
         out.append(
             {
@@ -221,25 +222,37 @@ def _initial(rows: Rows, base: dict[str, float]) -> tuple[dict[str, float], dict
                 "dV_dA2": at["V"],
             }
         )
-    return out[0], out[1]
+    return out
 
 
 def _extrapolated(
-    table: str,
-    name: str,
-    found: list[list[tuple[dict[str, float], dict[str, float]]]],
-    left: float = 0.0,
+    table: str, name: str, found: list[list[list[dict[str, float]]]], left: float = 0.0
 ) -> Column:
-    """Column of values that hang on a grid and on a number of states; [tube][method and grid][states]."""
+    """Column of values that hang on a grid and on a number of states; [tube][method and grid][fewer].
+
+    Raises:
+        RuntimeError: If they do not converge with the number of states.
+    """
     pairs = []
     for i in (0, 2):
-        coarse, fine, fewer = (
-            np.array([row[k][j][name] for row in found]) for k, j in ((i, 0), (i + 1, 0), (i + 1, 1))
-        )
+        coarse = np.array([row[i][0][name] for row in found])
+        fine, *others = (np.array([row[i + 1][k][name] for row in found]) for k in FEWER)
         own = bent.refined(coarse, fine, left)
-        own.uncertainty = own.uncertainty + bent.TWO_GRIDS * np.abs(fine - fewer).max()
+        own.uncertainty = own.uncertainty + remainder(f"table {table}, column {name}", fine, *others)
         pairs.append((own, (coarse, fine)))
     return bent.joined(table, name, pairs[0][0], pairs[1][0], pairs[0][1])
+
+
+def remainder(what: str, full: Array, fewer: Array, least: Array) -> float:
+    """What extrapolation leaves: differences at least halve with each state, so their sum is the last one.
+
+    Raises:
+        RuntimeError: If they do not halve.
+    """
+    last, before = float(np.abs(full - fewer).max()), float(np.abs(fewer - least).max())
+    if not last <= before / 2:
+        raise RuntimeError(f"{what}: a state more changes it by {last:.1e}, the one before by {before:.1e}")
+    return last
 
 
 def slopes(name: str) -> Table:
@@ -260,7 +273,7 @@ def slopes(name: str) -> Table:
         {"gamma": tubes[0].gamma},
         columns,
         SLOPE_GRIDS,
-        (*bent.NETS, *bent.STEEP_NETS),
+        bent.SLOPE_NETS,
         notes=text.SLOPE_NOTES,
         extra=extra,
     )
@@ -279,13 +292,13 @@ def turn(name: str) -> Table:
         found.append([states.quantities(s) for s in moved])
     balanced = [bent.balanced(s, float(o)) for s, o in zip(near, offsets, strict=True)]
     found += [[balance.quantities(pair[i]) for pair in balanced] for i in (0, 1)]
-    tops = [tuple(_top(offsets[s], rows[s]) for s in (slice(None), slice(1, None))) for rows in found]
+    tops = [[_top(offsets[k:], rows[k:]) for k in FEWER] for rows in found]
     columns = [
         prescribed("L", np.array([tube.L]), text.COLUMNS["L"]),
         prescribed("delta", np.array([tube.delta]), text.COLUMNS["delta"]),
     ]
     columns += [_extrapolated(name, k, [tops], bent.LEFT) for k in ("zw", "V", "r_mid")]
-    notes = "Stationary point of the polynomial in the centroid's offset through seven states around it."
+    notes = text.TURN_NOTES
     return documented(
         name,
         "Largest r_mid on the secondary branch",

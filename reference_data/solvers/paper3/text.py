@@ -100,10 +100,17 @@ COMPRESSED_NOTES = (
     "against wrinkles of any shortness, so that the eigenvalues but Lambda_1 and LambdaV_1 depend on the "
     "grid and are left out."
 )
+_STATES = (
+    " u_a and u_b hold, besides, the difference to the polynomial through one state fewer; such differences "
+    "at least halve with each state."
+)
+TURN_NOTES = (
+    "Stationary point of the polynomial in the centroid's offset through seven states around it." + _STATES
+)
 SLOPE_NOTES = (
     "States at small offsets A of the centroid, z_w = zw + dzw_dA2 A^2 + ..., V = V + dV_dA2 A^2 + ..., "
     "extrapolated to A = 0 with a polynomial in A^2; the critical level, volume and radius are those of "
-    "critical_points."
+    "critical_points." + _STATES
 )
 PLACES = {"0": "Theta = 0", "pi": "Theta = pi"}
 for _side, _where in PLACES.items():

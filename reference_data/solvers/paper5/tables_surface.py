@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 from scipy.optimize import brentq
 
-from reference_data.solvers.core.tables import Column, Table, prescribed
+from reference_data.solvers.core.tables import Table, agreed, prescribed
+from reference_data.solvers.paper4 import cases as cas
+from reference_data.solvers.paper4.cases import Pair
 from reference_data.solvers.paper5 import bloch as blo
+from reference_data.solvers.paper5 import bloch_metric as met
 from reference_data.solvers.paper5 import cases as rel
 from reference_data.solvers.paper5 import text
 from reference_data.solvers.paper5.bloch import Polyhedron, Ring
@@ -36,6 +39,10 @@ ROWS = ((120, 48, 1), (80, 96, 1), (60, 48, 1), (40, 96, 1), (240, 48, 1), (160,
 WINDOWS = {48: ((5.0, 5.3), (6.6, 7.1)), 96: ((3.9, 4.2), (9.0, 11.0))}
 SCAN = 0.02
 WIDTH = 1e-9
+LEVEL = 1e-8  # of an end: above its bracket and what Newton's method leaves
+STEEPEST = 15  # wave numbers a level, above the largest rate of the effective ones at any end
+RATE = 1e-4  # step of the wave number for the slope of an eigenvalue
+BRACKET = 1e-3  # to either side of an end, where the second method begins
 
 
 @cache
@@ -84,16 +91,41 @@ def gaps(mesh: Polyhedron, lower: float, upper: float) -> list[float]:
     return out
 
 
-@cache
-def effective(level: float, low: float, high: float) -> float:
-    """Real wave number whose lowest eigenvalue vanishes at a level, in the continuum."""
-    form = rel.cylinder(FLUID, level).forms[0]
-    return float(brentq(form.first, low, high, xtol=1e-8))
+def again(mesh: Polyhedron, found: float, lower: bool) -> tuple[float, int]:
+    """The end and its wave number by the second method, from a bracket about the first one's."""
+    sector, side = met.Sector(mesh), -BRACKET if lower else BRACKET
+    start = state(mesh, found, None).nodes
+    return met.change(sector, start, found + side, found - side, WIDTH)
+
+
+def effective(level: float, low: float, high: float) -> tuple[Pair, Pair]:
+    """Real wave number whose lowest eigenvalue vanishes at a level, in the continuum, by both methods."""
+    spectrum = rel.cylinder(FLUID, level)
+    first = spectrum.forms[1].first
+    n = float(brentq(first, low, high, xtol=1e-11))
+    slope = (first(n + RATE) - first(n - RATE)) / (2 * RATE)
+    floor = rel.ROUNDING / abs(slope) + STEEPEST * LEVEL
+    a, b = (
+        Pair(*(n - float(x[0]) / slope for x in (p.coarse, p.fine)), floor) for p in spectrum.lowest(n, 1)
+    )
+    return a, b
+
+
+@dataclass
+class Ends:
+    """An end of every row by one method."""
+
+    value: np.ndarray
+
+    @property
+    def uncertainty(self) -> np.ndarray:
+        """That of each."""
+        return np.full(self.value.shape, LEVEL)
 
 
 def surface_ranges(name: str) -> Table:
     """The ranges of several meshes and conventions of the load."""
-    rows, stable = [], []
+    rows, second, real, stable = [], [], [], []
     for n_s, n_c, code in ROWS:
         mesh = replace(Polyhedron(FLUID, n_s, n_c), **CONVENTIONS[code])
         (lower, n_lower), (upper, n_upper) = (end(mesh, w, k == 0) for k, w in enumerate(WINDOWS[n_c]))
@@ -101,9 +133,13 @@ def surface_ranges(name: str) -> Table:
             found = gaps(mesh, lower, upper)
             stable.append(f"{n_s} x {n_c}: " + (", ".join(f"{x:g}" for x in found) or "none"))
         reach = (5.0, 9.0) if n_c == 48 else (10.0, 18.0)
-        real = effective(round(lower, 6), *reach), effective(round(upper, 6), *reach)
-        rows.append((n_s, n_c, code, lower, upper, n_lower, n_upper, *real))
-    data = np.array(rows, dtype=float)
+        (low, n_low), (up, n_up) = (again(mesh, x, k == 0) for k, x in enumerate((lower, upper)))
+        if (n_low, n_up) != (n_lower, n_upper):
+            raise RuntimeError(f"{mesh}: wave numbers {n_lower}, {n_upper} and by the metric {n_low}, {n_up}")
+        real.append([effective(x, *reach) for x in (lower, upper)])
+        rows.append((n_s, n_c, code, lower, upper, n_lower, n_upper))
+        second.append((low, up))
+    data, other = np.array(rows, dtype=float), np.array(second)
     about = {
         "N_S": ("1", "quadrilaterals along the meridian"),
         "N_C": ("1", "quadrilaterals around"),
@@ -118,9 +154,11 @@ def surface_ranges(name: str) -> Table:
     columns = []
     for i, (key, what) in enumerate(about.items()):
         if key in ("lower", "upper"):
-            columns.append(Column(key, data[:, i], 1e-8, *what))
+            pair = Ends(other[:, int(key == "upper")]), Ends(data[:, i])
+            columns.append(agreed(name, key, *pair, what, other="metric", written="stretches"))
         elif key.startswith("n_eff"):
-            columns.append(Column(key, data[:, i], 1e-5, *what))
+            pairs = cas.stacked([row[int(key == "n_eff_upper")] for row in real])
+            columns.append(cas.agreed(name, key, *pairs, what))
         else:
             columns.append(prescribed(key, data[:, i], what))
     return text.make(
@@ -130,11 +168,15 @@ def surface_ranges(name: str) -> Table:
         text.cylinder("fluid"),
         columns,
         method=(
-            "Constant-strain triangles, rotation-symmetric equilibrium by Newton's method, Hermitian tangent "
-            "of every n = 0..N_C/2, positive definite or not by Cholesky's factors; a scan in steps of "
-            f"{SCAN:g} from outside, then bisection. A test holds the reduced matrices against the whole "
-            "mesh's, whose element is coded anew from the invariants with derivatives by complex step. "
-            "The effective wave numbers are those of the other tables' second variation at real n."
+            "Constant-strain triangles reduced by rotation symmetry, in two codes that share the "
+            "description of the mesh: (a) principal stretches by singular values, load by a rule of "
+            "quadrature, complex steps, positive definite or not by Cholesky's factors, for every n "
+            f"= 0..N_C/2; a scan in steps of {SCAN:g} from outside, then bisection; (b) invariants of "
+            "the metric, load in closed form where all of a triangle is wet and the rule exact, "
+            "second derivatives written out, lowest eigenvalue of band matrices; bisection from a "
+            f"bracket of {BRACKET:g} to either side. A test holds the matrices against the whole "
+            "mesh's. The effective wave numbers are those of the other tables' second variation at "
+            "real n, by both of their methods."
         ),
         grid="as given by N_S and N_C",
         tolerance=f"bisection to {WIDTH:g}; Newton takes one more step after the first one below 1e-9",

@@ -23,7 +23,7 @@ ONTO, OFF = 1.0, -1.0
 """Values that say whether a stability change along the branch is to unstable or back to stable."""
 
 SOLVED = 1e-9
-"""Error of an eigenvalue on each side of a stability change."""
+"""Error of an eigenvalue."""
 
 BINS = 24
 """Number of bands along the meridian in which waves of a mode are counted on an unstructured mesh."""
@@ -202,13 +202,16 @@ class SurfaceRun:
 
     def _located(self, before: Point, after: Point, tolerance: float) -> SpecialPoint:
         low, high = before, after
+        low_before, high_before = after, before  # the last points given up on either side, once there are any
         while abs(high.load - low.load) > tolerance:
             middle = self.at((low.load + high.load) / 2)
             if (middle.n_negative > 0) == (low.n_negative > 0):
-                low = middle
+                low, low_before = middle, low
             else:
-                high = middle
+                high, high_before = middle, high
         onto = high.n_negative > 0
+        width = abs(high.load - low.load)
+        changes = [self._rate(low, low_before) * width, self._rate(high, high_before) * width]
         unstable, stable = (high, low) if onto else (low, high)
         mode = self.lowest_mode(unstable)
         last = self.lowest_mode(stable).eigenvalue
@@ -222,5 +225,12 @@ class SurfaceRun:
             "Lambda_1": mode.eigenvalue,
             "Lambda_1_stable": last,
         }
-        spread |= {"direction": 0.0, "n": 0.0, "Lambda_1": SOLVED, "Lambda_1_stable": SOLVED}
+        # Either eigenvalue is that at an end of the bracket; the change lies up to a bracket further.
+        left = dict(zip(("Lambda_1", "Lambda_1_stable"), changes[::-1] if onto else changes, strict=True))
+        spread |= {"direction": 0.0, "n": 0.0, **{name: SOLVED + moved for name, moved in left.items()}}
         return SpecialPoint("stability_change", "primary", self.control, values, spread)
+
+    def _rate(self, point: Point, beside: Point) -> float:
+        """Change of the lowest eigenvalue between two points, over that of the load."""
+        values = [self.lowest_mode(one).eigenvalue for one in (point, beside)]
+        return abs((values[1] - values[0]) / (beside.load - point.load))

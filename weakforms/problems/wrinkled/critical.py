@@ -21,8 +21,11 @@ from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 WRINKLED_RADIUS = 0.05
 """A radius of the disks at which the whole unloaded membrane is wrinkled."""
 
-ROUND_OFF, GROWTH = 1e-12, 2e-3
-"""Round-off error of ``gw``, and the rate at which the smallest ``gw`` changes with the thickness ratio."""
+ROUND_OFF = 1e-12
+"""Round-off error of ``gw``."""
+
+BESIDE = 1e-3
+"""Step of the thickness ratio over which the rate of the smallest ``gw`` is taken."""
 
 SEARCH, LAST = 0.05, 0.05
 """Step of the thickness ratio in the search for a threshold, and the ratio at which the search ends."""
@@ -108,7 +111,7 @@ def threshold(
 
 def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate]:
     """The threshold and its place, from a state close by."""
-    s = np.linspace(0.0, membrane.length, SAMPLES)
+    first, s = held, np.linspace(0.0, membrane.length, SAMPLES)
     place = float(s[np.argmin(held.sampled(s)["gw"])])
     at_end = place in (0.0, membrane.length)
     if not at_end:
@@ -124,7 +127,10 @@ def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate
     where = estimate(list(places), 2 * degree)
     where = replace(where, uncertainty=where.uncertainty + PLACE)
     ratio = estimate(list(thickness), 2 * degree)
-    return {"M": replace(ratio, uncertainty=ratio.uncertainty + ROUND_OFF / GROWTH), "Z": where}
+    value = float(ratio.value)
+    membrane.values["M"] = value + float(np.sign(value - 1)) * BESIDE
+    growth = abs(_least(membrane.unloaded_from(levels[-1], TAUT, first)) - 1.0) / BESIDE
+    return {"M": replace(ratio, uncertainty=ratio.uncertainty + ROUND_OFF / growth), "Z": where}
 
 
 def _least(held: Held) -> float:

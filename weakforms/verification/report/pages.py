@@ -17,6 +17,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from weakforms.verification.audit.any_parameters.outcome import STATUSES, Audited
+from weakforms.verification.audit.coverage.outcome import COLUMNS, PARTS, Covered, cells
 from weakforms.verification.audit.faults.outcome import FaultOutcome, Seeded
 from weakforms.verification.judging.consistency import exempt
 from weakforms.verification.judging.outcome import (
@@ -49,6 +50,7 @@ RESERVED = (
     "faults",
     "elsewhere",
     "audit",
+    "coverage",
     "exempt",
 )
 """Identifiers that the templates use."""
@@ -90,6 +92,7 @@ def render(
     others: tuple[Elsewhere, ...] = (),
     jobs: int = 1,
     audited: Audited | None = None,
+    covered: Covered | None = None,
 ) -> dict[str, str]:
     """Every page of the report.
 
@@ -99,16 +102,17 @@ def render(
         others: Runs of the same cases on other ranks or releases.
         jobs: Number of parallel processes for drawing.
         audited: Outcome of an audit, if one was made.
+        covered: Comparison of uncertainties with true errors, if one was made.
 
     Returns:
         HTML by file name; the first page is ``index.html``. Pages load no other files.
     """
-    facts = _facts(run, seeded, others, jobs, audited)
+    facts = _facts(run, seeded, others, jobs, audited, covered)
     pages = {
         group["page"]: template("group.html").render(facts, group=group, here=group["page"])
         for group in facts["groups"]
     }
-    for name in ("faults.html", "audit.html"):
+    for name in ("faults.html", "audit.html", "coverage.html"):
         pages[name] = template(name).render(facts, here=name)
     return pages | {"index.html": template("index.html").render(facts, here="index.html")}
 
@@ -118,9 +122,11 @@ def render_whole(
     seeded: Seeded | None = None,
     others: tuple[Elsewhere, ...] = (),
     audited: Audited | None = None,
+    covered: Covered | None = None,
 ) -> str:
     """All pages as one, for printing, with links inside the page only."""
-    return template("whole.html").render(_facts(run, seeded, others, audited=audited), here=None)
+    facts = _facts(run, seeded, others, audited=audited, covered=covered)
+    return template("whole.html").render(facts, here=None)
 
 
 def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
@@ -158,6 +164,7 @@ def _environment() -> Environment:
         "tex": lambda text: Markup(wording.html_tex(text)),
         "plain_tex": wording.plain_tex,
         "value": wording.with_uncertainty,
+        "coverage_cells": cells,
         "flat": lambda value: list(_flat(value)),
         "label": lambda status: summary.LABELS.get(status, status),
         "when": lambda text: re.sub(r"^(\d{4}-\d\d-\d\d)T(\d\d:\d\d).*$", r"\1, \2 UTC", text),
@@ -174,6 +181,7 @@ def _facts(
     others: tuple[Elsewhere, ...] = (),
     jobs: int = 1,
     audited: Audited | None = None,
+    covered: Covered | None = None,
 ) -> dict[str, Any]:
     """All variables of the templates, from the run and the other outcomes in its folder."""
     taken = set(RESERVED)
@@ -205,6 +213,9 @@ def _facts(
         "others": others,
         "audited": audited or Audited(),
         "audit_statuses": STATUSES,
+        "covered": covered or Covered(),
+        "coverage_parts": PARTS,
+        "coverage_columns": COLUMNS,
         "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
         "mutants": _areas(seeded.random.faults if seeded and seeded.random else (), "subject"),
         "look": LOOK,
@@ -222,7 +233,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     found: dict[str, list[dict[str, Any]]] = {}
     for view in views:
         found.setdefault(view["case"].id.partition(".")[0], []).append(view)
-    taken = {"index", "faults", "audit"}
+    taken = {"index", "faults", "audit", "coverage"}
     out = []
     for key, members in found.items():
         name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))

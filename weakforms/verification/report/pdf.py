@@ -10,6 +10,7 @@ from pathlib import Path
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification.audit.any_parameters.outcome import Audited
+from weakforms.verification.audit.coverage.outcome import Covered
 from weakforms.verification.audit.faults.outcome import Seeded
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.elsewhere import load_elsewhere
@@ -82,8 +83,9 @@ def write_pdf(run: RunOutcome, path: Path) -> Path:
     with tempfile.TemporaryDirectory(prefix="weakforms-pdf-") as name:
         folder = Path(name)
         page, printed = folder / "report.html", folder / "report.pdf"
-        beside = Seeded.beside(path.parent), load_elsewhere(path.parent), Audited.beside(path.parent)
-        page.write_text(render_whole(run, *beside), encoding="utf-8")
+        beside = [kind.beside(path.parent) for kind in (Seeded, Audited, Covered)]
+        whole = render_whole(run, beside[0], load_elsewhere(path.parent), *beside[1:])
+        page.write_text(whole, encoding="utf-8")
         command = [program, *QUIET, f"--user-data-dir={folder / 'profile'}", "--no-pdf-header-footer"]
         # A browser's own sandbox does not work for root; the page has no script to guard against.
         command += ["--no-sandbox"] * (hasattr(os, "geteuid") and os.geteuid() == 0)

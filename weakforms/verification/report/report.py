@@ -19,6 +19,7 @@ from pydantic import TypeAdapter, ValidationError
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
 from weakforms.verification.audit.any_parameters.outcome import Audited
+from weakforms.verification.audit.coverage.outcome import Covered
 from weakforms.verification.audit.faults.outcome import Seeded
 from weakforms.verification.judging.outcome import SCHEMA, RunOutcome
 from weakforms.verification.report.elsewhere import NAME as ELSEWHERE
@@ -35,8 +36,9 @@ _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "res
 def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int = 1) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
 
-    If the folder has a ``faults.json``, an ``audit.json`` or an ``elsewhere.json``, the report shows the
-    seeded faults, the audit, or the comparison with other runs (until the cases are run again).
+    If the folder has a ``faults.json``, an ``audit.json``, a ``coverage.json`` or an ``elsewhere.json``, the
+    report shows the seeded faults, the audit, the test of uncertainties, or the comparison with other runs
+    (until the cases are run again).
 
     Args:
         run: Outcome of ``verify``.
@@ -57,7 +59,8 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
         "junit.xml": junit_xml(run),
     }
     folder = Path(folder)
-    beside = Seeded.beside(folder), load_elsewhere(folder) if stored else (), Audited.beside(folder)
+    others = load_elsewhere(folder) if stored else ()
+    beside = Seeded.beside(folder), others, Audited.beside(folder), Covered.beside(folder)
     drawn = _redrawn(run, *beside, jobs) if stored else {}
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -73,19 +76,29 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
 
 
 def _drawn(
-    run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
+    run: RunOutcome,
+    seeded: Seeded,
+    others: tuple[Elsewhere, ...],
+    audited: Audited,
+    covered: Covered,
+    jobs: int,
 ) -> dict[str, str]:
     """Shapes and pages by name, ``index.html`` last."""
     shapes = {name: vtu(surface) for name, surface in shape_files(run)}
-    return shapes | render(run, seeded, others, jobs, audited)
+    return shapes | render(run, seeded, others, jobs, audited, covered)
 
 
 def _redrawn(
-    run: RunOutcome, seeded: Seeded, others: tuple[Elsewhere, ...], audited: Audited, jobs: int
+    run: RunOutcome,
+    seeded: Seeded,
+    others: tuple[Elsewhere, ...],
+    audited: Audited,
+    covered: Covered,
+    jobs: int,
 ) -> dict[str, str]:
     """The same for a stored run, whose numbers may come from anywhere."""
     try:
-        return _drawn(run, seeded, others, audited, jobs)
+        return _drawn(run, seeded, others, audited, covered, jobs)
     except EnvironmentLackError:
         raise
     except Exception as error:

@@ -1,4 +1,4 @@
-"""The sets of parameters over which uncertainties are tested (module ``coverage`` beside this one)."""
+"""The sets of parameters over which uncertainties were tuned."""
 
 from __future__ import annotations
 
@@ -26,10 +26,12 @@ class Family:
     fixed: Mapping[str, Any] = field(default_factory=dict)
     at: tuple[tuple[str, float], ...] = ()
     label: str = ""
+    branch: str = "primary"
+    """That of the states."""
 
-    def sets(self, count: int) -> list[dict[str, Any]]:
-        """The first points of a scrambled Sobol sequence over the ranges, the same in every run."""
-        sobol = qmc.Sobol(len(self.ranges), seed=SEED)
+    def sets(self, count: int, seed: int = SEED) -> list[dict[str, Any]]:
+        """The first points of a scrambled Sobol sequence over the ranges, the same in every run of a seed."""
+        sobol = qmc.Sobol(len(self.ranges), seed=seed)
         draws = sobol.random_base2(int(np.ceil(np.log2(count))))[:count]
         low, high = (np.array(ends) for ends in zip(*self.ranges.values(), strict=True))
         rows = low + draws * (high - low)

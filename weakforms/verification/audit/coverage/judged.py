@@ -1,23 +1,7 @@
-r"""Test of uncertainties against true errors of coarse solutions, over many sets of parameters.
-
-A problem is solved on coarse meshes at parameters drawn from a Sobol sequence, and again on meshes four times
-as fine with polynomials two degrees higher: the difference is the true error of the coarse solution, which
-states the uncertainty :math:`u`. The uncertainty :math:`u_t` of the fine solution is smaller by orders. The
-claims for every number are:
-
-* its true error is within :math:`u + u_t` for 95 % of all numbers, and within the bound that verdicts use,
-  :math:`2u + u_t`, for all of them;
-* for each column, over the sets, :math:`u` is at most 30 times the error (:func:`statistics`), where an error
-below a floor counts as the floor: ten times
-  :data:`~weakforms.solvers.uncertainty.refinement.ALGEBRAIC` of the number or of 1,
-  the part of each uncertainty that covers round-off, which differences between meshes do not show.
-
-``python3 -m weakforms.verification.audit.coverage [--wide]`` prints the statistics.
-"""
+"""Compare every number of a coarse solution with a fine one, and give statistics of many numbers."""
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -26,7 +10,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.results import Result
-from weakforms.verification.audit.coverage_families import FAMILIES, QUICK, WIDE, Family
+from weakforms.verification.audit.coverage.families import Family
 from weakforms.verification.audit.same import Number, numbers
 
 FLOOR = 1e-10
@@ -74,7 +58,7 @@ def solved(family: Family, parameters: Mapping[str, Any], numerics: Mapping[str,
     from weakforms import api
     from weakforms.problems.problem import StateRequest
 
-    states = [StateRequest(name, value, profile=()) for name, value in family.at]
+    states = [StateRequest(name, value, branch=family.branch, profile=()) for name, value in family.at]
     result = api.solve_requests(family.problem, parameters, numerics, states, branch_uncertainty=False)
     for failure in result.failures:
         raise ConvergenceError(f"{family.name} at {dict(parameters)}: {failure.what}: {failure.reason}")
@@ -130,10 +114,10 @@ class Statistics:
     """Fraction within the uncertainty."""
     bounded: float
     """Fraction within the bound of verdicts."""
-    median: float
-    """Median overestimate of the columns."""
-    largest: float
-    """Largest overestimate of the columns."""
+    median: float | None
+    """Median overestimate of the columns; ``None`` if all errors are round-off."""
+    largest: float | None
+    """Largest overestimate of the columns; ``None`` if all errors are round-off."""
 
 
 def statistics(found: Iterable[Judged]) -> list[Statistics]:
@@ -154,15 +138,15 @@ def _row(family: str, kind: str, items: list[Judged]) -> Statistics:
     for item in items:
         if item.sharp:
             columns.setdefault(item.name, []).append(item)
-    ratios = [_overestimate(column) for column in columns.values()] or [np.nan]  # all of them round-off
+    ratios = [_overestimate(column) for column in columns.values()]
     return Statistics(
         family,
         kind,
         len(items),
         float(np.mean([item.within for item in items])),
         float(np.mean([item.bounded for item in items])),
-        float(np.median(ratios)),
-        float(np.max(ratios)),
+        float(np.median(ratios)) if ratios else None,
+        max(ratios, default=None),
     )
 
 
@@ -170,32 +154,3 @@ def _overestimate(column: list[Judged]) -> float:
     stated = np.array([item.uncertainty for item in column])
     true = np.array([max(item.error, item.floor) for item in column])
     return float(np.sqrt(np.mean(stated**2) / np.mean(true**2)))
-
-
-def table(rows: Iterable[Statistics]) -> str:
-    """Markdown table of statistics."""
-    lines = [
-        "| problem | kind of number | numbers | within u | within 2u | overestimate, median | largest |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    lines += [
-        f"| {r.family} | {r.kind} | {r.count} | {r.within:.1%} | {r.bounded:.1%} | {r.median:.1f} "
-        f"| {r.largest:.1f} |"
-        for r in rows
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def main(arguments: list[str]) -> int:
-    """Print the table for the quick sets, or with ``--wide`` for all sets."""
-    found = []
-    for family in FAMILIES:
-        for given in family.sets(WIDE if "--wide" in arguments else QUICK.get(family.name, 1)):
-            print(f"{family.name}: {given}", file=sys.stderr)
-            found += judged(family, given)
-    print(table(statistics(found)), end="")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
