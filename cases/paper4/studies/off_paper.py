@@ -67,6 +67,6 @@ CASE = Case(
         **dict.fromkeys(("V", "r_max", "gw_min"), 1e-8),
         "N": 2e-7,
         "gw_max": 2e-6,
-        "wrinkled_fraction": 2e-8,
+        "wrinkled_fraction": 1e-7,
     },
 )
