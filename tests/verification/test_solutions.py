@@ -9,8 +9,8 @@ import pytest
 from weakforms import api, tube
 from weakforms.errors import ConvergenceError
 from weakforms.results import Branch, Failure, Field, Quantity, Result, SpecialPoint, State
-from weakforms.verification.audit.coverage.judged import solved
 from weakforms.verification.audit.coverage.families import FAMILIES
+from weakforms.verification.audit.coverage.judged import solved
 from weakforms.verification.cases.specs import At
 from weakforms.verification.run.solutions import Solutions
 
