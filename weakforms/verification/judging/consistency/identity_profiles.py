@@ -203,6 +203,10 @@ def field(name: str, statement: str, by: Callable[[Result, State, Columns], np.n
     return Identity(f"field_{name}", statement, look)
 
 
+ENDS = 3
+"""Points at either end of a profile, where derivatives of both splines are one-sided and err alike."""
+
+
 def derived(name: str, statement: str, by: Callable[..., np.ndarray], *of: str) -> Identity:
     """A column of the profile by derivatives of others along it, where the samples tell them.
 
@@ -223,6 +227,7 @@ def derived(name: str, statement: str, by: Callable[..., np.ndarray], *of: str) 
             size = max(float(np.abs(here).max()), SMALL)
             # A kink is felt some points away, where the two are close again by accident.
             near = quadrature.SAFETY * maximum_filter1d(np.abs(fine - coarse), 9)
+            near[:ENDS] = near[-ENDS:] = np.inf
             zones = np.flatnonzero(np.diff(profile.columns["gw"] > 1)) if "gw" in profile.columns else []
             for edge in zones:
                 near[max(edge - 5, 0) : edge + 7] = np.inf
