@@ -89,7 +89,7 @@ def test_a_wrong_potential_would_be_seen():
     [
         ("sphere", {"vary": "jm"}, "vary jm mooney_rivlin alpha"),
         ("sphere", {"vary": "alpha"}, "vary_end None"),
-        ("sphere", {"vary": "alpha", "vary_end": 0.1}, "vary_end 0.1 not"),
+        ("sphere", {"vary": "alpha", "vary_end": 0.1}, "vary_end 0.1 other than"),
         ("sphere", {"vary": "alpha", "vary_end": -1.0}, "vary_end -1 >= 0"),
         ("sphere", {"model": "gent", "lam_end": 9.0}, "gent not defined lam_end 9"),
         ("sphere", {"at": {"cusp_point": 1}}, "cusp_point vary"),
