@@ -247,6 +247,8 @@ class DiskRun:
         trace = self.frictionless
         crossed = trace.crossings("p", self.p_end)
         if not len(crossed):
+            if max(point.state.loads["p"] for point in trace.points[1:]) <= self.onset.values["p"]:
+                trace.at("p", self.p_end)  # contact does not raise the pressure: says what is reached
             return max(point.state.loads["front"] for point in trace.points)
         before = max(point.state.loads["front"] for point in trace.points[: int(crossed[0]) + 1])
         return max(before, trace.at("p", self.p_end).state.loads["front"])
