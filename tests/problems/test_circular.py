@@ -186,7 +186,7 @@ def test_pull_off_is_the_minimum_of_the_release_rate(peeling):
         ({"phase": "peeling"}, {"p": 4.0}, "p_end = 3.477"),
         ({"phase": "peeling", "adhesion": "radial"}, {"p": 1.0}, "locked"),
         ({"phase": "peeling", "contact": "frictionless"}, {"p": 1.0}, "a patch that sticks"),
-        ({"contact": "adhesive", "p_end": 1.5}, {}, "first contact at p = 2.028"),
+        ({"phase": "peeling", "p_end": 1.5}, {"p": 1.0}, "first contact at p = 2.028"),
         ({"contact": "adhesive", "p": 1.5}, {}, "phase = 'peeling'"),
         ({"l": 0}, {}, "l = 0"),
         ({"beta": 0.9}, {}, "beta = 0.9"),
