@@ -216,7 +216,7 @@ class DiskRun:
 
     @cached_property
     def _stuck(self) -> tuple[DiskModel, History, FittedBranch]:
-        """With a history that is known as far as the patch grows: further than without friction, at times."""
+        """Find a history that covers the whole patch, which can grow larger than without friction."""
         span, failed = self._slipping_span(), np.inf
         for _ in range(SPANS):
             model = DiskModel(self.comm, self.data, Bond(self.adhesion == "locked", self.terms, span))

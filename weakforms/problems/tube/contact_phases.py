@@ -193,7 +193,7 @@ class ContactRun:
 
     @cached_property
     def _stuck(self) -> tuple[ContactModel, FittedBranch]:
-        """Both, with a history as far as the patch grows: at times that is further than without friction.
+        """Find a history that covers the whole patch, which can grow larger than without friction.
 
         Raises:
             InputError: If contact without friction ends before ``p_end``.

@@ -1,4 +1,4 @@
-"""From a state at one value of a parameter to that at another, by steps that shorten where they fail."""
+"""Follow a state from one value of a parameter to another, by steps that are halved if they fail."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from weakforms.errors import ConvergenceError
 Kept = TypeVar("Kept")
 
 SHORTEST = 1 / 256
-"""Of the first step; a shorter one is not tried."""
+"""Shortest step that is tried, as a part of the first one."""
 
 
 def walk(solve: Callable[[Kept, float], Kept], kept: Kept, at: float, goal: float, step: float) -> Kept:
-    """What ``solve`` leaves at a goal, from what there is at another value.
+    """Follow a state to a goal, step by step.
 
     Args:
-        solve: Solves at a value, from what it left before, which it must not change.
-        kept: What there is at the beginning.
+        solve: Solves at a value. It starts from its previous result, which it must not change.
+        kept: The state at the beginning.
         at: The value there.
         goal: The value wanted.
         step: Largest step, positive.
 
     Raises:
-        ConvergenceError: When even the shortest step does not converge; says how far it went.
+        ConvergenceError: If even the shortest step does not converge; the message says how far the walk came.
     """
     length = step
     while at != goal:
