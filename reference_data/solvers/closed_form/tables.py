@@ -8,7 +8,7 @@ import numpy as np
 
 from reference_data.solvers.closed_form import bodies as body
 from reference_data.solvers.core.laws import BUILDERS, CONSTANTS, law
-from reference_data.solvers.core.tables import Column, DisagreementError, Table, prescribed
+from reference_data.solvers.core.tables import Column, DisagreementError, Series, Table
 from reference_data.solvers.core.two_estimates import both
 from reference_data.solvers.registry import Builder
 
@@ -48,23 +48,14 @@ TUBES = {"mooney_rivlin": {"alpha": 0.1}, "ogden": {}, "gent": {}, "arruda_boyce
 TUBE_END = {"mooney_rivlin": 6.0, "ogden": 9.0, "gent": 6.0, "arruda_boyce": 6.0}
 
 
-def make(
-    name: str, title: str, model: str, columns: list[Column], constants: dict[str, float], notes: str = ""
-) -> Table:
+SERIES = Series(
+    "closed_form", "Patil (2016), chapter 3; Ogden (1972) for balloons", ABOUT, METHOD, "none", "rounding"
+)
+
+
+def make(name: str, title: str, model: str, columns: list[Column], constants: dict[str, float]) -> Table:
     """A table with the documentation common to all of them."""
-    return Table(
-        name=name,
-        paper="closed_form",
-        title=title,
-        source="Patil (2016), chapter 3; Ogden (1972) for balloons",
-        method=METHOD,
-        grid="none",
-        tolerance="rounding",
-        parameters={"model": model, **constants},
-        abscissa=columns[0].name,
-        columns=columns,
-        notes=notes,
-    )
+    return SERIES.table(name, title, "", {"model": model, **constants}, columns)
 
 
 def columns_of(
@@ -91,9 +82,9 @@ def _level(levels: dict[str, tuple[float, float]], name: str) -> dict[str, tuple
     return {"levels": levels[name]} if name in levels else {}
 
 
-def ordered(count: int) -> Column:
+def ordered(count: int) -> list[Column]:
     """The column with the number of the limit point."""
-    return prescribed("order", np.arange(1, count + 1), ABOUT["order"])
+    return SERIES.keys(order=np.arange(1, count + 1))
 
 
 def sphere_curve(name: str, model: str) -> Table:
@@ -103,7 +94,7 @@ def sphere_curve(name: str, model: str) -> Table:
     values = both(
         name, "P", ABOUT["P"], [body.balloon(one, x) for x in lam], [body.balloon(other, x) for x in lam]
     )
-    columns = [prescribed("lam", lam, ABOUT["lam"]), values]
+    columns = [*SERIES.keys(lam=lam), values]
     return make(name, f"Balloon of {model}: pressure over stretch", model, columns, CONSTANTS[model])
 
 
@@ -111,7 +102,7 @@ def sphere_limits(name: str, model: str) -> Table:
     """Limit points of a balloon."""
     one, other = body.by_hand(law(model)), body.by_contour(law(model))
     first, second = body.balloon_limits(one, SPHERE_END), body.balloon_limits(other, SPHERE_END)
-    columns = [ordered(len(first)), *columns_of(name, ("P", "lam"), first, second, {"lam": FLAT})]
+    columns = [*ordered(len(first)), *columns_of(name, ("P", "lam"), first, second, {"lam": FLAT})]
     return make(name, f"Balloon of {model}: limit points", model, columns, CONSTANTS[model])
 
 
@@ -132,7 +123,7 @@ def tube_limits(name: str, model: str) -> Table:
     first = body.tube_limits(body.by_hand(material), TUBE_END[model])
     second = body.tube_limits(body.by_contour(material), TUBE_END[model])
     levels = {"lam1": FLAT, "lam2": FLAT}
-    columns = [ordered(len(first)), *columns_of(name, ("p", "lam1", "lam2"), first, second, levels)]
+    columns = [*ordered(len(first)), *columns_of(name, ("p", "lam1", "lam2"), first, second, levels)]
     return make(name, f"Long tube of {model}: limit points", model, columns, CONSTANTS[model] | TUBES[model])
 
 
@@ -159,7 +150,7 @@ def coupon(name: str, model: str, loading: str) -> Table:
         [body.nominal(material, loading, x, d) for x in lam]
         for d in (body.by_hand(material), body.by_contour(material))
     )
-    columns = [prescribed("lam", lam, ABOUT["lam"]), both(name, "T", ABOUT["T"], one, other)]
+    columns = [*SERIES.keys(lam=lam), both(name, "T", ABOUT["T"], one, other)]
     return make(name, f"{loading} test of {model}", model, columns, CONSTANTS[model])
 
 

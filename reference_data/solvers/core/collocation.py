@@ -1,37 +1,33 @@
-r"""Piecewise Chebyshev collocation for the half tube (first-order strong form).
+r"""Piecewise Chebyshev collocation of first-order systems between ends and fronts that may be unknown.
 
-Unknowns over the unstretched axial coordinate z in [0, L], L = l_f/(2 delta1), z = 0 at the
-mid-plane: radius rho, axial position eta, meridional stretch l1 and slope angle b, with
-sin b = rho'/l1, cos b = eta'/l1, l2 = rho/r0, r0 = sqrt(delta1):
+A problem is a chain of zones. In each, with the fraction s of the zone,
 
-.. math::
-   \rho' = l_1 \sin b,\quad \eta' = l_1 \cos b,\quad
-   l_1' = \sin b\,\frac{w_2 - l_1 w_{12}}{r_0 w_{11}},\quad
-   b' = \frac{w_2 \cos b - P_{eff}(\rho)\, \rho\, l_1}{r_0 w_1}
+.. math:: dy/ds = f(y, s, c), \qquad 0 \le s \le 1,
 
-(the Euler-Lagrange equations of Patil, Nordmark & Eriksson 2014, solved for the highest
-derivatives), b(0) = eta(0) = 0, rho(L) = 1, eta(L) = l_f/2, and one scalar condition, on
-u_max = rho(0) - 1 or on the half volume V = int rho^2 eta' dz/2, that makes p an unknown.
+c being numbers common to all zones: loads, volumes, positions of fronts. Conditions on the values at the ends
+of zones and on c close the problem; there is one for each component of each zone and each of the numbers.
 
-Each element carries polynomials of degree M on Chebyshev-Lobatto nodes and meets the
-equations at its M Gauss points. Newton's derivatives are complex-step, hence exact.
+An element carries polynomials of one degree on Chebyshev-Lobatto nodes and meets the equations at its Gauss
+points. Derivatives are complex steps, hence exact; inner nodes are eliminated element by element. Arrays may
+have leading axes, in which states of one kind are solved side by side.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
 
-from reference_data.solvers.core import mooney_rivlin as mat
-from reference_data.solvers.core.jets import Jet, sin_cos
-from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.newton import newton
 
 Array = np.ndarray
-Pressure = Callable[[Any, Any], Any]
 STEP = 1e-30  # complex-step increment, which may be arbitrarily small, because nothing is subtracted
+CIRCLE = 0.05 * np.exp(2j * np.pi * np.arange(16) / 16)  # for second derivatives
+Ends = list[list[Any]]
+Conditions = Callable[[Ends, Ends, list[Any]], list[Any]]
 
 
 def lagrange(nodes: Array, points: Array) -> Array:
@@ -55,209 +51,293 @@ def differentiation(nodes: Array) -> Array:
     return d - np.diag(d.sum(axis=1))
 
 
+def lobatto(degree: int) -> Array:
+    """Chebyshev-Lobatto nodes on [0, 1]."""
+    return (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
+
+
+def components(y: Array) -> list[Array]:
+    """Components of an array, with its last axis first."""
+    return list(np.moveaxis(y, -1, 0))
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Polynomials of one degree on [0, 1]: nodes, Gauss points and weights, values and slopes there."""
+
+    nodes: Array
+    points: Array
+    weights: Array
+    value: Array
+    deriv: Array
+
+
+@cache
+def rule(degree: int) -> Rule:
+    """The rule of a degree, which is also the number of Gauss points."""
+    gauss, weights = np.polynomial.legendre.leggauss(degree)
+    nodes = lobatto(degree)
+    value = lagrange(nodes, (gauss + 1) / 2)
+    return Rule(nodes, (gauss + 1) / 2, weights / 2, value, value @ differentiation(nodes))
+
+
 @dataclass(frozen=True)
 class Mesh:
-    """Elements on [0, 1] (fractions of L), graded towards the disk at 1.
+    """Elements of one degree between rising breaks (of a zone: from 0 to 1)."""
+
+    breaks: tuple[float, ...]
+    degree: int
+
+    @classmethod
+    def graded(cls, elements: int, degree: int, power: float = 1.0) -> Mesh:
+        """Elements on [0, 1] with breaks 1 - (1 - s)^power, finer at 1 for larger powers."""
+        return cls(tuple(map(float, 1 - (1 - np.linspace(0, 1, elements + 1)) ** power)), degree)
+
+    @property
+    def elements(self) -> int:
+        """Number of elements."""
+        return len(self.breaks) - 1
+
+    @cached_property
+    def edges(self) -> Array:
+        """The breaks, as an array."""
+        return np.array(self.breaks)
+
+    @cached_property
+    def widths(self) -> Array:
+        """Widths of the elements."""
+        return np.diff(self.edges)
+
+    @property
+    def rule(self) -> Rule:
+        """Polynomials on each element."""
+        return rule(self.degree)
+
+    @cached_property
+    def x(self) -> Array:
+        """Nodes, shape (elements, degree + 1)."""
+        return self.edges[:-1, None] + self.widths[:, None] * self.rule.nodes
+
+    @cached_property
+    def gauss(self) -> Array:
+        """Gauss points, shape (elements, degree)."""
+        return self.edges[:-1, None] + self.widths[:, None] * self.rule.points
+
+    @cached_property
+    def weights(self) -> Array:
+        """Weights of the Gauss points."""
+        return self.widths[:, None] * self.rule.weights
+
+    def slope(self, y: Array) -> Array:
+        """Derivative at the nodes of scalar values (..., elements, degree + 1)."""
+        return y @ differentiation(self.rule.nodes).T / self.widths[:, None]
+
+    def evaluate(self, y: Array, x: Array) -> Array:
+        """Piecewise polynomial with values (elements, degree + 1, components) at x."""
+        flat = np.ravel(x)
+        k = np.clip(np.searchsorted(self.edges, flat, side="right") - 1, 0, self.elements - 1)
+        rows = lagrange(self.rule.nodes, (flat - self.edges[k]) / self.widths[k])
+        return np.einsum("im,imc->ic", rows, y[k]).reshape(*np.shape(x), y.shape[-1])
+
+
+@dataclass(frozen=True)
+class Zone:
+    """A part in which the equations are smooth.
 
     Attributes:
-        elements: Number of elements.
-        degree: Polynomial degree, also the number of collocation points per element.
-        grading: Exponent q of 1 - (1 - s)^q; larger is finer at the disk.
+        mesh: Elements over its fraction s, from 0 to 1.
+        rates: Right-hand sides dy/ds from the components of y, the fractions s and the numbers c.
     """
 
-    elements: int
-    degree: int
-    grading: float = 1.6
-    breaks: Array = field(init=False)
-    nodes: Array = field(init=False)
-    weights: Array = field(init=False)
-    value: Array = field(init=False)
-    deriv: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        put = lambda name, x: object.__setattr__(self, name, x)  # noqa: E731
-        nodes = (1 - np.cos(np.pi * np.arange(self.degree + 1) / self.degree)) / 2
-        gauss, weights = np.polynomial.legendre.leggauss(self.degree)
-        put("breaks", 1 - (1 - np.linspace(0, 1, self.elements + 1)) ** self.grading)
-        put("nodes", nodes)
-        put("weights", weights / 2)
-        put("value", lagrange(nodes, (gauss + 1) / 2))
-        put("deriv", self.value @ differentiation(nodes))
-
-    @property
-    def widths(self) -> Array:
-        """Element widths as fractions of L."""
-        return np.diff(self.breaks)
-
-    @property
-    def x(self) -> Array:
-        """Node positions, shape (elements, degree + 1)."""
-        return self.breaks[:-1, None] + self.widths[:, None] * self.nodes
+    mesh: Mesh
+    rates: Callable[[list[Any], Array, list[Any]], list[Any]]
 
 
-def rates(y: list[Any], p: Any, tube: Tube, pressure: Pressure) -> list[Any]:
-    """Right-hand sides (rho', eta', l1', b'), then the volume density rho^2 eta'/2."""
-    rho, _, l1, b = y
-    l2, r0 = rho / tube.r0, tube.r0
-    w1, w2 = mat.slope(l1, l2, tube.alpha), mat.slope(l2, l1, tube.alpha)
-    w11, w12 = mat.curvature(l1, l2, tube.alpha), mat.mixed(l1, l2, tube.alpha)
-    s, c = sin_cos(b)
-    axial = l1 * c
+@dataclass(frozen=True)
+class Resolution:
+    """Meshes of a free membrane, of a patch in contact and of the rest, and the terms of a frozen history."""
+
+    free: Mesh
+    inner: Mesh
+    outer: Mesh
+    terms: int
+
+
+def joined(left: Ends, right: Ends) -> list[Any]:
+    """Conditions that all components are continuous between zones."""
     return [
-        l1 * s,
-        axial,
-        s * (w2 - l1 * w12) / (r0 * w11),
-        (w2 * c - pressure(rho, p) * rho * l1) / (r0 * w1),
-        rho * rho * axial / 2,
+        a - b
+        for end, start in zip(right[:-1], left[1:], strict=True)
+        for a, b in zip(end, start, strict=True)
     ]
 
 
-@dataclass
-class State:
-    """One equilibrium: nodal values (elements, degree + 1, 4) of (rho, eta, l1, b), and p."""
-
-    tube: Tube
-    mesh: Mesh
-    y: Array
-    p: float
-
-    def moved_to(self, mesh: Mesh) -> State:
-        """The same state on another mesh, by interpolation."""
-        return State(self.tube, mesh, evaluate(self.mesh, self.y, mesh.x), self.p)
+def derivatives(f: Callable[[list[Any]], Array], x: list[Any]) -> Array:
+    """Derivatives of f by each of the arguments x, in a last axis."""
+    return np.stack(
+        [np.imag(f([v + 1j * STEP if i == j else v for i, v in enumerate(x)])) / STEP for j in range(len(x))],
+        axis=-1,
+    )
 
 
-def evaluate(mesh: Mesh, y: Array, x: Array) -> Array:
-    """Piecewise polynomial ``y`` at fractions ``x`` of L; shape of x, then components."""
-    flat = np.ravel(x)
-    k = np.clip(np.searchsorted(mesh.breaks, flat, side="right") - 1, 0, mesh.elements - 1)
-    local = (flat - mesh.breaks[k]) / mesh.widths[k]
-    rows = lagrange(mesh.nodes, local)
-    return np.einsum("im,imc->ic", rows, y[k]).reshape(*np.shape(x), -1)
+@dataclass(frozen=True)
+class Problem:
+    """Zones and conditions."""
+
+    zones: tuple[Zone, ...]
+    conditions: Conditions
+
+    def rates(self, d: int, at: list[Any], c: list[Any]) -> Array:
+        """Right-hand sides of zone d at its Gauss points, components in the last axis."""
+        c = [np.asarray(v)[..., None, None] for v in c]
+        found = self.zones[d].rates(at, self.zones[d].mesh.gauss, c)
+        return np.stack(np.broadcast_arrays(*found, at[0])[:-1], axis=-1)
+
+    def defects(self, y: tuple[Array, ...], c: Array) -> list[Array]:
+        """What the polynomials miss of the equations at the Gauss points of each zone."""
+        out = []
+        for d, v in enumerate(y):
+            mesh = self.zones[d].mesh
+            f = self.rates(d, components(mesh.rule.value @ v), components(c))
+            out.append(mesh.rule.deriv @ v - mesh.widths[:, None, None] * f)
+        return out
+
+    def missed(self, y: tuple[Array, ...], c: Array) -> Array:
+        """The conditions' values, in the last axis."""
+        return self._missed([*self._ends(y), *components(c)], y)
+
+    @staticmethod
+    def _ends(y: tuple[Array, ...]) -> list[Any]:
+        ends = (v[..., e, e, :] for e in (0, -1) for v in y)
+        return [x for end in ends for x in components(end)]
+
+    def _missed(self, flat: list[Any], y: tuple[Array, ...]) -> Array:
+        given, parts = iter(flat), []
+        for _ in (0, -1):
+            parts.append([[next(given) for _ in range(v.shape[-1])] for v in y])
+        found = self.conditions(*parts, c := list(given))
+        return np.stack(np.broadcast_arrays(*found, c[0])[:-1], axis=-1)
+
+    def linearised(self, y: tuple[Array, ...], c: Array) -> Linearised:
+        """The problem about some values."""
+        return Linearised(self, y, c)
+
+    def bent(self, y: tuple[Array, ...], c: Array, dy: list[Array], dc: Array) -> tuple[list[Array], Array]:
+        """Coefficients of t^2 of defects and conditions along y + t dy, c + t dc (sums over a circle)."""
+        found = [
+            (self.defects(at := tuple(a + t * b for a, b in zip(y, dy, strict=True)), c + t * dc),
+             self.missed(at, c + t * dc))
+            for t in CIRCLE
+        ]  # fmt: skip
+        weight = 1 / CIRCLE**2 / len(CIRCLE)
+        defects = [
+            sum(np.real(w * f[0][d]) for w, f in zip(weight, found, strict=True)) for d in range(len(y))
+        ]
+        return defects, sum(np.real(w * f[1]) for w, f in zip(weight, found, strict=True))
+
+    def solve(
+        self,
+        y: tuple[Array, ...],
+        c: Array,
+        what: str,
+        room: Callable[[Array, Array], Any] = lambda _c, _dc: 1.0,
+        **named: Any,
+    ) -> tuple[tuple[Array, ...], Array]:
+        """Values that meet equations and conditions, from a guess.
+
+        Args:
+            y: Nodal values of each zone, (..., elements, degree + 1, components).
+            c: The numbers, (..., count).
+            what: What is sought, for the message.
+            room: The largest share of a correction of c that may be made.
+            named: ``longest``, ``close`` and ``most`` of Newton's method.
+
+        Raises:
+            RuntimeError: If Newton's method does not converge.
+        """
+
+        def correct(at: tuple[tuple[Array, ...], Array]) -> tuple[Any, Callable[[Any], Any]]:
+            y, c = at
+            system = self.linearised(y, c)
+            dy, dc = system.solve(system.defects, system.missed)
+            size = np.max(np.abs(dc), axis=-1)
+            for part in dy:
+                size = np.maximum(size, np.max(np.abs(part), axis=(-3, -2, -1)))
+
+            def advance(share: Any) -> tuple[tuple[Array, ...], Array]:
+                share = np.minimum(share, room(c, dc))
+                wide = np.asarray(share)[..., None, None, None]
+                moved = tuple(a + wide * b for a, b in zip(y, dy, strict=True))
+                return moved, c + np.asarray(share)[..., None] * dc
+
+            return size, advance
+
+        return newton((y, c), correct, what, **{"longest": 0.4, "close": 1e-8} | named)
 
 
 class Linearised:
-    """Newton system at a state, reduced element by element to the element ends."""
+    """A problem about some values: defects, what conditions miss, and solutions of the linear system."""
 
-    def __init__(self, state: State, control: str, pressure: Pressure) -> None:
-        tube, mesh = state.tube, state.mesh
-        self.mesh, (k, m) = mesh, (mesh.elements, mesh.degree)
-        h = (mesh.widths * tube.length)[:, None]
-        at = [c for c in np.moveaxis(mesh.value @ state.y, -1, 0)]
-        f = rates(at, state.p, tube, pressure)
-        self.defect = (mesh.deriv @ state.y) - np.stack(f[:4], axis=-1) * h[..., None]
-        self.volume = float(np.sum(h * mesh.weights * f[4]))
-        jac = np.empty((k, m, 5, 5))  # rate i, derivative with respect to rho, eta, l1, b, p
-        for j in range(5):
-            args = [a + 1j * STEP if i == j else a for i, a in enumerate(at)]
-            bump = rates(args, state.p + (1j * STEP if j == 4 else 0), tube, pressure)
-            jac[..., j] = np.stack([np.imag(g) for g in bump], axis=-1) / STEP
-        block = np.einsum("mn,ij->minj", mesh.deriv, np.eye(4))[None] - np.einsum(
-            "k,kmij,mn->kminj", h[:, 0], jac[:, :, :4, :4], mesh.value
-        )
-        self.block = block.reshape(k, 4 * m, 4 * (m + 1))
-        self.load = (-h[..., None] * jac[:, :, :4, 4]).reshape(k, 4 * m)
-        row = np.zeros((k, m + 1, 4))
-        if control == "V":
-            weight = h * mesh.weights
-            row = np.einsum("km,kmj,mn->knj", weight, jac[:, :, 4, :4], mesh.value)
-        else:
-            row[0, 0, 0] = 1.0
-        self.row = row.reshape(k, -1)
+    def __init__(self, problem: Problem, y: tuple[Array, ...], c: Array) -> None:
+        self.count = c.shape[-1]
+        self.defects: list[Array] = []
+        self.blocks: list[tuple[Array, Array]] = []
+        for d, v in enumerate(y):
+            self._zone(problem, d, v, components(c))
+        flat = [*problem._ends(y), *components(c)]
+        self.missed = problem._missed(flat, y)
+        self.by_ends = derivatives(lambda x: problem._missed(x, y), flat)
 
-    def solve(self, rhs: Array, ends: Array, scalar: float) -> tuple[Array, float]:
-        """Solve for (dy, dp); rhs at the Gauss points, ends for b0, eta0, rhoL, etaL."""
-        k, m = self.mesh.elements, self.mesh.degree
-        right = np.concatenate(
-            [-self.block[:, :, :4], -self.load[..., None], rhs.reshape(k, 4 * m, 1)], axis=2
-        )
-        x = np.linalg.solve(self.block[:, :, 4:], right)  # all but the left node, per element
-        size = 4 * (k + 1) + 1
-        a, b = np.zeros((size, size)), np.zeros(size)
-        for e in range(k):
-            rows, left = slice(4 * e, 4 * e + 4), slice(4 * e, 4 * e + 4)
-            a[rows, 4 * e + 4 : 4 * e + 8] = np.eye(4)
-            a[rows, left] = -x[e, -4:, :4]
-            a[rows, -1], b[rows] = -x[e, -4:, 4], x[e, -4:, 5]
-            inner = self.row[e, 4:] @ x[e]
-            a[-1, left] += self.row[e, :4] + inner[:4]
-            a[-1, -1] += inner[4]
-            b[-1] -= inner[5]
-        for i, place in enumerate((3, 1, 4 * k, 4 * k + 1)):
-            a[4 * k + i, place], b[4 * k + i] = 1.0, ends[i]
-        b[-1] += scalar
-        ends_and_p = np.linalg.solve(a, b)
-        left = ends_and_p[:-1].reshape(k + 1, 4)
-        factors = np.concatenate([left[:-1], np.full((k, 1), ends_and_p[-1]), np.ones((k, 1))], axis=1)
-        inner = np.einsum("kij,kj->ki", x, factors).reshape(k, m, 4)
-        return np.concatenate([left[:-1, None], inner], axis=1), float(ends_and_p[-1])
+    def _zone(self, problem: Problem, d: int, v: Array, c: list[Array]) -> None:
+        mesh, n = problem.zones[d].mesh, v.shape[-1]
+        at, width = components(mesh.rule.value @ v), mesh.widths[:, None, None]
+        call = lambda x: problem.rates(d, x[:n], x[n:])  # noqa: E731
+        self.defects.append(mesh.rule.deriv @ v - width * call([*at, *c]))
+        jac = width[..., None] * derivatives(call, [*at, *c])
+        block = np.einsum("mq,ij->miqj", mesh.rule.deriv, np.eye(n))
+        block = block - np.einsum("...mij,mq->...miqj", jac[..., :n], mesh.rule.value)
+        shape = (*v.shape[:-2], n * mesh.degree)
+        self.blocks.append((block.reshape(*shape, -1), jac[..., n:].reshape(*shape, -1)))
 
+    def solve(self, defects: list[Array], missed: Array) -> tuple[list[Array], Array]:
+        """Changes of all values that cancel these defects and misses to first order."""
+        inner = []  # all nodes of an element but the left one, by the left one, by c, and the rest
+        for (block, by_c), defect in zip(self.blocks, defects, strict=True):
+            n = defect.shape[-1]
+            right = [-block[..., :n], by_c, -defect.reshape(*by_c.shape[:-1], 1)]
+            inner.append(np.linalg.solve(block[..., n:], np.concatenate(right, axis=-1)))
+        sizes = [d.shape[-1] for d in defects]
+        ends = [n * (x.shape[-3] + 1) for n, x in zip(sizes, inner, strict=True)]
+        total, first = sum(ends) + self.count, sum(ends) - sum(sizes)
+        a, b = np.zeros((*missed.shape[:-1], total, total)), np.zeros((*missed.shape[:-1], total))
+        row = column = place = 0
+        for n, x in zip(sizes, inner, strict=True):
+            begin = column
+            for e in range(x.shape[-3]):
+                rows, through = slice(row, row + n), x[..., e, -n:, :]
+                a[..., rows, column : column + n] = -through[..., :n]
+                a[..., rows, column + n : column + 2 * n] = np.eye(n)
+                a[..., rows, sum(ends) :], b[..., rows] = -through[..., n:-1], through[..., -1]
+                row, column = row + n, column + n
+            a[..., first:, begin : begin + n] += self.by_ends[..., place : place + n]
+            right = sum(sizes) + place
+            a[..., first:, column : column + n] += self.by_ends[..., right : right + n]
+            column, place = column + n, place + n
+        a[..., first:, sum(ends) :], b[..., first:] = self.by_ends[..., 2 * sum(sizes) :], -missed
+        z = np.linalg.solve(a, b[..., None])[..., 0]
+        dc, dy, begin = z[..., sum(ends) :], [], 0
+        for n, x, size in zip(sizes, inner, ends, strict=True):
+            at = z[..., begin : begin + size].reshape(*z.shape[:-1], -1, n)
+            begin += size
+            k = at.shape[-2] - 1
+            rest = np.broadcast_to(dc[..., None, :], (*dc.shape[:-1], k, self.count))
+            known = np.concatenate([at[..., :-1, :], rest, np.ones((*rest.shape[:-1], 1))], axis=-1)
+            inside = np.einsum("...ij,...j->...i", x, known).reshape(*z.shape[:-1], k, -1, n)
+            dy.append(np.concatenate([at[..., :-1, None, :], inside], axis=-2))
+        return dy, dc
 
-def newton(
-    start: State,
-    control: str,
-    target: float,
-    pressure: Pressure = mat.plain_pressure,
-    max_iter: int = 40,
-) -> tuple[State, Linearised]:
-    """Equilibrium with u_max or V equal to ``target``.
-
-    Returns the state and the system linearised at it. Steps are damped while they are large;
-    after the first step below 1e-7 one more is taken, which leaves only rounding errors.
-
-    Raises:
-        RuntimeError: If the iteration does not converge.
-    """
-    state, small = start, 0
-    half = state.tube.lf / 2
-    for _ in range(max_iter):
-        system = Linearised(state, control, pressure)
-        y = state.y
-        if small == 2:
-            return state, system
-        ends = -np.array([y[0, 0, 3], y[0, 0, 1], y[-1, -1, 0] - 1, y[-1, -1, 1] - half])
-        now = system.volume if control == "V" else y[0, 0, 0] - 1
-        dy, dp = system.solve(-system.defect, ends, target - now)
-        size = max(float(np.abs(dy).max()), abs(dp))
-        if not np.isfinite(size):
-            break
-        scale = min(1.0, 0.4 / size)
-        state = State(state.tube, state.mesh, y + scale * dy, state.p + scale * dp)
-        small += size < 1e-7
-    raise RuntimeError(f"collocation: no convergence at {control} = {target:g} for {start.tube}")
-
-
-def derivatives(
-    state: State, system: Linearised, control: str, pressure: Pressure = mat.plain_pressure
-) -> tuple[float, float]:
-    """First and second derivative of p along the branch, with respect to the control.
-
-    With Y(s) = Y0 + s Y1 + s^2 Y2 + ... the residual's Taylor coefficients of order 1 and 2
-    vanish: A Y1 = (0, 1), A Y2 = -(quadratic terms in Y1), A being the bordered matrix, which
-    is regular at a limit point. dp/ds = p1, d2p/ds2 = 2 p2.
-    """
-    zero, tube, mesh = np.zeros_like(system.defect), state.tube, state.mesh
-    y1, p1 = system.solve(zero, np.zeros(4), 1.0)
-    base, first = mesh.value @ state.y, mesh.value @ y1
-    jets = [Jet([base[..., i], first[..., i], np.zeros_like(base[..., i])]) for i in range(4)]
-    f = rates(jets, Jet([state.p, p1, 0.0]), tube, pressure)
-    h = (mesh.widths * tube.length)[:, None]
-    second = np.stack([g.c[2] for g in f[:4]], axis=-1) * h[..., None]
-    bend = float(np.sum(h * mesh.weights * f[4].c[2])) if control == "V" else 0.0
-    _, p2 = system.solve(second, np.zeros(4), -bend)
-    return p1, 2 * p2
-
-
-def first_guess(tube: Tube, mesh: Mesh, u: float) -> State:
-    """A bulge of height u to start Newton from: rho = 1 + u (1 - x^6), eta uniform."""
-    x = mesh.x
-    slope = -6 * u * x**5 / tube.length
-    y = np.stack(
-        [
-            1 + u * (1 - x**6),
-            x * tube.lf / 2,
-            np.hypot(tube.delta1, slope),
-            np.arctan2(slope, tube.delta1 + 0 * x),
-        ],
-        axis=-1,
-    )
-    return State(tube, mesh, y, 0.5)
+    def response(self, condition: int = -1) -> tuple[list[Array], Array]:
+        """Derivative of all values by the number to which a condition holds something."""
+        unit = np.zeros_like(self.missed)
+        unit[..., condition] = -1.0
+        return self.solve([0 * d for d in self.defects], unit)

@@ -14,7 +14,7 @@ import math
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
@@ -24,11 +24,53 @@ TWO_GRIDS = 3.0
 """Safety factor on the difference of two grids without a third one for the order (Roache 1994)."""
 
 
-class Estimate(Protocol):
-    """A value per row and its uncertainty."""
+@dataclass
+class Estimate:
+    """A value per row, its uncertainty, and the observed order of convergence where there is one."""
 
     value: Array
     uncertainty: Array
+    order: Array | None = None
+
+
+@dataclass
+class Levels:
+    """Coarse and fine values of one method; the fine ones count.
+
+    Attributes:
+        coarse: Values at the coarser resolution.
+        fine: Values at the finer one.
+        floor: Absolute part of the uncertainty that does not depend on the resolution.
+        rounding: The same, relative to values larger than one.
+    """
+
+    coarse: Array
+    fine: Array
+    floor: Array | float = 0.0
+    rounding: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.coarse, self.fine = (np.asarray(x, dtype=float) for x in (self.coarse, self.fine))
+
+    @property
+    def value(self) -> Array:
+        """The values."""
+        return self.fine
+
+    @property
+    def uncertainty(self) -> Array:
+        """Difference of the two resolutions, rounding and floor."""
+        rest = self.rounding * np.maximum(1.0, np.abs(self.fine)) + self.floor
+        return np.abs(self.fine - self.coarse) + rest
+
+
+def rule(written: str) -> str:
+    """What the values and uncertainties of a table are, for its method: ``written`` is (a) or (b)."""
+    return (
+        f"The values are ({written}); a table is written only if |a - b| <= hypot(u_a, u_b) in every row. "
+        f"The uncertainty of a column is u_{written} + max |a - b| + half a unit of the last digit; "
+        "largest_difference_of_methods is max |a - b|."
+    )
 
 
 class DisagreementError(RuntimeError):
@@ -92,42 +134,90 @@ def last_digit(values: Array) -> float:
 def agreed(
     table: str,
     name: str,
-    differences: Estimate,
-    collocation: Estimate,
+    first: Estimate | Levels,
+    second: Estimate | Levels,
     about: tuple[str, str],
     other: str = "finite differences",
     written: str = "collocation",
 ) -> Column:
-    """Column of the values of the written method, after a check that the other method agrees.
+    """Column of the values of the second, written method, after a check that the first one agrees.
 
     Raises:
         DisagreementError: If it does not; the message names table, column and worst row.
     """
-    gap = np.abs(differences.value - collocation.value)
-    room = np.hypot(differences.uncertainty, collocation.uncertainty)
+    gap, room = np.abs(first.value - second.value), np.hypot(first.uncertainty, second.uncertainty)
     if not np.all(gap <= room):
         row = int(np.nanargmax(np.where(np.isfinite(gap), gap / room, np.inf)))
+        one, two = (float(np.ravel(x.value)[row]) for x in (first, second))
         raise DisagreementError(
-            f"table {table}, column {name}, row {row}: {other} "
-            f"{differences.value[row]:.14g}, {written} {collocation.value[row]:.14g}, "
-            f"difference {gap[row]:.2e}, combined uncertainty {room[row]:.2e}"
+            f"table {table}, column {name}, row {row}: {other} {one:.14g}, {written} {two:.14g}, "
+            f"difference {np.ravel(gap)[row]:.2e}, combined uncertainty {np.ravel(room)[row]:.2e}"
         )
-    own = float(np.max(collocation.uncertainty))
-    total = own + float(gap.max()) + last_digit(collocation.value)
+    widest = float(np.max(gap, initial=0))
+    own, others = (float(np.max(x.uncertainty, initial=0)) for x in (second, first))
     extra = {
-        "largest_difference_of_methods": round_up(float(gap.max())),
+        "largest_difference_of_methods": round_up(widest),
         f"uncertainty_{written.replace(' ', '_')}": round_up(own),
-        f"uncertainty_{other.replace(' ', '_')}": round_up(float(np.max(differences.uncertainty))),
+        f"uncertainty_{other.replace(' ', '_')}": round_up(others),
     }
-    order = getattr(differences, "order", None)
+    order = getattr(first, "order", None)
     if order is not None and np.isfinite(order).any():
         extra["observed_order_finite_differences"] = round(float(np.nanmedian(order)), 4)
-    return Column(name, collocation.value, round_up(total), *about, extra)
+    return Column(name, second.value, round_up(own + widest + last_digit(second.value)), *about, extra)
 
 
 def prescribed(name: str, values: Array, about: tuple[str, str]) -> Column:
     """Column of values that are chosen, not computed."""
     return Column(name, np.asarray(values, dtype=float), 0.0, *about)
+
+
+@dataclass(frozen=True)
+class Series:
+    """What the tables of a paper, or of another group, have in common.
+
+    Attributes:
+        paper: Number of the paper, or name of the group.
+        source: Beginning of the source.
+        columns: Scaling and meaning of columns, by name.
+        method: How the numbers are computed.
+        grid: Resolutions.
+        tolerance: When iterations stop.
+    """
+
+    paper: int | str
+    source: str
+    columns: dict[str, tuple[str, str]]
+    method: str
+    grid: str
+    tolerance: str
+
+    def keys(self, **values: object) -> list[Column]:
+        """Columns of chosen values, by their names."""
+        return [prescribed(name, v, self.columns[name]) for name, v in values.items()]
+
+    def table(
+        self,
+        name: str,
+        title: str,
+        source: str,
+        parameters: dict[str, object],
+        columns: list[Column],
+        **more: Any,
+    ) -> Table:
+        """A table whose abscissa is its first column; ``more`` replaces what the series says."""
+        said = {"paper": self.paper, "method": self.method, "grid": self.grid, "tolerance": self.tolerance}
+        given = {"parameters": parameters, "abscissa": columns[0].name, "columns": columns}
+        return Table(
+            name=name,
+            title=title,
+            source=f"{self.source}, {source}".removesuffix(", "),
+            **(said | given | more),
+        )
+
+
+def steps(start: float, stop: float, step: float) -> Array:
+    """Round numbers start, start + step, ..., stop."""
+    return np.round(start + step * np.arange(round((stop - start) / step) + 1), 10)
 
 
 def plain(x: float) -> str:

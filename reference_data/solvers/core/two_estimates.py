@@ -1,31 +1,22 @@
-"""Functions of the tables of material laws and closed forms: two estimates that must agree."""
+"""Numbers that are exact up to rounding, by two ways that must agree: material laws and closed forms."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Array, Column, agreed
+from reference_data.solvers.core.tables import Column, Estimate, agreed
 
 HAND, CONTOUR = 2e-13, 2e-11
 """Uncertainties, relative to one plus the value, of numbers from derivatives by hand and by contours: about
 ten times the rounding that changes of nodes and radius show."""
 
 
-@dataclass
-class Rounded:
-    """Numbers that are exact up to rounding."""
-
-    value: Array
-    uncertainty: Array
-
-
-def rounded(values: Sequence[float], level: float) -> Rounded:
+def rounded(values: Sequence[float], level: float) -> Estimate:
     """Numbers with an uncertainty relative to one plus their magnitude."""
     array = np.array(values, dtype=float)
-    return Rounded(array, level * (1 + np.abs(array)))
+    return Estimate(array, level * (1 + np.abs(array)))
 
 
 def both(
@@ -38,6 +29,4 @@ def both(
 ) -> Column:
     """A column of numbers from derivatives by hand, after a check that those by contours agree."""
     first, second = rounded(hand, levels[0]), rounded(contour, levels[1])
-    column = agreed(table, name, second, first, about, other="contour integrals")
-    column.extra["uncertainty_by_hand"] = column.extra.pop("uncertainty_collocation")
-    return column
+    return agreed(table, name, second, first, about, other="contour integrals", written="by hand")

@@ -9,7 +9,7 @@ import numpy as np
 
 from reference_data.solvers.core.contour import derivative, six
 from reference_data.solvers.core.laws import BUILDERS, CONSTANTS, law
-from reference_data.solvers.core.tables import Table, prescribed
+from reference_data.solvers.core.tables import Series, Table
 from reference_data.solvers.core.two_estimates import both
 from reference_data.solvers.registry import Builder
 
@@ -33,6 +33,20 @@ METHOD = (
     "(a) derivatives worked out by hand; (b) from the energy alone, by contour integrals around the point. "
     "The relaxed energy is the full one where neither stretch is below the width that uniaxial tension along "
     "the other leaves, else the energy of that uniaxial tension, or zero."
+)
+
+
+SERIES = Series(
+    "materials",
+    "Patil (2016), chapter 3",
+    {
+        "l1": ("1", "principal stretch 1"),
+        "l2": ("1", "principal stretch 2"),
+        "state": ("1", "0 slack, 1 or 2 tension along 1 or 2, 3 taut"),
+    },
+    METHOD,
+    "48 nodes on a circle of radius 0.08 times the stretch (b)",
+    "rounding",
 )
 
 
@@ -97,29 +111,15 @@ def table(name: str, model: str) -> Table:
     hand = [by_hand(material, *p) for p in points]
     contour = [by_contour(material, *p) for p in points]
     stress = "over the stress S of the constants"
-    columns = [
-        prescribed("l1", np.array([p[0] for p in points]), ("1", "principal stretch 1")),
-        prescribed("l2", np.array([p[1] for p in points]), ("1", "principal stretch 2")),
-    ]
+    columns = SERIES.keys(l1=[p[0] for p in points], l2=[p[1] for p in points])
     for kind, suffix in enumerate(("", "_relaxed")):
         for i, base in enumerate(NAMES):
             about = (stress, f"{base} of the {'relaxed' if suffix else 'full'} energy; digits: derivatives")
             a, b = ([row[kind][i] for row in rows] for rows in (hand, contour))
             columns.append(both(name, base + suffix, about, a, b))
-    states = np.array([state(material, *p) for p in points], dtype=float)
-    columns.append(prescribed("state", states, ("1", "0 slack, 1 or 2 tension along 1 or 2, 3 taut")))
-    return Table(
-        name=name,
-        paper="materials",
-        title=f"Material law {model}: energy and its derivatives",
-        source="Patil (2016), chapter 3",
-        method=METHOD,
-        grid="48 nodes on a circle of radius 0.08 times the stretch (b)",
-        tolerance="rounding",
-        parameters={"model": model, **CONSTANTS[model]},
-        abscissa="l1",
-        columns=columns,
-    )
+    columns += SERIES.keys(state=[state(material, *p) for p in points])
+    title = f"Material law {model}: energy and its derivatives"
+    return SERIES.table(name, title, "", {"model": model, **CONSTANTS[model]}, columns)
 
 
 TABLES: dict[str, Builder] = {f"law_{m}": partial(table, f"law_{m}", m) for m in BUILDERS}

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from reference_data.solvers.core.laws import CONSTANTS, law
-from reference_data.solvers.core.tables import Array, DisagreementError, Table, prescribed
+from reference_data.solvers.core.tables import Array, DisagreementError, Table, prescribed, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import text
 from reference_data.solvers.paper1.collocation import rows as rc
@@ -16,7 +16,6 @@ from reference_data.solvers.paper1.membrane import Disk
 from reference_data.solvers.paper1.shooting import rows as rs
 from reference_data.solvers.paper1.shooting import states as ss
 from reference_data.solvers.paper1.shooting.equations import LEVELS
-from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.registry import Builder
 
 MODELS = ("ogden", "gent", "arruda_boyce")
@@ -39,9 +38,8 @@ def walked(model: str, t0: Array, i: int) -> tuple[dict[str, Array], dict[str, A
 
 def made(name: str, title: str, model: str, columns: list, **more: object) -> Table:
     """A table with the documentation common to all of them."""
-    table = dc.table(name, title, "section 2", {"model": model, **CONSTANTS[model], **FREE}, columns, **more)
-    table.paper = "materials"
-    return table
+    facts = {"model": model, **CONSTANTS[model], **FREE} | more.pop("parameters", {})
+    return dc.table(name, title, "section 2", facts, columns, paper="materials", **more)
 
 
 def curve(name: str, model: str) -> Table:
@@ -86,9 +84,8 @@ def contact(name: str, model: str) -> Table:
     b = [rc.sliding_rows(cs.joined(dc.sliding_b(disk, p, i))) for i in dc.BOTH]
     columns = [dc.given("p", p), *dc.columns(name, TOUCHING, a, b)]
     title = f"Frictionless contact of a disk of {model}"
-    table = made(name, title, model, columns, notes=text.SLIDING)
-    table.parameters |= {"contact": "frictionless", "k": disk.k, "l": disk.l}
-    return table
+    facts = {"contact": "frictionless", "k": disk.k, "l": disk.l}
+    return made(name, title, model, columns, notes=text.SLIDING, parameters=facts)
 
 
 def _turn(t0: Array, found: dict[str, Array]) -> dict[str, Array]:

@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache, partial
 
-import numpy as np
-
 from reference_data.solvers.core.laws import CONSTANTS, law
-from reference_data.solvers.core.tables import Table, prescribed
+from reference_data.solvers.core.tables import Table, steps
 from reference_data.solvers.paper3 import modes, text
 from reference_data.solvers.paper3 import tables_primary as paper3
-from reference_data.solvers.paper3.common import Rows, columns_of, critical, make, steps
+from reference_data.solvers.paper3.common import Rows, columns_of, critical
 from reference_data.solvers.paper3.data import GAMMA, FluidTube
 from reference_data.solvers.registry import Builder
 
@@ -61,15 +59,11 @@ def points(name: str, model: str) -> Table:
         for level, (state, shape) in enumerate(found[n]):
             a[level].append(modes.quantities(state))
             b[level].append(modes.galerkin_quantities(shape))
-    columns = [
-        prescribed("n", np.array([0.0, 1.0]), text.COLUMNS["n"]),
-        prescribed("order", np.ones(2), text.COLUMNS["order"]),
-        *columns_of(name, ("zw", "V", "r_mid", "r_max", "T1_ring", "Pi"), a, b),
-    ]
+    columns = text.SERIES.keys(n=[0, 1], order=[1, 1])
+    columns += columns_of(name, ("zw", "V", "r_mid", "r_max", "T1_ring", "Pi"), a, b)
     title = f"Critical points of a fluid-loaded tube of {model}; mu = 2 S"
-    table = make(name, title, SOURCE, facts(model), columns, notes=text.CRITICAL_NOTES)
-    table.paper = "materials"
-    return table
+    more = {"paper": "materials", "notes": text.CRITICAL_NOTES}
+    return text.SERIES.table(name, title, SOURCE, facts(model), columns, **more)
 
 
 TABLES: dict[str, Builder] = {}

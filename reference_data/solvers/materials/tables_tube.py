@@ -9,14 +9,11 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.collocation import newton
 from reference_data.solvers.core.laws import CONSTANTS, law
 from reference_data.solvers.core.mooney_rivlin import Tube
-from reference_data.solvers.core.tables import Array, Column, Table, agreed, prescribed
-from reference_data.solvers.core.two_estimates import Rounded
+from reference_data.solvers.core.tables import Array, Column, Estimate, Table, agreed, steps
 from reference_data.solvers.paper2 import text
 from reference_data.solvers.paper2.collocation import critical as col
-from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.registry import Builder
 
@@ -28,70 +25,47 @@ NEAR = {"ogden": (0.838, 4.293), "gent": (0.857, 3.645), "arruda_boyce": (0.848,
 WINDOW, NODES = 0.12, 12
 
 
-def make(name: str, title: str, model: str, columns: list[Column], source: str, notes: str) -> Table:
+def make(name: str, title: str, model: str, columns: list[Column], notes: str) -> Table:
     """A table with the documentation common to all of them."""
-    return Table(
-        name=name,
-        paper="materials",
-        title=title,
-        source=source,
-        method=text.METHOD,
-        grid=text.grid(),
-        tolerance=text.TOLERANCE,
-        parameters={"model": model, **CONSTANTS[model], "delta1": 1.0, "lf": LF},
-        abscissa=columns[0].name,
-        columns=columns,
-        notes=notes,
-    )
-
-
-def collocated(tube: Tube, targets: Array) -> dict[str, col.Resolved]:
-    """Columns on two meshes; as the paper's tables, but for rates, which need a law's third derivatives."""
-    levels = []
-    for mesh in col.MESHES:
-        state, rows = col.start(tube, mesh, "u_max", float(targets[0])), []
-        for target in targets:
-            state, system = newton(state, "u_max", float(target))
-            rows.append(col.quantities(state, system.volume))
-        levels.append({c: np.array([row[c] for row in rows]) for c in rows[0]})
-    return {c: col.resolved(levels[0][c], levels[1][c]) for c in levels[0]}
+    facts = {"model": model, **CONSTANTS[model], "delta1": 1.0, "lf": LF}
+    return text.SERIES.table(name, title, "section 2", facts, columns, paper="materials", notes=notes)
 
 
 def tube_curve(name: str, model: str) -> Table:
     """Free inflation of a tube over its mid-plane displacement."""
     tube = Tube(law(model), 1.0, LF)
     targets = steps(0.05, U_STOP, 0.05)
-    a, b = fdb.curve(tube, "u_max", targets), collocated(tube, targets)
-    columns = [prescribed("u_max", targets, text.COLUMNS["u_max"])]
+    a, b = fdb.curve(tube, "u_max", targets), col.curve(tube, "u_max", targets)
+    columns = text.SERIES.keys(u_max=targets)
     columns += [agreed(name, c, a[c], b[c], text.COLUMNS[c]) for c in ("p", "lam1_mid", "t1_mid", "V")]
-    return make(name, f"Free inflation of a tube of {model}", model, columns, f"{text.PAPER}, section 2", "")
+    return make(name, f"Free inflation of a tube of {model}", model, columns, "")
 
 
 def tube_limits(name: str, model: str) -> Table:
     """Limit points of a tube: maxima and minima of polynomials through states at Chebyshev nodes."""
     tube = Tube(law(model), 1.0, LF)
     nodes = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)[::-1]
-    found: dict[str, list[Rounded]] = {"a": [], "b": []}
+    found: dict[str, list[Estimate]] = {"a": [], "b": []}
     for centre in NEAR[model]:
         window = centre + WINDOW * nodes
         targets = np.concatenate([steps(0.05, window[0] - 0.02, 0.05), window])
-        a, b = fdb.curve(tube, "u_max", targets), collocated(tube, targets)
+        a, b = fdb.curve(tube, "u_max", targets), col.curve(tube, "u_max", targets)
         for key, value in (("a", a["p"]), ("b", b["p"])):
             p, spread = value.value[-NODES:], float(np.max(value.uncertainty[-NODES:]))
             found[key].append(_turn(window, p, spread, centre))
-    columns = [prescribed("order", np.arange(1, len(NEAR[model]) + 1), text.COLUMNS["order"])]
+    columns = text.SERIES.keys(order=np.arange(1, len(NEAR[model]) + 1))
     for i, c in enumerate(("p", "u_max")):
         a, b = (
-            Rounded(np.array([r.value[i] for r in found[k]]), np.array([r.uncertainty[i] for r in found[k]]))
+            Estimate(np.array([r.value[i] for r in found[k]]), np.array([r.uncertainty[i] for r in found[k]]))
             for k in ("a", "b")
         )
         columns.append(agreed(name, c, a, b, text.COLUMNS[c]))
     notes = "dp/du_max = 0 of a polynomial of degree 11 through p at Chebyshev nodes, both methods."
     title = f"Limit points of a tube of {model}"
-    return make(name, title, model, columns, f"{text.PAPER}, section 2", notes)
+    return make(name, title, model, columns, notes)
 
 
-def _turn(u: Array, p: Array, spread: float, centre: float) -> Rounded:
+def _turn(u: Array, p: Array, spread: float, centre: float) -> Estimate:
     """``(p, u)`` at an extremum of a polynomial, and the effect of an error ``spread`` of ``p`` on it."""
     fit = np.polynomial.Chebyshev.fit(u, p, NODES - 1, domain=[centre - WINDOW, centre + WINDOW])
     roots = [r.real for r in fit.deriv().roots() if abs(r.imag) < 1e-9 and abs(r.real - centre) < WINDOW]
@@ -100,7 +74,7 @@ def _turn(u: Array, p: Array, spread: float, centre: float) -> Rounded:
     at = roots[0]
     # A polynomial of size e and degree n on a window of half width h has slopes up to n^2 e/h.
     slope = NODES**2 * spread / WINDOW
-    return Rounded(np.array([fit(at), at]), np.array([2 * spread, slope / abs(fit.deriv(2)(at))]))
+    return Estimate(np.array([fit(at), at]), np.array([2 * spread, slope / abs(fit.deriv(2)(at))]))
 
 
 TABLES: dict[str, Builder] = {}

@@ -7,6 +7,7 @@ of ``w(l, l^(-1/2))`` where it is wrinkled, and for waves the derivatives with r
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
@@ -59,9 +60,8 @@ def membrane(model: str, M: float, delta: float, af: float | None = None, load: 
 def made(name: str, title: str, model: str, given: dict[str, object], columns: list[Column], **more: object):  # noqa: ANN201
     """A table with the documentation common to all of them."""
     facts = {"model": model, **CONSTANTS[model], "L": 8.0, **given}
-    table = text.make(name, f"{title}, {model}", "the problem with another law", facts, columns, **more)
-    table.paper = "materials"
-    return table
+    about = replace(text.SERIES, paper="materials")
+    return about.table(name, f"{title}, {model}", "the problem with another law", facts, columns, **more)
 
 
 def radii(name: str, model: str) -> Table:
@@ -70,8 +70,7 @@ def radii(name: str, model: str) -> Table:
     a = np.array([wri.critical_radius(m) for m in found])
     b = np.array([wri.critical_radius_by_parts(m) for m in found])
     columns = [
-        prescribed("M", np.array([x[0] for x in RADII]), text.COLUMNS["M"]),
-        prescribed("delta", np.array([x[1] for x in RADII]), text.COLUMNS["delta"]),
+        *text.SERIES.keys(M=np.array([x[0] for x in RADII]), delta=np.array([x[1] for x in RADII])),
         cas.agreed(name, "Af_critical", Pair(a, a), Pair(b, b), text.COLUMNS["Af_critical"]),
     ]
     method = (
@@ -84,7 +83,7 @@ def radii(name: str, model: str) -> Table:
 def threshold(name: str, model: str) -> Table:
     """Thickness ratio below which the unloaded tube of case 2 wrinkles, delta = 2."""
     found = evt.find(critical.threshold(2.0, material(model), 8.0, upper=False))
-    columns = [prescribed("delta", np.array([2.0]), text.COLUMNS["delta"])]
+    columns = text.SERIES.keys(delta=[2.0])
     columns += critical.rows(name, [found], "M", text.COLUMNS["M"])
     title = "Thickness at which case 2 begins to wrinkle at zero load"
     return made(name, title, model, {"Af": 1.0}, columns, notes=critical.ROOTS)
@@ -121,14 +120,7 @@ def waves(name: str, model: str) -> Table:
     """Levels at which waves around the axis set in and vanish, the tube of paper 5."""
     tube = membrane(model, 1.5, 3.0, 0.4362)
     found = [rel.crossing(lambda x: rel.cylinder(tube, x), n, *bracket) for n, bracket in WAVES[model]]
-    pairs = cas.stacked([tuple(Pair(p.coarse[0], p.fine[0], p.floor[0]) for p in x.pairs) for x in found])
-    columns = [
-        prescribed("n", np.array([float(x.n) for x in found]), relaxed_text.COLUMNS["n"]),
-        prescribed(
-            "direction", np.array([float(x.direction) for x in found]), relaxed_text.COLUMNS["direction"]
-        ),
-        cas.agreed(name, "zw", *pairs, relaxed_text.COLUMNS["zw"]),
-    ]
+    columns = rel.turning(name, found, "zw")
     facts = {"M": 1.5, "delta": 3.0, "Af": 0.4362, "load": "fluid", "gamma": tube.gamma}
     more = {"method": relaxed_text.METHOD, "grid": relaxed_text.CYLINDER_GRID}
     return made(name, "Where waves around the axis set in and vanish", model, facts, columns, **more)

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from reference_data.solvers.core.tables import Column, Table, agreed, prescribed
+from reference_data.solvers.core.newton import Secants
+from reference_data.solvers.core.tables import Column, Estimate, Levels, Table, agreed, prescribed
 from reference_data.solvers.paper1 import text
 from reference_data.solvers.paper1.collocation import history as ch
 from reference_data.solvers.paper1.collocation import radial as cr
@@ -19,8 +20,8 @@ from reference_data.solvers.paper1.membrane import Disk, toward
 from reference_data.solvers.paper1.shooting import history as sh
 from reference_data.solvers.paper1.shooting import radial as sr
 from reference_data.solvers.paper1.shooting import states as ss
-from reference_data.solvers.paper1.shooting.equations import LEVELS, Newton
-from reference_data.solvers.paper2.collocation.critical import Resolved, resolved
+from reference_data.solvers.paper1.shooting.equations import LEVELS
+from reference_data.solvers.paper2.collocation.critical import ROUNDING
 
 BOTH = (0, 1)  # coarse and fine
 FLOOR = 1e-12  # relative; remaining error of Newton's method in shooting, and rounding elsewhere
@@ -135,7 +136,7 @@ def edge_b(case: Case, p: float, i: int) -> tuple[float, Batch]:
 
 def deflated_a(case: Case, pressures: Array, i: int) -> list[sh.Edge]:
     """Deflation from p_end at falling pressures by shooting."""
-    edge, newton, out = edge_a(case, case.p_end, i), Newton(), []
+    edge, newton, out = edge_a(case, case.p_end, i), Secants(), []
     for p in map(float, pressures):
         while edge.p != p:
             edge = sh.deflated(edge, toward(edge.p, p, STEP), newton)
@@ -166,7 +167,7 @@ def sliding_a(disk: Disk, pressures: Array, i: int) -> list[ss.Shot]:
         heights = [s.p for s in climb]
         for target in low:
             near = climb[int(np.argmin(np.abs(np.log(np.array(heights) / target))))]
-            out.append(ss.free(near, "p", float(target), Newton()))
+            out.append(ss.free(near, "p", float(target), Secants()))
     return out + (ss.walk(onset, high) if len(high) else [])
 
 
@@ -189,19 +190,17 @@ def rows_of(parts: list[dict[str, Any]]) -> dict[str, Array]:
     return {c: np.array([np.ravel(part[c])[0] for part in parts]) for c in parts[0]}
 
 
-def levels(coarse: Array, fine: Array) -> Resolved:
+def levels(coarse: Array, fine: Array) -> Estimate:
     """Values of shooting: the finer ones, with the largest change of the column as uncertainty."""
     coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
     change = float(np.max(np.abs(fine - coarse)))
-    return Resolved(fine, change + FLOOR * np.maximum(1.0, np.abs(fine)))
+    return Estimate(fine, change + FLOOR * np.maximum(1.0, np.abs(fine)))
 
 
 def column(table: str, name: str, a: list[Array], b: list[Array], about: tuple[str, str]) -> Column:
     """A column from two levels of shooting (a) and two resolutions of collocation (b)."""
-    fine = resolved(*b)
-    # possible changes on another machine, by the order of sums
-    fine.uncertainty = fine.uncertainty + FLOOR * np.maximum(1.0, np.abs(fine.value))
-    return agreed(table, name, levels(*a), fine, about, other="shooting")
+    # FLOOR: possible changes on another machine, by the order of sums
+    return agreed(table, name, levels(*a), Levels(*b, rounding=ROUNDING + FLOOR), about, other="shooting")
 
 
 def columns(
@@ -213,22 +212,9 @@ def columns(
 
 def given(name: str, values: Any) -> Column:
     """A prescribed column of a table."""
-    return prescribed(name, np.asarray(values, dtype=float), text.COLUMNS[name])
+    return prescribed(name, values, text.COLUMNS[name])
 
 
-def table(
-    name: str, title: str, source: str, parameters: dict[str, object], columns: list[Column], **more: Any
-) -> Table:
-    """A table of paper 1 with the documentation common to all of them."""
-    method = text.METHOD[more.pop("model", "sliding")]
-    defaults: dict[str, Any] = {"method": method, "grid": text.grid(), "tolerance": text.TOLERANCE}
-    return Table(
-        name=name,
-        paper=1,
-        title=title,
-        source=f"{text.PAPER}, {source}",
-        parameters=parameters,
-        abscissa=columns[0].name,
-        columns=columns,
-        **(defaults | more),
-    )
+def table(*given: Any, model: str = "sliding", **more: Any) -> Table:
+    """A table of paper 1 about a model of contact, from name, title, source, parameters and columns."""
+    return text.SERIES[model].table(*given, **more)

@@ -17,6 +17,8 @@ from typing import Any
 import numpy as np
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.core.collocation import joined
+from reference_data.solvers.core.newton import Secants
 from reference_data.solvers.paper1.collocation.equations import (
     Batch,
     Sliding,
@@ -32,12 +34,12 @@ from reference_data.solvers.paper1.collocation.states import (
     sliding_contact,
 )
 from reference_data.solvers.paper1.membrane import Disk
-from reference_data.solvers.paper1.shooting.equations import Accuracy, Array, Newton, pole, shoot
+from reference_data.solvers.paper1.shooting.equations import Accuracy, Array, pole, shoot
 from reference_data.solvers.paper1.shooting.history import pull
 from reference_data.solvers.paper1.shooting.states import Shot, touching
 
 
-def first_a(onset: Shot, step: float, newton: Newton) -> tuple[float, Array]:
+def first_a(onset: Shot, step: float, newton: Secants) -> tuple[float, Array]:
     """Frictionless contact at t0 = l + step: (p, state at the front with x first)."""
     disk, how, start = onset.disk, onset.how, touching(onset, step)
     first = how.start * disk.length
@@ -60,7 +62,7 @@ def ring_a(
     how: Accuracy,
     at: tuple[float, float, float, float],
     guess: Sequence[float],
-    newton: Newton,
+    newton: Secants,
 ) -> tuple[float, float, Array]:
     """One step by shooting: (p, width of the ring, state and volume at its outer edge).
 
@@ -87,8 +89,8 @@ def ring_a(
 
 def shooting(onset: Shot, top: float, count: int) -> float:
     """Pressure at t0 = top after ``count`` equal steps from t0 = l, by shooting."""
-    disk, step, newton = onset.disk, (top - onset.disk.l) / count, Newton()
-    p, (x, rho, _, slope, dip, moment) = first_a(onset, step, Newton())
+    disk, step, newton = onset.disk, (top - onset.disk.l) / count, Secants()
+    p, (x, rho, _, slope, dip, moment) = first_a(onset, step, Secants())
     width = 0.8 * x
     for _ in range(1, count):
         # the edge was at eta = l and is raised with the pole
@@ -108,8 +110,7 @@ def ring(disk: Disk, how: Resolution, at: tuple[float, float, float, float], gue
         force = x * mat.slope(l1, r / x, disk.alpha) * np.sin(th)
         springs = disk.k * ((eta - disk.l) * rho**2 / 2 + moment)
         balance = (scalars[0] * rho**2 / 2 - springs - force) / x**2
-        join = [a - b for a, b in zip(right[0], left[1], strict=True)]
-        return [r - rho, eta - height, balance, *join, left[1][1] - disk.l, *at_rim(right[1])]
+        return [r - rho, eta - height, balance, *joined(left, right), left[1][1] - disk.l, *at_rim(right[1])]
 
     zones = (Sliding(disk, how.inner, True), Sliding(disk, how.outer))
     ends = lambda s: [(x + 0 * s[1], s[1]), (s[1], disk.length)]  # noqa: E731

@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
+from reference_data.solvers.core.newton import Secants
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import release
 from reference_data.solvers.paper1.cases import Case
@@ -20,7 +21,6 @@ from reference_data.solvers.paper1.collocation import history as ch
 from reference_data.solvers.paper1.collocation.equations import Array, Batch
 from reference_data.solvers.paper1.membrane import Patch, toward
 from reference_data.solvers.paper1.shooting import history as sh
-from reference_data.solvers.paper1.shooting.equations import Newton
 
 Rates = Callable[[Array], Array]
 STENCIL = ((-2, 1 / 12), (-1, -2 / 3), (1, 2 / 3), (2, -1 / 12))
@@ -46,7 +46,7 @@ def fronts_b(case: Case, radii: Array, i: int) -> Array:
 
 def state_a(case: Case, p: float, x: float, i: int) -> sh.Edge:
     """The locked patch [0, x] at pressure p by shooting."""
-    edge, newton = dc.inflation_a(case, i).at(x), Newton()
+    edge, newton = dc.inflation_a(case, i).at(x), Secants()
     while edge.p != p:
         edge = sh.deflated(edge, toward(edge.p, p, STEP), newton)
     return edge

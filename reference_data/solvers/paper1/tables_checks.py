@@ -5,13 +5,16 @@ Patil, DasGupta & Eriksson, Int. J. Solids Struct. 67-68 (2015) 250-262, section
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
 
+from reference_data.solvers.core import continuity as con
 from reference_data.solvers.core.collocation import differentiation, lagrange
-from reference_data.solvers.core.tables import Column, DisagreementError, Table, prescribed, round_up
+from reference_data.solvers.core.newton import Secants
+from reference_data.solvers.core.tables import Table, prescribed, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import freezing, text
 from reference_data.solvers.paper1.cases import Case
@@ -21,18 +24,12 @@ from reference_data.solvers.paper1.collocation import states as cs
 from reference_data.solvers.paper1.collocation.equations import Array
 from reference_data.solvers.paper1.shooting import history as sh
 from reference_data.solvers.paper1.shooting import rows as rs
-from reference_data.solvers.paper1.shooting.equations import Newton
 from reference_data.solvers.paper1.tables_profiles import drawn_b
-from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.registry import Builder
 
 TOP = 0.57  # pole height of the results of the freezing scheme
 STEPS = (7, 14, 28, 56)
-FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2")
 KINDS = (("frictionless", 5.0), ("inflation", 3.2), ("deflation", 2.4))
-HIGHEST = 3  # derivatives of order 0 .. 3 are compared
-NONE = HIGHEST + 1
-JUMP = 5e-3  # relative; actual jumps are larger, and others are much smaller
 NODES = (np.cos(np.pi * (2 * np.arange(10) + 1) / 20)[::-1] + 1) / 2
 WIDTH = 0.08  # in X, length of the interval next to the front
 
@@ -91,63 +88,30 @@ def freezing_scheme(name: str) -> Table:
     )
 
 
-def one_sided(call: object, front: float, side: int) -> dict[str, Array]:
-    """Derivatives by X of order 0 .. HIGHEST at the front, from the left (-1) or right (1)."""
+def one_sided(call: Callable[[Array], dict[str, Array]], front: float, side: int) -> dict[str, Array]:
+    """Derivatives by X at the front, from the left (-1) or right (1), by field."""
     X = front + side * WIDTH * (NODES if side > 0 else NODES[::-1])
-    profile = call(X)
-    operator, at = differentiation(X), lagrange(X, np.array([front]))
-    out = {}
-    for c in FIELDS:
-        rows = [profile[c]]
-        for _ in range(HIGHEST):
-            rows.append(operator @ rows[-1])
-        out[c] = np.array([float((at @ r)[0]) for r in rows])
-    return out
+    profile, at = call(X), lagrange(X, np.array([front]))
+    return {c: con.derivatives(differentiation(X), profile[c]) @ at[0] for c in con.FIELDS}
 
 
 def jumps(kind: str, p: float, i: int) -> dict[str, Array]:
     """Jump of each derivative over the larger of its two one-sided values."""
     front, call = drawn_b(dc.MR_1, kind, np.array([p]), i)[0]
-    inside, outside = (one_sided(call, front, side) for side in (-1, 1))
-    return {
-        c: np.abs(inside[c] - outside[c]) / np.maximum(np.abs(inside[c]), np.abs(outside[c])) for c in FIELDS
-    }
+    return con.relative(*(one_sided(call, front, side) for side in (-1, 1)))
 
 
 def continuity(name: str) -> Table:
-    """Order of the first derivative that jumps at the contact edge.
-
-    Raises:
-        DisagreementError: If the two resolutions differ in an order.
-    """
-    rows = []
-    for which, (kind, p) in enumerate(KINDS, 2):
-        coarse, fine = (jumps(kind, p, i) for i in dc.BOTH)
-        for j, c in enumerate(FIELDS, 1):
-            orders = [next((k for k in range(NONE) if jump[c][k] > JUMP), NONE) for jump in (coarse, fine)]
-            if orders[0] != orders[1]:
-                raise DisagreementError(f"table {name}: order of {c}, {kind}, depends on the resolution")
-            size = [jump[c][orders[1]] if orders[1] < NONE else 0.0 for jump in (coarse, fine)]
-            below = max(float(jump[c][: orders[1]].max(initial=0.0)) for jump in (coarse, fine))
-            rows.append((which, j, orders[1], size[1], below, abs(size[1] - size[0])))
-    data = np.array(rows).T
-    about = {
-        "kind": ("1", "2 frictionless, 3 adhesive inflation, 4 adhesive deflation"),
-        "field": ("1", "1 rho, 2 eta, 3 lam1, 4 lam2, 5 t1, 6 t2"),
-        "first_jump": ("1", f"order of the first derivative by X that jumps; {NONE}: none up to {HIGHEST}"),
-        "jump": ("1", "that jump over the larger of the two one-sided values; 0 if there is none"),
-        "below": ("1", "largest such ratio of all lower orders: rounding amplified by differentiation"),
-    }
-    columns = [prescribed(c, v, about[c]) for c, v in zip(list(about)[:3], data[:3], strict=True)]
-    columns.append(Column("jump", data[3], round_up(float(data[5].max()) + 1e-6), *about["jump"]))
-    columns.append(Column("below", data[4], round_up(float(data[4].max())), *about["below"]))
+    """Order of the first derivative that jumps at the contact edge."""
+    kinds = {k: lambda at=at: tuple(jumps(*at, i) for i in dc.BOTH) for k, at in enumerate(KINDS, 2)}
+    columns = con.columns(name, kinds, "X", "2 frictionless, 3 adhesive inflation, 4 adhesive deflation")
     pressures = {f"p_{kind}": p for kind, p in KINDS}
     return dc.table(
         name,
         f"Orders of continuity at the contact edge, {dc.MR_1.title}",
         "the statements of section 6 on continuity",
         dc.MR_1.disk.parameters
-        | {"contact": "adhesive", "p_end": dc.MR_1.p_end, "threshold": JUMP}
+        | {"contact": "adhesive", "p_end": dc.MR_1.p_end, "threshold": con.JUMP}
         | pressures,
         columns,
         method=(
@@ -164,7 +128,7 @@ def bend_a(case: Case, i: int) -> dict[str, float]:
     edges = dc.deflated_a(case, p[p < case.p_end], i)
     value = lambda e: rs.edge_row(e, 1.0)["curvature"]  # noqa: E731
     j = next(j for j, e in enumerate(edges) if value(e) < 0)
-    there = lambda q: sh.deflated(edges[j], q, Newton())  # noqa: E731
+    there = lambda q: sh.deflated(edges[j], q, Secants())  # noqa: E731
     return rs.edge_row(
         there(brentq(lambda q: value(there(q)), edges[j].p, edges[j - 1].p, xtol=1e-14, rtol=1e-13)), 1.0
     )

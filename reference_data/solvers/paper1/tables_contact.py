@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Table
+from reference_data.solvers.core.tables import Table, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import text
 from reference_data.solvers.paper1.cases import Case
@@ -17,7 +17,6 @@ from reference_data.solvers.paper1.collocation import rows as rc
 from reference_data.solvers.paper1.collocation import states as cs
 from reference_data.solvers.paper1.collocation.equations import Array
 from reference_data.solvers.paper1.shooting import rows as rs
-from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.registry import Builder
 
 EDGE = ("X_contact", "rho_contact", "lam1_contact")

@@ -10,16 +10,16 @@ from functools import lru_cache, partial
 import numpy as np
 from scipy.optimize import brentq
 
-from reference_data.solvers.core.tables import DisagreementError, Table
+from reference_data.solvers.core.newton import Secants
+from reference_data.solvers.core.tables import DisagreementError, Table, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1.collocation import rows as rc
 from reference_data.solvers.paper1.collocation import states as cs
-from reference_data.solvers.paper1.collocation.equations import Array, Batch, correction, newton
+from reference_data.solvers.paper1.collocation.equations import Array, Batch, newton
 from reference_data.solvers.paper1.membrane import Disk
 from reference_data.solvers.paper1.shooting import rows as rs
 from reference_data.solvers.paper1.shooting import states as ss
-from reference_data.solvers.paper1.shooting.equations import LEVELS, Newton
-from reference_data.solvers.paper2.common import steps
+from reference_data.solvers.paper1.shooting.equations import LEVELS
 from reference_data.solvers.registry import Builder
 
 CURVE = ("p", "lam_pole", "lam1_rim", "V", "X_iso")
@@ -47,9 +47,9 @@ def branch(name: str, disk: Disk, source: str) -> Table:
 
 
 def slope(state: Batch) -> float:
-    """dp/dt0, from Newton's step for a unit of pole height to first order."""
-    height = state.y[0][:, 0, 0, 1]
-    return float(correction(cs.controlled(state, "t0", height + 1))[1][0, 0])
+    """dp/dt0, from the linearised problem."""
+    held = cs.controlled(state, "t0", state.y[0][:, 0, 0, 1])
+    return float(held.problem.linearised(held.y, held.scalars).response()[1][0, 0])
 
 
 @lru_cache(maxsize=32)
@@ -81,11 +81,11 @@ def limit_a(disk: Disk, i: int) -> list[ss.Shot]:
     rise, out = np.diff([s.p for s in states]), []
     for j in np.nonzero(np.diff(np.sign(rise)))[0] + 1:
         points = t0[j] + 0.12 * np.cos(np.pi * (np.arange(13) + 0.5) / 13)
-        near = [ss.free(states[j], "t0", float(h), Newton()) for h in points]
+        near = [ss.free(states[j], "t0", float(h), Secants()) for h in points]
         fit = np.polynomial.Chebyshev.fit(points, [s.p for s in near], 12)
         roots = np.real(fit.deriv().roots())
         height = float(roots[np.argmin(np.abs(roots - t0[j]))])
-        out.append(ss.free(states[j], "t0", height, Newton()))
+        out.append(ss.free(states[j], "t0", height, Secants()))
     return out
 
 

@@ -9,13 +9,12 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import DisagreementError, Table, round_up
+from reference_data.solvers.core.tables import DisagreementError, Table, round_up, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import peeling as peel
 from reference_data.solvers.paper1 import text
 from reference_data.solvers.paper1.cases import Case
 from reference_data.solvers.paper1.collocation.equations import Array
-from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.registry import Builder
 
 PANELS: tuple[tuple[str, Case, tuple[float, ...]], ...] = (

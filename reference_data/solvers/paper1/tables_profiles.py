@@ -11,14 +11,13 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Table
+from reference_data.solvers.core.tables import Table, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import text
 from reference_data.solvers.paper1.cases import Case
 from reference_data.solvers.paper1.collocation import rows as rc
 from reference_data.solvers.paper1.collocation.equations import Array
 from reference_data.solvers.paper1.shooting import rows as rs
-from reference_data.solvers.paper2.common import steps
 from reference_data.solvers.registry import Builder
 
 FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2", "sigma")

@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
+from reference_data.solvers.core.tables import Series, rule
 from reference_data.solvers.paper1.collocation.states import RESOLUTIONS
 from reference_data.solvers.paper1.shooting.equations import LEVELS
 
 PAPER = "Patil, DasGupta & Eriksson, Int. J. Solids Struct. 67-68 (2015) 250-262"
 
-_RULE = (
-    "The values are (b); a table is written only if |a - b| <= hypot(u_a, u_b) in every row. The "
-    "uncertainty of a column is u_b + max |a - b| + half a unit of the last digit; "
-    "largest_difference_of_methods is max |a - b|."
-)
 METHOD = {
     "sliding": (
         "Two codes that share only the constitutive derivatives: (a) shooting from the pole, "
         "second-order strong form, Runge-Kutta 8(5,3), the front an unknown; (b) piecewise "
-        f"Chebyshev collocation of the first-order system, the front an unknown. {_RULE}"
+        f"Chebyshev collocation of the first-order system, the front an unknown. {rule('b')}"
     ),
     "locked": (
         "Two codes that share only the constitutive derivatives: (a) shooting from the front, the "
         "history as an initial value problem in the front position, Runge-Kutta 8(5,3) both; (b) "
         "Chebyshev collocation of the free part and frozen slopes as Chebyshev series in x, a fixed "
-        f"point over all fronts at once. {_RULE}"
+        f"point over all fronts at once. {rule('b')}"
     ),
     "radial": (
         "Two codes that share only the constitutive derivatives: (a) shooting from the pole through "
         "the patch, the frozen radius marched piece by piece through Radau points; (b) two-zone "
         "Chebyshev collocation, the frozen slope a Chebyshev series in x, a fixed point over all "
-        f"fronts at once. {_RULE}"
+        f"fronts at once. {rule('b')}"
     ),
 }
 TOLERANCE = (
@@ -78,12 +74,13 @@ COLUMNS: dict[str, tuple[str, str]] = {
 }
 
 
-def grid() -> str:
-    """Grids of both codes, as used."""
-    a = " and ".join(f"series to x = {h.start:g}, history from {h.first:g}" for h in LEVELS)
-    b = " and ".join(
-        f"{r.free.elements} (free), {r.inner.elements} + {r.outer.elements} (contact) elements of degrees "
-        f"{r.free.degree}, {r.inner.degree}, history of {r.terms} terms"
-        for r in RESOLUTIONS
-    )
-    return f"(a) adaptive; {a}; (b) {b}"
+_A = " and ".join(f"series to x = {h.start:g}, history from {h.first:g}" for h in LEVELS)
+_B = " and ".join(
+    f"{r.free.elements} (free), {r.inner.elements} + {r.outer.elements} (contact) elements of degrees "
+    f"{r.free.degree}, {r.inner.degree}, history of {r.terms} terms"
+    for r in RESOLUTIONS
+)
+SERIES = {
+    model: Series(1, PAPER, COLUMNS, method, f"(a) adaptive; {_A}; (b) {_B}", TOLERANCE)
+    for model, method in METHOD.items()
+}

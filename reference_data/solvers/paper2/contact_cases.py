@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -13,9 +12,9 @@ from reference_data.solvers.core.tables import Array, Column, Table, agreed
 from reference_data.solvers.paper2 import contact_text as text
 from reference_data.solvers.paper2.collocation import history as hist
 from reference_data.solvers.paper2.collocation import states as st
-from reference_data.solvers.paper2.collocation.contact import Linearised, State
 from reference_data.solvers.paper2.collocation.critical import resolved
-from reference_data.solvers.paper2.common import given, make
+from reference_data.solvers.paper2.collocation.equations import State, columns, profile
+from reference_data.solvers.paper2.common import given
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences import contact as cfd
 from reference_data.solvers.paper2.differences import deflation as defl
@@ -65,35 +64,32 @@ def histories(case: Case) -> tuple[hist.Inflation, ...]:
 
 
 @lru_cache(maxsize=64)
-def touching(case: Case) -> tuple[Any, ...]:
-    """Free state at first touch, and its volume, at both resolutions."""
+def touching(case: Case) -> tuple[State, ...]:
+    """Free state at first touch at both resolutions."""
     return tuple(st.touch(case.tube, case.substrate, how.free) for how in st.RESOLUTIONS)
 
 
 def pressures(case: Case) -> Array:
     """Round pressures from just above first touch to P_END."""
-    onset = touching(case)[-1][0].p
+    onset = touching(case)[-1].p
     near = np.round(np.arange(0, P_END, 0.01), 10)
     near = near[(near > onset + 0.01) & (near < np.ceil((onset + 0.05) * 20) / 20 - 1e-9)]
     rest = np.round(np.arange(0, P_END + 0.01, 0.05), 10)
     return np.concatenate([near, rest[rest > near[-1] + 1e-9]])
 
 
-def frictionless(case: Case, p: Array) -> list[list[Linearised]]:
+def frictionless(case: Case, p: Array) -> list[list[State]]:
     """Collocation states at both resolutions."""
-    return [
-        st.frictionless(first, case.substrate, how, p)
-        for (first, _), how in zip(touching(case), st.RESOLUTIONS, strict=True)
-    ]
+    return [st.frictionless(first, how, p) for first, how in zip(touching(case), st.RESOLUTIONS, strict=True)]
 
 
 @lru_cache(maxsize=64)
 def adhesive(case: Case, p: float) -> tuple[State, ...]:
     """Adhesive inflation at p by collocation, at both resolutions."""
-    return tuple(h.at(p).state for h in histories(case))
+    return tuple(h.at(p) for h in histories(case))
 
 
-def deflated(case: Case, spring: str, p: Array) -> list[list[Linearised]]:
+def deflated(case: Case, spring: str, p: Array) -> list[list[State]]:
     """Adhesive deflation at falling pressures by collocation, at both resolutions."""
     starts = adhesive(case, P_END)
     if spring == "bilateral":
@@ -128,9 +124,8 @@ def interpolated(case: Case, p: Array) -> list[list[dict[str, float]]]:
     return out
 
 
-def tractions(system: Linearised) -> dict[str, float]:
+def tractions(state: State) -> dict[str, float]:
     """Largest tractions and smallest t2 of a stuck state."""
-    state = system.state
     patches = st.patches(state)
     meshes = [z.mesh for z in state.zones if z.stuck]
     f_k = [
@@ -139,7 +134,7 @@ def tractions(system: Linearised) -> dict[str, float]:
         for row in np.abs(st.dense(m, patch.f_k))
     ]
     z = np.append(np.linspace(0, state.tube.length, 1001), state.fronts)
-    t2 = [st.columns(state.tube, st.profile(state, z, side))["t2"].min() for side in (1, -1)]
+    t2 = [columns(state.tube, profile(state, z, side))["t2"].min() for side in (1, -1)]
     return {
         "traction_max": max(float(np.abs(patch.f_t).max()) for patch in patches),
         "traction_front": abs(float(patches[-1].f_t[-1, -1])),
@@ -167,15 +162,7 @@ def both(
     return out
 
 
-def table(
-    name: str,
-    title: str,
-    source: str,
-    contact: str,
-    parameters: dict[str, object],
-    columns: list[Column],
-    **more: object,
-) -> Table:
+def table(contact: str, *given: object, **more: object) -> Table:
     """A table of contact with its documentation."""
-    more = {"method": text.METHOD[contact], "grid": text.grid(contact)} | more
-    return make(name, title, source, parameters | {"contact": contact}, columns, **more)
+    name, title, source, parameters, columns = given
+    return text.SERIES[contact].table(name, title, source, parameters | {"contact": contact}, columns, **more)

@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from reference_data.solvers.core.tables import rule
 from reference_data.solvers.paper2 import text as tube_text
 from reference_data.solvers.paper2.collocation import states as st
 from reference_data.solvers.paper2.differences import contact as cfd
 from reference_data.solvers.paper2.differences import deflation as defl
 
-_RULE = (
-    "The values are (b); a table is written only if |a - b| <= hypot(u_a, u_b) in every row. The "
-    "uncertainty of a column is u_b + max |a - b| + half a unit of the last digit; "
-    "largest_difference_of_methods is max |a - b|."
-)
 METHOD = {
     "frictionless": (
         "Two codes that share only the constitutive derivatives: (a) central finite differences of "
         "the second-order equations, the front on a node and its position an unknown, four grids, h^2, "
         f"h^3 and h^4 eliminated; (b) piecewise Chebyshev collocation of the first-order system in two "
-        f"zones, the front an unknown, two meshes. {_RULE}"
+        f"zones, the front an unknown, two meshes. {rule('b')}"
     ),
     "adhesive": (
         "Two codes that share only the constitutive derivatives: (a) central finite differences, the "
         "front followed node by node, eta frozen node by node (first order), five grids, h to h^4 "
         "eliminated; (b) frozen eta' as a Chebyshev series in z, collocated at as many fronts, each "
         "with its own two-zone collocation state, all solved together; two series lengths and meshes. "
-        f"{_RULE}"
+        f"{rule('b')}"
     ),
 }
 SPRING = {
@@ -82,3 +80,9 @@ def grid(contact: str) -> str:
     )
     shape = "z = L tanh(1.5 X)/tanh(1.5), X = x + c x (1 - x^2)"
     return f"(a) {', '.join(str(n) for n in cells)} cells, {shape}; (b) {meshes}"
+
+
+SERIES = {
+    contact: replace(tube_text.SERIES, columns=COLUMNS, method=METHOD[contact], grid=grid(contact))
+    for contact in METHOD
+}

@@ -6,10 +6,18 @@ import numpy as np
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
-from reference_data.solvers.core.tables import Column, Table, agreed, last_digit, prescribed, round_up
+from reference_data.solvers.core.tables import (
+    Column,
+    Table,
+    agreed,
+    last_digit,
+    prescribed,
+    round_up,
+    steps,
+)
 from reference_data.solvers.paper2 import ftim, text
 from reference_data.solvers.paper2.collocation import critical as col
-from reference_data.solvers.paper2.common import given, make, steps
+from reference_data.solvers.paper2.common import given
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences.equations import Grid
 from reference_data.solvers.registry import Builder
@@ -28,12 +36,10 @@ def uniform_pressure(tube: Tube, lam1: np.ndarray, u: np.ndarray) -> np.ndarray:
 def long_exact(name: str) -> Table:
     """The infinitely long tube: lambda1 = delta1 at the mid-plane, in closed form."""
     p = uniform_pressure(LONG, np.full(len(LONG_U), LONG.delta1), LONG_U)
-    columns = [
-        prescribed("u_max", LONG_U, text.COLUMNS["u_max"]),
-        Column("p", p, round_up(last_digit(p)), *text.COLUMNS["p"]),
-    ]
+    columns = text.SERIES.keys(u_max=LONG_U)
+    columns.append(Column("p", p, round_up(last_digit(p)), *text.COLUMNS["p"]))
     parameters = {"alpha": LONG.alpha, "delta1": LONG.delta1}
-    return make(
+    return text.SERIES.table(
         name,
         "Uniform inflation of an infinitely long tube",
         "the limit of the boundary value problem for lf to infinity before bulging",
@@ -48,8 +54,8 @@ def long_exact(name: str) -> Table:
 
 def long_computed(name: str) -> Table:
     """A tube of length 40 against the closed form."""
-    a, (b, _) = fdb.curve(LONG, "u_max", LONG_U), col.curve(LONG, "u_max", LONG_U)
-    columns = [prescribed("u_max", LONG_U, text.COLUMNS["u_max"])]
+    a, b = fdb.curve(LONG, "u_max", LONG_U), col.curve(LONG, "u_max", LONG_U)
+    columns = text.SERIES.keys(u_max=LONG_U)
     columns += [agreed(name, c, a[c], b[c], text.COLUMNS[c]) for c in ("p", "lam1_mid", "V")]
     infinite = uniform_pressure(LONG, np.full(len(LONG_U), LONG.delta1), LONG_U)
     p, lam1 = b["p"].value, b["lam1_mid"].value
@@ -62,7 +68,7 @@ def long_computed(name: str) -> Table:
     )
     title = "Free inflation of a long tube, lf = 40"
     source = "the problem of figure 2 at other data"
-    return make(name, title, source, given(LONG), columns, notes=notes)
+    return text.SERIES.table(name, title, source, given(LONG), columns, notes=notes)
 
 
 FTIM_NOTES = (
@@ -119,7 +125,7 @@ def ftim_table(
             "root of the same difference equations by Newton's method",
         ),
     ]
-    return make(
+    return text.SERIES.table(
         name,
         title,
         "the solution method of the paper (fictitious time, nu = 0.02, step 0.001)",

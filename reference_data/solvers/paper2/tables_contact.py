@@ -10,12 +10,11 @@ from functools import partial
 import numpy as np
 
 from reference_data.solvers.core.mooney_rivlin import Tube
-from reference_data.solvers.core.tables import Table, agreed, prescribed
+from reference_data.solvers.core.tables import Table, agreed, steps
 from reference_data.solvers.paper2 import contact_cases as cc
 from reference_data.solvers.paper2 import contact_text as text
 from reference_data.solvers.paper2.collocation import states as st
 from reference_data.solvers.paper2.collocation.critical import resolved
-from reference_data.solvers.paper2.common import make, steps
 from reference_data.solvers.paper2.contact_cases import P_END, Case
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences import contact as cfd
@@ -50,7 +49,7 @@ SLACK_NOTES = (
 def inflation(name: str, case: Case, contact: str, source: str) -> Table:
     """Inflation in contact over p."""
     p = cc.pressures(case)
-    columns = [prescribed("p", p, text.COLUMNS["p"])]
+    columns = text.SERIES[contact].keys(p=p)
     if contact == "frictionless":
         coarse = cfd.walk(case.tube, case.substrate, p)
         per_state = [[cfd.summary(s) for s in cfd.on_grids(state)] for state in coarse]
@@ -64,7 +63,7 @@ def inflation(name: str, case: Case, contact: str, source: str) -> Table:
     parameters = case.parameters | {"phase": "inflation", "p_end": P_END}
     title = f"{contact.capitalize()} inflation against a substrate, {case.title}"
     notes = "Before first contact the states are those of free inflation (table contact_onset)."
-    return cc.table(name, title, source, contact, parameters, columns, notes=notes)
+    return cc.table(contact, name, title, source, parameters, columns, notes=notes)
 
 
 def deflation(name: str, case: Case, spring: str, source: str, low: bool = False) -> Table:
@@ -88,14 +87,14 @@ def deflation(name: str, case: Case, spring: str, source: str, low: bool = False
     if (len(found), len(by_grid)) != (2, len(defl.GRIDS)):
         raise RuntimeError(f"table {name}: not all states found down to p = {p[-1]:g}")
     a = [[defl.summary(s) for s in states[::-1]] for states in by_grid]
-    b = [[st.summary(s) | st.at_edge(s.state) | cc.tractions(s) for s in states[::-1]] for states in found]
+    b = [[st.summary(s) | st.at_edge(s) | cc.tractions(s) for s in states[::-1]] for states in found]
     wanted = ("u_max", "t1_mid", "lam1_mid") if low else DEFLATION[:-1] if slack else DEFLATION
-    columns = [prescribed("p", rows[::-1], text.COLUMNS["p"])]
+    columns = text.SERIES["adhesive"].keys(p=rows[::-1])
     columns += cc.both(name, wanted, a, b, defl.POWERS, irregular=spring == "unilateral", amplified=16)
     notes = f"{text.DEFLATION_NOTES} {text.SPRING[spring]}{SLACK_NOTES if slack else ''}"
     parameters = case.parameters | {"phase": "deflation", "spring": spring, "p_end": P_END}
     title = f"Adhesive deflation, {spring} spring, {case.title}"
-    return cc.table(name, title, source, "adhesive", parameters, columns, notes=notes)
+    return cc.table("adhesive", name, title, source, parameters, columns, notes=notes)
 
 
 ONSET = (
@@ -117,19 +116,19 @@ def onset(name: str) -> Table:
         guess = fd.newton(case.tube, grid, fd.first_guess(case.tube, grid, u), fd.at_control("u", u))
         states = fdb.on_three_grids(case.tube, guess, fd.at_control("u", u))
         a.append([(p, fd.volume(y)) for y, p in states])
-        b.append([(first.p, volume) for first, volume in cc.touching(case)])
+        b.append([(first.p, first.volume) for first in cc.touching(case)])
     keys = {
         "alpha": [c.tube.alpha for c in cases],
         "delta1": [c.tube.delta1 for c in cases],
         "lf": [c.tube.lf for c in cases],
         "s": [c.substrate.s for c in cases],
     }
-    columns = [prescribed(k, np.array(v), text.COLUMNS[k]) for k, v in keys.items()]
+    columns = text.SERIES["adhesive"].keys(**keys)
     for i, c in enumerate(("p", "V")):
         first = fdb.richardson(*(np.array([row[g][i] for row in a]) for g in range(3)))
         second = resolved(*(np.array([row[m][i] for row in b]) for m in range(2)))
         columns.append(agreed(name, c, first, second, text.COLUMNS[c]))
-    return make(
+    return text.tube_text.SERIES.table(
         name,
         "First contact with the substrate",
         "the start of contact in figure 6",

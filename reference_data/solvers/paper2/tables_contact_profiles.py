@@ -10,13 +10,13 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Array, Table, agreed, prescribed
+from reference_data.solvers.core.tables import Array, Table, agreed, steps
 from reference_data.solvers.paper2 import contact_cases as cc
 from reference_data.solvers.paper2 import contact_text as text
 from reference_data.solvers.paper2.collocation import states as st
-from reference_data.solvers.paper2.collocation.contact import State
 from reference_data.solvers.paper2.collocation.critical import resolved
-from reference_data.solvers.paper2.common import steps
+from reference_data.solvers.paper2.collocation.equations import State, columns
+from reference_data.solvers.paper2.collocation.equations import profile as at_places
 from reference_data.solvers.paper2.contact_cases import P_END, Case
 from reference_data.solvers.paper2.differences import contact as cfd
 from reference_data.solvers.paper2.differences import deflation as defl
@@ -33,11 +33,11 @@ Profile = dict[str, Array]
 def states_by_collocation(case: Case, kind: str, p: float) -> list[State]:
     """One state at both resolutions; kind is frictionless, inflation or deflation (bilateral)."""
     if kind == "frictionless":
-        return [systems[0].state for systems in cc.frictionless(case, np.array([p]))]
+        return [states[0] for states in cc.frictionless(case, np.array([p]))]
     if kind == "inflation":
         return list(cc.adhesive(case, p))
     walk = np.append(steps(p, P_END, 0.5)[:0:-1], p)
-    return [systems[-1].state for systems in cc.deflated(case, "bilateral", walk)]
+    return [states[-1] for states in cc.deflated(case, "bilateral", walk)]
 
 
 def profiles_by_differences(case: Case, kind: str, p: float) -> Callable[[Array], list[Profile]]:
@@ -65,15 +65,15 @@ def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tup
     raw_a = profiles_by_differences(case, kind, p)(z)
     raw_b = []
     for state in states:
-        column = st.columns(tube, st.profile(state, z))
+        column = columns(tube, at_places(state, z))
         if wanted == TRACTIONS:
             column |= dict(zip(TRACTIONS, st.tractions_at(state, z), strict=True))
         raw_b.append(column)
     powers = (2, 3, 4) if kind == "frictionless" else defl.POWERS
-    columns = [prescribed("Z", z_plot, text.COLUMNS["Z"])]
+    found = text.SERIES["adhesive"].keys(Z=z_plot)
     for c in wanted:
         a = cfd.extrapolated([r[c] for r in raw_a], powers, amplified=AMPLIFIED)
-        columns.append(agreed(name, c, a, resolved(*(r[c] for r in raw_b)), text.COLUMNS[c]))
+        found.append(agreed(name, c, a, resolved(*(r[c] for r in raw_b)), text.COLUMNS[c]))
     contact = "frictionless" if kind == "frictionless" else "adhesive"
     phase = "deflation" if kind == "deflation" else "inflation"
     spring = {"spring": "bilateral"} if phase == "deflation" else {}
@@ -85,7 +85,7 @@ def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tup
     notes = f"Z_front is the position of the front; Z within {AWAY:g} of it is left out."
     if spring:
         notes += f" {text.DEFLATION_NOTES} {text.SPRING['bilateral']}"
-    return cc.table(name, title, source, contact, parameters, columns, notes=notes)
+    return cc.table(contact, name, title, source, parameters, found, notes=notes)
 
 
 SOFT_1, SOFT_2 = cc.PAPER[2:]  # alpha = 0.1, delta1 = 1 and 2

@@ -10,23 +10,10 @@ from functools import partial
 import numpy as np
 
 from reference_data.solvers.core.mooney_rivlin import Tube
-from reference_data.solvers.core.tables import (
-    Estimate,
-    Table,
-    agreed,
-    prescribed,
-)
+from reference_data.solvers.core.tables import Estimate, Table, agreed, steps
 from reference_data.solvers.paper2 import text
 from reference_data.solvers.paper2.collocation import critical as col
-from reference_data.solvers.paper2.common import (
-    U_STOP,
-    first_limits,
-    given,
-    limit_pair,
-    make,
-    stacked,
-    steps,
-)
+from reference_data.solvers.paper2.common import U_STOP, first_limits, given, limit_pair, stacked
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences import critical as fdc
 from reference_data.solvers.paper2.differences import equations as fd
@@ -39,11 +26,11 @@ def curve(name: str, tube: Tube, u_stop: float, source: str) -> Table:
     trace = fdb.Trace(tube, fd.Grid(fdb.GRIDS[0])).run(u_stop)
     if np.any(np.diff(trace.column("u_max")) <= 0):
         raise RuntimeError(f"table {name}: u_max does not rise monotonically along the branch")
-    a, (b, _) = fdb.curve(tube, "u_max", targets), col.curve(tube, "u_max", targets)
-    columns = [prescribed("u_max", targets, text.COLUMNS["u_max"])]
+    a, b = fdb.curve(tube, "u_max", targets), col.curve(tube, "u_max", targets)
+    columns = text.SERIES.keys(u_max=targets)
     columns += [agreed(name, c, a[c], b[c], text.COLUMNS[c]) for c in ("p", "lam1_mid", "t1_mid", "V")]
     title = f"Free inflation, alpha = {tube.alpha:g}, delta1 = {tube.delta1:g}, lf = {tube.lf:g}"
-    return make(name, title, source, given(tube), columns, notes=text.CURVE_NOTES)
+    return text.SERIES.table(name, title, source, given(tube), columns, notes=text.CURVE_NOTES)
 
 
 def limits(name: str, tubes: list[Tube], keys: tuple[str, ...], source: str) -> Table:
@@ -58,12 +45,11 @@ def limits(name: str, tubes: list[Tube], keys: tuple[str, ...], source: str) -> 
         a, b = a + by_fd, b + by_collocation
         if not by_fd:
             none.append(f"(alpha, delta1, lf) = ({tube.alpha:g}, {tube.delta1:g}, {tube.lf:g})")
-    key_columns = [prescribed(k, np.array([getattr(t, k) for t, _ in rows]), text.COLUMNS[k]) for k in keys]
-    key_columns.append(prescribed("order", np.array([o for _, o in rows]), text.COLUMNS["order"]))
-    columns = key_columns + stacked(name, ("p", "u_max"), a, b)
+    named = {k: [getattr(t, k) for t, _ in rows] for k in keys} | {"order": [o for _, o in rows]}
+    columns = text.SERIES.keys(**named) + stacked(name, ("p", "u_max"), a, b)
     missing = f" Searched without finding any: {'; '.join(none)}." if none else ""
     common = {k: v for k, v in given(tubes[0]).items() if k not in keys and k != "delta1"}
-    return make(
+    return text.SERIES.table(
         name,
         "Limit points of the pressure in free inflation",
         source,
@@ -93,13 +79,13 @@ def fold_line(name: str) -> Table:
             state = col.fold_at(state, float(u))  # noqa: PLW2901
             line.append([state.tube.delta1, state.p])
         raw_b.append(np.array(line).T)
-    columns = [prescribed("u_max", targets, text.COLUMNS["u_max"])]
+    columns = text.SERIES.keys(u_max=targets)
     for i, c in enumerate(("delta1", "p")):
         a = fdb.richardson(*(raw[i] for raw in raw_a))
         b = col.resolved(*(raw[i] for raw in raw_b))
         columns.append(agreed(name, c, a, b, text.COLUMNS[c]))
     parameters = {"alpha": tube.alpha, "lf": tube.lf}
-    return make(name, "Fold line, alpha = 0.1, lf = 6", "figure 3(b)", parameters, columns)
+    return text.SERIES.table(name, "Fold line, alpha = 0.1, lf = 6", "figure 3(b)", parameters, columns)
 
 
 CUSP_U_STOP = 8.0
@@ -124,17 +110,14 @@ def cusps(name: str) -> Table:
         rows.append((alpha, lf))
         a.append(fdb.richardson(*(np.array([t.delta1, p, y[0] - 1]) for t, (y, p) in points)))
         ends = [col.cusp(col.fold_top(state)) for state in by_collocation]
-        b.append(col.resolved(*([s.tube.delta1, s.p, s.y[0, 0, 0] - 1] for s in ends)))
-    columns = [
-        prescribed("alpha", np.array([r[0] for r in rows]), text.COLUMNS["alpha"]),
-        prescribed("lf", np.array([r[1] for r in rows]), text.COLUMNS["lf"]),
-        *stacked(name, ("delta1", "p", "u_max"), a, b),
-    ]
+        b.append(col.resolved(*([s.tube.delta1, s.p, s.u_max] for s in ends)))
+    columns = text.SERIES.keys(alpha=[r[0] for r in rows], lf=[r[1] for r in rows])
+    columns += stacked(name, ("delta1", "p", "u_max"), a, b)
     notes = f"{text.CUSP_NOTES} Not in the table, as (alpha, lf): {'; '.join(absent)}."
     parameters = {"u_max_searched": CUSP_U_STOP}
     extra = {"keys": ["alpha", "lf"]}
     title, source = "Cusps of the fold line", "figure 3(b)"
-    return make(name, title, source, parameters, columns, notes=notes, extra=extra)
+    return text.SERIES.table(name, title, source, parameters, columns, notes=notes, extra=extra)
 
 
 def state_profile(name: str, tube: Tube, p: float | None, source: str) -> Table:
@@ -151,14 +134,14 @@ def state_profile(name: str, tube: Tube, p: float | None, source: str) -> Table:
         where = f"p = {p:g}, first crossing along the branch"
     a = fdb.profiles(tube, by_fd, z_plot)
     raw = [col.profile(s, z_plot) for s in by_collocation]
-    columns = [prescribed("Z", z_plot, text.COLUMNS["Z"])]
+    columns = text.SERIES.keys(Z=z_plot)
     for c in ("rho", "eta", "lam1", "lam2", "t1", "t2"):
         b = col.resolved(*(r[c] for r in raw))
         columns.append(agreed(name, c, a[c], b, text.COLUMNS[c]))
     state = by_collocation[-1]
-    at = {"p": float(state.p), "u_max": float(state.y[0, 0, 0]) - 1}
+    at = {"p": float(state.p), "u_max": state.u_max}
     title = f"Profile, alpha = {tube.alpha:g}, delta1 = {tube.delta1:g}, lf = {tube.lf:g}, {where}"
-    return make(name, title, source, given(tube) | at, columns)
+    return text.SERIES.table(name, title, source, given(tube) | at, columns)
 
 
 OFF = (

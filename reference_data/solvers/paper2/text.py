@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from reference_data.solvers.core.tables import Series, rule
 from reference_data.solvers.paper2.collocation import critical as col
 from reference_data.solvers.paper2.differences import branch as fdb
 
@@ -10,10 +11,7 @@ PAPER = "Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282"
 METHOD = (
     "Two codes that share only the constitutive derivatives: (a) central finite differences of "
     "the second-order Euler-Lagrange equations, three grids, Richardson-extrapolated; (b) "
-    "piecewise Chebyshev collocation of the first-order system at Gauss points, two meshes. The "
-    "values are (b); a table is written only if |a - b| <= hypot(u_a, u_b) in every row. The "
-    "uncertainty of a column is u_b + max |a - b| + half a unit of the last digit; "
-    "largest_difference_of_methods is max |a - b|."
+    "piecewise Chebyshev collocation of the first-order system at Gauss points, two meshes. " + rule("b")
 )
 TOLERANCE = "Newton takes one more step after the first one below 1e-7 (b) or 1e-6 (a): rounding only"
 CURVE_NOTES = (
@@ -53,8 +51,7 @@ COLUMNS: dict[str, tuple[str, str]] = {
 }
 
 
-def grid() -> str:
-    """Grids of both codes, as used."""
-    meshes = " and ".join(f"{m.elements} elements of degree {m.degree}" for m in col.MESHES)
-    cells = ", ".join(str(n) for n in fdb.GRIDS)
-    return f"(a) {cells} cells, z = L tanh(1.5 x)/tanh(1.5); (b) {meshes}, graded to the disk"
+_CELLS = ", ".join(map(str, fdb.GRIDS))
+_MESHES = " and ".join(f"{m.elements} elements of degree {m.degree}" for m in col.MESHES)
+GRID = f"(a) {_CELLS} cells, z = L tanh(1.5 x)/tanh(1.5); (b) {_MESHES}, graded to the disk"
+SERIES = Series(2, PAPER, COLUMNS, METHOD, GRID, TOLERANCE)

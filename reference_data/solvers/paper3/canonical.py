@@ -28,11 +28,11 @@ from reference_data.solvers.core.law_metric import metric
 from reference_data.solvers.paper3.collocation import (
     BASE,
     Array,
-    Mesh,
+    Region,
     State,
-    System,
     base_conditions,
     base_rates,
+    solve_on,
 )
 
 DR, DB, DW, R, B, W = range(6)  # places of u', beta', w', u, beta, w in a form's 6-vector
@@ -144,15 +144,15 @@ class Coefficients:
     h: Any
 
 
-def coefficients(base: list[Any], zw: Any, front: Any, mode: Mode, mesh: Mesh) -> Coefficients:
+def coefficients(base: list[Any], zw: Any, front: Any, mode: Mode, region: Region) -> Coefficients:
     """Coefficients of the canonical system at a state's (r, z, l1, psi)."""
     tube, fam = mode.state.tube, mode.family
     r, z, l1, psi = base[:4]
-    wet = mesh.dampness
+    wet = region.wet
     q = form(r, l1, psi, tube.gamma * (zw - z) * wet, -tube.gamma * wet, fam.n, tube.law)
     i, j = np.array(fam.fields)[:, None], np.array(fam.fields)
     d = wet * r * l1 * np.sin(psi), -wet * r * l1 * np.cos(psi)
-    return Coefficients(q[..., i, j], q[..., i, j + 3], q[..., i + 3, j + 3], d, mesh.lengths(tube, front))
+    return Coefficients(q[..., i, j], q[..., i, j + 3], q[..., i + 3, j + 3], d, region.length(tube, front))
 
 
 def mode_rates(y: list[Any], k: Coefficients, eigenvalue: Any, mu: Any, family: Family) -> list[Any]:
@@ -195,19 +195,22 @@ def eigenvalue(guess: Mode) -> Mode:
     """
     guess, scale = _normalised(guess)
     state, fam, mesh = guess.state, guess.family, guess.state.mesh
-    at = list(np.moveaxis(mesh.value @ state.y, -1, 0))
-    fixed = coefficients(at, state.zw, state.front, guess, mesh)
+    at = mesh.rule.value @ state.y
+    fixed = {
+        r.wet: coefficients(list(np.moveaxis(at[r.at], -1, 0)), state.zw, state.front, guess, r)
+        for r in mesh.regions
+    }
     area = state.y[mesh.wet - 1, -1, 0] ** 2 / (2 * state.tube.gamma) if state.partial else 0.0
 
-    def rates(y: list[Any], par: list[Any], _: Mesh) -> list[Any]:
-        return mode_rates(y, fixed, par[0], par[1] if fam.volume else 0.0, fam)
+    def rates(y: list[Any], par: list[Any], region: Region) -> list[Any]:
+        return mode_rates(y, fixed[region.wet], par[0], par[1] if fam.volume else 0.0, fam)
 
     def conditions(start: list[Any], _: list[Any], end: list[Any], par: list[Any]) -> list[Any]:
         return mode_conditions(start, end, par[1] if fam.volume else 0.0, area, fam, scale)
 
     par = np.array([guess.eigenvalue, *[guess.mu] * fam.volume])
     what = f"eigenvalue, n = {fam.n}, of {state.tube} at V = {state.volume:g}"
-    y, par = System(mesh, rates, conditions).newton(guess.values, par, what)
+    y, par = solve_on(mesh, rates, conditions, guess.values, par, what)
     return Mode(state, fam, y, float(par[0]), float(par[1]) if fam.volume else 0.0)
 
 
@@ -221,10 +224,10 @@ def critical_state(guess: Mode) -> Mode:
     state, fam = guess.state, guess.family
     tube, partial = state.tube, state.partial
 
-    def rates(y: list[Any], par: list[Any], mesh: Mesh) -> list[Any]:
+    def rates(y: list[Any], par: list[Any], region: Region) -> list[Any]:
         front = par[1] if partial else tube.length
-        out = base_rates(y[:BASE], par[0], front, tube, mesh)
-        k = coefficients(y[:BASE], par[0], front, guess, mesh)
+        out = base_rates(y[:BASE], par[0], front, tube, region)
+        k = coefficients(y[:BASE], par[0], front, guess, region)
         return out + mode_rates(y[BASE:], k, 0.0, 0.0, fam)
 
     def conditions(start: list[Any], front: list[Any], end: list[Any], par: list[Any]) -> list[Any]:
@@ -234,6 +237,6 @@ def critical_state(guess: Mode) -> Mode:
     par = np.array([state.zw, *[state.front] * partial, state.volume])
     y = np.concatenate([state.y, guess.values], axis=-1)
     what = f"critical point, n = {fam.n}, of {tube} near V = {state.volume:g}"
-    y, par = System(state.mesh, rates, conditions).newton(y, par, what)
+    y, par = solve_on(state.mesh, rates, conditions, y, par, what)
     front = float(par[1]) if partial else tube.length
     return Mode(State(tube, state.mesh, y[..., :BASE], float(par[0]), front), fam, y[..., BASE:], 0.0)

@@ -12,179 +12,107 @@ free surface is an unknown between a wet and a dry region, z(Zf) = z_w, so that 
 in each; an over-filled tube has one region. r = 1 at both ends, z = 0 and L, v = 0 and V: the level
 is an unknown, the volume is given.
 
-:class:`System` solves any such first-order boundary value problem with parameters; further
-components (perturbations, :mod:`paper3.canonical`) join the same way. Derivatives are
-complex-step, hence exact.
+:func:`solve_on` solves any such problem with further components (perturbations, :mod:`paper3.canonical`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from reference_data.solvers.core.collocation import differentiation, lagrange
+from reference_data.solvers.core.collocation import Array, Ends, Problem, Zone, joined
+from reference_data.solvers.core.collocation import Mesh as Elements
 from reference_data.solvers.paper3.data import FluidTube
 
-Array = np.ndarray
-STEP = 1e-30  # complex-step increment: no subtraction, so as small as one likes
 BASE = 5  # components r, z, l1, psi, v
 
 
 @dataclass(frozen=True)
-class Mesh:
-    """Elements of the wet region, finer at the lower ring, and of the dry one.
+class Mesh(Elements):
+    """Elements of the wet region, 0 to 1, finer at the lower ring, and of the dry one, 1 to 2.
 
     Attributes:
-        wet: Elements below the free surface.
-        dry: Elements above it; 0 when over-filled.
-        degree: Polynomial degree, also the number of collocation points per element.
-        grading: Exponent q of the break points s^q of the wet region.
+        wet: Number of elements below the free surface.
     """
 
     wet: int
-    dry: int
-    degree: int
-    grading: float = 1.5
-    nodes: Array = field(init=False, compare=False)
-    weights: Array = field(init=False, compare=False)
-    value: Array = field(init=False, compare=False)
-    deriv: Array = field(init=False, compare=False)
-    breaks: Array = field(init=False, compare=False)
-    dampness: Array = field(init=False, compare=False)
 
-    def __post_init__(self) -> None:
-        put = lambda name, x: object.__setattr__(self, name, x)  # noqa: E731
-        nodes = (1 - np.cos(np.pi * np.arange(self.degree + 1) / self.degree)) / 2
-        gauss, weights = np.polynomial.legendre.leggauss(self.degree)
-        put("nodes", nodes)
-        put("weights", weights / 2)
-        put("value", lagrange(nodes, (gauss + 1) / 2))
-        put("deriv", self.value @ differentiation(nodes))
-        wet = np.linspace(0, 1, self.wet + 1) ** self.grading
-        put("breaks", np.concatenate([wet, 1 + np.linspace(0, 1, self.dry + 1)[1:]]))
-        put("dampness", (np.arange(self.elements) < self.wet).astype(float)[:, None])
+    @classmethod
+    def filled(cls, wet: int, dry: int, degree: int, grading: float = 1.5) -> Mesh:
+        """Breaks s^grading of the wet region and equal elements, or none, of the dry one."""
+        low, high = np.linspace(0, 1, wet + 1) ** grading, 1 + np.linspace(0, 1, dry + 1)[1:]
+        return cls(tuple(map(float, [*low, *high])), degree, wet)
 
     @property
-    def elements(self) -> int:
-        """Number of elements."""
-        return self.wet + self.dry
+    def dry(self) -> int:
+        """Number of elements above the free surface; 0 when over-filled."""
+        return self.elements - self.wet
 
     @property
-    def widths(self) -> Array:
-        """Element widths, each region having length 1."""
-        return np.diff(self.breaks)[:, None]
+    def dampness(self) -> Array:
+        """1 for wet elements, 0 for dry ones, shape (elements, 1)."""
+        return (np.arange(self.elements) < self.wet).astype(float)[:, None]
 
     @property
-    def s(self) -> Array:
-        """Nodes, shape (elements, degree + 1): 0..1 is the wet region, 1..2 the dry one."""
-        return self.breaks[:-1, None] + self.widths * self.nodes
+    def regions(self) -> list[Region]:
+        """The wet region and, unless over-filled, the dry one."""
+        low = Region(Elements(self.breaks[: self.wet + 1], self.degree), slice(0, self.wet), 1.0)
+        high = tuple(x - 1 for x in self.breaks[self.wet :])
+        return [low, Region(Elements(high, self.degree), slice(self.wet, None), 0.0)] if self.dry else [low]
 
-    def lengths(self, tube: FluidTube, front: Any) -> Any:
+    def lengths(self, tube: FluidTube, front: float) -> Array:
         """Material length of the region of each element, shape (elements, 1)."""
         return self.dampness * front + (1 - self.dampness) * (tube.length - front)
 
     def position(self, tube: FluidTube, front: float) -> Array:
         """Material coordinate Z of every node."""
-        return np.where(self.s <= 1, self.s * front, front + (self.s - 1) * (tube.length - front))
+        return np.where(self.x <= 1, self.x * front, front + (self.x - 1) * (tube.length - front))
 
 
-Rates = Callable[[list[Any], list[Any], Mesh], list[Any]]
-Conditions = Callable[[list[Any], list[Any], list[Any], list[Any]], list[Any]]
+@dataclass(frozen=True)
+class Region:
+    """Elements below or above the free surface, and which of all elements they are."""
+
+    mesh: Elements
+    at: slice
+    wet: float
+
+    def length(self, tube: FluidTube, front: Any) -> Any:
+        """Material length."""
+        return front if self.wet else tube.length - front
 
 
-@dataclass
-class System:
-    """Equations dy/ds = rates(y, parameters) on a mesh, with conditions at start, front and end.
+Rates = Callable[[list[Any], list[Any], Region], list[Any]]
 
-    Attributes:
+
+def solve_on(
+    mesh: Mesh, rates: Rates, conditions: Callable[..., list[Any]], y: Array, c: Array, what: str
+) -> tuple[Array, Array]:
+    """Nodal values and numbers with dy/ds = rates(y, c, region) in each region.
+
+    Args:
         mesh: Elements.
-        rates: Derivatives with respect to s; lists of arrays (elements, points).
-        conditions: As many values, to vanish, as components and parameters together.
+        rates: Derivatives with respect to the fraction of the region.
+        conditions: On the values at start, front and end, and c, besides continuity at the front.
+        y: Guess, shape (elements, degree + 1, components).
+        c: Guess of the numbers.
+        what: What is sought, for the message.
+
+    Raises:
+        RuntimeError: If Newton's method does not converge.
     """
 
-    mesh: Mesh
-    rates: Rates
-    conditions: Conditions
+    def every(left: Ends, right: Ends, c: list[Any]) -> list[Any]:
+        return [*conditions(left[0], right[0], right[-1], c), *joined(left, right)]
 
-    def _linearised(self, y: Array, par: Array) -> tuple[Array, Array, Array]:
-        """Defects (k, m, n) at Gauss points, and rates' derivatives by (components, parameters)."""
-        mesh, n, count = self.mesh, y.shape[-1], len(par)
-        at, p = list(np.moveaxis(mesh.value @ y, -1, 0)), list(par)
-        f = np.stack(np.broadcast_arrays(*self.rates(at, p, mesh)), axis=-1)
-        jac = np.empty((*f.shape, n + count))
-        for j in range(n + count):
-            args = [a + 1j * STEP if i == j else a for i, a in enumerate(at)]
-            pars = [a + 1j * STEP if n + i == j else a for i, a in enumerate(p)]
-            bump = np.broadcast_arrays(*self.rates(args, pars, mesh), at[0])[:n]
-            jac[..., j] = np.imag(np.stack(bump, axis=-1)) / STEP
-        h = mesh.widths[..., None]
-        return mesh.deriv @ y - h * f, -h[..., None] * jac[..., :n], -h[..., None] * jac[..., n:]
-
-    def _ends(self, y: Array, par: Array) -> tuple[Array, Array]:
-        """Conditions and their derivatives by (start, front, end, parameters)."""
-        n, mesh = y.shape[-1], self.mesh
-        flat = np.concatenate([y[0, 0], y[mesh.wet - 1, -1], y[-1, -1], par]).astype(complex)
-
-        def call(x: Array) -> Array:
-            parts = x[:n], x[n : 2 * n], x[2 * n : 3 * n], x[3 * n :]
-            return np.array(self.conditions(*[list(part) for part in parts]))
-
-        jac = [np.imag(call(flat + 1j * STEP * e)) / STEP for e in np.eye(len(flat))]
-        return call(flat).real, np.array(jac).T
-
-    def step(self, y: Array, par: Array) -> tuple[Array, Array]:
-        """Newton's correction, reduced element by element to the element ends."""
-        mesh, n, count = self.mesh, y.shape[-1], len(par)
-        k, m = mesh.elements, mesh.degree
-        defect, by_y, by_par = self._linearised(y, par)
-        block = np.einsum("mq,ij->miqj", mesh.deriv, np.eye(n))[None]
-        block = (block + np.einsum("kmij,mq->kmiqj", by_y, mesh.value)).reshape(k, n * m, -1)
-        right = np.concatenate(
-            [-block[:, :, :n], -by_par.reshape(k, n * m, count), -defect.reshape(k, n * m, 1)], axis=2
-        )
-        x = np.linalg.solve(block[:, :, n:], right)  # all but the left node, per element
-        value, by_ends = self._ends(y, par)
-        size = n * (k + 1) + count
-        a, b = np.zeros((size, size)), np.zeros(size)
-        for e in range(k):
-            rows = slice(n * e, n * (e + 1))
-            a[rows, n * (e + 1) : n * (e + 2)] = np.eye(n)
-            a[rows, rows] = -x[e, -n:, :n]
-            a[rows, n * (k + 1) :], b[rows] = -x[e, -n:, n:-1], x[e, -n:, -1]
-        last = slice(n * k, size)
-        for i, place in enumerate((0, mesh.wet, k)):
-            a[last, n * place : n * (place + 1)] += by_ends[:, i * n : (i + 1) * n]
-        a[last, n * (k + 1) :], b[last] = by_ends[:, 3 * n :], -value
-        found = np.linalg.solve(a, b)
-        ends, dpar = found[: n * (k + 1)].reshape(k + 1, n), found[n * (k + 1) :]
-        factors = np.concatenate([ends[:-1], np.tile(dpar, (k, 1)), np.ones((k, 1))], axis=1)
-        inner = np.einsum("kij,kj->ki", x, factors).reshape(k, m, n)
-        return np.concatenate([ends[:-1, None], inner], axis=1), dpar
-
-    def newton(self, y: Array, par: Array, what: str, max_iter: int = 30) -> tuple[Array, Array]:
-        """Solve; after the first step below 1e-7 one more is taken, which leaves rounding only.
-
-        Raises:
-            RuntimeError: If the iteration does not converge.
-        """
-        small = 0
-        for _ in range(max_iter):
-            try:
-                dy, dpar = self.step(y, par)
-            except np.linalg.LinAlgError:
-                break
-            size = max(float(np.abs(dy).max()), float(np.abs(dpar).max()))
-            if not np.isfinite(size):
-                break
-            scale = min(1.0, 0.5 / size)
-            y, par = y + scale * dy, par + scale * dpar
-            small += size < 1e-7
-            if small == 2:
-                return y, par
-        raise RuntimeError(f"collocation: no convergence for {what}")
+    zones = (Zone(r.mesh, lambda y, _s, c, r=r: rates(y, c, r)) for r in mesh.regions)
+    problem = Problem(tuple(zones), every)
+    parts = tuple(y[r.at] for r in mesh.regions)
+    parts, c = problem.solve(parts, c, f"collocation of {what}", longest=0.5, close=1e-7, most=30)
+    return np.concatenate(parts), c
 
 
 def tensions(l1: Any, r: Any, law: Any = None) -> tuple[Any, Any]:
@@ -201,10 +129,10 @@ def resultants(l1: Any, r: Any, law: Any = None) -> tuple[Any, Any]:
     return s1 / r, s2 / l1
 
 
-def base_rates(y: list[Any], zw: Any, front: Any, tube: FluidTube, mesh: Mesh) -> list[Any]:
+def base_rates(y: list[Any], zw: Any, front: Any, tube: FluidTube, region: Region) -> list[Any]:
     """Derivatives of (r, z, l1, psi, v) with respect to s."""
     r, z, l1, psi = y[:4]
-    c, s, wet = np.cos(psi), np.sin(psi), mesh.dampness
+    c, s, wet = np.cos(psi), np.sin(psi), region.wet
     sq, rr = l1 * l1, r * r
     s1, s2 = tensions(l1, r, tube.law)
     if tube.law is None:
@@ -212,7 +140,7 @@ def base_rates(y: list[Any], zw: Any, front: Any, tube: FluidTube, mesh: Mesh) -
     else:
         stretch = c * (2 * s2 - tube.law.mixed(l1, r) * l1) / tube.law.curvature(l1, r)
     load = tube.gamma * (zw - z) * wet
-    h = mesh.lengths(tube, front)
+    h = region.length(tube, front)
     bend = (load * r * l1 - s2 * s) / s1
     return [h * l1 * c, h * l1 * s, h * stretch, h * bend, h * np.pi * rr * l1 * s * wet]
 
@@ -249,13 +177,11 @@ class State:
         """Components at material coordinates Z; shape of Z, then components."""
         y = self.y if y is None else y
         z_material = np.asarray(z_material, dtype=float)
-        flat, mesh = np.ravel(z_material), self.mesh
-        s = flat / self.front
+        s = z_material / self.front
         if self.partial:
-            s = np.where(s <= 1, s, 1 + (flat - self.front) / (self.tube.length - self.front))
-        k = np.clip(np.searchsorted(mesh.breaks, s, side="right") - 1, 0, mesh.elements - 1)
-        rows = lagrange(mesh.nodes, (s - mesh.breaks[k]) / mesh.widths[k, 0])
-        return np.einsum("im,imc->ic", rows, y[k]).reshape(*z_material.shape, -1)
+            beyond = (z_material - self.front) / (self.tube.length - self.front)
+            s = np.where(s <= 1, s, 1 + beyond)
+        return self.mesh.evaluate(y, s)
 
     def moved_to(self, mesh: Mesh, front: float | None = None) -> State:
         """The same state on another mesh, by interpolation."""
@@ -272,12 +198,12 @@ def solve(guess: State, volume: float) -> State:
     """
     tube, mesh, partial = guess.tube, guess.mesh, guess.partial
 
-    def rates(y: list[Any], par: list[Any], mesh: Mesh) -> list[Any]:
-        return base_rates(y, par[0], par[1] if partial else tube.length, tube, mesh)
+    def rates(y: list[Any], c: list[Any], region: Region) -> list[Any]:
+        return base_rates(y, c[0], c[1] if partial else tube.length, tube, region)
 
-    def conditions(start: list[Any], front: list[Any], end: list[Any], par: list[Any]) -> list[Any]:
-        return base_conditions(start, front, end, par[0], volume, tube, partial)
+    def conditions(start: list[Any], front: list[Any], end: list[Any], c: list[Any]) -> list[Any]:
+        return base_conditions(start, front, end, c[0], volume, tube, partial)
 
-    par = np.array([guess.zw, guess.front] if partial else [guess.zw])
-    y, par = System(mesh, rates, conditions).newton(guess.y, par, f"V = {volume:g} of {tube}")
-    return State(tube, mesh, y, float(par[0]), float(par[1]) if partial else tube.length)
+    c = np.array([guess.zw, guess.front] if partial else [guess.zw])
+    y, c = solve_on(mesh, rates, conditions, guess.y, c, f"{tube} at V = {volume:g}")
+    return State(tube, mesh, y, float(c[0]), float(c[1]) if partial else tube.length)

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
 
-from reference_data.solvers.core.tables import (
-    Array,
-    Column,
-    Table,
-    agreed,
-)
+from reference_data.solvers.core.tables import Array, Column, Levels, agreed
 from reference_data.solvers.paper3 import galerkin as gal
 from reference_data.solvers.paper3 import modes, path, text
 from reference_data.solvers.paper3.collocation import State, solve
@@ -25,21 +19,12 @@ from reference_data.solvers.paper3.data import FluidTube
 ROUNDING = {"collocation": 5e-13, "galerkin": 1e-11}
 
 
-@dataclass
-class Resolved:
-    """Values at the finer resolution and their uncertainty."""
-
-    value: Array
-    uncertainty: Array
+def resolved(coarse: Array, fine: Array, method: str) -> Levels:
+    """Both resolutions of a method: their difference, and rounding, is the uncertainty."""
+    return Levels(coarse, fine, rounding=ROUNDING[method])
 
 
-def resolved(coarse: Array, fine: Array, method: str) -> Resolved:
-    """Pair up the two resolutions: the difference, and rounding, is the uncertainty."""
-    coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
-    return Resolved(fine, np.abs(fine - coarse) + ROUNDING[method] * np.maximum(1.0, np.abs(fine)))
-
-
-def compared(table: str, name: str, collocation: Resolved, galerkin: Resolved) -> Column:
+def compared(table: str, name: str, collocation: Levels, galerkin: Levels) -> Column:
     """Column of collocation values, once the Galerkin values are found to agree.
 
     Raises:
@@ -60,11 +45,6 @@ def columns_of(table: str, names: tuple[str, ...], a: Sequence[Rows], b: Sequenc
     return out
 
 
-def steps(start: float, stop: float, step: float) -> Array:
-    """Round numbers start, start + step, ..., stop."""
-    return np.round(start + step * np.arange(round((stop - start) / step) + 1), 10)
-
-
 def given(tube: FluidTube) -> dict[str, object]:
     """Parameters as stored."""
     return {"L": float(tube.L), "delta": float(tube.delta), "gamma": float(tube.gamma)}
@@ -73,29 +53,6 @@ def given(tube: FluidTube) -> dict[str, object]:
 def named(kind: str, tube: FluidTube, gamma: bool) -> str:
     """Name of a table."""
     return f"{kind}_L_{tube.L:g}_delta_{tube.delta:g}" + f"_gamma_{tube.gamma:g}" * gamma
-
-
-def make(
-    name: str,
-    title: str,
-    source: str,
-    parameters: dict[str, object],
-    columns: list[Column],
-    **more: object,
-) -> Table:
-    """A table of paper 3 with the documentation common to all of them."""
-    defaults = {"method": text.METHOD, "grid": text.grid(), "tolerance": text.TOLERANCE}
-    abscissa = more.pop("abscissa", columns[0].name)
-    return Table(
-        name=name,
-        paper=3,
-        title=title,
-        source=f"{text.PAPER}, {source}",
-        parameters=parameters,
-        abscissa=abscissa,
-        columns=columns,
-        **(defaults | more),
-    )
 
 
 @cache

@@ -14,6 +14,7 @@ hence the whole iteration still converges quadratically.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -23,6 +24,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as sla
 
 from reference_data.solvers.core.collocation import differentiation, lagrange
+from reference_data.solvers.core.newton import newton
 from reference_data.solvers.paper3 import weak
 from reference_data.solvers.paper3.data import FluidTube
 
@@ -241,30 +243,30 @@ def fitted(shape: Shape) -> tuple[Shape, float]:
     return replace(shape, x=x, front=front), abs(move)
 
 
-def solve(guess: Shape, volume: float, max_iter: int = 30) -> Shape:
+def solve(guess: Shape, volume: float) -> Shape:
     """Equilibrium that holds the given fluid volume.
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    shape, small = guess, 0
-    for _ in range(max_iter):
+
+    def correct(shape: Shape) -> tuple[float, Callable[[float], Shape]]:
+        shape, move = fitted(shape)
         matrices = Matrices(shape, 0, (0, 2))
         core, d = matrices.stiffness, matrices.volume
         area = np.pi * shape.surface_radius**2
         full = np.block([[core, -shape.tube.gamma * d[:, None]], [2 * np.pi * d[None], np.array([[area]])]])
         step = np.linalg.solve(full, -np.append(residual(shape), shape.volume() - volume))
-        size = float(np.abs(step).max())
-        if not np.isfinite(size):
-            break
-        step *= min(1.0, 0.3 / size)
-        x = shape.x.copy()
-        x[1:-1] += step[:-1].reshape(-1, 2)
-        shape, move = fitted(replace(shape, x=x, zw=shape.zw + float(step[-1])))
-        small += max(size, move) < 1e-7
-        if small == 2:
-            return shape
-    raise RuntimeError(f"Galerkin: no convergence at V = {volume:g} for {guess.tube}")
+
+        def advance(share: float) -> Shape:
+            x = shape.x.copy()
+            x[1:-1] += share * step[:-1].reshape(-1, 2)
+            return replace(shape, x=x, zw=shape.zw + share * float(step[-1]))
+
+        return max(float(np.abs(step).max()), move), advance
+
+    what = f"Galerkin's method for {guess.tube} at V = {volume:g}"
+    return fitted(newton(guess, correct, what, longest=0.3, most=30))[0]
 
 
 def lowest(stiffness: Array, mass: Array) -> tuple[float, Array]:

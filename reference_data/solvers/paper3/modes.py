@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
+from reference_data.solvers.core.newton import Secants
 from reference_data.solvers.paper3 import canonical as can
 from reference_data.solvers.paper3 import galerkin as gal
 from reference_data.solvers.paper3 import path
@@ -112,16 +113,9 @@ def galerkin_critical(state: State, how: path.Resolution, n: int) -> gal.Shape:
     def value(volume: float) -> float:
         return galerkin_mode(gal.solve(near, volume), family)[0]
 
-    volume, spread = state.volume, 1e-4 * state.volume
-    slope = (value(volume + spread) - value(volume - spread)) / (2 * spread)
-    size = np.inf
-    for _ in range(40):
-        step = -value(volume) / slope
-        volume += step
-        if abs(step) < 1e-8 * volume and abs(step) > 0.5 * size:  # nothing but rounding is left
-            return gal.solve(near, volume)
-        size = abs(step)
-    raise RuntimeError(f"Galerkin: no zero of n = {n} near V = {state.volume:g} of {state.tube}")
+    what = f"Galerkin: zero of n = {n} near V = {state.volume:g} of {state.tube}"
+    zero = Secants(offset=1e-4).solve(lambda v: np.array([value(v[0])]), [state.volume], what, stalled=1e-8)
+    return gal.solve(near, float(zero[0]))
 
 
 def zeros(tube: FluidTube, stop: float, step: float, waves: tuple[int, ...] = (0, 1, 2)) -> dict[int, State]:
@@ -151,11 +145,11 @@ def zeros(tube: FluidTube, stop: float, step: float, waves: tuple[int, ...] = (0
 def potential(state: State) -> float:
     """Total potential energy Pi of a collocation state."""
     mesh, tube = state.mesh, state.tube
-    r, z, l1, psi, _ = np.moveaxis(mesh.value @ state.y, -1, 0)
+    r, z, l1, psi, _ = np.moveaxis(mesh.rule.value @ state.y, -1, 0)
     fluid = tube.gamma * (state.zw - z) * mesh.dampness * r**2 * l1 * np.sin(psi)
     strain = l1**2 + r**2 + 1 / (l1 * r) ** 2 - 3 if tube.law is None else tube.law.energy(l1, r)
     density = strain - fluid
-    return float(np.pi * np.sum(mesh.widths * mesh.lengths(tube, state.front) * mesh.weights * density))
+    return float(np.pi * np.sum(mesh.lengths(tube, state.front) * mesh.weights * density))
 
 
 def largest(radius: object, slope: object, length: float) -> float:

@@ -27,13 +27,20 @@ class Resolution:
     full_elements: gal.Elements
 
 
-RESOLUTIONS = (
-    Resolution(Mesh(11, 8, 14), Mesh(16, 0, 14), gal.Elements(10, 8, 11), gal.Elements(15, 0, 11)),
-    Resolution(Mesh(14, 10, 17), Mesh(20, 0, 17), gal.Elements(12, 9, 13), gal.Elements(18, 0, 13)),
-)
+def resolution(partial: tuple[int, ...], full: int, elements: tuple[int, ...], whole: int) -> Resolution:
+    """Wet and dry elements and their degree, and the elements of over-filled tubes, of both methods."""
+    return Resolution(
+        Mesh.filled(*partial),
+        Mesh.filled(full, 0, partial[2]),
+        gal.Elements(*elements),
+        gal.Elements(whole, 0, elements[2]),
+    )
+
+
+RESOLUTIONS = (resolution((11, 8, 14), 16, (10, 8, 11), 15), resolution((14, 10, 17), 20, (12, 9, 13), 18))
 
 # Where critical points are only looked for; they are solved for on the resolutions above.
-SEARCH = Resolution(Mesh(8, 6, 12), Mesh(11, 0, 12), gal.Elements(7, 5, 8), gal.Elements(10, 0, 8))
+SEARCH = resolution((8, 6, 12), 11, (7, 5, 8), 10)
 
 
 def dry(tube: FluidTube, mesh: Mesh) -> State:

@@ -11,7 +11,8 @@ from itertools import combinations
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Table, prescribed
+from reference_data.solvers.core.newton import Secants, secant
+from reference_data.solvers.core.tables import Table, steps
 from reference_data.solvers.paper3 import canonical as can
 from reference_data.solvers.paper3 import galerkin as gal
 from reference_data.solvers.paper3 import modes, path, text
@@ -22,9 +23,8 @@ from reference_data.solvers.paper3.common import (
     columns_of,
     critical,
     followed,
-    make,
+    on,
     root,
-    steps,
 )
 from reference_data.solvers.paper3.data import GAMMA, GAMMA_EXACT, FluidTube
 from reference_data.solvers.paper3.tables_primary import DENSITY, OFF, PAPER
@@ -55,14 +55,11 @@ def points(name: str) -> Table:
                 a[level].append(modes.quantities(state))
                 b[level].append(modes.galerkin_quantities(shape))
     names = ("L", "delta", "gamma", "n", "order")
-    columns = [
-        prescribed(k, np.array(v, float), text.COLUMNS[k])
-        for k, v in zip(names, zip(*keys, strict=True), strict=True)
-    ]
+    columns = text.SERIES.keys(**dict(zip(names, zip(*keys, strict=True), strict=True)))
     columns += columns_of(name, ("zw", "V", "r_mid", "r_max", "T1_ring", "Pi"), a, b)
     title, source = "Limit points and bifurcation points of the primary branch", "figures 2-4"
     parameters = {"gamma_paper": GAMMA, "gamma_exact": GAMMA_EXACT}
-    return make(
+    return text.SERIES.table(
         name, title, source, parameters, columns, notes=text.CRITICAL_NOTES, extra={"keys": list(names)}
     )
 
@@ -81,9 +78,9 @@ def coincidence(name: str) -> Table:
             a[level].append(modes.quantities(state) | {"delta": state.tube.delta})
             shape = _by_galerkin(state, how)
             b[level].append(modes.galerkin_quantities(shape) | {"delta": shape.tube.delta})
-    columns = [prescribed("L", np.array([x[0] for x in BRACKETS]), text.COLUMNS["L"])]
+    columns = text.SERIES.keys(L=[x[0] for x in BRACKETS])
     columns += columns_of(name, ("delta", "zw", "V", "r_mid", "r_max"), a, b)
-    return make(
+    return text.SERIES.table(
         name,
         "Pre-stretch at which limit point and n = 1 bifurcation coincide",
         "the order of the critical points of figure 2",
@@ -118,25 +115,22 @@ def _coarse_coincidence(L: float, low: float, high: float) -> dict[int, State]:
 
 
 def _by_collocation(near: dict[int, State], how: path.Resolution) -> State:
-    """Secant steps in delta on the difference of the two volumes."""
-    tube = near[0].tube
+    """Pre-stretch at which the difference of the two volumes vanishes."""
+    here = [near]
     if near[0].mesh.degree != how.partial.degree:
-        near = {n: s.moved_to(how.partial if s.partial else how.full) for n, s in near.items()}
-    deltas, gaps = [tube.delta, tube.delta * (1 + 1e-3)], []
-    for _ in range(30):
-        near = _volumes(replace(tube, delta=deltas[-2] if not gaps else deltas[-1]), how, near)
-        gaps.append(near[1].volume - near[0].volume)
-        if len(gaps) < 2:
-            continue
-        step = -gaps[-1] * (deltas[-1] - deltas[-2]) / (gaps[-1] - gaps[-2])
-        if abs(step) < 1e-11:
-            return near[0]
-        deltas.append(deltas[-1] + step)
-    raise RuntimeError(f"collocation: no coincidence near {tube}")
+        here[0] = {n: on(how, s) for n, s in near.items()}
+
+    def gap(delta: float) -> float:
+        here[0] = _volumes(replace(near[0].tube, delta=delta), how, here[0])
+        return here[0][1].volume - here[0][0].volume
+
+    delta = near[0].tube.delta
+    secant(gap, delta, delta * (1 + 1e-3))
+    return here[0][0]
 
 
 def _by_galerkin(near: State, how: path.Resolution) -> gal.Shape:
-    """Newton in (V, delta) on the eigenvalues n = 0 and n = 1, differenced centrally."""
+    """Root in (V, delta) of the eigenvalues n = 0 and n = 1."""
     first = path.galerkin(near, how)
 
     def at(volume: float, delta: float) -> gal.Shape:
@@ -148,18 +142,8 @@ def _by_galerkin(near: State, how: path.Resolution) -> gal.Shape:
         shape = at(*x)
         return np.array([modes.galerkin_mode(shape, can.family(n))[0] for n in (0, 1)])
 
-    x = np.array([near.volume, near.tube.delta])
-    h = 1e-4 * x
-    slope = np.array([(values(x + e) - values(x - e)) / (2 * e.sum()) for e in np.diag(h)]).T
-    size = np.inf
-    for _ in range(40):
-        step = -np.linalg.solve(slope, values(x))
-        x = x + step
-        now = float(np.max(np.abs(step / x)))
-        if now < 1e-8 and now > 0.5 * size:  # nothing but rounding is left
-            return at(*x)
-        size = now
-    raise RuntimeError(f"Galerkin: no coincidence near {near.tube}")
+    what = f"Galerkin: coincidence near {near.tube}"
+    return at(*Secants(offset=1e-4).solve(values, [near.volume, near.tube.delta], what, stalled=1e-8))
 
 
 CROSSING_STOP = 130.0
@@ -185,17 +169,14 @@ def crossings(name: str) -> Table:
                     a[level].append(first)
                     b[level].append(second)
     names = ("L", "delta_a", "delta_b", "order", "post_a", "post_b")
-    columns = [
-        prescribed(k, np.array(v), text.COLUMNS[k])
-        for k, v in zip(names, zip(*keys, strict=True), strict=True)
-    ]
+    columns = text.SERIES.keys(**dict(zip(names, zip(*keys, strict=True), strict=True)))
     columns += columns_of(name, ("zw", "V"), a, b)
     source = "figure 3 and the effect of pre-stretch"
     notes = (
         "Volumes from 5 to the shorter of the two curves are searched; at lower ones the curves touch at 0."
     )
     extra = {"keys": list(names[:4])}
-    return make(
+    return text.SERIES.table(
         name, "Crossings of the curves V(z_w)", source, {"gamma": GAMMA}, columns, notes=notes, extra=extra
     )
 

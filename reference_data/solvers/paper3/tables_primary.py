@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Array, Table, prescribed
+from reference_data.solvers.core.tables import Array, Table, steps
 from reference_data.solvers.paper3 import galerkin as gal
 from reference_data.solvers.paper3 import modes, path, text
 from reference_data.solvers.paper3.collocation import State, resultants
@@ -19,11 +19,9 @@ from reference_data.solvers.paper3.common import (
     columns_of,
     compared,
     given,
-    make,
     named,
     resolved,
     state_at_level,
-    steps,
 )
 from reference_data.solvers.paper3.data import FluidTube
 from reference_data.solvers.paper3.weak import cut_resultants
@@ -60,9 +58,9 @@ def curve(name: str, tube: FluidTube, volumes: Array, source: str) -> Table:
     """Primary branch over the volume."""
     pairs = [branch_rows(along(tube, volumes, i), how) for i, how in enumerate(path.RESOLUTIONS)]
     a, b = ([p[i] for p in pairs] for i in (0, 1))
-    columns = [prescribed("V", volumes, text.COLUMNS["V"]), *columns_of(name, QUANTITIES, a, b)]
+    columns = [*text.SERIES.keys(V=volumes), *columns_of(name, QUANTITIES, a, b)]
     title = f"Primary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
-    return make(name, title, source, given(tube), columns, notes=text.BRANCH_NOTES)
+    return text.SERIES.table(name, title, source, given(tube), columns, notes=text.BRANCH_NOTES)
 
 
 def spectrum(name: str, tube: FluidTube, volumes: Array, source: str) -> Table:
@@ -77,10 +75,10 @@ def spectrum(name: str, tube: FluidTube, volumes: Array, source: str) -> Table:
         )
         levels = [path.galerkin(s, how).zw for s in states]
         b.append([{"zw": z} | {k: v[1] for k, v in row.items()} for z, row in zip(levels, both, strict=True)])
-    columns = [prescribed("V", volumes, text.COLUMNS["V"])]
+    columns = text.SERIES.keys(V=volumes)
     columns += columns_of(name, ("zw", *modes.FAMILIES), a, b)
     title = f"Stability of the primary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
-    return make(name, title, source, given(tube), columns, notes=text.SPECTRUM_NOTES)
+    return text.SERIES.table(name, title, source, given(tube), columns, notes=text.SPECTRUM_NOTES)
 
 
 def by_collocation(state: State, at: Array) -> dict[str, Array]:
@@ -103,14 +101,14 @@ def profile(name: str, tube: FluidTube, zw: float, post: bool, source: str) -> T
     states, shapes = state_at_level(tube, zw, post, PAPER[tube][1])
     at = np.round(tube.length * np.arange(61) / 60, 12)
     a, b = ([f(s, at) for s in found] for f, found in ((by_collocation, states), (by_galerkin, shapes)))
-    columns = [prescribed("Z", at, text.COLUMNS["Z"])]
+    columns = text.SERIES.keys(Z=at)
     for c in ("r", "z", "lam1", "lam2", "T1", "T2"):
         one, two = resolved(*(p[c] for p in a), "collocation"), resolved(*(p[c] for p in b), "galerkin")
         columns.append(compared(name, c, one, two))
     where = "after" if post else "before"
     title = f"Profile at z_w = {zw:g} {where} the limit point, L = {tube.L:g}, delta = {tube.delta:g}"
     facts = given(tube) | {"zw": zw, "V": states[-1].volume, "post_limit": post}
-    return make(name, title, source, facts, columns, notes=text.PRESSURE_NOTES)
+    return text.SERIES.table(name, title, source, facts, columns, notes=text.PRESSURE_NOTES)
 
 
 def dry(name: str) -> Table:
@@ -123,11 +121,11 @@ def dry(name: str) -> Table:
         first, second = branch_rows(states, how)
         a.append(first)
         b.append(second)
-    keys = [prescribed(k, [float(getattr(t, k)) for t in tubes], text.COLUMNS[k]) for k in ("L", "delta")]
+    keys = text.SERIES.keys(**{k: [getattr(t, k) for t in tubes] for k in ("L", "delta")})
     names = ("r_mid", "T1_ring", "T2_ring", "T1_mid", "T2_mid", "Pi")
     columns = [*keys, *columns_of(name, names, a, b)]
     title, source = "The pre-stretched tube without fluid", "figure 2, z_w <= 0"
-    return make(name, title, source, {"gamma": 0.0}, columns, extra={"keys": ["L", "delta"]})
+    return text.SERIES.table(name, title, source, {"gamma": 0.0}, columns, extra={"keys": ["L", "delta"]})
 
 
 def _branch_tables() -> dict[str, Builder]:

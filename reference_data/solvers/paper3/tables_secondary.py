@@ -5,18 +5,19 @@ Patil, Nordmark & Eriksson, Proc. R. Soc. A 471 (2015) 20150016, figures 2, 3, 6
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Column, Table, prescribed, round_up
+from reference_data.solvers.core.tables import Column, Series, Table, round_up
 from reference_data.solvers.paper3 import text, weak
 from reference_data.solvers.paper3.bent import both_methods as bent
 from reference_data.solvers.paper3.bent import branch, states
 from reference_data.solvers.paper3.bent.equations import Array, Grid, Surface
 from reference_data.solvers.paper3.bent.newton import newton, raised
 from reference_data.solvers.paper3.collocation import State
-from reference_data.solvers.paper3.common import Rows, given, make, named
+from reference_data.solvers.paper3.common import Rows, given, named
 from reference_data.solvers.paper3.data import FluidTube
 from reference_data.solvers.paper3.galerkin import Elements, Shape
 from reference_data.solvers.paper3.modes import critical_point, galerkin_critical, zeros
@@ -35,28 +36,19 @@ LEVELS: dict[FluidTube, tuple[float, ...]] = {
     FluidTube(24, 2): (7.6, 7.65, 7.7, 7.75, 7.779, 7.8, 7.85, 7.9, 7.95, 8.0, 8.015),
     FluidTube(24, 3): (7.6, 7.65, 7.7, 7.75, 7.8, 7.85, 7.9, 7.95),
 }
+FINER = (FluidTube(8, 3),)  # bulges most: on the usual grids u of heights is 3e-6 near the bifurcation
 COMPRESSED = (FluidTube(24, 1.5),)  # T2 < 0 in the dry part: see COMPRESSED_NOTES
 OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch is left
 STEP = 0.08
 
 
-def documented(
-    name: str,
-    title: str,
-    source: str,
-    parameters: dict[str, object],
-    columns: list[Column],
-    grids: tuple[tuple[int, int, int, int], ...],
-    nets: tuple[tuple[int, int, int, int], ...] = bent.NETS,
-    **more: object,
-) -> Table:
-    """A table of the two-dimensional codes."""
-    own = {
-        "method": text.SECONDARY_METHOD,
-        "tolerance": text.SECONDARY_TOLERANCE,
-        "grid": text.secondary_grid(grids, nets),
-    }
-    return make(name, title, source, parameters, columns, **(own | more))
+Sizes = tuple[tuple[int, int, int, int], ...]
+
+
+def series(grids: Sizes, nets: Sizes = bent.NETS) -> Series:
+    """What tables of the two-dimensional codes say on these grids and nets."""
+    said = {"method": text.SECONDARY_METHOD, "tolerance": text.SECONDARY_TOLERANCE}
+    return replace(text.SERIES, grid=text.secondary_grid(grids, nets), **said)
 
 
 @cache
@@ -85,6 +77,13 @@ def on_levels(tube: FluidTube, zw: float) -> tuple[Surface, Surface, Surface]:
     return coarse, middle, raised(middle, branch.grid(coarse.partial, 2))
 
 
+def compared(tube: FluidTube, found: tuple[Surface, ...]) -> tuple[Surface, Surface]:
+    """The two finest states by Galerkin's method; their difference gives the uncertainty."""
+    if tube in FINER:
+        return found[-1], raised(found[-1], branch.grid(found[-1].partial, 3))
+    return found[-2], found[-1]
+
+
 def curve(name: str, tube: FluidTube) -> Table:
     """Secondary branch over the level."""
     levels = LEVELS[tube]
@@ -93,18 +92,19 @@ def curve(name: str, tube: FluidTube) -> Table:
     spin = 0.0
     for zw in levels:
         found = on_levels(tube, zw)
-        pair = found[1:] if tube in bent.STEEP else found[:2]  # for the eigenvalues
+        finest = compared(tube, found)
+        pair = finest if tube in bent.STEEP else found[:2]  # for the eigenvalues
         first = states.stability(pair[0])
         second = states.stability(pair[1], first)
         spin = max(spin, abs(second.rotation))
         others = bent.balanced(found[0])
-        one = [states.quantities(s) for s in found[1:]] + [balance.quantities(s) for s in others]
+        one = [states.quantities(s) for s in finest] + [balance.quantities(s) for s in others]
         two = [first.columns(), second.columns(), *(balance.stability(s) for s in others)]
         for i in range(4):
             rows[i].append(one[i])
             eigen[i].append(two[i])
     kept = ("Lambda_1", "LambdaV_1") if tube in COMPRESSED else tuple(eigen[0][0])
-    columns = [prescribed("zw", np.array(levels), text.COLUMNS["zw"])]
+    columns = text.SERIES.keys(zw=levels)
     for found, names in ((rows, [k for k in rows[0][0] if k != "zw"]), (eigen, kept)):
         for k in names:
             values = [np.array([row[k] for row in part]) for part in found]
@@ -112,17 +112,8 @@ def curve(name: str, tube: FluidTube) -> Table:
     notes = text.SECONDARY_NOTES + (text.COMPRESSED_NOTES if tube in COMPRESSED else "")
     title = f"Secondary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
     extra = {"rotation_eigenvalue": round_up(spin)}
-    return documented(
-        name,
-        title,
-        "figures 2 and 3",
-        given(tube),
-        columns,
-        branch.GRIDS[:3],
-        bent.chosen(tube),
-        notes=notes,
-        extra=extra,
-    )
+    about = series(branch.GRIDS[2:] if tube in FINER else branch.GRIDS[:3], bent.chosen(tube))
+    return about.table(name, title, "figures 2 and 3", given(tube), columns, notes=notes, extra=extra)
 
 
 def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, source: str) -> Table:
@@ -139,10 +130,7 @@ def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, s
         else:
             principal = balance.principal(a, b)
         fields.append([v.ravel() for v in (x[..., 0], x[..., 1], x[..., 2], *principal)])
-    columns = [
-        prescribed("Z", np.repeat(at, len(around)), text.COLUMNS["Z"]),
-        prescribed("Theta", np.tile(np.round(around, 12), len(at)), text.COLUMNS["Theta"]),
-    ]
+    columns = text.SERIES.keys(Z=np.repeat(at, len(around)), Theta=np.tile(np.round(around, 12), len(at)))
     for i, c in enumerate(("x", "y", "z", "lam1", "lam2", "T1", "T2")):
         values = [f[i] for f in fields]
         columns.append(bent.paired(name, c, tuple(values[:2]), tuple(values[2:])))
@@ -150,17 +138,8 @@ def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, s
     facts = given(tube) | {"zw": zw} | {k: fine[k] for k in ("V", "r_mid", "z_min", "T_min")}
     title = f"Secondary branch at z_w = {zw:g}, L = {tube.L:g}, delta = {tube.delta:g}"
     extra = {"keys": ["Z", "Theta"]}
-    return documented(
-        name,
-        title,
-        source,
-        facts,
-        columns,
-        branch.GRIDS[2:],
-        bent.chosen(tube),
-        notes=text.PRESSURE_NOTES,
-        extra=extra,
-    )
+    about = series(branch.GRIDS[2:], bent.chosen(tube))
+    return about.table(name, title, source, facts, columns, notes=text.PRESSURE_NOTES, extra=extra)
 
 
 SLOPE_OFFSETS = np.array([0.03, 0.045, 0.06, 0.075, 0.09])
@@ -259,24 +238,12 @@ def slopes(name: str) -> Table:
     """How the secondary branch leaves the bifurcation."""
     tubes = list(LEVELS)
     found = [_slopes(tube) for tube in tubes]
-    columns = [
-        prescribed(k, np.array([float(getattr(t, k)) for t in tubes]), text.COLUMNS[k])
-        for k in ("L", "delta")
-    ]
+    columns = text.SERIES.keys(**{k: [getattr(t, k) for t in tubes] for k in ("L", "delta")})
     columns += [_extrapolated(name, k, found) for k in found[0][0][0]]
     extra = {"keys": ["L", "delta"]}
     title, source = "Initial slopes of the secondary branch", "figures 2 and 3"
-    return documented(
-        name,
-        title,
-        source,
-        {"gamma": tubes[0].gamma},
-        columns,
-        SLOPE_GRIDS,
-        bent.SLOPE_NETS,
-        notes=text.SLOPE_NOTES,
-        extra=extra,
-    )
+    about, facts = series(SLOPE_GRIDS, bent.SLOPE_NETS), {"gamma": tubes[0].gamma}
+    return about.table(name, title, source, facts, columns, notes=text.SLOPE_NOTES, extra=extra)
 
 
 def turn(name: str) -> Table:
@@ -293,21 +260,15 @@ def turn(name: str) -> Table:
     balanced = [bent.balanced(s, float(o)) for s, o in zip(near, offsets, strict=True)]
     found += [[balance.quantities(pair[i]) for pair in balanced] for i in (0, 1)]
     tops = [[_top(offsets[k:], rows[k:]) for k in FEWER] for rows in found]
-    columns = [
-        prescribed("L", np.array([tube.L]), text.COLUMNS["L"]),
-        prescribed("delta", np.array([tube.delta]), text.COLUMNS["delta"]),
-    ]
+    columns = text.SERIES.keys(L=[tube.L], delta=[tube.delta])
     columns += [_extrapolated(name, k, [tops], bent.LEFT) for k in ("zw", "V", "r_mid")]
-    notes = text.TURN_NOTES
-    return documented(
+    return series(branch.GRIDS[1:], bent.chosen(tube)).table(
         name,
         "Largest r_mid on the secondary branch",
         "figure 2(a)",
         {"gamma": tube.gamma},
         columns,
-        branch.GRIDS[1:],
-        bent.chosen(tube),
-        notes=notes,
+        notes=text.TURN_NOTES,
         extra={"keys": ["L", "delta"]},
     )
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
+from reference_data.solvers.core.tables import Series, rule
 from reference_data.solvers.paper3 import path
 
 PAPER = "Patil, Nordmark & Eriksson, Proc. R. Soc. A 471 (2015) 20150016"
 
-_RULE = (
-    "The values are (a); a table is written only if |a - b| <= hypot(u_a, u_b) in every row. The "
-    "uncertainty of a column is u_a + max |a - b| + half a unit of the last digit; "
-    "largest_difference_of_methods is max |a - b|."
-)
 METHOD = (
     "Two codes that share the definitions of volume and energy (and another law's derivatives, where "
     "there is one), but no equation of equilibrium, stress or stability: (a) piecewise Chebyshev "
@@ -18,7 +14,7 @@ METHOD = (
     "regions, the Fourier perturbation as a canonical (Hamiltonian) system with the eigenvalue, or at "
     "critical points the volume, as an unknown; (b) Galerkin's method with fitted spectral elements on "
     "the Cartesian weak form F(x; v) = 0, its point-wise tangent averaged over Theta, resultants from the"
-    " energy by complex step, dense symmetric eigenproblem. Two resolutions each. " + _RULE
+    " energy by complex step, dense symmetric eigenproblem. Two resolutions each. " + rule("a")
 )
 TOLERANCE = "Newton takes one more step after the first one below 1e-7: rounding only"
 BRANCH_NOTES = (
@@ -148,14 +144,13 @@ def secondary_grid(
     return f"wet + dry elements, (a) {one}; (b) {two} (over-filled: wet only)"
 
 
-def grid() -> str:
-    """Meshes of both codes, as used."""
+def _counts(mesh: object) -> str:
+    return f"{mesh.wet} + {mesh.dry} of degree {mesh.degree}"
 
-    def counts(mesh: object) -> str:
-        return f"{mesh.wet} + {mesh.dry} of degree {mesh.degree}"
 
-    a = "; ".join(f"{counts(r.partial)} (over-filled {counts(r.full)})" for r in path.RESOLUTIONS)
-    b = "; ".join(
-        f"{counts(r.partial_elements)} (over-filled {counts(r.full_elements)})" for r in path.RESOLUTIONS
-    )
-    return f"wet + dry elements, (a) {a}; (b) {b}; wet elements graded to the lower ring"
+_A = "; ".join(f"{_counts(r.partial)} (over-filled {_counts(r.full)})" for r in path.RESOLUTIONS)
+_B = "; ".join(
+    f"{_counts(r.partial_elements)} (over-filled {_counts(r.full_elements)})" for r in path.RESOLUTIONS
+)
+GRID = f"wet + dry elements, (a) {_A}; (b) {_B}; wet elements graded to the lower ring"
+SERIES = Series(3, PAPER, COLUMNS, METHOD, GRID, TOLERANCE)

@@ -7,7 +7,8 @@ from functools import cache, cached_property
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Column, DisagreementError, last_digit, round_up
+from reference_data.solvers.core import tables
+from reference_data.solvers.core.tables import Column, DisagreementError, Levels
 from reference_data.solvers.paper4.material import Array, Membrane
 from reference_data.solvers.paper4.methods import differences as fd
 from reference_data.solvers.paper4.methods import measures as msr
@@ -23,18 +24,10 @@ ROUNDING = 3e-13  # relative, remaining error of Newton's last step
 
 
 @dataclass
-class Pair:
-    """Coarse and fine values of one method."""
+class Pair(Levels):
+    """Coarse and fine values of one method, and what Newton's last step leaves."""
 
-    coarse: Array
-    fine: Array
-    floor: Array | float = 0.0
-
-    @property
-    def uncertainty(self) -> Array:
-        """Difference of the two resolutions, and rounding."""
-        floor = ROUNDING * np.maximum(1.0, np.abs(self.fine)) + self.floor
-        return np.abs(self.fine - self.coarse) + floor
+    rounding: float = ROUNDING
 
 
 @cache
@@ -59,13 +52,13 @@ class Solved:
     load: float
 
     @cached_property
-    def tracked(self) -> list[tuple[State, float]]:
-        """By collocation: states and their volumes."""
+    def tracked(self) -> list[State]:
+        """States by collocation."""
         guess, out = sta.from_grid(grid_at(self.membrane, self.load), sta.RULES[0]), []
         for rule in sta.RULES:
             guess = guess if guess.rule == rule else sta.moved_to(guess, rule)
-            guess, system = sta.polished(guess, "load", self.load)
-            out.append((guess, system.volume))
+            guess = sta.polished(guess, "load", self.load)
+            out.append(guess)
         return out
 
     @cached_property
@@ -82,7 +75,7 @@ class Solved:
         Raises:
             DisagreementError: If the numbers of fronts differ.
         """
-        a = [msr.measures(*x) for x in self.tracked]
+        a = [msr.measures(x) for x in self.tracked]
         b = [smsr.measures(x) for x in self.shots]
         counts = {len(x.fronts) for x in [*a, *b]}
         if len(counts) > 1:
@@ -113,7 +106,7 @@ class Solved:
         if self.membrane.energy == "standard":
             m = self.measured[0][1]
             return " ".join("gw>1" if m.first == (i % 2 == 0) else "gw<1" for i in range(len(m.fronts) + 1))
-        return words(self.tracked[1][0].pattern.signature)
+        return words(self.tracked[1].pattern.signature)
 
 
 def words(signature: tuple[bool, ...]) -> str:
@@ -128,25 +121,8 @@ def solved(membrane: Membrane, load: float) -> Solved:
 
 
 def agreed(table: str, name: str, a: Pair, b: Pair, about: tuple[str, str]) -> Column:
-    """Column of collocation values, after a check that shooting agrees.
-
-    Raises:
-        DisagreementError: If it does not; the message names table, column and worst row.
-    """
-    gap, room = np.abs(a.fine - b.fine), np.hypot(a.uncertainty, b.uncertainty)
-    if not np.all(gap <= room):
-        row = int(np.nanargmax(np.where(np.isfinite(gap), gap / room, np.inf)))
-        raise DisagreementError(
-            f"table {table}, column {name}, row {row}: collocation {np.ravel(a.fine)[row]:.15g}, shooting "
-            f"{np.ravel(b.fine)[row]:.15g}, difference {gap[row]:.2e}, combined uncertainty {room[row]:.2e}"
-        )
-    own, widest = float(np.max(a.uncertainty, initial=0)), float(gap.max(initial=0))
-    extra = {
-        "largest_difference_of_methods": round_up(widest),
-        "uncertainty_collocation": round_up(own),
-        "uncertainty_shooting": round_up(float(np.max(b.uncertainty, initial=0))),
-    }
-    return Column(name, a.fine, round_up(own + widest + last_digit(a.fine)), *about, extra)
+    """Column of collocation values, after a check that shooting agrees."""
+    return tables.agreed(table, name, b, a, about, other="shooting")
 
 
 def stacked(pairs: list[tuple[Pair, Pair]]) -> tuple[Pair, Pair]:
@@ -165,7 +141,7 @@ def profiles(state: Solved) -> tuple[Array, dict[str, tuple[Pair, Pair]]]:
     fronts = state.measured[0][1].fronts
     apart = np.abs(s[:, None] - fronts).min(axis=1, initial=1.0)
     keep = (apart > 1e-6) | (np.arange(len(s)) % SAMPLES == 0)
-    a = [msr.profile(x[0], s[keep]) for x in state.tracked]
+    a = [msr.profile(x, s[keep]) for x in state.tracked]
     every = [sho.SEGMENTS * n // SAMPLES for n in STEPS]
     b = [{k: v[keep] for k, v in smsr.profile(x, e).items()} for x, e in zip(state.shots, every, strict=True)]
     return s[keep], {k: (Pair(a[0][k], a[1][k]), Pair(b[0][k], b[1][k])) for k in a[0]}

@@ -7,18 +7,18 @@ the collocation unchanged. Shooting has no zones; it corrects the root once by i
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reference_data.solvers.core.newton import secant
 from reference_data.solvers.paper4.cases import STEPS, Pair, grid_at
 from reference_data.solvers.paper4.material import Array, Membrane
 from reference_data.solvers.paper4.methods import measures as msr
 from reference_data.solvers.paper4.methods import shooting_measures as smsr
 from reference_data.solvers.paper4.methods import shooting_newton as sho
 from reference_data.solvers.paper4.methods import states as sta
-from reference_data.solvers.paper4.methods.collocation import State
+from reference_data.solvers.paper4.methods.collocation import State, newton
 
 NOISE = 1e-13  # of gw - 1 and of an inclination: difference of two rules and two methods
 TILT = 1e-3  # relative offset of shooting's second value, for the slope only
@@ -79,16 +79,16 @@ def pick(points: list[tuple[float, float, float]], touch: Touch) -> tuple[float,
 
 def of_state(state: State, touch: Touch) -> tuple[float, float, float]:
     """Position, value and second derivative of the field at its stationary point (collocation)."""
-    values = sta.wrinkling(state.y) if touch.field == "gw" else np.sin(state.y[..., 3])
+    values = (
+        sta.wrinkling(state.membrane, state.s, state.y) if touch.field == "gw" else np.sin(state.y[..., 3])
+    )
     if touch.at_end:
         return state.membrane.L, float(values[-1, -1]), np.inf
-    slope = msr.derivative(state, values)
-    bend = msr.derivative(state, slope)
+    slope = state.mesh.slope(values)
+    bend = state.mesh.slope(slope)
 
     def at(s: float, nodal: Array) -> float:
-        e = int(np.clip(np.searchsorted(state.edges, s) - 1, 0, len(nodal) - 1))
-        x = (s - state.edges[e]) / (state.edges[e + 1] - state.edges[e])
-        return float((sta.lagrange(state.rule.nodes, np.array([x])) @ nodal[e])[0])
+        return float(state.mesh.evaluate(nodal[..., None], np.array(s))[0])
 
     points = [(s, at(s, values), sign) for s, sign in msr.roots(state, slope)]
     s, value = pick(points, touch)
@@ -106,33 +106,13 @@ def of_shot(found: sho.Solution, touch: Touch) -> tuple[float, float]:
     return pick(points, touch)
 
 
-def secant(f: Callable[[float], float], x0: float, x1: float) -> tuple[float, float]:
-    """Root and slope there.
-
-    Raises:
-        RuntimeError: If the iteration does not converge.
-    """
-    f0, f1, done = f(x0), f(x1), False
-    slope = (f1 - f0) / (x1 - x0)
-    for _ in range(40):
-        if done or f1 == f0:
-            return x1, slope
-        if abs(x1 - x0) > 1e-7:  # closer, the quotient is mostly rounding
-            slope = (f1 - f0) / (x1 - x0)
-        step = -f1 / slope
-        done = abs(step) < 1e-9 * max(1.0, abs(x1))
-        x0, f0, x1 = x1, f1, x1 + step
-        f1 = f(x1)
-    raise RuntimeError("collocation: secant iteration did not converge")
-
-
 def by_collocation(touch: Touch, first: State, rule: sta.Rule) -> tuple[float, float, float, float]:
     """Parameter, position, slope of the value by the parameter, and bend, on one rule."""
     here = [sta.moved_to(first, rule)]
 
     def value(x: float) -> float:
         membrane, load = touch.moved(x)
-        here[0], _ = sta.newton(replace(here[0], membrane=membrane), "load", load)
+        here[0] = newton(replace(here[0], membrane=membrane), "load", load)
         return of_state(here[0], touch)[1]
 
     x, slope = secant(value, touch.base, touch.base * (1 + TILT))
@@ -145,7 +125,7 @@ def find(touch: Touch) -> Found:
     """Solve for the event by both methods."""
     membrane, load = touch.moved(touch.base)
     guess = sta.from_grid(grid_at(membrane, load), sta.RULES[0])
-    first, _ = sta.polished(guess, "load", load)
+    first = sta.polished(guess, "load", load)
     roots = [by_collocation(touch, first, rule) for rule in sta.RULES]
     x, s, slope, bend = roots[1]
     x_floor, s_floor = NOISE / abs(slope), 3 * NOISE / abs(bend)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from reference_data.solvers.paper4.material import Array
-from reference_data.solvers.paper4.methods import measures as msr
 from reference_data.solvers.paper4.methods.collocation import State
 from reference_data.solvers.paper4.methods.shooting import local
 from reference_data.solvers.paper4.methods.shooting_measures import Reading
@@ -17,7 +16,7 @@ NAMES = ("jump_r2", "jump_z2", "jump_lam1", "tan_phi")
 def of_state(state: State) -> dict[str, Array]:
     """Upper minus lower side of r'', z'' and lam1' at each front, from the nodal polynomials."""
     l1, b = state.y[..., 2], state.y[..., 3]
-    second = [msr.derivative(state, x) for x in (l1 * np.sin(b), l1 * np.cos(b), l1)]
+    second = [state.mesh.slope(x) for x in (l1 * np.sin(b), l1 * np.cos(b), l1)]
     last = np.cumsum(state.counts)[:-1]
     at = [n for n, k in zip(last, state.pattern.kinds, strict=True) if k == "front"]
     jumps = [np.array([x[n, 0] - x[n - 1, -1] for n in at]) for x in second]

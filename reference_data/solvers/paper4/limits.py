@@ -10,16 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference_data.solvers.core import mooney_rivlin as mat
-from reference_data.solvers.paper4 import material as wri
+from reference_data.solvers.core.newton import secant
 from reference_data.solvers.paper4.cases import STEPS, Pair, grid_at
-from reference_data.solvers.paper4.events import secant
-from reference_data.solvers.paper4.material import Array, Membrane
+from reference_data.solvers.paper4.material import Membrane
 from reference_data.solvers.paper4.methods import measures as msr
 from reference_data.solvers.paper4.methods import shooting_measures as smsr
 from reference_data.solvers.paper4.methods import shooting_newton as sho
 from reference_data.solvers.paper4.methods import states as sta
-from reference_data.solvers.paper4.methods.collocation import Linearised, State
+from reference_data.solvers.paper4.methods.collocation import State
 
 NOISE = 3e-13  # of d load/d V, relative to the load
 RULES = (sta.Rule(18, 0.3), sta.Rule(20, 0.22))  # the membrane is stretched far at its limit
@@ -33,12 +31,6 @@ class Limit:
     values: dict[str, tuple[Pair, Pair]]
 
 
-def rate(system: Linearised) -> float:
-    """Derivative of the load by V."""
-    zero = np.zeros_like(system.defect)
-    return system.solve(zero, np.zeros(4), np.zeros(system.inner), 1.0)[2]
-
-
 def climbed(membrane: Membrane, load: float, step: float, most: int = 200) -> tuple[State, float, float]:
     """The first state past the limit load, by raising V from a state at a given load.
 
@@ -49,11 +41,11 @@ def climbed(membrane: Membrane, load: float, step: float, most: int = 200) -> tu
         RuntimeError: If there is no limit load within ``most`` steps.
     """
     guess = sta.from_grid(grid_at(membrane, load), sta.RULES[0])
-    state, system = sta.polished(guess, "load", load)
+    state = sta.polished(guess, "load", load)
     for _ in range(most):
-        before = system.volume
-        state, system = sta.polished(state, "V", before + step)
-        if rate(system) < 0:
+        before = state.volume
+        state = sta.polished(state, "V", before + step)
+        if state.rate("V") < 0:
             return state, before + step, before
     raise RuntimeError(f"collocation: no limit load of {membrane}")
 
@@ -62,34 +54,23 @@ def by_collocation(
     first: State, v0: float, v1: float, rule: sta.Rule
 ) -> tuple[State, float, dict[str, float]]:
     """State, d2 load/d V2 and numbers at the limit load."""
-    here = [sta.moved_to(first, rule), None]
+    here = [sta.moved_to(first, rule)]
 
     def value(v: float) -> float:
-        here[0], here[1] = sta.polished(here[0], "V", v)
-        return rate(here[1])
+        here[0] = sta.polished(here[0], "V", v)
+        return here[0].rate("V")
 
     v, bend = secant(value, v0, v1)
     value(v)
-    radius = msr.measures(here[0], here[1].volume).scalars["r_max"]
+    radius = msr.measures(here[0]).scalars["r_max"]
     return here[0], bend, {"load": here[0].load, "V": v, "r_max": radius}
-
-
-def starts_of(state: State) -> Array:
-    """First values for shooting."""
-    membrane = state.membrane
-    s = np.arange(sho.SEGMENTS) * membrane.L / sho.SEGMENTS
-    r, z, l1, b = np.moveaxis(sta.evaluate(state, s), -1, 0)
-    tense = r * r * l1 > 1
-    force = np.where(tense, mat.slope(l1, r, membrane.c2), wri.relaxed_slope(l1, membrane.c2))
-    tension = membrane.eta(s) * force
-    return np.stack([r, z, tension * np.sin(b), tension * np.cos(b)], axis=-1)
 
 
 def by_shooting(state: State, v: float, steps: int) -> dict[str, float]:
     """Numbers at the limit load, by one secant step from the volume found by collocation."""
     other, found = v * (1 - 1e-3), []
     for target in (v, other):
-        shot = sho.solve(state.membrane, starts_of(state), state.load, "V", target, steps)
+        shot = sho.solve(state.membrane, smsr.starts_of(state, steps), state.load, "V", target, steps)
         found.append((shot.rate, shot.load, smsr.measures(shot).scalars["r_max"]))
     (rate0, load, radius), (rate1, _, radius1) = found
     move = -rate0 * (other - v) / (rate1 - rate0)

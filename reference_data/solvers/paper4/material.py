@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from scipy.integrate import quad
@@ -44,6 +44,62 @@ def relaxed_curvature(l1: Any, c2: float) -> Any:
     return 2 + 4 / cube + 6 * c2 / (cube * l1)
 
 
+class Body(Protocol):
+    """A membrane of revolution over its unloaded meridian, s in [0, L], and its load.
+
+    Attributes:
+        L: Length of the meridian.
+        c2: C2/C1, or another law.
+        energy: "relaxed", or "standard" for the full energy everywhere.
+        load: "gas" or "fluid".
+        control: Name of the load.
+        weight: Specific weight of the fluid; 0 for gas.
+        pole: Whether the meridian begins on the axis.
+        longest: Longest step of Newton's method of tracked states.
+        cautious: Longest step of that of differences.
+    """
+
+    L: float
+    c2: float
+    energy: str
+    load: str
+    control: str
+    weight: float
+    pole: bool
+    longest: float
+    cautious: float
+
+    def unloaded(self, s: Any) -> Any:
+        """Unloaded radius."""
+
+    def eta(self, s: Any) -> Any:
+        """Thickness over its mean."""
+
+    def slopes(self, s: Any) -> tuple[Any, Any]:
+        """Derivatives of the unloaded radius and of the thickness."""
+
+    def clamped(self, bottom: list[Any], top: list[Any]) -> list[Any]:
+        """What vanishes at both ends, of (r, z, l, b) there: two numbers each."""
+
+    def pressure(self, z: Any, load: Any, wet: Any) -> Any:
+        """Pressure at a height, on the wet part."""
+
+    def decided(self, load: float) -> bool:
+        """Whether the sign of gw - 1 is not needed."""
+
+    def segments(self, count: int, steps: int) -> Any:
+        """Ends of the segments of multiple shooting with some steps each."""
+
+    def begin(self, given: Any, load: Any, s: float) -> Any:
+        """(r, z, A, F) where the first segment begins, from the unknowns there (last axis)."""
+
+    def free(self, given: Any) -> list[Any]:
+        """What vanishes of the unknowns where the first segment begins: two numbers."""
+
+    def crossed(self, load: float) -> bool:
+        """Whether the fluid's surface lies between the ends."""
+
+
 @dataclass(frozen=True)
 class Membrane:
     """A pre-stretched cylinder and its load; lengths over Ao, s = Z/Ao in [0, L].
@@ -67,6 +123,42 @@ class Membrane:
     load: str = "fluid"
     gamma: float = GAMMA
     energy: str = "relaxed"
+    pole: ClassVar[bool] = False
+    longest: ClassVar[float] = 0.4
+    cautious: ClassVar[float] = 0.5
+
+    def unloaded(self, s: Any) -> Any:
+        """Unloaded radius."""
+        return 1.0 + 0 * s
+
+    def slopes(self, s: Any) -> tuple[Any, Any]:
+        """Derivatives of the unloaded radius and of the thickness."""
+        return 0.0, self.eta_slope
+
+    def clamped(self, bottom: list[Any], top: list[Any]) -> list[Any]:
+        """Both ends on the disks."""
+        return [bottom[0] - self.radius, bottom[1], top[0] - self.radius, top[1] - self.delta * self.L]
+
+    def segments(self, count: int, _steps: int) -> Array:
+        """Ends of the segments of multiple shooting."""
+        return np.linspace(0, self.L, count + 1)
+
+    def begin(self, given: Array, _load: Array, _s: float) -> Array:
+        """(r, z, A, F) at the lower disk are the unknowns there."""
+        return given
+
+    def free(self, given: Array) -> list[Any]:
+        """What vanishes of the unknowns at the lower disk."""
+        return [given[0] - self.radius, given[1]]
+
+    def crossed(self, load: float) -> bool:
+        """Whether the fluid's surface lies between the ends."""
+        return self.load == "fluid" and 0 < load < self.delta * self.L
+
+    @property
+    def weight(self) -> float:
+        """Specific weight of the fluid; 0 for gas."""
+        return 0.0 if self.load == "gas" else self.gamma
 
     @property
     def control(self) -> str:

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Table, prescribed
+from reference_data.solvers.core.tables import Table
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4 import tables_states as paper4
 from reference_data.solvers.paper4 import text
@@ -89,10 +89,10 @@ def off_name(membrane: Membrane) -> str:
 def branch(name: str, membrane: Membrane, loads: Array, source: str) -> Table:
     """Scalars of the states at given loads."""
     found = [cas.solved(membrane, float(x)) for x in loads]
-    columns = [prescribed(membrane.control, loads, text.COLUMNS[membrane.control])]
+    columns = text.SERIES.keys(**{membrane.control: loads})
     for c in msr.SCALARS:
         columns.append(cas.agreed(name, c, *cas.stacked([x.scalar(c) for x in found]), text.COLUMNS[c]))
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Branch over the load: {text.described(membrane)}",
         source,
@@ -113,12 +113,12 @@ def fronts(name: str, membrane: Membrane, loads: Array, source: str) -> Table:
     zones = {x.zones for x in found}
     if len(zones) > 1:
         raise RuntimeError(f"table {name}: patterns {'; '.join(sorted(zones))}")
-    columns = [prescribed(membrane.control, loads, text.COLUMNS[membrane.control])]
+    columns = text.SERIES.keys(**{membrane.control: loads})
     pairs = cas.stacked([x.fronts for x in found])
     for i in range(pairs[0].fine.shape[1]):
         one = [cas.Pair(p.coarse[:, i], p.fine[:, i], np.asarray(p.floor)[:, i]) for p in pairs]
         columns.append(cas.agreed(name, f"Z_front_{i + 1}", *one, text.front(i + 1)))
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Fronts over the load: {text.described(membrane)}",
         source,

@@ -42,13 +42,11 @@ def crests(name: str) -> Table:
             for i in range(len(places[0])):
                 cells.append((float(M), float(delta), p, i + 1.0, places[1][i][1]))
                 at = [x[i][0] for x in places]
-                tracked = [
-                    sta.evaluate(s, np.array(x)) for (s, _), x in zip(state.tracked, at[:2], strict=True)
-                ]
+                tracked = [sta.evaluate(s, np.array(x)) for s, x in zip(state.tracked, at[:2], strict=True)]
                 shot = [value_at(s, x) for s, x in zip(state.shots, at[2:], strict=True)]
                 a.append([(x, y[1], y[0]) for x, y in zip(at[:2], tracked, strict=True)])
                 b.append([(x, y[1], y[0]) for x, y in zip(at[2:], shot, strict=True)])
-                l1, bend = tracked[1][2], bend_at(state.tracked[1][0], at[1])
+                l1, bend = tracked[1][2], bend_at(state.tracked[1], at[1])
                 floors.append(float(l1 * evt.NOISE / abs(bend)))
     keys = np.array(cells).T
     labels = {
@@ -63,7 +61,7 @@ def crests(name: str) -> Table:
         floor = np.array(floors) * (0.0 if key == "r" else 1.0)
         pairs = [Pair(*(np.array([x[j][i] for x in side]) for j in (0, 1)), floor) for side in (a, b)]
         columns.append(cas.agreed(name, key, *pairs, text.COLUMNS[key]))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Crests and troughs of the inflated membrane",
         "section on gas, the text on crests",
@@ -81,14 +79,12 @@ def turns(m: msr.Measures) -> list[tuple[float, float]]:
 
 def value_at(found: sho.Solution, s: float) -> Array:
     """(r, z, A, F, V) of a shot at a position."""
-    starts = np.array([p.s for p in found.shot.parts])
-    i = int(np.searchsorted(starts, s, side="right")) - 1
-    return smsr.inside(found.shot, i, s - starts[i])[1][0]
+    return smsr.inside(found.shot, *smsr.located(found.shot, np.array([s])))[1][0]
 
 
 def bend_at(state: sta.State, s: float) -> float:
     """Derivative of the slope angle at a position."""
-    slope = msr.derivative(state, state.y[..., 3])
+    slope = state.mesh.slope(state.y[..., 3])
     return float(np.interp(s, state.s.ravel(), slope.ravel()))
 
 
@@ -105,7 +101,7 @@ def crest_window(name: str) -> Table:
     events = [evt.find(t) for _, _, t in WINDOW]
     where = ("1/Ao", "material coordinate at which crest and trough meet")
     columns = [
-        prescribed("delta", np.array([x[0] for x in WINDOW]), text.COLUMNS["delta"]),
+        *text.SERIES.keys(delta=np.array([x[0] for x in WINDOW])),
         prescribed(
             "event",
             np.array([x[1] for x in WINDOW]),
@@ -114,7 +110,7 @@ def crest_window(name: str) -> Table:
         cas.agreed(name, "p", *cas.stacked([e.x for e in events]), text.COLUMNS["p"]),
         cas.agreed(name, "Z", *cas.stacked([e.s for e in events]), where),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Window of pressures with two crests",
         "section on gas, the text on crests",

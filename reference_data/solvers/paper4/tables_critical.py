@@ -35,8 +35,8 @@ def disks(membranes: list[Membrane]) -> Column:
 
 def keys_of(membranes: list[Membrane]) -> list[Column]:
     """Columns M, delta, c2, L and Af."""
-    named = {k: np.array([float(getattr(m, k)) for m in membranes]) for k in ("M", "delta", "c2", "L")}
-    return [*(prescribed(k, v, text.COLUMNS[k]) for k, v in named.items()), disks(membranes)]
+    named = {k: [getattr(m, k) for m in membranes] for k in ("M", "delta", "c2", "L")}
+    return [*text.SERIES.keys(**named), disks(membranes)]
 
 
 WATER, GAS1 = Membrane(1.5, 2), Membrane(0.5, 2, Af=1.0, load="gas")
@@ -88,7 +88,7 @@ def zone_events(name: str) -> Table:
         *keys_of([t.membrane for _, t in EVENTS]),
         prescribed("fluid", fluid, ("1", "1 fluid, 0 gas")),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Where zones appear and vanish",
         "sections on case 1 and case 2",
@@ -109,14 +109,14 @@ def case2_vanishing(name: str) -> Table:
     )
     events = [found(t) for t in touches]
     about = ("p or zw", "gas pressure P Ao/(C1 h) where fluid = 0, fluid level over Ao where fluid = 1")
-    named = {k: np.array([float(getattr(t.membrane, k)) for t in touches]) for k in ("M", "delta")}
+    named = {k: [getattr(t.membrane, k) for t in touches] for k in ("M", "delta")}
     fluid = np.array([float(t.membrane.load == "fluid") for t in touches])
     columns = [
-        *(prescribed(k, v, text.COLUMNS[k]) for k, v in named.items()),
+        *text.SERIES.keys(**named),
         prescribed("fluid", fluid, ("1", "1 fluid, 0 gas")),
         *rows(name, events, "load", about),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Loads above which the membrane of case 2 is taut everywhere",
         "section on case 2 and figure 10",
@@ -158,10 +158,7 @@ def thresholds(name: str) -> Table:
     """Thicknesses at which case 2 starts to wrinkle at zero load."""
     sets = [(*x, upper) for x in THRESHOLDS for upper in (False, True)]
     events = [evt.find(threshold(*x)) for x in sets]
-    columns = [
-        prescribed(k, np.array([float(x[i]) for x in sets]), text.COLUMNS[k])
-        for i, k in enumerate(("delta", "c2", "L"))
-    ]
+    columns = text.SERIES.keys(**{k: [x[i] for x in sets] for i, k in enumerate(("delta", "c2", "L"))})
     columns.append(
         prescribed(
             "upper",
@@ -170,7 +167,7 @@ def thresholds(name: str) -> Table:
         )
     )
     columns += rows(name, events, "M", text.COLUMNS["M"])
-    return text.make(
+    return text.SERIES.table(
         name,
         "Thickness at which case 2 begins to wrinkle at zero load",
         "section on case 2",
@@ -213,7 +210,7 @@ def limit_loads(name: str, load: str) -> Table:
         columns.append(cas.agreed(name, column, *pairs, text.COLUMNS[column]))
     common = {"gamma": sets[0][0].gamma} if load == "fluid" else {}
     rules = " and ".join(f"degree {r.degree} on elements up to {r.longest:g}" for r in lim.RULES)
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Limit loads under {load}",
         "the text on limit points",

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from reference_data.solvers.core.newton import secant
 from reference_data.solvers.core.tables import Array, Column, Table, prescribed
 from reference_data.solvers.paper4 import cases as cas
-from reference_data.solvers.paper4 import events as evt
 from reference_data.solvers.paper4 import jumps as jmp
 from reference_data.solvers.paper4 import text
 from reference_data.solvers.paper4.cases import Pair
@@ -44,7 +44,7 @@ JUMPS: list[tuple[Membrane, float]] = [
 def front_jumps(name: str) -> Table:
     """Jumps at the fronts of some states."""
     states = [cas.solved(m, x) for m, x in JUMPS]
-    a = [[jmp.of_state(x) for x, _ in s.tracked] for s in states]
+    a = [[jmp.of_state(x) for x in s.tracked] for s in states]
     b = [[jmp.of_shot(x) for x in s.shots] for s in states]
     positions = [s.fronts for s in states]
     count = [len(p[0].fine) for p in positions]
@@ -77,7 +77,7 @@ def front_jumps(name: str) -> Table:
             for j, side in enumerate((a, b))
         ]
         columns.append(cas.agreed(name, key, *pairs, about[key]))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Jumps of the second derivatives at fronts",
         "the text on smoothness",
@@ -103,18 +103,17 @@ def stretch_change(name: str) -> Table:
         state = cas.solved(gas(delta), p)
         every = [sho.SEGMENTS * n // cas.SAMPLES for n in cas.STEPS]
         shots = [smsr.profile(x, e) for x, e in zip(state.shots, every, strict=True)]
-        return [msr.profile(x, s) for x, _ in state.tracked], shots
+        return [msr.profile(x, s) for x in state.tracked], shots
 
     columns = [
-        prescribed("delta", np.array([x[0] for x in sets]), text.COLUMNS["delta"]),
-        prescribed("p", np.array([x[1] for x in sets]), text.COLUMNS["p"]),
+        *text.SERIES.keys(delta=np.array([x[0] for x in sets]), p=np.array([x[1] for x in sets])),
     ]
     both = [(by_both(*x), by_both(x[0], 0.0)) for x in sets]
     for c, column in (("lam2", "hoop_change"), ("lam1", "meridional_change")):
         pairs = [(largest(v[0], o[0], c), largest(v[1], o[1], c)) for v, o in both]
         about = ("1", f"largest |{c}(p)/{c}(0) - 1| over Z = 0, 0.05, ..., 8")
         columns.append(cas.agreed(name, column, *cas.stacked(pairs), about))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Change of the stretches with pressure",
         "section on gas, the text on stretches",
@@ -132,12 +131,12 @@ def r_max_crossing(name: str) -> Table:
         out = []
         for j in (0, 1):
             guess = sta.moved_to(here[i][j], sta.RULES[i]) if here[i][j].rule != sta.RULES[i] else here[i][j]
-            here[i][j], system = sta.polished(guess, "load", p)
-            out.append(msr.measures(here[i][j], system.volume).scalars["r_max"])
+            here[i][j] = sta.polished(guess, "load", p)
+            out.append(msr.measures(here[i][j]).scalars["r_max"])
         return out[0] - out[1]
 
     (coarse, _), (p, slope) = (
-        evt.secant(lambda x, i=i: gap_of(i, x), 0.42, 0.421) for i in range(len(sta.RULES))
+        secant(lambda x, i=i: gap_of(i, x), 0.42, 0.421) for i in range(len(sta.RULES))
     )
     gaps = []
     for x in (p, p + 1e-3):
@@ -152,7 +151,7 @@ def r_max_crossing(name: str) -> Table:
         cas.agreed(name, "p", *pairs, text.COLUMNS["p"]),
         cas.agreed(name, "r_max", *cas.stacked([radius]), text.COLUMNS["r_max"]),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Pressure at which delta = 2 and delta = 3 have the same largest radius",
         "section on gas, the text on pre-stretch",
@@ -168,14 +167,15 @@ CELLS = (100, 200, 400, 800, 1600)
 def fd_scheme(name: str, membrane: Membrane, load: float) -> Table:
     """Errors of the paper's scheme on uniform grids."""
     exact = cas.solved(membrane, load)
-    state, fronts = exact.tracked[1][0], exact.measured[0][1].fronts
+    state, fronts = exact.tracked[1], exact.measured[0][1].fronts
     rows = []
     for n in CELLS:
         grid = fd.walk(fd.unloaded(membrane, n), load)
         if len(grid.fronts) != len(fronts):
             raise RuntimeError(f"table {name}: {n} intervals have fronts at {grid.fronts}")
         nodes = sta.evaluate(state, np.linspace(0, membrane.L, n + 1))
-        at = sta.wrinkling(sta.evaluate(state, grid.middle[0])) + 1
+        s = grid.middle[0]
+        at = sta.wrinkling(membrane, s, sta.evaluate(state, s)) + 1
         gaps = grid.r - nodes[:, 0], grid.z - nodes[:, 1], grid.gw - at, grid.fronts - fronts
         rows.append([float(np.max(np.abs(g))) for g in gaps])
     about = {
@@ -187,7 +187,7 @@ def fd_scheme(name: str, membrane: Membrane, load: float) -> Table:
     columns = [prescribed("n", np.array(CELLS, float), ("1", "number of intervals"))]
     for (key, meaning), values in zip(about.items(), np.array(rows).T, strict=True):
         columns.append(Column(key, values, 5e-10, ("1/Ao", "1")[key == "error_gw"], meaning))
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Accuracy of the untracked scheme at {membrane.control} = {load:g}: {text.described(membrane)}",
         "the solution method of the paper",

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Table, prescribed
+from reference_data.solvers.core.tables import Table
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4 import material as wri
 from reference_data.solvers.paper4 import text
@@ -31,11 +31,10 @@ def table2(name: str) -> Table:
     b = np.array([wri.critical_radius_by_parts(m) for m in membranes])
     pairs = cas.Pair(a, a), cas.Pair(b, b)
     columns = [
-        prescribed("M", np.array([m.M for m in membranes]), text.COLUMNS["M"]),
-        prescribed("delta", np.array([m.delta for m in membranes]), text.COLUMNS["delta"]),
+        *text.SERIES.keys(M=[m.M for m in membranes], delta=[m.delta for m in membranes]),
         cas.agreed(name, "Af_critical", *pairs, text.COLUMNS["Af_critical"]),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Critical radius of the disks",
         "Table 2",
@@ -60,11 +59,11 @@ def state(name: str, membrane: Membrane, load: float, source: str) -> Table:
     """Profile of one state."""
     found = cas.solved(membrane, float(load))
     s, pairs = cas.profiles(found)
-    columns = [prescribed("Z", s, text.COLUMNS["Z"])]
+    columns = text.SERIES.keys(Z=s)
     columns += [cas.agreed(name, c, *pair, text.COLUMNS[c]) for c, pair in pairs.items()]
     fronts = cas.agreed(name, "Z_front", *found.fronts, text.front(1))
     measured = found.measured[0][1]
-    return text.make(
+    return text.SERIES.table(
         name,
         f"State at {membrane.control} = {load:g}: {text.described(membrane)}",
         source,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reference_data.solvers.core.tables import Column, Table
+from reference_data.solvers.core.tables import Series
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4.material import Membrane
 from reference_data.solvers.paper4.methods import shooting_newton as sho
@@ -55,14 +55,12 @@ def front(i: int) -> tuple[str, str]:
     return "1/Ao", f"front {i} from the lower end: material coordinate where gw = 1"
 
 
-def grid() -> str:
-    """Resolutions of both codes, as used."""
-    rules = " and ".join(f"degree {r.degree} on elements up to {r.longest:g}" for r in sta.RULES)
-    steps = " and ".join(str(n) for n in cas.STEPS)
-    return (
-        f"(a) {rules} Ao long; (b) {sho.SEGMENTS} segments of {steps} steps. The pattern is first "
-        f"read off finite differences with {cas.CELLS} intervals."
-    )
+_RULES = " and ".join(f"degree {r.degree} on elements up to {r.longest:g}" for r in sta.RULES)
+GRID = (
+    f"(a) {_RULES} Ao long; (b) {sho.SEGMENTS} segments of {' and '.join(map(str, cas.STEPS))} steps. The "
+    f"pattern is first read off finite differences with {cas.CELLS} intervals."
+)
+SERIES = Series(4, PAPER, COLUMNS, METHOD, GRID, TOLERANCE)
 
 
 def given(membrane: Membrane) -> dict[str, object]:
@@ -82,27 +80,4 @@ def described(membrane: Membrane) -> str:
     return (
         f"{membrane.load}, M = {membrane.M:g}, delta = {membrane.delta:g}, c2 = {membrane.c2:g}, "
         f"L = {membrane.L:g}, Af = {radius}{energy}"
-    )
-
-
-def make(
-    name: str,
-    title: str,
-    source: str,
-    parameters: dict[str, object],
-    columns: list[Column],
-    **more: object,
-) -> Table:
-    """A table of paper 4 with the documentation common to all of them."""
-    defaults = {"method": METHOD, "grid": grid(), "tolerance": TOLERANCE}
-    abscissa = more.pop("abscissa", columns[0].name)
-    return Table(
-        name=name,
-        paper=4,
-        title=title,
-        source=f"{PAPER}, {source}",
-        parameters=parameters,
-        abscissa=abscissa,
-        columns=columns,
-        **(defaults | more),
     )

@@ -10,13 +10,15 @@ every n = 0..N_C/2, with node (i, k) displaced by Rot(2 pi k/N_C) xi_i exp(2 pi 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cholesky_banded, solve_banded
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.core.newton import newton as iterate
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4 import material as wri
 from reference_data.solvers.paper4.material import Array, Membrane
@@ -251,28 +253,26 @@ def from_profile(mesh: Polyhedron, level: float) -> Array:
     return np.stack([r, 0 * r, z], axis=1)
 
 
-def newton(mesh: Polyhedron, start: Array, level: float, max_iter: int = 40) -> Ring:
+def newton(mesh: Polyhedron, start: Array, level: float) -> Ring:
     """Rotation-symmetric equilibrium at a level.
 
     Raises:
         RuntimeError: If Newton's method does not converge.
     """
-    nodes, done = start.copy(), False
-    for _ in range(max_iter):
-        gradient, hessian = mesh.local(nodes, level)
+
+    def correct(ring: Ring) -> tuple[float, Callable[[float], Ring]]:
+        gradient, hessian = mesh.local(ring.nodes, level)
         bands = mesh.bands(hessian)
-        if done:
-            return Ring(mesh, nodes, level, bands)
         band = bands.sum(axis=0)
         size = band.shape[1]
         full = np.zeros((11, size))
         full[5:] = band
         for k in range(1, 6):
             full[5 - k, k:] = band[k, : size - k]
-        step = solve_banded((5, 5), full, -mesh.residual(gradient)).reshape(-1, 3)
-        largest = float(np.abs(step).max())
-        if not np.isfinite(largest):
-            break
-        nodes[1:-1] += step * min(1.0, 0.2 / largest)
-        done = largest < 1e-9
-    raise RuntimeError(f"polyhedron {mesh.rings} x {mesh.sectors}: no convergence at zw = {level:g}")
+        step = np.zeros_like(ring.nodes)
+        step[1:-1] = solve_banded((5, 5), full, -mesh.residual(gradient)).reshape(-1, 3)
+        return float(np.abs(step).max()), lambda share: Ring(mesh, ring.nodes + share * step, level, bands)
+
+    what = f"polyhedron {mesh.rings} x {mesh.sectors} at zw = {level:g}"
+    found = iterate(Ring(mesh, start, level, np.zeros(0)), correct, what, longest=0.2, close=1e-9, more=0)
+    return replace(found, bands=mesh.bands(mesh.local(found.nodes, level)[1]))

@@ -15,12 +15,13 @@ is bisected.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import eig_banded
 
+from reference_data.solvers.core.newton import newton
 from reference_data.solvers.paper4.material import Array
 from reference_data.solvers.paper5.bloch import RULES, Polyhedron
 
@@ -224,30 +225,28 @@ class Cell:
         return [n for n in numbers if self.lowest(n) < 0]
 
 
-def equilibrium(sector: Sector, start: Array, level: float, max_iter: int = 40) -> Cell:
+def equilibrium(sector: Sector, start: Array, level: float) -> Cell:
     """Rotation-symmetric equilibrium at a level, by Newton's method with dense matrices.
 
     Raises:
         RuntimeError: If it does not converge.
     """
-    nodes, done = start.copy(), False
-    for _ in range(max_iter):
+
+    def correct(nodes: Array) -> tuple[float, Callable[[float], Array]]:
         force, bands = sector.assembled(nodes, level)
-        if done:
-            return Cell(sector, nodes, level, bands)
         whole = bands.sum(axis=0)
         size = whole.shape[1]
         matrix = np.zeros((size, size))
         for k in range(6):
             at = np.arange(size - k)
             matrix[at + k, at] = matrix[at, at + k] = whole[k, : size - k]
-        step = -np.linalg.solve(matrix, force).reshape(-1, 3)
-        largest = float(np.abs(step).max())
-        if not np.isfinite(largest):
-            break
-        nodes[1:-1] += step * min(1.0, 0.2 / largest)
-        done = largest < 1e-9
-    raise RuntimeError(f"{sector.mesh.rings} x {sector.mesh.sectors}: no convergence at zw = {level:g}")
+        step = np.zeros_like(nodes)
+        step[1:-1] = -np.linalg.solve(matrix, force).reshape(-1, 3)
+        return float(np.abs(step).max()), lambda share: nodes + share * step
+
+    what = f"{sector.mesh.rings} x {sector.mesh.sectors} by the metric at zw = {level:g}"
+    nodes = newton(start, correct, what, longest=0.2, close=1e-9, more=0)
+    return Cell(sector, nodes, level, sector.assembled(nodes, level)[1])
 
 
 def change(sector: Sector, start: Array, stable: float, unstable: float, width: float) -> tuple[float, int]:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
 from scipy.optimize import brentq
 
+from reference_data.solvers.core.tables import Column
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4.cases import Pair
 from reference_data.solvers.paper4.material import Membrane
-from reference_data.solvers.paper5.hemisphere import shooting as hsh
+from reference_data.solvers.paper4.methods.collocation import State
+from reference_data.solvers.paper4.methods.shooting_newton import Solution
+from reference_data.solvers.paper5 import text
 from reference_data.solvers.paper5.hemisphere import states as hem
-from reference_data.solvers.paper5.hemisphere.collocation import Hanging
 from reference_data.solvers.paper5.waves import cylinder as cyl
-from reference_data.solvers.paper5.waves import hemisphere as rhm
 from reference_data.solvers.paper5.waves import shots as sht
 from reference_data.solvers.paper5.waves.second_variation import Quadratic
 from reference_data.solvers.paper5.waves.transfer import Parts, Transfer, halved
@@ -57,7 +58,7 @@ def refined(parts: Parts, times: int) -> Parts:
 def cylinder(membrane: Membrane, load: float) -> Spectrum:
     """The cylinder at a load."""
     solved = cas.solved(membrane, load)
-    forms = tuple(cyl.quadratic(x[0], k) for x, k in zip(solved.tracked, SPLITS, strict=True))
+    forms = tuple(cyl.quadratic(x, k) for x, k in zip(solved.tracked, SPLITS, strict=True))
 
     def parts(n: float) -> tuple[Parts, Parts]:
         times = int(np.searchsorted((30, 60, 120), n))
@@ -67,58 +68,26 @@ def cylinder(membrane: Membrane, load: float) -> Spectrum:
 
 
 @dataclass
-class Walk:
-    """Hemispheres computed so far, by level, on the coarse rule; each is reached from the nearest one."""
-
-    known: dict[float, Hanging] = field(default_factory=dict)
-
-    def at(self, zw: float) -> Hanging:
-        """The state at a level before the limit point.
-
-        Raises:
-            RuntimeError: If a step fails.
-        """
-        if not self.known:
-            self.known[-0.6] = hem.start(-0.6)
-        here = min(self.known, key=lambda x: abs(x - zw))
-        state = self.known[here]
-        while here != zw:
-            step = 0.01 if max(here, zw) > -0.6 else 0.03
-            here = zw if abs(zw - here) <= step else here + float(np.sign(zw - here)) * step
-            state = hem.polished(state, "zw", here)
-        self.known[zw] = state
-        return state
-
-
-WALK = Walk()
-
-
-@dataclass
 class Hemisphere:
     """The hemisphere at a level, by both methods."""
 
     zw: float
 
     @cached_property
-    def tracked(self) -> list[Hanging]:
+    def tracked(self) -> list[State]:
         """States by collocation."""
-        coarse = WALK.at(self.zw)
-        return [coarse, hem.polished(hem.moved_to(coarse, hem.RULES[1]), "zw", self.zw)]
+        coarse = hem.LEVELS.at(self.zw)
+        return [coarse, hem.fine(coarse, "load", self.zw)]
 
     @cached_property
-    def shots(self) -> list[hsh.Shot]:
+    def shots(self) -> list[Solution]:
         """States by shooting."""
-        _, z0, stretch0, _ = self.tracked[0].y[0, 0]
-        out = []
-        for tol in hsh.TOLERANCES:
-            out.append(hsh.solve(float(stretch0), float(z0), "zw", self.zw, tol))
-            stretch0, z0 = out[-1].stretch0, out[-1].z0
-        return out
+        return hem.shots(self.tracked[0], "load", self.zw)
 
     @cached_property
     def spectrum(self) -> Spectrum:
         """Second variation of the state."""
-        forms = tuple(rhm.quadratic(x, k) for x, k in zip(self.tracked, SPLITS, strict=True))
+        forms = tuple(cyl.quadratic(x, k) for x, k in zip(self.tracked, SPLITS, strict=True))
 
         def parts(n: float) -> tuple[Parts, Parts]:
             return tuple(sht.hemisphere_parts(x, n, k) for x, k in zip(self.shots, (1, 2), strict=True))
@@ -158,3 +127,22 @@ def crossing(spectrum: Callable[[float], Spectrum], n: float, low: float, high: 
     floor = np.array([ROUNDING / abs(slope)])
     pairs = tuple(Pair(x - p.coarse / slope, x - p.fine / slope, floor) for p in (a, b))
     return Crossing(n, -int(np.sign(slope)), pairs, slope)
+
+
+def turning(name: str, found: list[Crossing], control: str) -> list[Column]:
+    """Columns of loads at which lowest eigenvalues change sign."""
+    pairs = cas.stacked([tuple(Pair(p.coarse[0], p.fine[0], p.floor[0]) for p in x.pairs) for x in found])
+    keys = text.SERIES.keys(n=[x.n for x in found], direction=[x.direction for x in found])
+    return [*keys, cas.agreed(name, control, *pairs, text.COLUMNS[control])]
+
+
+def spectra(name: str, rows: list[tuple[Pair, Pair]]) -> list[Column]:
+    """Columns of the three lowest eigenvalues of some states."""
+    out = []
+    for k, column in enumerate(("Lambda_1", "Lambda_2", "Lambda_3")):
+        pairs = [
+            Pair(*(np.array([getattr(r[i], part)[k] for r in rows]) for part in ("coarse", "fine", "floor")))
+            for i in (0, 1)
+        ]
+        out.append(cas.agreed(name, column, *pairs, text.COLUMNS[column]))
+    return out

@@ -75,10 +75,10 @@ def critical_row(zw: float, guess: float) -> dict[str, tuple[Pair, Pair]]:
 def critical(name: str) -> Table:
     """Critical beta and wave number per level."""
     rows = [critical_row(*x) for x in GUESSES.items()]
-    columns = [prescribed("zw", np.array(list(GUESSES)), text.COLUMNS["zw"])]
+    columns = text.SERIES.keys(zw=list(GUESSES))
     for key in ("beta_c", "n_c"):
         columns.append(cas.agreed(name, key, *cas.stacked([r[key] for r in rows]), ABOUT[key]))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Bending stiffness that removes every instability, and the last unstable wave number",
         "beyond the paper",
@@ -96,9 +96,9 @@ def bands(name: str) -> Table:
         for key, n in zip(rows, bent.band(KOITER, guess), strict=True):
             slope = bent.tilt(n, KOITER)
             rows[key].append(tuple(shifted(n, v, slope) for v in four(zw, n, KOITER)))
-    columns = [prescribed("zw", np.array(list(BANDS)), text.COLUMNS["zw"])]
+    columns = text.SERIES.keys(zw=list(BANDS))
     columns += [cas.agreed(name, key, *cas.stacked(pairs), ABOUT[key]) for key, pairs in rows.items()]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Band of unstable real wave numbers with the bending stiffness of the paper's sheet",
         "beyond the paper",
@@ -125,10 +125,10 @@ def window(name: str) -> Table:
         rows.append(tuple(shifted(zw, v, slope) for v in four(zw, at[0], KOITER)))
         numbers.append(at[0])
     columns = [
-        prescribed("direction", np.array([1.0, -1.0]), text.COLUMNS["direction"]),
+        *text.SERIES.keys(direction=[1.0, -1.0]),
         cas.agreed(name, "zw", *cas.stacked(rows), text.COLUMNS["zw"]),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Levels between which the sheet with its own bending stiffness is unstable",
         "beyond the paper",
@@ -146,7 +146,7 @@ def models(name: str) -> Table:
         spectrum = rel.cylinder(FLUID, zw)
         plain.append(tuple(Pair(p.coarse[0], p.fine[0], p.floor[0]) for p in spectrum.lowest(n, 1)))
         hoop.append(tuple(Pair(np.array(v[0]), np.array(v[1]), rel.ROUNDING) for v in four(zw, n, KOITER)))
-        states = [cas.solved(FLUID, zw).tracked[i][0] for i in (0, 1)]
+        states = [cas.solved(FLUID, zw).tracked[i] for i in (0, 1)]
         a = [koi.spectral(rel.cyl.quadratic(x), n, KOITER) for x in states]
         b = [koi.hermitian(spectrum.forms[0], n, KOITER, k) for k in (150, 300)]
         # fourth derivatives on polynomials of degree 18 cost digits
@@ -158,13 +158,12 @@ def models(name: str) -> Table:
         "Lambda_B2": (whole, "with Koiter's bending energy (B2), edges simply supported"),
     }
     columns = [
-        prescribed("n", n, text.COLUMNS["n"]),
-        prescribed("zw", zw, text.COLUMNS["zw"]),
+        *text.SERIES.keys(n=n, zw=zw),
         prescribed("beta", np.full(len(n), KOITER), ("D = beta H^3 over C1 h Ao^2", "bending stiffness")),
     ]
     for key, (pairs, meaning) in about.items():
         columns.append(cas.agreed(name, key, *cas.stacked(pairs), (text.EIGENVALUE, meaning)))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Lowest eigenvalue by two models of bending",
         "beyond the paper",
@@ -192,11 +191,10 @@ def hemisphere(name: str) -> Table:
     zw, n = np.array(keys, dtype=float).T
     about = (text.EIGENVALUE, "lowest eigenvalue with the hoops' bending energy (B1)")
     columns = [
-        prescribed("zw", zw, text.COLUMNS["zw"]),
-        prescribed("n", n, text.COLUMNS["n"]),
+        *text.SERIES.keys(zw=zw, n=n),
         cas.agreed(name, "Lambda_B1", *cas.stacked(pairs), about),
     ]
-    return text.make(
+    return text.SERIES.table(
         name,
         "Lowest eigenvalues of the hemisphere with bending, h/Ao = 1/1000",
         "beyond the paper",

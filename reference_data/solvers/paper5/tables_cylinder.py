@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from reference_data.solvers.core.collocation import lagrange
-from reference_data.solvers.core.tables import Array, Table, prescribed
+from reference_data.solvers.core.tables import Array, Table
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4 import text as wrinkled_text
 from reference_data.solvers.paper4.cases import Pair
@@ -57,11 +57,11 @@ def wrinkling(name: str, membrane: Membrane, load: float) -> Table:
     found = cas.solved(membrane, load)
     s, pairs = cas.profiles(found)
     columns = [
-        prescribed("Z", s, text.COLUMNS["Z"]),
+        *text.SERIES.keys(Z=s),
         cas.agreed(name, "gw", *pairs["gw"], text.COLUMNS["gw"]),
     ]
     fronts = cas.agreed(name, "Z_front", *found.fronts, wrinkled_text.front(1))
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Wrinkling function at {membrane.control} = {load:g}",
         f"figure 4({'a' if membrane.load == 'fluid' else 'b'}); the level is chosen here",
@@ -79,15 +79,9 @@ def wrinkling(name: str, membrane: Membrane, load: float) -> Table:
 def modes(name: str, membrane: Membrane, n: int, loads: tuple[float, ...]) -> Table:
     """Three lowest eigenvalues against the load (figures 5 and 7)."""
     rows = [rel.cylinder(membrane, float(x)).lowest(n) for x in loads]
-    columns = [prescribed(membrane.control, np.array(loads), text.COLUMNS[membrane.control])]
-    for k in range(3):
-        pairs = [
-            Pair(*(np.array([getattr(r[i], part)[k] for r in rows]) for part in ("coarse", "fine", "floor")))
-            for i in (0, 1)
-        ]
-        column = f"Lambda_{k + 1}"
-        columns.append(cas.agreed(name, column, *pairs, text.COLUMNS[column]))
-    return text.make(
+    columns = text.SERIES.keys(**{membrane.control: loads})
+    columns += rel.spectra(name, rows)
+    return text.SERIES.table(
         name,
         f"Three lowest eigenvalues of wave number {n} under {membrane.load}",
         f"figure {5 if membrane.load == 'fluid' else 7}",
@@ -132,12 +126,12 @@ def mode(name: str, n: int, zw: float) -> Table:
         "circumferential": "component along the hoop, times sin n Theta",
         "normal": "component along the outward normal, (u z' - w r')/lam1",
     }
-    columns = [prescribed("Z", s, text.COLUMNS["Z"])]
+    columns = text.SERIES.keys(Z=s)
     for c, (column, meaning) in enumerate(about.items()):
         pairs = [Pair(x[:, c], y[:, c], 1e-9) for x, y in (signed[:2], signed[2:])]
         columns.append(cas.agreed(name, column, *pairs, ("unit mass", meaning)))
     value = spectrum.lowest(n, 1)[0].fine[0]
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Lowest mode of wave number {n} at zw = {zw:g}",
         "figure 6",
@@ -155,15 +149,10 @@ def changes(name: str, membrane: Membrane, sets: dict[int, tuple[tuple[float, fl
         for n, brackets in sets.items()
         for bracket in brackets
     ]
-    pairs = cas.stacked([tuple(Pair(p.coarse[0], p.fine[0], p.floor[0]) for p in x.pairs) for x in found])
-    columns = [
-        prescribed("n", np.array([float(x.n) for x in found]), text.COLUMNS["n"]),
-        prescribed("direction", np.array([float(x.direction) for x in found]), text.COLUMNS["direction"]),
-        cas.agreed(name, membrane.control, *pairs, text.COLUMNS[membrane.control]),
-    ]
+    columns = rel.turning(name, found, membrane.control)
     alone = ", ".join(str(n) for n, brackets in sets.items() if len(brackets) == 1)
     end = "26.44, the largest level" if membrane.load == "fluid" else "0.555, the largest pressure"
-    return text.make(
+    return text.SERIES.table(
         name,
         f"Loads where the lowest eigenvalue passes zero, {membrane.load}",
         "section 3.2 and figures 5 and 7",

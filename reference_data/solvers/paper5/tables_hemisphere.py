@@ -6,15 +6,18 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Array, Column, Table, prescribed
+from reference_data.solvers.core.tables import Array, Column, Table
 from reference_data.solvers.paper4 import cases as cas
 from reference_data.solvers.paper4.cases import Pair
+from reference_data.solvers.paper4.methods import shooting_measures as smsr
+from reference_data.solvers.paper4.methods import states as sta
+from reference_data.solvers.paper4.methods.collocation import State
+from reference_data.solvers.paper4.methods.shooting import local
+from reference_data.solvers.paper4.methods.shooting_newton import Solution
 from reference_data.solvers.paper5 import cases as rel
 from reference_data.solvers.paper5 import text
 from reference_data.solvers.paper5.hemisphere import limit as lim
-from reference_data.solvers.paper5.hemisphere import states as hem
-from reference_data.solvers.paper5.hemisphere.collocation import EQUATOR, KAPPA, Hanging
-from reference_data.solvers.paper5.hemisphere.shooting import Shot
+from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, KAPPA
 from reference_data.solvers.registry import Builder
 
 LEVELS = (-1.1, -0.9, -0.7, -0.6, -0.52)
@@ -37,7 +40,7 @@ DATA: dict[str, object] = {"c2": 0.0, "Ao": 0.1, "H": 1e-4, "kappa": KAPPA}
 def make(name: str, title: str, source: str, columns: list[Column], **more: object) -> Table:
     """A table of the hemisphere."""
     given = DATA | more.pop("parameters", {})
-    return text.make(name, title, source, given, columns, **({"grid": text.HEMISPHERE_GRID} | more))
+    return text.SERIES.table(name, title, source, given, columns, **({"grid": text.HEMISPHERE_GRID} | more))
 
 
 def paired(name: str, column: str, tracked: list[list[float]], shot: list[list[float]]) -> Column:
@@ -53,18 +56,18 @@ def wrinkling(name: str, zw: float) -> Table:
     fronts = found.tracked[1].pattern.fronts
     keep = np.abs(t[:, None] - fronts).min(axis=1, initial=1.0) > 1e-6
     t = t[keep]
-    a = [1 + hem.wrinkling(t, hem.evaluate(x, t)) for x in found.tracked]
+    a = [1 + sta.wrinkling(BODY, t, sta.evaluate(x, t)) for x in found.tracked]
     b = [shot_wrinkling(x, t) for x in found.shots]
     columns = [
-        prescribed("t", t, text.COLUMNS["t"]),
+        *text.SERIES.keys(t=t),
         cas.agreed(name, "gw", Pair(*a), Pair(*b), text.COLUMNS["gw"]),
     ]
     both = [Pair(x[0].pattern.fronts, x[1].pattern.fronts) for x in [found.tracked]]
-    both += [Pair(found.shots[0].fronts, found.shots[1].fronts)]
+    both += [Pair(found.shots[0].shot.fronts, found.shots[1].shot.fronts)]
     extra: dict[str, object] = {"zones": cas.words(found.tracked[1].pattern.signature)}
     checked = cas.agreed(name, "t_front", *both, ("rad", "front"))
     extra |= {"fronts": [float(x) for x in checked.values], "fronts_uncertainty": checked.uncertainty}
-    extra["t_level"] = found.tracked[1].level
+    extra["t_level"] = found.tracked[1].pattern.surface
     return make(
         name,
         f"Wrinkling function of the hemisphere at zw = {zw:g}",
@@ -76,26 +79,20 @@ def wrinkling(name: str, zw: float) -> Table:
     )
 
 
-def shot_wrinkling(shot: Shot, t: Array) -> Array:
+def shot_wrinkling(found: Solution, t: Array) -> Array:
     """Wrinkling function of a shot; the pole's from its stretch."""
-    out = np.full(len(t), shot.stretch0**1.5)
-    inside = t >= shot.tol.t0
-    y, l1 = shot.values(t[inside])
-    out[inside] = y[:, 0] / np.sin(t[inside]) * np.sqrt(l1)
+    out = np.full(len(t), found.starts[0, 0] ** 1.5)
+    beyond = t >= found.shot.parts[0].s
+    s, y, tense, _ = smsr.inside(found.shot, *smsr.located(found.shot, t[beyond]))
+    out[beyond] = 1 + local(BODY, s, y, tense)[1]
     return out
 
 
 def modes(name: str, n: int) -> Table:
     """Three lowest eigenvalues against the level (figure 10)."""
     rows = [rel.hemisphere(x).spectrum.lowest(n) for x in MODE_LOADS]
-    columns = [prescribed("zw", np.array(MODE_LOADS), text.COLUMNS["zw"])]
-    for k in range(3):
-        pairs = [
-            Pair(*(np.array([getattr(r[i], part)[k] for r in rows]) for part in ("coarse", "fine", "floor")))
-            for i in (0, 1)
-        ]
-        column = f"Lambda_{k + 1}"
-        columns.append(cas.agreed(name, column, *pairs, text.COLUMNS[column]))
+    columns = text.SERIES.keys(zw=MODE_LOADS)
+    columns += rel.spectra(name, rows)
     return make(
         name,
         f"Three lowest eigenvalues of wave number {n} of the hemisphere",
@@ -113,12 +110,7 @@ def changes(name: str) -> Table:
         for n, brackets in CHANGES.items()
         for bracket in brackets
     ]
-    pairs = cas.stacked([tuple(Pair(p.coarse[0], p.fine[0], p.floor[0]) for p in x.pairs) for x in found])
-    columns = [
-        prescribed("n", np.array([float(x.n) for x in found]), text.COLUMNS["n"]),
-        prescribed("direction", np.array([float(x.direction) for x in found]), text.COLUMNS["direction"]),
-        cas.agreed(name, "zw", *pairs, text.COLUMNS["zw"]),
-    ]
+    columns = rel.turning(name, found, "zw")
     return make(
         name,
         "Levels where the lowest eigenvalue of the hemisphere passes zero",
@@ -129,20 +121,27 @@ def changes(name: str) -> Table:
     )
 
 
-def of_state(state: Hanging) -> dict[str, float]:
+def of_state(state: State) -> dict[str, float]:
     """Scalars of a tracked state."""
     _, z, stretch, _ = state.y[0, 0]
-    return {"zw": state.zw, "z_pole": z, "lam_pole": stretch, "V": state.volume, "t_level": state.level}
-
-
-def of_shot(shot: Shot) -> dict[str, float]:
-    """Scalars of a shot."""
     return {
-        "zw": shot.zw,
-        "z_pole": shot.z0,
-        "lam_pole": shot.stretch0,
-        "V": shot.volume,
-        "t_level": shot.level,
+        "zw": state.load,
+        "z_pole": z,
+        "lam_pole": stretch,
+        "V": state.volume,
+        "t_level": state.pattern.surface,
+    }
+
+
+def of_shot(found: Solution) -> dict[str, float]:
+    """Scalars of a shot."""
+    stretch, z = found.starts[0, :2]
+    return {
+        "zw": found.load,
+        "z_pole": z,
+        "lam_pole": stretch,
+        "V": found.volume,
+        "t_level": found.shot.surface,
     }
 
 
@@ -151,7 +150,7 @@ def branch(name: str) -> Table:
     found = [rel.hemisphere(x) for x in BRANCH_LOADS]
     a = [[of_state(x) for x in f.tracked] for f in found]
     b = [[of_shot(x) for x in f.shots] for f in found]
-    columns = [prescribed("zw", np.array(BRANCH_LOADS), text.COLUMNS["zw"])]
+    columns = text.SERIES.keys(zw=BRANCH_LOADS)
     for key in ("z_pole", "lam_pole", "V", "t_level"):
         columns.append(paired(name, key, [[y[key] for y in x] for x in a], [[y[key] for y in x] for x in b]))
     return make(name, "The hemisphere up to its limit point", "section 3.3", columns)
@@ -160,12 +159,12 @@ def branch(name: str) -> Table:
 def fronts(name: str) -> Table:
     """Fronts of the wrinkled zone."""
     found = [rel.hemisphere(x) for x in FRONT_LOADS]
-    columns = [prescribed("zw", np.array(FRONT_LOADS), text.COLUMNS["zw"])]
+    columns = text.SERIES.keys(zw=FRONT_LOADS)
     for k in (0, 1):
         about = ("rad", f"{('lower', 'upper')[k]} end of the wrinkled zone: material angle")
         pairs = (
             Pair(*np.array([[x.pattern.fronts[k] for x in f.tracked] for f in found]).T, 1e-12),
-            Pair(*np.array([[x.fronts[k] for x in f.shots] for f in found]).T, 1e-12),
+            Pair(*np.array([[x.shot.fronts[k] for x in f.shots] for f in found]).T, 1e-12),
         )
         columns.append(cas.agreed(name, f"t_front_{k + 1}", *pairs, about))
     return make(
@@ -181,7 +180,7 @@ def past(name: str) -> Table:
     """The branch around and past the limit point, with prescribed height of the pole."""
     a = [[of_state(x) for x in lim.held(z)] for z in PAST]
     b = [[of_shot(x) for x in lim.shots(z)] for z in PAST]
-    columns = [prescribed("z_pole", np.array(PAST), text.COLUMNS["z_pole"])]
+    columns = text.SERIES.keys(z_pole=PAST)
     for key in ("zw", "lam_pole", "V"):
         columns.append(paired(name, key, [[y[key] for y in x] for x in a], [[y[key] for y in x] for x in b]))
     return make(name, "The hemisphere past its limit point", "section 3.3; beyond the paper", columns)

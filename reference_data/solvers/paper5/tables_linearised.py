@@ -33,8 +33,8 @@ def linearised(name: str) -> Table:
     keys, a, b, true = [], [], [], []
     for zw in LEVELS:
         spectrum = rel.cylinder(FLUID, zw)
-        pattern = cas.solved(FLUID, zw).tracked[1][0].pattern
-        level = pattern.breaks[1 + pattern.kinds.index("surface")]
+        pattern = cas.solved(FLUID, zw).tracked[1].pattern
+        level = pattern.surface
         n_true = lowest_unstable(spectrum.forms[1])
         for power in (1, 2):
             a.append([lin.by_matrices(f, level, power) for f in spectrum.forms])
@@ -48,7 +48,7 @@ def linearised(name: str) -> Table:
         "n_star": ("1", "A/(-B)"),
     }
     columns = [
-        prescribed("zw", zw, text.COLUMNS["zw"]),
+        *text.SERIES.keys(zw=zw),
         prescribed("f", power, ("1", "1: f = sin(pi S/S_level) on the wet part; 2: its square")),
     ]
     for key, what in about.items():
@@ -61,7 +61,7 @@ def linearised(name: str) -> Table:
         columns.append(cas.agreed(name, key, *pairs, what))
     what = ("1", "smallest integer n whose lowest eigenvalue is negative")
     columns.append(prescribed("n_true", np.array(true, dtype=float), what))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Linearised theory: wave number above which a trial field lowers the energy",
         "section 2.2",

@@ -161,7 +161,7 @@ def surface_ranges(name: str) -> Table:
             columns.append(cas.agreed(name, key, *pairs, what))
         else:
             columns.append(prescribed(key, data[:, i], what))
-    return text.make(
+    return text.SERIES.table(
         name,
         "Levels between which a polyhedral cylinder is unstable",
         "section 3.2: 5.14 to 6.81 for 120 x 48, 4.03 to 9.81 for 80 x 96",

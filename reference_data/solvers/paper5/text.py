@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reference_data.solvers.core.tables import Column, Table
+from reference_data.solvers.core.tables import Series
 
 PAPER = (
     "Patil, Nordmark & Eriksson, Instabilities of wrinkled membranes with pressure loadings "
@@ -26,8 +26,8 @@ CYLINDER_GRID = (
 )
 HEMISPHERE_GRID = (
     "(a) degree 16 on elements up to 0.16 and degree 18 up to 0.12 Ao long, the latter cut in two for the "
-    "modes; (b) expansion up to t = 0.002 and 0.001, tolerances 1e-11 and 1e-13, parts of the modes up to "
-    "min(0.02, sin t/n) and half of that"
+    "modes; (b) expansion up to t = 0.002 and 0.001, then 32 segments of 5 and 10 steps, parts of the "
+    "modes up to min(0.02, sin t/n) and half of that"
 )
 TOLERANCE = "Newton takes one more step after the first one below 1e-8; eigenvalues to rounding"
 SCALES = {
@@ -54,25 +54,9 @@ COLUMNS: dict[str, tuple[str, str]] = {
 }
 
 
+SERIES = Series(5, PAPER, COLUMNS, METHOD, CYLINDER_GRID, TOLERANCE)
+
+
 def cylinder(load: str) -> dict[str, object]:
     """Parameters of the cylinder."""
-    out: dict[str, object] = {"M": 1.5, "delta": 3.0, "c2": 0.01, "L": 8.0, "Af": 0.4362, "load": load}
-    return out
-
-
-def make(
-    name: str, title: str, source: str, parameters: dict[str, object], columns: list[Column], **more: object
-) -> Table:
-    """A table of paper 5 with the documentation common to all of them."""
-    defaults = {"method": METHOD, "grid": CYLINDER_GRID, "tolerance": TOLERANCE}
-    abscissa = more.pop("abscissa", columns[0].name)
-    return Table(
-        name=name,
-        paper=5,
-        title=title,
-        source=f"{PAPER}, {source}",
-        parameters=parameters,
-        abscissa=abscissa,
-        columns=columns,
-        **(defaults | more),
-    )
+    return {"M": 1.5, "delta": 3.0, "c2": 0.01, "L": 8.0, "Af": 0.4362, "load": load}

@@ -19,8 +19,7 @@ Source: Patil, DasGupta & Eriksson (2015), sections 3.2 and 3.3.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -28,6 +27,7 @@ import numpy as np
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.collocation import lagrange
+from reference_data.solvers.core.newton import settled
 from reference_data.solvers.paper1.collocation.equations import (
     Array,
     Batch,
@@ -48,34 +48,6 @@ from reference_data.solvers.paper1.membrane import Disk, Patch
 STAGES = (0.4, 0.7, 1.0)  # fraction of the reach, so that the free state is not a guess far out
 _GAUSS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(24)
 POINTS, WEIGHTS = (_GAUSS + 1) / 2, _GAUSS_WEIGHTS / 2
-
-
-def mixed(step: Callable[[Array], Array], z: Array, tolerance: float, depth: int = 6) -> Array:
-    """Fixed point of ``step`` by Anderson's mixing of the last few iterates.
-
-    It stops at changes below ``tolerance``, or below 1e-11 if they do not decrease further (rounding).
-
-    Raises:
-        RuntimeError: If it does not converge to rounding errors.
-    """
-    results: list[Array] = []
-    misses: list[Array] = []
-    best, stale = np.inf, 0
-    for _ in range(80):
-        new = step(z)
-        miss = new - z
-        size = float(np.max(np.abs(miss)))
-        stale = 0 if size < 0.5 * best else stale + 1
-        best = min(best, size)
-        if size < tolerance or (best < 1e-11 and stale >= 3):
-            return new
-        results, misses = [*results, new][-depth:], [*misses, miss][-depth:]
-        z = new
-        if len(misses) > 1:
-            span = np.array([m - miss for m in misses[:-1]]).T
-            weight = np.linalg.lstsq(span, -miss, rcond=1e-12)[0]
-            z = new + np.array([r - new for r in results[:-1]]).T @ weight
-    raise RuntimeError(f"collocation: history not settled, last change {size:.1e}")
 
 
 @dataclass(frozen=True)
@@ -162,18 +134,52 @@ def between(states: Batch, fronts: Array, wanted: Array) -> Batch:
 
 
 @dataclass
-class Inflation:
+class Adhesive:
     """Adhesive inflation: the history and the states at its fronts."""
 
     disk: Disk
     how: Resolution
     onset: Batch
     reach: float
+    history: History = field(init=False)
+    states: Batch = field(init=False)
+
+    @property
+    def pole(self) -> tuple[float, float]:
+        """Stretch of the pole at first contact, which stays, and slope of its angle."""
+        lam = float(self.onset.y[0][0, 0, 0, 2])
+        return lam, float(self.onset.p[0]) * lam**2 / (2 * mat.slope(lam, lam, self.disk.alpha))
+
+    def problem(self, fronts: Array, guess: Batch) -> Batch:
+        """The problems whose patches end at some fronts."""
+        return outer(self.disk, self.how.outer, self.history.patch(fronts), guess)
+
+    def at(self, fronts: Array) -> Batch:
+        """States with their fronts at the given places."""
+        fronts = np.atleast_1d(np.asarray(fronts, dtype=float))
+        return newton(self.problem(fronts, between(self.states, self.history.fronts, fronts)))
+
+    def settle(self, g: Array, h: Array | None = None, tolerance: float = 1e-14) -> None:
+        """Make slopes (g, H), or g alone, those that the states outside their fronts have."""
+
+        def substituted(z: Array) -> Array:
+            new = z.reshape(-1, len(g))
+            self.history = replace(self.history, g=new[0], h=new[-1] if h is not None else self.history.h)
+            fronts = self.history.fronts
+            self.states = newton(self.problem(fronts, self.states))
+            _, _, l1, th = self.states.y[-1][:, 0, 0].T
+            found = [l1 * np.cos(th), l1 * np.sin(th) / fronts]
+            return np.concatenate(found[: len(new)])
+
+        substituted(settled(substituted, g if h is None else np.concatenate([g, h]), tolerance))
+
+
+@dataclass
+class Inflation(Adhesive):
+    """The patch is locked in both directions."""
 
     def __post_init__(self) -> None:
-        lam = float(self.onset.y[0][0, 0, 0, 2])
-        flat = np.ones(self.how.terms)
-        c = float(self.onset.p[0]) * lam**2 / (2 * mat.slope(lam, lam, self.disk.alpha))
+        (lam, c), flat = self.pole, np.ones(self.how.terms)
         self.history = History(self.disk, STAGES[0] * self.reach, lam * flat, lam * c * flat)
         self.states = cut(self.onset, 0, self.disk, self.how, self.history.fronts)
         for part in STAGES:
@@ -181,24 +187,7 @@ class Inflation:
             before = np.searchsorted(old, self.history.fronts, side="right") - 1
             if part > STAGES[0]:
                 self.states = cut(self.states, before, self.disk, self.how, self.history.fronts)
-            z = np.concatenate([self.history.g, self.history.h])
-            self._substituted(mixed(self._substituted, z, 1e-14 if part == 1 else 1e-3))
-
-    def _substituted(self, z: Array) -> Array:
-        """Slopes outside the fronts, for the history z = (g, H)."""
-        g, h = np.split(z, 2)
-        self.history = replace(self.history, g=g, h=h)
-        fronts = self.history.fronts
-        problem = outer(self.disk, self.how.outer, self.history.patch(fronts), self.states)
-        self.states = newton(problem)
-        _, _, l1, th = self.states.y[0][:, 0, 0].T
-        return np.concatenate([l1 * np.cos(th), l1 * np.sin(th) / fronts])
-
-    def at(self, fronts: Array) -> Batch:
-        """States with their fronts at the given places."""
-        fronts = np.atleast_1d(np.asarray(fronts, dtype=float))
-        guess = between(self.states, self.history.fronts, fronts)
-        return newton(outer(self.disk, self.how.outer, self.history.patch(fronts), guess))
+            self.settle(self.history.g, self.history.h, 1e-14 if part == 1 else 1e-3)
 
 
 def deflated(disk: Disk, how: Resolution, patch: Patch, start: Batch, p: Any) -> Batch:

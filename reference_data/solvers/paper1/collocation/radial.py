@@ -22,12 +22,10 @@ from reference_data.solvers.paper1.collocation.equations import (
     Array,
     Batch,
     Sliding,
-    gauss,
     integral,
-    newton,
     spread,
 )
-from reference_data.solvers.paper1.collocation.history import History, between, cut, mixed
+from reference_data.solvers.paper1.collocation.history import Adhesive, History, cut
 from reference_data.solvers.paper1.collocation.states import Resolution, at_rim, volume
 from reference_data.solvers.paper1.membrane import Disk
 
@@ -39,7 +37,6 @@ class Stuck:
     disk: Disk
     mesh: Mesh
     frozen: tuple[Array, Array, Array]
-    size: int = 2
 
     def rates(self, y: list[Any], x: Any, p: Any) -> list[Any]:
         """Right-hand sides of (eta, th)."""
@@ -55,7 +52,7 @@ class Stuck:
 
 def frozen(history: History, mesh: Mesh, fronts: Array) -> tuple[Array, Array, Array]:
     """Radius and its derivatives at the Gauss points of [0, front]."""
-    x = spread(0 * fronts, fronts, gauss(mesh))[0]
+    x = spread(0 * fronts, fronts, mesh.gauss)[0]
     bend = differentiation(history.fronts) @ history.g
     return x * history.radius(x), history.series(history.g, x), history.series(bend, x)
 
@@ -79,38 +76,22 @@ def glued(disk: Disk, how: Resolution, history: History, fronts: Array, guess: B
 
 
 @dataclass
-class Radial:
-    """Adhesive inflation of model N: the history and the states at its fronts."""
-
-    disk: Disk
-    how: Resolution
-    onset: Batch
-    reach: float
+class Radial(Adhesive):
+    """Adhesive inflation of model N."""
 
     def __post_init__(self) -> None:
-        lam = float(self.onset.y[0][0, 0, 0, 2])
-        flat = np.ones(self.how.terms)
+        (lam, c), flat = self.pole, np.ones(self.how.terms)
         self.history = History(self.disk, self.reach, lam * flat, 0 * flat)
         fronts = self.history.fronts
         sliding = cut(self.onset, 0, self.disk, self.how, fronts)
         x = spread(0 * fronts, fronts, self.how.inner.x)[0]
-        c = float(self.onset.p[0]) * lam**2 / (2 * mat.slope(lam, lam, self.disk.alpha))
         inner = np.stack([self.disk.l + 0 * x, c * x], axis=-1)
         self.states = replace(sliding, y=(inner, *sliding.y))
-        self._substituted(mixed(self._substituted, self.history.g, 1e-14))
+        self.settle(lam * flat)
 
-    def _substituted(self, g: Array) -> Array:
-        self.history = replace(self.history, g=g)
-        fronts = self.history.fronts
-        self.states = newton(glued(self.disk, self.how, self.history, fronts, self.states))
-        _, _, l1, th = self.states.y[1][:, 0, 0].T
-        return l1 * np.cos(th)
-
-    def at(self, fronts: Array) -> Batch:
-        """States with their fronts at the given places."""
-        fronts = np.atleast_1d(np.asarray(fronts, dtype=float))
-        guess = between(self.states, self.history.fronts, fronts)
-        return newton(glued(self.disk, self.how, self.history, fronts, guess))
+    def problem(self, fronts: Array, guess: Batch) -> Batch:
+        """The two-zone problems whose fronts are at given places."""
+        return glued(self.disk, self.how, self.history, fronts, guess)
 
 
 def enclosed(batch: Batch) -> Array:

@@ -9,13 +9,14 @@ Source: Patil, DasGupta & Eriksson (2015), equations (10)-(16).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from reference_data.solvers.core import mooney_rivlin as mat
-from reference_data.solvers.core.collocation import Mesh
+from reference_data.solvers.core.collocation import Mesh, Resolution
+from reference_data.solvers.core.collocation import joined as continuous
 from reference_data.solvers.paper1.collocation.equations import (
     Array,
     Batch,
@@ -27,20 +28,9 @@ from reference_data.solvers.paper1.collocation.equations import (
 )
 from reference_data.solvers.paper1.membrane import Disk, toward
 
-
-@dataclass(frozen=True)
-class Resolution:
-    """Meshes of the zones and the number of terms of a history."""
-
-    free: Mesh
-    inner: Mesh
-    outer: Mesh
-    terms: int
-
-
 RESOLUTIONS = (
-    Resolution(Mesh(8, 12, 1.0), Mesh(4, 10, 1.0), Mesh(9, 10, 1.0), 22),
-    Resolution(Mesh(10, 14, 1.0), Mesh(5, 12, 1.0), Mesh(11, 12, 1.0), 28),
+    Resolution(Mesh.graded(8, 12), Mesh.graded(4, 10), Mesh.graded(9, 10), 22),
+    Resolution(Mesh.graded(10, 14), Mesh.graded(5, 12), Mesh.graded(11, 12), 28),
 )
 
 
@@ -143,9 +133,8 @@ def frictionless_at(batch: Batch, p: Any) -> Batch:
     disk = batch.zones[0].disk
 
     def conditions(left: Any, right: Any, scalars: Any) -> list[Any]:
-        join = [a - b for a, b in zip(right[0], left[1], strict=True)]
         pole = [left[0][0], left[0][3]]
-        return [*pole, *join, left[1][1] - disk.l, *at_rim(right[1]), scalars[0] - p]
+        return [*pole, *continuous(left, right), left[1][1] - disk.l, *at_rim(right[1]), scalars[0] - p]
 
     return replace(batch, ends=lambda s: [(0.0, s[1]), (s[1], disk.length)], conditions=conditions)
 

@@ -21,7 +21,7 @@ A = W_11, B = W_12 at (lambda0, lambda0). Source: Patil, DasGupta & Eriksson (20
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -130,48 +130,3 @@ def pole(disk: Disk, l0: float, t0: float, p: float, x: float, spring: bool) -> 
     # b = 3 a - first in b (3A - B) + a (3B - A) = -W1 c^2/2
     a = (-w1 * c * c / 2 + first * (3 * a11 - b12)) / (8 * a11)
     return [l0 * x + a * x**3, t0 - l0 * c * x * x / 2, l0 + 3 * a * x * x, -l0 * c * x]
-
-
-@dataclass
-class Newton:
-    """Newton's method for a few unknowns, with a Jacobian kept by Broyden's updates."""
-
-    jacobian: Array | None = None
-
-    def differenced(self, f: Callable[[Array], Array], z: Array, r: Array) -> Array:
-        """Jacobian by forward differences."""
-        columns = []
-        for i in range(len(z)):
-            step = 1e-7 * max(abs(z[i]), 1e-3)
-            moved = z.copy()
-            moved[i] += step
-            columns.append((f(moved) - r) / step)
-        return np.array(columns).T
-
-    def solve(self, f: Callable[[Array], Array], z: Sequence[float], limit: float = 0.2) -> Array:
-        """Root of f near z; steps longer than ``limit`` (relative) are shortened.
-
-        Raises:
-            RuntimeError: If the iteration does not converge.
-        """
-        z = np.asarray(z, dtype=float)
-        r, last, fresh = f(z), np.inf, False
-        for _ in range(40):
-            if self.jacobian is None:
-                self.jacobian, fresh = self.differenced(f, z, r), True
-            step = -np.linalg.solve(self.jacobian, r)
-            size = float(np.max(np.abs(step) / np.maximum(np.abs(z), 1e-3)))
-            if size < 1e-13 or (size < 1e-10 and size > 0.2 * last):
-                return z + step
-            if not fresh and size > min(1e-3, 0.2 * last):
-                self.jacobian = None
-                continue
-            step *= min(1.0, limit / size)
-            z = z + step
-            r, before, last, fresh = f(z), r, size, False
-            if size > 1e-3:
-                self.jacobian = None
-            else:  # Broyden: the smallest change that explains the last step
-                miss = r - before - self.jacobian @ step
-                self.jacobian = self.jacobian + np.outer(miss, step) / (step @ step)
-        raise RuntimeError(f"shooting: no convergence near {z}")

@@ -24,8 +24,9 @@ from dataclasses import dataclass, field
 from scipy.integrate import solve_ivp
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.core.newton import Secants
 from reference_data.solvers.paper1.membrane import Disk, Patch
-from reference_data.solvers.paper1.shooting.equations import Accuracy, Array, Newton, shoot
+from reference_data.solvers.paper1.shooting.equations import Accuracy, Array, shoot
 from reference_data.solvers.paper1.shooting.states import Shot, seed
 
 
@@ -80,7 +81,7 @@ def pull(disk: Disk, x: float, rho: float, slope: float, dip: float) -> float:
 
 
 def inflating(
-    disk: Disk, how: Accuracy, at: tuple[float, float, float], guess: Sequence[float], newton: Newton
+    disk: Disk, how: Accuracy, at: tuple[float, float, float], guess: Sequence[float], newton: Secants
 ) -> tuple[float, float, float]:
     """(rho', -eta', p) at the front ``at`` = (x*, rho*, I) of adhesive inflation."""
     x, rho, moment = at
@@ -106,7 +107,7 @@ class Inflation:
 
     onset: Shot
     reach: float
-    newton: Newton = field(default_factory=Newton)
+    newton: Secants = field(default_factory=Secants)
     last: tuple[float, float, float] | None = None
 
     def __post_init__(self) -> None:
@@ -156,7 +157,7 @@ class Inflation:
         return self.known[x]
 
 
-def deflated(start: Edge, p: float, newton: Newton) -> Edge:
+def deflated(start: Edge, p: float, newton: Secants) -> Edge:
     """The same patch at another pressure, ``start`` being the guess."""
     disk, patch = start.disk, start.patch
 

@@ -19,8 +19,9 @@ from scipy.integrate import ode
 from scipy.special import roots_jacobi
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.core.newton import Secants
 from reference_data.solvers.paper1.membrane import toward
-from reference_data.solvers.paper1.shooting.equations import Array, Newton, shoot
+from reference_data.solvers.paper1.shooting.equations import Array, shoot
 from reference_data.solvers.paper1.shooting.states import Shot, seed
 
 WIDEST, GROWTH = 0.06, 0.5  # intervals: growth relative to the position
@@ -94,7 +95,7 @@ class Radial:
     onset: Shot
     reach: float
     pieces: list[Piece] = field(default_factory=list)
-    newton: Newton = field(default_factory=Newton)
+    newton: Secants = field(default_factory=Secants)
 
     def __post_init__(self) -> None:
         self.disk, self.how = self.onset.disk, self.onset.how

@@ -16,8 +16,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.core.newton import Secants
 from reference_data.solvers.paper1.membrane import Disk, toward
-from reference_data.solvers.paper1.shooting.equations import Accuracy, Array, Newton, pole, shoot
+from reference_data.solvers.paper1.shooting.equations import Accuracy, Array, pole, shoot
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class Shot:
         return out + shoot(self.disk, self.p, False, y, [at, *outside], self.how.rtol, totals)
 
 
-def free(shot: Shot, control: str, value: float, newton: Newton) -> Shot:
+def free(shot: Shot, control: str, value: float, newton: Secants) -> Shot:
     """Free state at t0 = value or p = value, from a neighbouring one."""
     disk, how = shot.disk, shot.how
     first = how.start * disk.length
@@ -75,7 +76,7 @@ def free(shot: Shot, control: str, value: float, newton: Newton) -> Shot:
 
 def rising(disk: Disk, how: Accuracy, heights: Array) -> list[Shot]:
     """Free states at rising pole heights (from about 0.05 up)."""
-    newton = Newton()
+    newton = Secants()
     lam = disk.beta + 0.3 * 0.05**2
     shot = Shot(disk, how, 4 * 0.05 * mat.slope(lam, disk.beta, disk.alpha) / disk.beta, 0.05, lam)
     shot = free(shot, "t0", 0.05, newton)
@@ -94,7 +95,7 @@ def rising(disk: Disk, how: Accuracy, heights: Array) -> list[Shot]:
     return out
 
 
-def frictionless(shot: Shot, p: float, newton: Newton) -> Shot:
+def frictionless(shot: Shot, p: float, newton: Secants) -> Shot:
     """Frictionless contact at p, from a neighbouring state (front > 0)."""
     disk, how = shot.disk, shot.how
     first = how.start * disk.length
@@ -126,7 +127,7 @@ def predicted(old: Shot, now: Shot, p: float) -> Shot:
 
 def walk(onset: Shot, pressures: Array) -> list[Shot]:
     """Frictionless states at rising pressures above first touch."""
-    newton, out = Newton(), []
+    newton, out = Secants(), []
     shot = frictionless(touching(onset), min(float(pressures[0]), 1.02 * onset.p), newton)
     old = shot
     for p in map(float, pressures):
@@ -145,7 +146,7 @@ def seed(onset: Shot) -> tuple[float, float, float]:
     that the front freezes, 3 m s^2 = (3 a + e) s^2 - B/s^2, give m = a + e/2.
     """
     disk, alpha, step = onset.disk, onset.disk.alpha, 1e-3
-    low, high = (free(onset, "t0", onset.t0 + h, Newton()) for h in (-step, step))
+    low, high = (free(onset, "t0", onset.t0 + h, Secants()) for h in (-step, step))
     dip = onset.p * onset.lam**3 / (2 * mat.slope(onset.lam, onset.lam, alpha))
     a = pole(disk, onset.lam, onset.t0, onset.p, 1.0, False)[0] - onset.lam
     return onset.lam, a + (high.lam - low.lam) / (2 * step) * dip / 4, dip

@@ -8,7 +8,6 @@ u_max, volume or pressure, on three grids n, 2n, 4n, and extrapolated to h = 0.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -16,6 +15,7 @@ from scipy.interpolate import CubicSpline
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.tables import Estimate
 from reference_data.solvers.paper2.differences import equations as fd
 from reference_data.solvers.paper2.differences.equations import Array, Grid
 
@@ -23,16 +23,7 @@ GRIDS = (200, 400, 800)
 State = tuple[Array, float]
 
 
-@dataclass
-class Extrapolated:
-    """Richardson limit, its uncertainty and the observed order of convergence."""
-
-    value: Array
-    uncertainty: Array
-    order: Array
-
-
-def richardson(coarse: Array, middle: Array, fine: Array, amplified: float | Array = 1.0) -> Extrapolated:
+def richardson(coarse: Array, middle: Array, fine: Array, amplified: float | Array = 1.0) -> Estimate:
     """Eliminate h^2 and h^4 from values on grids n, 2n, 4n.
 
     The uncertainty is the change made by the h^4 term, that is the error estimate of the
@@ -52,7 +43,7 @@ def richardson(coarse: Array, middle: Array, fine: Array, amplified: float | Arr
     rounding = 8 * np.finfo(float).eps * GRIDS[-1] * np.maximum(1.0, np.abs(value)) * amplified
     with np.errstate(divide="ignore", invalid="ignore"):
         order = np.log2(np.abs((coarse - middle) / (middle - fine)))
-    return Extrapolated(value, np.abs(value - two) + rounding, order)
+    return Estimate(value, np.abs(value - two) + rounding, order)
 
 
 def lagrange_at(nodes: Array, x: float) -> Array:
@@ -179,7 +170,7 @@ def on_three_grids(tube: Tube, guess: State, condition: fd.Condition) -> list[St
     return states
 
 
-def curve(tube: Tube, control: str, targets: Array) -> dict[str, Extrapolated]:
+def curve(tube: Tube, control: str, targets: Array) -> dict[str, Estimate]:
     """All columns of a branch at the given values of the control."""
     margin = 1.01 * float(targets[-1]) + 0.01
     trace = Trace(tube, Grid(GRIDS[0]), first=min(0.04, 0.5 * float(targets[0])))
@@ -223,8 +214,8 @@ def profile(tube: Tube, grid: Grid, state: State, z_plot: Array) -> dict[str, Ar
     return {"rho": rho, "eta": eta, "lam1": lam1, "lam2": lam2, "t1": t1, "t2": t2}
 
 
-def profiles(tube: Tube, states: list[State], z_plot: Array) -> dict[str, Extrapolated]:
-    """Extrapolated profile of a state given on the three grids."""
+def profiles(tube: Tube, states: list[State], z_plot: Array) -> dict[str, Estimate]:
+    """Estimate profile of a state given on the three grids."""
     raw = [profile(tube, Grid(n), s, z_plot) for n, s in zip(GRIDS, states, strict=True)]
     fine = Grid(GRIDS[-1])
     at = fine.inverse(z_plot / (tube.lf / 2))

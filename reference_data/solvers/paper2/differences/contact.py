@@ -11,7 +11,7 @@ Source: Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,9 +19,10 @@ import numpy as np
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.newton import newton
+from reference_data.solvers.core.tables import Estimate
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences import equations as fd
-from reference_data.solvers.paper2.differences.branch import Extrapolated
 from reference_data.solvers.paper2.differences.equations import STEP, Array
 from reference_data.solvers.paper2.substrate import Substrate
 
@@ -109,40 +110,38 @@ class Contact:
         return float(self.grid.where) * self.tube.length
 
 
-def solve(start: Contact, p: float | None = None, max_iter: int = 40) -> Contact:
+def solve(start: Contact, p: float | None = None) -> Contact:
     """State at pressure p with the front unknown, or (None) at the grid's front with p unknown.
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    tube, n, j = start.tube, start.grid.n, start.grid.j
-    y, scalar, small = start.y, start.p if p is None else float(start.grid.where), 0
-    f = start.grid.front
+    tube, n, j, f = start.tube, start.grid.n, start.grid.j, start.grid.front
     pressure = spring_up_to(start.substrate, f)
-
-    def residual(scalar: Any) -> Array:
-        grid = start.grid if p is None else Fitted(n, j, scalar)
-        return fd.residual(tube, grid, y, scalar if p is None else p, pressure)
-
-    row = np.zeros(len(y) + 1)
+    row = np.zeros(2 * n + 3)
     row[2 * f] = 1.0
-    for _ in range(max_iter):
-        grid = start.grid if p is None else Fitted(n, j, scalar)
-        now = scalar if p is None else p
-        if small == 2:
-            return Contact(tube, start.substrate, grid, y, float(now))
-        rhs = -np.append(residual(scalar), y[2 * f] - start.substrate.s)
-        column = np.imag(residual(scalar + 1j * STEP)) / STEP
-        step = fd.bordered_solve(fd.jacobian(tube, grid, y, now, pressure), [column], [row], rhs)
-        size = float(np.abs(step).max())
-        if not np.isfinite(size):
-            break
-        scale = min(1.0, 0.4 / size)
-        if p is not None:
-            scale = min(scale, 0.2 * min(scalar, 1 - scalar) / max(abs(float(step[-1])), 1e-300))
-        y, scalar = y + scale * step[:-1], scalar + scale * float(step[-1])
-        small += size < fd.SMALL
-    raise RuntimeError(f"finite differences: no convergence in contact for {tube}, n = {n}, p = {p}")
+    given = lambda c: (start.grid, c) if p is None else (Fitted(n, j, c), p)  # noqa: E731
+
+    def correct(found: tuple[Array, float]) -> tuple[float, Callable[[float], tuple[Array, float]]]:
+        (y, c), residual = found, lambda grid, load: fd.residual(tube, grid, y, load, pressure)
+        grid, load = given(c)
+        rhs = -np.append(residual(grid, load), y[2 * f] - start.substrate.s)
+        column = np.imag(residual(*given(c + 1j * STEP))) / STEP
+        step = fd.bordered_solve(fd.jacobian(tube, grid, y, load, pressure), [column], [row], rhs)
+        last = float(step[-1])
+        room = np.inf if p is None else 0.2 * min(c, 1 - c) / max(abs(last), 1e-300)
+
+        def advance(share: float) -> tuple[Array, float]:
+            share = min(float(share), room)
+            return y + share * step[:-1], c + share * last
+
+        return float(np.abs(step).max()), advance
+
+    c = start.p if p is None else float(start.grid.where)
+    what = f"finite differences in contact for {tube}, n = {n}, p = {p}"
+    y, c = newton((start.y, c), correct, what, close=fd.SMALL)
+    grid, now = given(c)
+    return Contact(tube, start.substrate, grid, y, float(now))
 
 
 def regridded(state: Contact, grid: Fitted) -> Contact:
@@ -208,7 +207,7 @@ def summary(state: Contact) -> dict[str, float]:
 
 def extrapolated(
     values: Sequence[Array], powers: Sequence[int], irregular: bool = False, amplified: float = 1.0
-) -> Extrapolated:
+) -> Estimate:
     """Limit h -> 0 of values on grids n, 2n, 4n, ... eliminating one power of h per refinement.
 
     The uncertainty is the change made by the last elimination (the error of the value from the
@@ -233,7 +232,7 @@ def extrapolated(
     if irregular:
         change = change + np.abs(value - limit(v[:-1], powers[:-1]))
         change = 10 * np.array([change[max(0, i - 3) : i + 4].max() for i in range(len(change))])
-    return Extrapolated(value, change + floor, order)
+    return Estimate(value, change + floor, order)
 
 
 def peak(values: Array) -> float:

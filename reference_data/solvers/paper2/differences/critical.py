@@ -26,6 +26,7 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from reference_data.solvers.core.mooney_rivlin import Tube, plain_pressure
+from reference_data.solvers.core.newton import newton, secant
 from reference_data.solvers.paper2.differences import equations as fd
 from reference_data.solvers.paper2.differences.branch import GRIDS, State, Trace, refined
 from reference_data.solvers.paper2.differences.equations import SMALL, STEP, Array, Grid
@@ -77,34 +78,32 @@ class Null:
         return float(self.psi @ (self.second() @ self.phi)) / scale
 
 
-def limit_point(tube: Tube, grid: Grid, start: State, max_iter: int = 25) -> State:
+def limit_point(tube: Tube, grid: Grid, start: State) -> State:
     """Newton on (F, g) = 0 for (y, p).
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    (y, p), small = start, 0
-    for _ in range(max_iter):
-        null = Null(tube, grid, (y, p))
+
+    def correct(state: State) -> tuple[float, Callable[[float], State]]:
+        null, (y, p) = Null(tube, grid, state), state
         rhs = -np.append(fd.residual(tube, grid, y, p, plain_pressure), null.g)
         step = fd.bordered_solve(null.core, [null.by_p], [null.g_by_state()], rhs)
-        size = float(np.abs(step).max())
-        scale = min(1.0, 0.3 / size)
-        y, p = y + scale * step[:-1], p + scale * float(step[-1])
-        small += size < SMALL
-        if small == 2:
-            return y, p
-    raise RuntimeError(f"finite differences: limit point not found for {tube}, n = {grid.n}")
+        return float(np.abs(step).max()), lambda share: (y + share * step[:-1], p + share * float(step[-1]))
+
+    what = f"finite differences: limit point of {tube}, n = {grid.n}"
+    return newton(start, correct, what, longest=0.3, close=SMALL, most=25)
 
 
-def fold_at(tube: Tube, grid: Grid, start: State, u: float, max_iter: int = 25) -> tuple[Tube, State]:
+def fold_at(tube: Tube, grid: Grid, start: State, u: float) -> tuple[Tube, State]:
     """The limit point with u_max = u, for (y, p, delta1); the tube's own delta1 is the guess.
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    (y, p), small = start, 0
-    for _ in range(max_iter):
+
+    def correct(found: tuple[Tube, State]) -> tuple[float, Callable[[float], tuple[Tube, State]]]:
+        tube, (y, p) = found
         null = Null(tube, grid, (y, p))
         f_delta, g_delta = null.by_delta1()
         _, control = fd.control_row("u", y)
@@ -112,14 +111,15 @@ def fold_at(tube: Tube, grid: Grid, start: State, u: float, max_iter: int = 25) 
         rhs = -np.concatenate([residual, [y[0] - 1 - u, null.g]])
         rows = [np.append(control, 0.0), np.append(null.g_by_state(), g_delta)]
         step = fd.bordered_solve(null.core, [null.by_p, f_delta], rows, rhs)
-        size = float(np.abs(step).max())
-        scale = min(1.0, 0.2 / size)
-        y, p = y + scale * step[:-2], p + scale * float(step[-2])
-        tube = replace(tube, delta1=tube.delta1 + scale * float(step[-1]))
-        small += size < SMALL
-        if small == 2:
-            return tube, (y, p)
-    raise RuntimeError(f"finite differences: no fold at u_max = {u:g} for {tube}, n = {grid.n}")
+
+        def advance(share: float) -> tuple[Tube, State]:
+            moved = replace(tube, delta1=tube.delta1 + share * float(step[-1]))
+            return moved, (y + share * step[:-2], p + share * float(step[-2]))
+
+        return float(np.abs(step).max()), advance
+
+    what = f"finite differences: fold of {tube} at u_max = {u:g}, n = {grid.n}"
+    return newton((tube, start), correct, what, longest=0.2, close=SMALL, most=25)
 
 
 def fold_top(tube: Tube, grid: Grid, start: State, step: float = 0.05) -> tuple[Tube, State]:
@@ -138,17 +138,15 @@ def cusp(tube: Tube, grid: Grid, start: State) -> tuple[Tube, State]:
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    u_old, u = start[0][0] - 1, start[0][0] - 0.98
-    tube, state = fold_at(tube, grid, start, u_old)
-    h_old = Null(tube, grid, state).cubic_degeneracy()
-    for _ in range(30):
-        tube, state = fold_at(tube, grid, state, u)
-        h = Null(tube, grid, state).cubic_degeneracy()
-        if abs(u - u_old) < 1e-9:
-            return tube, state
-        step = float(np.clip(-h * (u - u_old) / (h - h_old), -0.3, 0.3))
-        u_old, h_old, u = u, h, u + step
-    raise RuntimeError(f"finite differences: no cusp near {tube}, n = {grid.n}")
+    here = [(tube, start)]
+
+    def degeneracy(u: float) -> float:
+        here[0] = fold_at(here[0][0], grid, here[0][1], float(u))
+        return Null(here[0][0], grid, here[0][1]).cubic_degeneracy()
+
+    u = float(start[0][0]) - 1
+    degeneracy(secant(degeneracy, u, u + 0.02, 0.3)[0])
+    return here[0]
 
 
 def limit_points(tube: Tube, u_stop: float, v_stop: float = np.inf) -> list[list[State]]:

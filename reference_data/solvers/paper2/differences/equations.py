@@ -28,6 +28,7 @@ from scipy.sparse.linalg import splu
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.newton import newton as iterate
 
 Array = np.ndarray
 Pressure = Callable[[Any, Any], Any]
@@ -235,22 +236,16 @@ def newton(
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    y, p = start
-    small = 0
-    for _ in range(max_iter):
+
+    def correct(state: tuple[Array, float]) -> tuple[float, Callable[[float], tuple[Array, float]]]:
+        y, p = state
         value, row = condition(y, p)
         rhs = -np.append(residual(tube, grid, y, p, pressure), value)
         core = jacobian(tube, grid, y, p, pressure)
         step = bordered_solve(core, [by_pressure(tube, grid, y, p, pressure)], [row], rhs)
-        size = float(np.abs(step).max())
-        if not np.isfinite(size):
-            break
-        scale = min(1.0, 0.4 / size)
-        y, p = y + scale * step[:-1], p + scale * float(step[-1])
-        small += size < SMALL
-        if small == 2:
-            return y, p
-    raise RuntimeError(f"finite differences: no convergence for {tube}, n = {grid.n}")
+        return float(np.abs(step).max()), lambda share: (y + share * step[:-1], p + share * float(step[-1]))
+
+    return iterate(start, correct, f"finite differences of {tube}, n = {grid.n}", close=SMALL, most=max_iter)
 
 
 def at_control(control: str, target: float) -> Condition:

@@ -12,6 +12,7 @@ Source: Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from scipy.linalg import solve_banded
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.newton import newton
 from reference_data.solvers.paper2.differences import branch as fdb
 from reference_data.solvers.paper2.differences import contact as cfd
 from reference_data.solvers.paper2.differences import equations as fd
@@ -75,9 +77,10 @@ class Glued:
         Raises:
             RuntimeError: If the iteration does not converge.
         """
-        y, p = guess[0].copy(), guess[1]
         count = np.arange(len(frozen))
-        for _ in range(max_iter):
+
+        def correct(state: tuple[Array, float]) -> tuple[float, Callable[[float], tuple[Array, float]]]:
+            y, p = state
             f = fd.residual(self.tube, self.grid, y, p, pressure)
             f[2 * count + 1] = y[2 * count + 1] - frozen
             matrix = banded(fd.jacobian_blocks(self.tube, self.grid, y, p, pressure), count)
@@ -91,13 +94,10 @@ class Glued:
                 dp = float((self.substrate.s - y[at] + both[at, 0]) / -both[at, 1])
                 dy = -both[:, 0] - dp * both[:, 1]
             size = max(float(np.abs(dy).max()), abs(dp))
-            if not np.isfinite(size):
-                break
-            scale = min(1.0, 0.3 / size)
-            y, p = y + scale * dy, p + scale * dp
-            if size < 1e-9:
-                return y, p
-        raise RuntimeError(f"finite differences: no convergence, {self.tube}, {len(frozen)} nodes stuck")
+            return size, lambda share: (y + share * dy, p + share * dp)
+
+        what = f"finite differences of {self.tube}, {len(frozen)} nodes stuck"
+        return newton(guess, correct, what, longest=0.3, close=1e-9, most=max_iter, more=0)
 
 
 class Inflation:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference_data.solvers.core.tables import TWO_GRIDS, Column, agreed, round_up
+from reference_data.solvers.core.tables import TWO_GRIDS, Column, Estimate, agreed, round_up
 from reference_data.solvers.paper3 import text
 from reference_data.solvers.paper3.bent.equations import Surface
-from reference_data.solvers.paper3.common import Resolved
 from reference_data.solvers.paper3.data import FluidTube
 from reference_data.solvers.paper3.strong import equations as strong
 from reference_data.solvers.paper3.strong.equations import Bent
@@ -48,11 +47,11 @@ def balanced(
     return first, strong.newton(strong.taken(first, fine), offset)
 
 
-def refined(coarse: Array, fine: Array, left: float = LEFT) -> Resolved:
+def refined(coarse: Array, fine: Array, left: float = LEFT) -> Estimate:
     """Finer values; one uncertainty: TWO_GRIDS times the column's largest difference, and what is left."""
     coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
     own = TWO_GRIDS * np.abs(fine - coarse).max() + left * max(1.0, np.abs(fine).max())
-    return Resolved(fine, np.full(fine.shape, own))
+    return Estimate(fine, np.full(fine.shape, own))
 
 
 def paired(table: str, name: str, galerkin: tuple[Array, Array], balance: tuple[Array, Array]) -> Column:
@@ -64,7 +63,7 @@ def paired(table: str, name: str, galerkin: tuple[Array, Array], balance: tuple[
     return joined(table, name, refined(*galerkin), refined(*balance), galerkin)
 
 
-def joined(table: str, name: str, galerkin: Resolved, balance: Resolved, both: tuple[Array, Array]) -> Column:
+def joined(table: str, name: str, galerkin: Estimate, balance: Estimate, both: tuple[Array, Array]) -> Column:
     """The same from values whose uncertainties are known."""
     column = agreed(
         table, name, balance, galerkin, text.COLUMNS[name], other="collocation", written="Galerkin"

@@ -5,11 +5,13 @@ Each element's interior nodes are eliminated, which leaves one dense system for 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
 
+from reference_data.solvers.core.newton import newton as iterate
 from reference_data.solvers.paper3.bent.equations import EVEN, Array, Assembly, Grid, Surface
 
 CONVERGED = 2e-10  # size of the last step; what is left is at most a tenth of it
@@ -98,39 +100,46 @@ def fitted(surface: Surface) -> tuple[Surface, float]:
     return surface.moved_to(grid, new), float(np.abs(new - surface.front).max())
 
 
-def newton(guess: Surface, offset: float | None = None, max_iter: int = 40) -> Surface:
-    """Equilibrium at the guess's level or, with the level free, at a given centroid offset.
+@dataclass
+class Kept:
+    """A factorised matrix, kept as long as it makes the steps ten times smaller each."""
 
-    A factorised matrix is kept as long as it makes the steps ten times smaller each.
+    factor: Factor | None = None
+    last: float = np.inf
+
+    def next(self, size: float) -> None:
+        """Forget the matrix after a step of this size, if that did not shrink."""
+        if size > 0.1 * self.last or size > 1e-2:
+            self.factor = None
+        self.last = size
+
+
+def newton(guess: Surface, offset: float | None = None) -> Surface:
+    """Equilibrium at the guess's level or, with the level free, at a given centroid offset.
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    surface, factor, last = guess, None, np.inf
-    for _ in range(max_iter):
-        now = Assembly(surface, tangent=factor is None)
-        factor = factor or Factor(now.stiffness, now.functions)
+    kept = Kept()
+
+    def correct(surface: Surface) -> tuple[float, Callable[[float], Surface]]:
+        surface, move = fitted(surface)
+        now = Assembly(surface, tangent=kept.factor is None)
+        kept.factor = kept.factor or Factor(now.stiffness, now.functions)
         if offset is None:
-            dx, dzw = factor.solve(-now.residual), 0.0
+            dx, dzw = kept.factor.solve(-now.residual), 0.0
         else:
             load = surface.tube.gamma * now.volume
-            both = factor.solve(np.stack([-now.residual, load], axis=-1))
+            both = kept.factor.solve(np.stack([-now.residual, load], axis=-1))
             inner = np.sum(now.offset[..., None] * both, axis=(0, 1))
             dzw = float((offset - np.sum(now.offset * surface.x) - inner[0]) / inner[1])
             dx = both[..., 0] + dzw * both[..., 1]
-        size = max(float(np.abs(dx).max()), abs(dzw))
-        if not np.isfinite(size):
-            break
-        scale = min(1.0, 0.5 / size)
-        moved = replace(surface, x=surface.x + scale * dx, zw=surface.zw + scale * dzw)
-        surface, move = fitted(moved)
-        size = max(size, move)
-        if size < CONVERGED:
-            return surface
-        if size > 0.1 * last or size > 1e-2:
-            factor = None
-        last = size
-    raise RuntimeError(f"surface: no convergence at z_w = {guess.zw:g} for {guess.tube}")
+        size = max(float(np.abs(dx).max()), abs(dzw), move)
+        kept.next(size)
+        return size, lambda share: replace(surface, x=surface.x + share * dx, zw=surface.zw + share * dzw)
+
+    what = f"bent tube by Galerkin's method at z_w = {guess.zw:g} for {guess.tube}"
+    return fitted(iterate(guess, correct, what, longest=0.5, close=CONVERGED, more=0))[0]
 
 
 def raised(surface: Surface, grid: Grid) -> Surface:

@@ -18,12 +18,14 @@ are no test functions, and no formula of the metric is used.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reference_data.solvers.core.collocation import lagrange
-from reference_data.solvers.paper3.bent.newton import Factor
+from reference_data.solvers.core.newton import newton as iterate
+from reference_data.solvers.paper3.bent.newton import Factor, Kept
 from reference_data.solvers.paper3.data import FluidTube
 from reference_data.solvers.paper3.strong.net import EVEN, ODD, Array, Net, waves
 
@@ -260,19 +262,19 @@ def centroid(bent: Bent) -> Array:
     return np.stack(parts) / (2 * np.pi * bent.tube.length)
 
 
-def newton(guess: Bent, offset: float | None = None, max_iter: int = 40) -> Bent:
+def newton(guess: Bent, offset: float | None = None) -> Bent:
     """Equilibrium at the guess's level or, with the level free, at a given centroid offset in x.
-
-    A factorised matrix is kept as long as it makes the steps ten times smaller each.
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
-    bent, factor, last = guess, None, np.inf
-    for _ in range(max_iter):
-        now = Balance(bent, derivative=factor is None)
-        factor = factor or Factor(now.matrix, now.unknowns)
-        both = factor.solve(np.stack([-now.residual, -now.by_level], axis=-1))
+    kept = Kept()
+
+    def correct(bent: Bent) -> tuple[float, Callable[[float], Bent]]:
+        bent, move = fitted(bent)
+        now = Balance(bent, derivative=kept.factor is None)
+        kept.factor = kept.factor or Factor(now.matrix, now.unknowns)
+        both = kept.factor.solve(np.stack([-now.residual, -now.by_level], axis=-1))
         both = [spread_out(bent, both[..., i], now.keep) for i in (0, 1)]
         dzw = 0.0
         if offset is not None:
@@ -280,15 +282,9 @@ def newton(guess: Bent, offset: float | None = None, max_iter: int = 40) -> Bent
             mean = [float(np.sum(weight * v[..., 0])) for v in (bent.x, *both)]
             dzw = (offset - mean[0] - mean[1]) / mean[2]
         dx = both[0] + dzw * both[1]
-        size = max(float(np.abs(dx).max()), abs(dzw))
-        if not np.isfinite(size):
-            break
-        scale = min(1.0, 0.5 / size)
-        bent, move = fitted(replace(bent, x=bent.x + scale * dx, zw=bent.zw + scale * dzw))
-        size = max(size, move)
-        if size < CONVERGED:
-            return bent
-        if size > 0.1 * last or size > 1e-2:
-            factor = None
-        last = size
-    raise RuntimeError(f"collocation of the bent tube: no convergence at z_w = {guess.zw:g} for {guess.tube}")
+        size = max(float(np.abs(dx).max()), abs(dzw), move)
+        kept.next(size)
+        return size, lambda share: replace(bent, x=bent.x + share * dx, zw=bent.zw + share * dzw)
+
+    what = f"bent tube by collocation at z_w = {guess.zw:g} for {guess.tube}"
+    return fitted(iterate(guess, correct, what, longest=0.5, close=CONVERGED, more=0))[0]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from reference_data.solvers.core.collocation import differentiation
+from reference_data.solvers.core.collocation import differentiation, lobatto
 
 Array = np.ndarray
 EVEN, ODD = 0, 1  # parity about Theta = 0 and pi
@@ -35,7 +35,7 @@ class Net:
 
     def __post_init__(self) -> None:
         put = lambda name, x: object.__setattr__(self, name, x)  # noqa: E731
-        put("nodes", (1 - np.cos(np.pi * np.arange(self.degree + 1) / self.degree)) / 2)
+        put("nodes", lobatto(self.degree))
         put("slopes", differentiation(self.nodes))
         count = 2 * self.modes + 1
         k = np.arange(count)[:, None] - np.arange(count)

@@ -1,26 +1,29 @@
 r"""Central finite differences with the Heaviside form: the paper's scheme, without tracked fronts.
 
-On n equal intervals, with stretches at the mid-points from differences and means of r and z,
+On n equal intervals, with stretches at the mid-points from differences and means of r and z and l2 = r/R,
 
 .. math::
-   (\eta W_1 r'/l_1)' = \eta W_2 - P r z',\qquad (\eta W_1 z'/l_1)' = P r r'
+   (H R W_1 r'/l_1)' = H W_2 - P r z',\qquad (H R W_1 z'/l_1)' = P r r'
 
-(Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids 54 (2015) 1-10, equations (12), (13) and the
-relaxed energy), where the sign of gw - 1 decides at each mid-point between taut and wrinkled. The equations
-are Lipschitz continuous across a front, so that Newton's method needs no tracking, but the order of accuracy
-is lower there. The scheme finds the pattern of zones for the tracked solvers, and is compared with them.
+(Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids 54 (2015) 1-10, equations (12), (13) and the relaxed
+energy), where the sign of l2^2 l1 - 1 decides at each mid-point between taut and wrinkled. At a pole r = 0,
+and the vertical force balances the pressure on half an interval. The equations are Lipschitz continuous
+across a front, so that Newton's method needs no tracking, but the order of accuracy is lower there. The
+scheme finds the pattern of zones for the tracked solvers, and is compared with them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_banded
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.core.newton import newton as iterate
 from reference_data.solvers.paper4 import material as wri
-from reference_data.solvers.paper4.material import Array, Membrane
+from reference_data.solvers.paper4.material import Array, Body, Membrane
 
 STEP = 1e-30
 FIRST = {"gas": 0.004, "fluid": 0.5}  # first load step from the unloaded membrane
@@ -31,7 +34,7 @@ LONGEST = {"gas": 0.03, "fluid": 0.5}
 class Grid:
     """Nodal r and z of one state on equal intervals, and its load."""
 
-    membrane: Membrane
+    membrane: Body
     r: Array
     z: Array
     load: float
@@ -52,8 +55,8 @@ class Grid:
     @property
     def gw(self) -> Array:
         """Wrinkling function at the mid-points."""
-        _, r, l1, _ = self.middle
-        return r * np.sqrt(l1)
+        s, r, l1, _ = self.middle
+        return r / self.membrane.unloaded(s) * np.sqrt(l1)
 
     @property
     def fronts(self) -> Array:
@@ -63,66 +66,64 @@ class Grid:
         return s[i] - g[i] * (s[i + 1] - s[i]) / (g[i + 1] - g[i])
 
 
-def stresses(r: Array, l1: Array, membrane: Membrane) -> tuple[Array, Array]:
+def stresses(l2: Array, l1: Array, membrane: Body) -> tuple[Array, Array]:
     """W_1 and W_2 at mid-points, by the Heaviside form of the energy."""
     c2 = membrane.c2
-    full = mat.slope(l1, r, c2), mat.slope(r, l1, c2)
+    full = mat.slope(l1, l2, c2), mat.slope(l2, l1, c2)
     if membrane.energy == "standard":
         return full
-    tense = np.real(r * r * l1) > 1
+    tense = np.real(l2 * l2 * l1) > 1
     return np.where(tense, full[0], wri.relaxed_slope(l1, c2)), np.where(tense, full[1], 0.0)
 
 
-def residual(r: list[Array], z: list[Array], s: Array, h: float, membrane: Membrane, load: float) -> Array:
-    """Both equations at inner nodes, times h; r and z hold the left, own and right values."""
-    flux, hoop = [], []
-    for side in (0, 1):
-        dr, dz = (r[side + 1] - r[side]) / h, (z[side + 1] - z[side]) / h
-        l1, mean = np.sqrt(dr * dr + dz * dz), (r[side + 1] + r[side]) / 2
-        w1, w2 = stresses(mean, l1, membrane)
-        eta = membrane.eta(s + (side - 0.5) * h)
-        flux.append((eta * w1 * dr / l1, eta * w1 * dz / l1))
-        hoop.append(eta * w2)
-    p = membrane.pressure(z[1], load, np.real(z[1]) < load)
-    first = flux[1][0] - flux[0][0] - h * (hoop[0] + hoop[1]) / 2 + p * r[1] * (z[2] - z[0]) / 2
-    second = flux[1][1] - flux[0][1] - p * r[1] * (r[2] - r[0]) / 2
-    return np.stack([first, second], axis=-1)
+def residual(y: Array, membrane: Body, load: float) -> Array:
+    """Both equations at inner nodes, times h, and what holds at the ends, from nodal (r, z)."""
+    n = len(y) - 1
+    h = membrane.L / n
+    s = h * (np.arange(n) + 0.5)
+    R, H, (r, z) = membrane.unloaded(s), membrane.eta(s), y.T
+    dr, dz = np.diff(r) / h, np.diff(z) / h
+    l1 = np.sqrt(dr * dr + dz * dz)
+    w1, w2 = stresses((r[1:] + r[:-1]) / 2 / R, l1, membrane)
+    force, hoop = H * R * w1 / l1, H * w2
+    p = membrane.pressure(z, load, np.real(z) < load)
+    out = np.empty_like(y)
+    out[1:-1, 0] = np.diff(force * dr) - h * (hoop[1:] + hoop[:-1]) / 2
+    out[1:-1, 0] += p[1:-1] * r[1:-1] * (z[2:] - z[:-2]) / 2
+    out[1:-1, 1] = np.diff(force * dz) - p[1:-1] * r[1:-1] * (r[2:] - r[:-2]) / 2
+    held = membrane.clamped([*y[0], 0.0, np.pi / 2], [*y[-1], 0.0, 0.0])
+    out[0], out[-1] = held[:2], held[2:]
+    if membrane.pole:
+        out[0, 1] = force[0] * dz[0] - p[0] * r[1] ** 2 / 8
+    return out
 
 
-def newton(guess: Grid, load: float, max_iter: int = 25) -> Grid:
+def newton(guess: Grid, load: float, most: int = 25) -> Grid:
     """State at a load.
 
     Raises:
         RuntimeError: If the iteration does not converge.
     """
     membrane, n = guess.membrane, guess.n
-    h = membrane.L / n
-    s = h * np.arange(1, n)
-    y = np.stack([guess.r, guess.z], axis=-1)
-    for _ in range(max_iter):
-        around = [y[:-2], y[1:-1], y[2:]]
-        r, z = [a[:, 0] for a in around], [a[:, 1] for a in around]
-        now = residual(r, z, s, h, membrane, load)
-        band = np.zeros((7, 2 * (n - 1)))
-        for j in range(3):
+
+    def correct(y: Array) -> tuple[float, Callable[[float], Array]]:
+        band = np.zeros((7, 2 * (n + 1)))
+        for colour in range(3):
             for c in range(2):
-                bump = [[a + (1j * STEP if (i, d) == (j, c) else 0) for i, a in enumerate(x)]
-                        for d, x in enumerate((r, z))]  # fmt: skip
-                column = np.imag(residual(*bump, s, h, membrane, load)) / STEP
-                for row in range(2):
-                    # unknown 2 (i + j - 1) + c of equation 2 i + row
-                    offset = 2 * (j - 1) + c - row
-                    source = np.arange(max(0, 1 - j), n - 1 - max(0, j - 1))
-                    target = 2 * (source + j - 1) + c
-                    band[3 - offset, target] = column[source, row]
-        step = solve_banded((3, 3), band, -now.ravel()).reshape(-1, 2)
-        size = float(np.abs(step).max())
-        if not np.isfinite(size):
-            break
-        y[1:-1] += step * min(1.0, 0.5 / size)
-        if size < 1e-10:
-            return Grid(membrane, y[:, 0].copy(), y[:, 1].copy(), load)
-    raise RuntimeError(f"finite differences: no convergence at {membrane.control} = {load:g} for {membrane}")
+                bumped, nodes = y.astype(complex), np.arange(colour, n + 1, 3)
+                bumped[nodes, c] += 1j * STEP
+                slope = np.imag(residual(bumped, membrane, load)) / STEP
+                for off in (-1, 0, 1):
+                    at = nodes[(nodes + off >= 0) & (nodes + off <= n)]
+                    for row in range(2):  # equation 2 (node + off) + row, unknown 2 node + c
+                        band[3 + 2 * off + row - c, 2 * at + c] = slope[at + off, row]
+        step = solve_banded((3, 3), band, -residual(y, membrane, load).ravel()).reshape(-1, 2)
+        return float(np.abs(step).max()), lambda share: y + share * step
+
+    what = f"finite differences of {membrane} at {membrane.control} = {load:g}"
+    y = np.stack([guess.r, guess.z], axis=-1)
+    r, z = iterate(y, correct, what, membrane.cautious, close=1e-10, most=most, more=0).T
+    return Grid(membrane, r.copy(), z.copy(), load)
 
 
 def unloaded(membrane: Membrane, n: int) -> Grid:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from reference_data.solvers.core import mooney_rivlin as mat
-from reference_data.solvers.core.collocation import differentiation, lagrange
+from reference_data.solvers.core.collocation import lagrange, lobatto
 from reference_data.solvers.paper4 import material as wri
 from reference_data.solvers.paper4.material import Array
 from reference_data.solvers.paper4.methods.collocation import State
@@ -49,34 +49,29 @@ def fraction_below(fronts: Array, first: bool, length: float) -> float:
 
 def roots(state: State, values: Array) -> list[tuple[float, float]]:
     """Zeros, rising, of the piecewise polynomial ``values``, with the slope's sign there."""
-    rows, edges, found = lagrange(state.rule.nodes, GRID), state.edges, []
-    fine = values @ rows.T
+    nodes, mesh, found = lobatto(state.rule.degree), state.mesh, []
+    fine = values @ lagrange(nodes, GRID).T
     fine[fine == 0] = TINY
     for e, i in zip(*np.nonzero(fine[:, :-1] * fine[:, 1:] < 0), strict=True):
 
         def at(x: float, e: int = e) -> float:
-            return float((lagrange(state.rule.nodes, np.array([x])) @ values[e])[0]) or TINY
+            return float((lagrange(nodes, np.array([x])) @ values[e])[0]) or TINY
 
         x = brentq(at, GRID[i], GRID[i + 1], xtol=1e-15)
-        s = edges[e] + x * (edges[e + 1] - edges[e])
+        s = mesh.edges[e] + x * mesh.widths[e]
         found.append((float(s), float(np.sign(fine[e, i + 1] - fine[e, i]))))
     for e in np.nonzero(fine[:-1, -1] * fine[1:, 0] < 0)[0]:
-        found.append((float(edges[e + 1]), float(np.sign(fine[e + 1, 0] - fine[e, -1]))))
+        found.append((float(mesh.edges[e + 1]), float(np.sign(fine[e + 1, 0] - fine[e, -1]))))
     return sorted(found)
 
 
-def derivative(state: State, values: Array) -> Array:
-    """d/ds of a piecewise polynomial, at the nodes."""
-    return values @ differentiation(state.rule.nodes).T / np.diff(state.edges)[:, None]
-
-
-def measures(state: State, volume: float) -> Measures:
+def measures(state: State) -> Measures:
     """All numbers of a state for the tables."""
     membrane, y = state.membrane, state.y
-    g = wrinkling(y)
-    slope = derivative(state, g)
-    stationary = [evaluate(state, np.array(s)) for s, _ in roots(state, slope)]
-    extreme = np.concatenate([g.ravel(), [float(wrinkling(v)) for v in stationary]]) + 1
+    g = wrinkling(membrane, state.s, y)
+    slope = state.mesh.slope(g)
+    stationary = np.array([s for s, _ in roots(state, slope)])
+    extreme = np.concatenate([g.ravel(), wrinkling(membrane, stationary, evaluate(state, stationary))]) + 1
     turning = roots(state, y[..., 3])
     radii = [float(evaluate(state, np.array(s))[0]) for s, _ in turning]
     if membrane.energy == "standard":
@@ -93,7 +88,7 @@ def measures(state: State, volume: float) -> Measures:
     tense = membrane.energy == "standard" or state.pattern.tense[0]
     force = mat.slope(l1, r, membrane.c2) if tense else wri.relaxed_slope(l1, membrane.c2)
     scalars = {
-        "V": volume,
+        "V": state.volume,
         "r_max": max([membrane.radius, *radii]),
         "N": float(membrane.eta(0.0) * force),
         "gw_max": float(extreme.max()),

@@ -1,10 +1,10 @@
 r"""Multiple shooting in momenta; fronts and surface are events, and no pattern is given.
 
-Unknowns over s: r, z and the components A, F of the meridional tension, in the form
+Unknowns over s: r, z and the components A, F of the meridional tension per radian, in the form
 
 .. math::
-   r' = l A/T,\quad z' = l F/T,\quad A' = \eta W_2 - P r z',\quad F' = P r r',\qquad
-   T = \sqrt{A^2 + F^2} = \eta W_1(l, r),
+   r' = l A/T,\quad z' = l F/T,\quad A' = H W_2 - P r z',\quad F' = P r r',\qquad
+   T = \sqrt{A^2 + F^2} = H R\, W_1(l, r/R),
 
 which is valid in both taut and wrinkled parts (Patil, Nordmark & Eriksson, Eur. J. Mech. A/Solids
 54 (2015) 1-10, equilibrium with the relaxed energy), where l follows from T at every stage. The right-hand
@@ -16,6 +16,7 @@ computed by complex steps.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import DOP853
@@ -23,7 +24,7 @@ from scipy.optimize import brentq
 
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.paper4 import material as wri
-from reference_data.solvers.paper4.material import Array, Membrane
+from reference_data.solvers.paper4.material import Array, Body
 
 STEP = 1e-30
 SEGMENTS = 32
@@ -32,20 +33,20 @@ NO_ZONE = 1e-11  # shortest zone between a front and a disk
 A, B, C = DOP853.A[:12, :12], DOP853.B, DOP853.C[:12]
 
 
-def stretch(force: Array, r: Array, tense: Array, c2: float, start: Array | None = None) -> Array:
-    """Root l of W_1(l, r) = force (taut) or W_r'(l) = force (wrinkled); (segments, copies).
+def stretch(force: Array, l2: Array, tense: Array, c2: float, start: Array | None = None) -> Array:
+    """Root l of W_1(l, l2) = force (taut) or W_r'(l) = force (wrinkled); (segments, copies).
 
     Both rise and are concave in l: from a start to the left of the root, Newton's method converges
     monotonically. This is done for the first, real copy; the others differ by imaginary increments only, for
     which one further step is exact.
     """
 
-    def correction(l1: Array, force: Array, r: Array) -> Array:
-        slope = np.where(tense, mat.slope(l1, r, c2), wri.relaxed_slope(l1, c2))
-        curve = np.where(tense, mat.curvature(l1, r, c2), wri.relaxed_curvature(l1, c2))
+    def correction(l1: Array, force: Array, l2: Array) -> Array:
+        slope = np.where(tense, mat.slope(l1, l2, c2), wri.relaxed_slope(l1, c2))
+        curve = np.where(tense, mat.curvature(l1, l2, c2), wri.relaxed_curvature(l1, c2))
         return (force - slope) / curve
 
-    one, at = np.real(force[:, :1]), np.real(r[:, :1])
+    one, at = np.real(force[:, :1]), np.real(l2[:, :1])
     if start is not None:
         l1 = start
     elif isinstance(c2, float | int):
@@ -57,23 +58,23 @@ def stretch(force: Array, r: Array, tense: Array, c2: float, start: Array | None
         l1 = l1 + step
         if np.max(np.abs(step)) < 1e-8:  # quadratic: the next step leaves rounding only
             break
-    return l1 + correction(l1, force, r)
+    return l1 + correction(l1, force, l2)
 
 
-def local(membrane: Membrane, s: Array, y: Array, tense: Array) -> tuple[Array, Array, Array]:
+def local(membrane: Body, s: Array, y: Array, tense: Array) -> tuple[Array, Array, Array]:
     """Stretch l, gw - 1 and d gw/ds from (r, z, A, F), one row each, with given flags."""
-    c2, eta = membrane.c2, membrane.eta(s)
-    r, a = y[:, 0], y[:, 2]
-    tension = np.hypot(a, y[:, 3])
-    l1 = stretch((tension / eta)[:, None], r[:, None], tense[:, None], c2)[:, 0]
-    w11 = np.where(tense, mat.curvature(l1, r, c2), wri.relaxed_curvature(l1, c2))
-    w12 = np.where(tense, mat.mixed(l1, r, c2), 0.0)
-    w2 = np.where(tense, mat.slope(r, l1, c2), 0.0)
-    dr = l1 * a / tension
-    # T' = eta W_2 sin(phi), and T = eta W_1
-    dl = (w2 * a / tension - membrane.eta_slope / eta * tension / eta - w12 * dr) / w11
-    g = r * np.sqrt(l1)
-    return l1, g - 1, g * (dr / r + dl / (2 * l1))
+    c2, R, H, (dR, dH) = membrane.c2, membrane.unloaded(s), membrane.eta(s), membrane.slopes(s)
+    tension = np.hypot(y[:, 2], y[:, 3])
+    l2, force, sine = y[:, 0] / R, tension / (H * R), y[:, 2] / tension
+    l1 = stretch(force[:, None], l2[:, None], tense[:, None], c2)[:, 0]
+    w11 = np.where(tense, mat.curvature(l1, l2, c2), wri.relaxed_curvature(l1, c2))
+    w12 = np.where(tense, mat.mixed(l1, l2, c2), 0.0)
+    w2 = np.where(tense, mat.slope(l2, l1, c2), 0.0)
+    dl2 = (l1 * sine - l2 * dR) / R
+    # T' = H W_2 sin(phi), and T = H R W_1
+    dl = (w2 * sine / R - (dR / R + dH / H) * force - w12 * dl2) / w11
+    g = l2 * np.sqrt(l1)
+    return l1, g - 1, g * (dl2 / l2 + dl / (2 * l1))
 
 
 def cubic_root(h: float, f0: float, f1: float, d0: float, d1: float) -> float:
@@ -109,11 +110,12 @@ class Shot:
         fronts: Positions of the fronts met.
     """
 
-    def __init__(self, membrane: Membrane, starts: Array, load: Array, steps: int) -> None:
+    def __init__(self, membrane: Body, starts: Array, load: Array, steps: int) -> None:
         self.membrane, self.load = membrane, load
-        k = len(starts)
-        self.h = membrane.L / k / steps
-        s = np.arange(k) * membrane.L / k
+        ends = membrane.segments(len(starts), steps)
+        self.h, s = np.diff(ends) / steps, ends[:-1]
+        starts = starts.copy()
+        starts[0] = membrane.begin(starts[0], load[: starts.shape[1]], s[0])
         y = np.concatenate([starts, np.zeros((*starts.shape[:-1], 1))], axis=-1)
         tense, wet = self.flags(s, y)
         path, parts, fronts = [np.real(y[:, 0])], [], []
@@ -145,13 +147,19 @@ class Shot:
         membrane = self.membrane
         r, z, a, f = (y[..., i] for i in range(4))
         tension = np.sqrt(a * a + f * f)
-        l1 = stretch(tension / membrane.eta(s)[:, None], r, tense[:, None], membrane.c2, start)
+        R, H = membrane.unloaded(s)[:, None], membrane.eta(s)[:, None]
+        l1 = stretch(tension / (H * R), r / R, tense[:, None], membrane.c2, start)
         dr, dz = l1 * a / tension, l1 * f / tension
-        w2 = np.where(tense[:, None], mat.slope(r, l1, membrane.c2), 0.0)
+        w2 = np.where(tense[:, None], mat.slope(r / R, l1, membrane.c2), 0.0)
         p = membrane.pressure(z, self.load[: y.shape[1]], wet[:, None])
-        hoop = membrane.eta(s)[:, None] * w2
+        hoop = H * w2
         out = np.stack([dr, dz, hoop - p * r * dz, p * r * dr, r * r * dz / 2], axis=-1)
         return out, np.real(l1[:, :1])
+
+    @property
+    def surface(self) -> float:
+        """Position of the fluid's surface."""
+        return next(b.s for a, b in pairwise(self.parts) if a.wet and not b.wet)
 
     def advance(self, s: Array, y: Array, h: Array, tense: Array, wet: Array) -> Array:
         """One Runge-Kutta step of length h (one per segment) with frozen flags."""
@@ -169,7 +177,7 @@ class Shot:
         self, s: Array, y: Array, tense: Array, wet: Array, parts: list[Part], fronts: list[float]
     ) -> tuple[Array, Array]:
         """One step of every segment, cut at events; the flags are changed in place."""
-        left = np.full(len(s), self.h)
+        left = self.h.copy()
         s, y = s.copy(), y.copy()
         for _ in range(8):
             open_ = np.nonzero(left > 0)[0]

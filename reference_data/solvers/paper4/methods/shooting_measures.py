@@ -3,23 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
 
 from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.paper4 import material as wri
 from reference_data.solvers.paper4.material import Array
+from reference_data.solvers.paper4.methods.collocation import State
 from reference_data.solvers.paper4.methods.measures import Measures, fraction_below
-from reference_data.solvers.paper4.methods.shooting import Shot, local
+from reference_data.solvers.paper4.methods.shooting import SEGMENTS, Shot, local
 from reference_data.solvers.paper4.methods.shooting_newton import Solution
+from reference_data.solvers.paper4.methods.states import evaluate
 
 
-def inside(shot: Shot, index: int, x: float) -> tuple[Array, Array, Array, Array]:
-    """s, (r, z, A, F, V), and flags a length x into one part."""
-    part = shot.parts[index]
-    s, t, w = np.array([part.s]), np.array([part.tense]), np.array([part.wet])
-    y = shot.advance(s, part.y[None, None], np.array([x]), t, w)
-    return s + x, np.real(y[:, 0]), t, w
+def inside(shot: Shot, index: Any, x: Any) -> tuple[Array, Array, Array, Array]:
+    """s, (r, z, A, F, V), and flags, a length x into a part, or into several."""
+    parts = [shot.parts[i] for i in np.atleast_1d(index)]
+    s, y = np.array([p.s for p in parts]), np.array([p.y for p in parts])
+    t, w = np.array([p.tense for p in parts]), np.array([p.wet for p in parts])
+    x = np.atleast_1d(np.asarray(x, dtype=float))
+    return s + x, np.real(shot.advance(s, y[:, None], x, t, w)[:, 0]), t, w
+
+
+def located(shot: Shot, s: Array) -> tuple[Array, Array]:
+    """Parts in which positions lie, and how far."""
+    starts = np.array([p.s for p in shot.parts])
+    index = np.maximum(np.searchsorted(starts, s, side="right") - 1, 0)
+    return index, s - starts[index]
 
 
 TINY = 1e-300  # replaces an exact zero, which has no sign
@@ -55,7 +67,8 @@ class Reading:
             if which == 1:
                 return y[:, 2] / tension
             l1 = local(self.membrane, s, y, tense)[0]
-            hoop = self.membrane.eta(s) * np.where(tense, mat.slope(y[:, 0], l1, self.membrane.c2), 0.0)
+            l2 = y[:, 0] / self.membrane.unloaded(s)
+            hoop = self.membrane.eta(s) * np.where(tense, mat.slope(l2, l1, self.membrane.c2), 0.0)
             push = self.membrane.pressure(y[:, 1], self.found.load, wet) * y[:, 0] * l1
             cosine = y[:, 3] / tension
             return cosine * (hoop * cosine - push) / tension
@@ -78,6 +91,17 @@ class Reading:
             sign = float(np.sign(first[i + 1] - last[i]))
             out.append((float(self.s[i] + self.h[i]), self.parts[i], float(self.h[i]), sign))
         return sorted(out)
+
+
+def starts_of(state: State, steps: int) -> Array:
+    """First values for shooting from a tracked state, at the starts of its segments."""
+    body = state.membrane
+    s = body.segments(SEGMENTS, steps)[:-1]
+    r, z, l1, b = np.moveaxis(evaluate(state, s), -1, 0)
+    R, l2 = body.unloaded(s), r / body.unloaded(s)
+    force = np.where(l2 * l2 * l1 > 1, mat.slope(l1, l2, body.c2), wri.relaxed_slope(l1, body.c2))
+    tension = body.eta(s) * R * force
+    return np.stack([r, z, tension * np.sin(b), tension * np.cos(b)], axis=-1)
 
 
 def measures(found: Solution) -> Measures:

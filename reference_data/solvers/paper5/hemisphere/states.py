@@ -1,151 +1,83 @@
-"""Tracked states of the hanging hemisphere: a start, the choice of zones, the check of their signs."""
+"""Tracked states of the hanging hemisphere by the methods of paper 4, over the level or the pole's height."""
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq
 
-from reference_data.solvers.core.collocation import lagrange
-from reference_data.solvers.paper4.methods.collocation import Pattern, Rule
-from reference_data.solvers.paper5.hemisphere import differences as fd
-from reference_data.solvers.paper5.hemisphere.collocation import (
-    EQUATOR,
-    KAPPA,
-    Hanging,
-    VanishedZoneError,
-    counts,
-    newton,
-)
+from reference_data.solvers.paper4.cases import STEPS
+from reference_data.solvers.paper4.methods import differences as fd
+from reference_data.solvers.paper4.methods.collocation import Rule, State
+from reference_data.solvers.paper4.methods.shooting_measures import starts_of
+from reference_data.solvers.paper4.methods.shooting_newton import Solution, solve
+from reference_data.solvers.paper4.methods.states import from_grid, moved_to, polished
+from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR
 
-Array = np.ndarray
 RULES = (Rule(16, 0.16), Rule(18, 0.12))
-SAMPLES = np.linspace(0, 1, 25)[1:-1]  # points at which the sign is checked inside an element
-NO_SIGN = 3e-12  # |gw - 1| below this is rounding
+CELLS = 120
 
 
-def evaluate(state: Hanging, t: Array) -> Array:
-    """(r, z, l, b) at angles t."""
-    flat, edges = np.ravel(t), state.edges
-    e = np.clip(np.searchsorted(edges, flat, side="right") - 1, 0, len(edges) - 2)
-    rows = lagrange(state.rule.nodes, (flat - edges[e]) / np.diff(edges)[e])
-    return np.einsum("im,imc->ic", rows, state.y[e]).reshape(*np.shape(t), 4)
+def start(zw: float = -0.6) -> State:
+    """The state at a high level, from central differences that begin with a sphere lowered by a fiftieth."""
+    s = np.linspace(0, EQUATOR, CELLS + 1)
+    grid = fd.newton(fd.Grid(BODY, np.sin(s), -1.02 * np.cos(s), zw), zw, 200)
+    return polished(from_grid(grid, RULES[0]), "load", zw)
 
 
-def wrinkling(t: Array, y: Array) -> Array:
-    """Wrinkling function minus 1; at the pole l2 is the limit l."""
-    R = np.sin(t)
-    l2 = np.where(R > 0, y[..., 0] / np.where(R > 0, R, 1.0), y[..., 2])
-    return l2 * np.sqrt(y[..., 2]) - 1
+def steps_to(here: float, there: float, longest: float) -> list[float]:
+    """Values from one to another, at most ``longest`` apart, without the first."""
+    out = []
+    while here != there:
+        here = there if abs(there - here) <= longest else here + float(np.sign(there - here)) * longest
+        out.append(here)
+    return out
 
 
-def built(rule: Rule, pattern: Pattern, curve: Any, zw: float) -> Hanging:
-    """A first state for Newton's method."""
-    state = Hanging(rule, pattern, np.empty(0), zw, counts(pattern, rule))
-    state.y = curve(state.t)
-    return state
+def fine(state: State, control: str, target: float) -> State:
+    """The same state on the finer rule."""
+    return polished(moved_to(state, RULES[1]), control, target)
 
 
-def mended(state: Hanging) -> Hanging | None:
-    """The state with the zones of its own signs; None if it already has them."""
-    edges = state.edges
-    t = (edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES).ravel()
-    t = np.concatenate([[0.0], t, [EQUATOR]])
-    g = wrinkling(t, evaluate(state, t))
-    flags = np.array(state.pattern.tense)[np.searchsorted(np.array(state.pattern.breaks[1:-1]), t)]
-    wanted = np.where(np.abs(g) < NO_SIGN, flags, g > 0)
-    if np.array_equal(wanted, flags):
-        return None
-    found = [(state.level, "surface")]
-    old = state.pattern.fronts
-    for i in np.nonzero(wanted[:-1] != wanted[1:])[0]:
-        near = old[(old > t[i]) & (old < t[i + 1])]
-        if len(near):
-            cut = float(near[0])
-        elif g[i] * g[i + 1] < 0:
-            cut = brentq(
-                lambda x: float(wrinkling(np.array(x), evaluate(state, np.array(x)))), t[i], t[i + 1]
-            )
-        else:
-            cut = float(t[i] + t[i + 1]) / 2
-        found.append((cut, "front"))
-    return rebuilt(state, sorted(found), bool(wanted[0]))
+@dataclass
+class Walk:
+    """States on the coarse rule by what is given; each is reached from the nearest one.
 
-
-def rebuilt(state: Hanging, found: list[tuple[float, str]], first: bool) -> Hanging:
-    """The state with other inner breakpoints."""
-    flags, wet = [first], [True]
-    for _, kind in found:
-        flags.append(flags[-1] != (kind == "front"))
-        wet.append(wet[-1] and kind != "surface")
-    pattern = Pattern(
-        (0.0, *(b for b, _ in found), EQUATOR), tuple(k for _, k in found), tuple(flags), tuple(wet)
-    )
-    return built(state.rule, pattern, lambda t: evaluate(state, t), state.zw)
-
-
-def without(state: Hanging, zone: int) -> Hanging:
-    """The state without a vanished zone, which joins its neighbours."""
-    p = state.pattern
-    inner = list(zip(p.breaks[1:-1], p.kinds, strict=True))
-    ends = [i for i in (zone - 1, zone) if 0 <= i < len(inner)]
-    if len(ends) == 2 and {inner[i][1] for i in ends} == {"front", "surface"}:
-        # front and level change places
-        a, b = inner[ends[0]], inner[ends[1]]
-        inner[ends[0]], inner[ends[1]] = (a[0] - 1e-6, b[1]), (b[0] + 1e-6, a[1])
-    else:
-        inner = [x for i, x in enumerate(inner) if i not in ends or x[1] == "surface"]
-    first = p.tense[0] if zone else not p.tense[0]
-    return rebuilt(state, inner, first)
-
-
-def polished(guess: Hanging, control: str, target: float) -> Hanging:
-    """Solve and correct the zones until their signs are right.
-
-    If Newton's method does not converge, gw - 1 may no longer change its sign in a zone, whose length
-    decreases like a square root to zero. Then the shortest wrinkled zone is removed.
-
-    Raises:
-        RuntimeError: If Newton's method fails, or the pattern does not settle.
+    Attributes:
+        control: The load, or the height of the pole.
+        first: Where the walk begins, from the state at the level -0.6.
+        known: States computed so far.
     """
-    state, given_up = guess, False
-    for _ in range(14):
-        try:
-            solved = newton(state, control, target)
-        except VanishedZoneError as error:
-            state = without(state, error.zone)
-            continue
-        except RuntimeError:
-            p = state.pattern
-            inner = [i for i in range(1, len(p.tense) - 1) if not p.tense[i] and not p.wet[i]]
-            if given_up or len(inner) != 1 or p.kinds[inner[0] - 1 : inner[0] + 1] != ("front", "front"):
-                raise
-            state, given_up = without(state, inner[0]), True
-            continue
-        again = mended(solved)
-        if again is None:
-            return solved
-        state = again
-    raise RuntimeError(f"hemisphere: zones do not settle at {control} = {target:g}")
+
+    control: str
+    first: float
+    known: dict[float, State] = field(default_factory=dict)
+
+    def at(self, target: float) -> State:
+        """The state at a value.
+
+        Raises:
+            RuntimeError: If a step fails.
+        """
+        if not self.known:
+            self.known[self.first] = polished(start(-0.6), self.control, self.first)
+        here = min(self.known, key=lambda x: abs(x - target))
+        longest = 0.01 if self.control == "load" and max(here, target) > -0.6 else 0.03
+        state = self.known[here]
+        for value in steps_to(here, target, longest):
+            state = polished(state, self.control, value)
+        self.known[target] = state
+        return state
 
 
-def moved_to(state: Hanging, rule: Rule) -> Hanging:
-    """The same state on other polynomials."""
-    return built(rule, state.pattern, lambda t: evaluate(state, t), state.zw)
+LEVELS, POLES = Walk("load", -0.6), Walk("z_pole", -1.33)
 
 
-def start(zw: float = -0.6, rule: Rule = RULES[0]) -> Hanging:
-    """The state at a high level, from central differences."""
-    t, y = fd.state(zw, KAPPA)
-    middle, slope = (t[1:] + t[:-1]) / 2, np.diff(y, axis=0) / np.diff(t)[:, None]
-    columns = (
-        (t, y[:, 0]),
-        (t, y[:, 1]),
-        (middle, np.hypot(slope[:, 0], slope[:, 1])),
-        (middle, np.arctan2(slope[:, 0], slope[:, 1])),
-    )
-    level = float(np.interp(zw, y[:, 1], t))
-    pattern = Pattern((0.0, level, EQUATOR), ("surface",), (True, True), (True, False))
-    guess = built(rule, pattern, lambda x: np.stack([np.interp(x, *c) for c in columns], axis=-1), zw)
-    return polished(mended(guess) or guess, "zw", zw)
+def shots(state: State, control: str, target: float) -> list[Solution]:
+    """The same state by shooting on both numbers of steps; the tracked one is the first guess only."""
+    out = []
+    for steps in STEPS:
+        starts = starts_of(state, steps)
+        starts[0] = state.y[0, 0, 2], state.y[0, 0, 1], 0.0, 0.0
+        out.append(solve(BODY, starts, state.load, control, target, steps))
+    return out

@@ -63,8 +63,9 @@ def base_at(form: Quadratic, s: Array) -> dict[str, Array]:
     r, z, j, b = y.T
     out = {"r": r, "z": z, "j": j, "dj": dj, "dr": j * np.sin(b), "dz": j * np.cos(b)}
     wet = state.wet[e]
-    out |= {"R": state.surface.R(s), "H": state.surface.H(s), "tense": state.tense[e]}
-    out |= {"p": np.where(wet, state.pressure(z), 0.0), "pz": np.where(wet, -state.weight, 0.0)}
+    out |= {"R": state.surface.unloaded(s), "H": state.surface.eta(s), "tense": state.tense[e]}
+    push, weight = state.surface.pressure(z, state.load, True), state.surface.weight
+    out |= {"p": np.where(wet, push, 0.0), "pz": np.where(wet, -weight, 0.0)}
     return out
 
 

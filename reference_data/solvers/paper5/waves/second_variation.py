@@ -19,7 +19,6 @@ U = U_R(lam1): f2 = f12 = f22 = 0. The matrix is K0 + n K1 + n^2 K2.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -28,31 +27,14 @@ from scipy import sparse
 from scipy.linalg import cholesky_banded
 from scipy.sparse.linalg import eigsh
 
-from reference_data.solvers.core.collocation import differentiation, lagrange
+from reference_data.solvers.core.collocation import differentiation, lagrange, lobatto
 from reference_data.solvers.core.law_metric import metric
 from reference_data.solvers.core.laws import Law
-from reference_data.solvers.paper4.material import relaxed_curvature, relaxed_slope
+from reference_data.solvers.paper4.material import Body, relaxed_curvature, relaxed_slope
 
 Array = np.ndarray
 MORE = 8  # Gauss points beyond the degree
 U, DU, Q, DQ, W, DW = range(6)
-
-
-@dataclass(frozen=True)
-class Surface:
-    """The unloaded surface of revolution, over Ao, and its thickness over h; c2 = C2/C1.
-
-    Attributes:
-        R: Radius as a function of the meridional arc length.
-        H: Thickness.
-        c2: C2/C1.
-        pole: Whether s = 0 is a pole, R(0) = 0.
-    """
-
-    R: Callable[[Array], Array]
-    H: Callable[[Array], Array]
-    c2: float
-    pole: bool = False
 
 
 @dataclass
@@ -60,24 +42,22 @@ class Profile:
     """An axisymmetric state by polynomials: (elements, nodes, 4) of (r, z, lam1, slope angle b).
 
     Attributes:
-        surface: What is deformed.
+        surface: The body: its unloaded radius R, thickness H, law c2 and liquid.
         edges: Element boundaries, fronts and the level among them.
         nodes: Their nodes on [0, 1].
         y: Values.
         tense: Whether each element is taut.
         wet: By element.
-        pressure: p(z) on the wet side.
-        weight: -dp/dz (0 for gas).
+        load: Its load.
     """
 
-    surface: Surface
+    surface: Body
     edges: Array
     nodes: Array
     y: Array
     tense: Array
     wet: Array
-    pressure: Callable[[Array], Array]
-    weight: float
+    load: float
 
     def split(self, parts: int) -> Profile:
         """The same polynomials on elements cut into equal parts."""
@@ -130,11 +110,6 @@ def derivatives_of_law(x1: Array, x2: Array, tense: Array, law: Law) -> tuple[Ar
     return tuple(np.where(tense, t, r) for t, r in zip(taut, relaxed, strict=True))
 
 
-def outer(*terms: tuple[int, Array | float]) -> dict[int, Array | float]:
-    """A linear form in (u, u', q, q', w, w')."""
-    return dict(terms)
-
-
 class Quadratic:
     """The form's matrices at a state, on polynomials of a degree in the state's elements."""
 
@@ -152,10 +127,10 @@ class Quadratic:
         self.tense = np.broadcast_to(state.tense[:, None] | all_tense, s.shape)
         wet = state.wet[:, None]
         self.r, self.dr, self.dz, self.l1 = r, l1 * np.sin(b), l1 * np.cos(b), l1
-        self.R, self.H = surface.R(s), surface.H(s)
-        self.p = np.where(wet, state.pressure(z), 0.0)
-        self.pz = np.where(wet, -state.weight, 0.0) + 0 * s
-        self.nodes = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
+        self.R, self.H = surface.unloaded(s), surface.eta(s)
+        self.p = np.where(wet, surface.pressure(z, state.load, True), 0.0)
+        self.pz = np.where(wet, -surface.weight, 0.0) + 0 * s
+        self.nodes = lobatto(degree)
         value = lagrange(self.nodes, x)
         slope = value @ differentiation(self.nodes)
         # basis values at the Gauss points: (elements, points, 6 entries, nodes, 3 fields)

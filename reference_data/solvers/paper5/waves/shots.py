@@ -4,27 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
+from reference_data.solvers.paper4.methods.shooting_measures import inside
 from reference_data.solvers.paper4.methods.shooting_newton import Solution
-from reference_data.solvers.paper5.hemisphere.collocation import KAPPA
-from reference_data.solvers.paper5.hemisphere.shooting import Shot
-from reference_data.solvers.paper5.waves.cylinder import surface
-from reference_data.solvers.paper5.waves.hemisphere import SURFACE
 from reference_data.solvers.paper5.waves.transfer import Array, Parts
 
 
 def parts(found: Solution) -> Parts:
     """The smooth pieces of a converged shot."""
     pieces = [p for p in found.shot.parts if p.h > 0]
-    membrane, load = found.membrane, found.load
     return Parts(
-        surface(membrane),
+        found.membrane,
         np.array([p.s for p in pieces]),
         np.array([p.h for p in pieces]),
         np.array([p.tense for p in pieces]),
         np.array([p.wet for p in pieces]),
         np.array([p.y[:4] for p in pieces]),
-        lambda z: membrane.pressure(z, load, True),
-        0.0 if membrane.load == "gas" else membrane.gamma,
+        found.load,
     )
 
 
@@ -37,26 +32,16 @@ def split(low: float, high: float, n: float, longest: float, reach: float) -> Ar
     return np.concatenate([marks[:-1], [high]])
 
 
-def hemisphere_parts(found: Shot, n: float, fineness: float) -> Parts:
+def hemisphere_parts(found: Solution, n: float, fineness: float) -> Parts:
     """Smooth pieces of a shot from the pole, short enough for a wave number.
 
     Clamped where the expansion ends: for n >= 4 the modes there are below rounding.
     """
-    s, h, tense, wet, y = [], [], [], [], []
-    for p in found.pieces:
-        marks = split(p.low, p.high, n, 0.02 / fineness, 1.0 / fineness)
-        s.append(marks[:-1])
-        h.append(np.diff(marks))
-        y.append(np.array([p.curve(t) for t in marks[:-1]]))
-        tense += [p.tense] * (len(marks) - 1)
-        wet += [p.wet] * (len(marks) - 1)
-    return Parts(
-        SURFACE,
-        np.concatenate(s),
-        np.concatenate(h),
-        np.array(tense),
-        np.array(wet),
-        np.concatenate(y),
-        lambda z: KAPPA * (found.zw - z),
-        KAPPA,
-    )
+    pieces = [(i, p) for i, p in enumerate(found.shot.parts) if p.h > 0]
+    marks = [split(p.s, p.s + p.h, n, 0.02 / fineness, 1.0 / fineness) for _, p in pieces]
+    s = np.concatenate([m[:-1] for m in marks])
+    index = np.repeat([i for i, _ in pieces], [len(m) - 1 for m in marks])
+    start = np.repeat([p.s for _, p in pieces], [len(m) - 1 for m in marks])
+    _, y, tense, wet = inside(found.shot, index, s - start)
+    h = np.concatenate([np.diff(m) for m in marks])
+    return Parts(found.membrane, s, h, tense, wet, y[:, :4], found.load)

@@ -26,7 +26,6 @@ state.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -38,8 +37,8 @@ from scipy.sparse.linalg import eigsh
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.law_metric import shear_modulus
 from reference_data.solvers.paper4 import material as wri
+from reference_data.solvers.paper4.material import Body
 from reference_data.solvers.paper4.methods.shooting import stretch
-from reference_data.solvers.paper5.waves.second_variation import Surface
 
 Array = np.ndarray
 A, B, C = DOP853.A[:12, :12], DOP853.B, DOP853.C[:12]
@@ -51,24 +50,22 @@ class Parts:
     """Smooth pieces of a base state, from s = 0 up.
 
     Attributes:
-        surface: What is deformed.
+        surface: The body: its unloaded radius R, thickness H, law c2 and liquid.
         s: Where they start.
         h: Their lengths.
         tense: Whether each is taut.
         wet: Whether each is under pressure.
         y: Their first values of (r, z, A, F).
-        pressure: p(z) on the wet side.
-        weight: -dp/dz.
+        load: Its load.
     """
 
-    surface: Surface
+    surface: Body
     s: Array
     h: Array
     tense: Array
     wet: Array
     y: Array
-    pressure: Callable[[Array], Array]
-    weight: float
+    load: float
 
 
 def gradients(dr: Array, dz: Array, l1: Array, R: Array, n: float) -> tuple[Array, Array]:
@@ -116,7 +113,7 @@ class Transfer:
     def system(self, s: Array, y: Array, start: Array | None) -> tuple[Array, Array, Array, Array]:
         """Base rates, the canonical matrix at Lambda = 0, H R, and the stretch."""
         parts, surface = self.parts, self.parts.surface
-        R, H, tense = surface.R(s), surface.H(s), parts.tense
+        R, H, tense = surface.unloaded(s), surface.eta(s), parts.tense
         r, z = y[:, 0], y[:, 1]
         tension = np.hypot(y[:, 2], y[:, 3])
         force = (tension / (H * R))[:, None]
@@ -125,7 +122,7 @@ class Transfer:
         first = l1[:, :1]
         l1 = l1[:, 0]
         dr, dz = l1 * y[:, 2] / tension, l1 * y[:, 3] / tension
-        p = np.where(parts.wet, parts.pressure(z), 0.0)
+        p = np.where(parts.wet, surface.pressure(z, parts.load, True), 0.0)
         base = np.stack([dr, dz, H * w2 - p * r * dz, p * r * dr], axis=-1)
         e1, e0 = gradients(dr, dz, l1, R, self.n)
         d = moduli(l1, r / R, tense, surface.c2) * (H * R)[:, None, None]
@@ -142,7 +139,7 @@ class Transfer:
             a = a + stiff * k1[:, :, None] * k1[:, None, :]
             b = b + stiff * k1[:, :, None] * k0[:, None, :]
             c = c + stiff * k0[:, :, None] * k0[:, None, :]
-        pz = np.where(parts.wet, -parts.weight, 0.0)
+        pz = np.where(parts.wet, -surface.weight, 0.0)
         n = self.n
         # minus p [z'(u^2 + q^2) + 2 n q (z' u - r' w) - r' u w + r (u w' - w u')] - p_z r w (z' u - r' w)
         c[:, 0, 0] -= p * dz

@@ -10,7 +10,7 @@ from scipy.interpolate import make_interp_spline
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1.cases import MR_1, MR_2, NH_1, NH_2
 
-DATA = Path(__file__).resolve().parents[2] / "reference_data" / "paper1"
+DATA = Path(__file__).resolve().parents[3] / "reference_data" / "paper1"
 PANELS = {
     "fig11a": (1.2, 1.4, 1.6, 2.2, 2.4),
     "fig11b": (1.2, 1.4, 1.6, 2.2, 2.4),

@@ -10,7 +10,7 @@ from committed_tables import assert_same_table
 
 from reference_data.solvers.__main__ import main
 
-DATA = Path(__file__).resolve().parents[2] / "reference_data"
+DATA = Path(__file__).resolve().parents[3] / "reference_data"
 
 
 def read(path: Path) -> tuple[dict, dict[str, np.ndarray]]:

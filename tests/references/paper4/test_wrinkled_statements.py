@@ -12,7 +12,7 @@ from reference_data.solvers.__main__ import main
 from reference_data.solvers.paper4 import tables_branches as paper4_branches
 
 pytestmark = pytest.mark.paper4
-DATA = Path(__file__).resolve().parents[2] / "reference_data" / "paper4"
+DATA = Path(__file__).resolve().parents[3] / "reference_data" / "paper4"
 LEVELS = ("3", "4.5", "6", "7.44", "10", "12", "16")
 PRESSURES = ("0.05", "0.1", "0.2", "0.35", "0.45", "0.55")
 

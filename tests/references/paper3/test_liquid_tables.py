@@ -13,7 +13,7 @@ from reference_data.solvers.paper3 import tables_primary as paper3
 from reference_data.solvers.paper3 import tables_secondary as paper3_secondary
 from reference_data.solvers.paper3.data import FluidTube
 
-DATA = Path(__file__).resolve().parents[2] / "reference_data" / "paper3"
+DATA = Path(__file__).resolve().parents[3] / "reference_data" / "paper3"
 SETS = [(L, d) for L in (8, 24) for d in (1.5, 2, 3)]
 SECONDARY = {*paper3_secondary.TABLES}
 

@@ -19,7 +19,7 @@ from reference_data.solvers.paper3.strong import equations as strong
 from reference_data.solvers.paper3.strong import states as balance
 from reference_data.solvers.paper3.strong.net import Net
 
-DATA = Path(__file__).resolve().parents[2] / "reference_data" / "paper3"
+DATA = Path(__file__).resolve().parents[3] / "reference_data" / "paper3"
 TUBE = FluidTube(8, 2)
 HOW = path.RESOLUTIONS[0]
 GRID = Grid(Elements(7, 3, 6, 1.0), 10, 32)

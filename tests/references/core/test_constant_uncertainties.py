@@ -12,16 +12,16 @@ import pytest
 
 from reference_data import solvers
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "reference-methods.md"
 FOLDERS = ("reference_data/solvers", "weakforms/problems", "weakforms/solvers")
 SMALL = 1e-3  # larger numbers are factors, not errors
 MAKERS = {
-    *("Column", "Estimate", "Extrapolated", "Pair", "Quantity", "Resolved", "Slow"),
+    *("Column", "Estimate", "Levels", "Pair", "Quantity", "Slow"),
     *("_on_all", "columns_of", "refined", "round_up", "shifted"),
 }
 """Functions that take an uncertainty or return one."""
-NAMES = re.compile(r"floor|uncertain|^left$|^loose$|^rest$")
+NAMES = re.compile(r"floor|uncertain|^left$|^loose$|^rest$|rounding")
 """Names of variables, arguments and columns that hold an uncertainty."""
 
 
@@ -151,7 +151,7 @@ def test_every_constant_that_is_an_uncertainty_is_listed():
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("LEFT = 3e-9\ndef f(x):\n    return Resolved(x, LEFT)", {"LEFT"}),
+        ("LEFT = 3e-9\ndef f(x):\n    return Estimate(x, LEFT)", {"LEFT"}),
         ("c = Column('a', x, gap + 2e-7)", {"2e-07"}),
         ("def f(floor=1e-9): ...", {"1e-09"}),
         ("left = 1e-10 * x", {"1e-10"}),

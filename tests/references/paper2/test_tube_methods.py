@@ -1,33 +1,27 @@
-"""The independent reference codes: material laws, two solvers, and the tables written by them."""
+"""Both reference codes of the freely inflated tube, and the tables written by them."""
 
-import ast
-import hashlib
-import subprocess
-import sys
 import tomllib
-from itertools import pairwise
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from committed_tables import assert_same_table
 
 from reference_data.solvers.__main__ import main
-from reference_data.solvers.core import collocation as tube_collocation
 from reference_data.solvers.core import mooney_rivlin as mat
-from reference_data.solvers.core import tables
 from reference_data.solvers.core.mooney_rivlin import Tube
 from reference_data.solvers.paper2 import ftim
 from reference_data.solvers.paper2.collocation import critical as tube_collocation_critical
+from reference_data.solvers.paper2.collocation import equations as tube_collocation
+from reference_data.solvers.paper2.collocation.equations import Zone, solve
 from reference_data.solvers.paper2.differences import branch as tube_fd_branch
 from reference_data.solvers.paper2.differences import critical as tube_fd_critical
 from reference_data.solvers.paper2.differences import equations as tube_fd
-from reference_data.solvers.registry import tables as registered
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 DATA = ROOT / "reference_data"
-EVERY = sorted(DATA.glob("*/*.toml"))
-TOMLS = sorted(DATA.glob("paper*/*.toml"))
 STEP = 1e-30
 MESH = tube_collocation_critical.MESHES[-1]
 
@@ -47,36 +41,6 @@ def collocation_state(tube: Tube, u: float) -> tube_collocation.State:
 def fd_states(tube: Tube, u: float) -> list[tuple[np.ndarray, float]]:
     first = tube_fd.first_guess(tube, tube_fd.Grid(tube_fd_branch.GRIDS[0]), u)
     return tube_fd_branch.on_three_grids(tube, first, tube_fd.at_control("u_max", u))
-
-
-def derive(f, *args) -> float:
-    """Derivative with respect to the argument that carries the imaginary step."""
-    return np.imag(f(*args)) / STEP
-
-
-@pytest.mark.parametrize("alpha", [0.0, 0.1, 0.37])
-@pytest.mark.parametrize(("l1", "l2"), [(1.3, 0.9), (0.7, 2.1), (3.0, 4.0)])
-def test_constitutive_derivatives_against_complex_step(alpha, l1, l2):
-    h = 1j * STEP
-    assert mat.slope(l1, l2, alpha) == pytest.approx(derive(mat.energy, l1 + h, l2, alpha), 1e-13)
-    assert mat.slope(l2, l1, alpha) == pytest.approx(derive(mat.energy, l1, l2 + h, alpha), 1e-13)
-    assert mat.curvature(l1, l2, alpha) == pytest.approx(derive(mat.slope, l1 + h, l2, alpha), 1e-13)
-    assert mat.mixed(l1, l2, alpha) == pytest.approx(derive(mat.slope, l1, l2 + h, alpha), 1e-13)
-
-
-def test_energy_is_that_of_an_incompressible_mooney_rivlin_sheet():
-    l1, l2, alpha = 1.7, 0.8, 0.1
-    squares = np.array([l1, l2, 1 / (l1 * l2)]) ** 2
-    invariants = squares.sum(), (squares.prod() / squares).sum()
-    expected = invariants[0] - 3 + alpha * (invariants[1] - 3)
-    assert mat.energy(l1, l2, alpha) == pytest.approx(expected, rel=1e-14)
-
-
-def test_stress_resultants_vanish_as_they_should_in_uniaxial_tension():
-    tube = Tube(0.1, 1.5, 6.0)
-    t1, t2 = mat.resultants(tube.delta1, 1 / tube.r0, tube.alpha)
-    assert t2 == pytest.approx(0, abs=1e-14)
-    assert t1 > 0
 
 
 def substrate_like(rho, p):
@@ -122,7 +86,8 @@ def test_both_methods_find_the_same_state(alpha, delta1):
 def test_both_methods_take_a_pressure_that_depends_on_the_radius():
     tube = Tube(0.1, 1.5, 6.0)
     start = collocation_state(tube, 0.3)
-    state, _ = tube_collocation.newton(start, "u_max", 0.3, substrate_like)
+    springy = replace(start, zones=(Zone(MESH, spring=True),), substrate=SimpleNamespace(push=substrate_like))
+    state = solve(springy, u_max=0.3)
     values = []
     for n in tube_fd_branch.GRIDS:
         grid = tube_fd.Grid(n)
@@ -139,7 +104,7 @@ def test_first_integrals_are_constant(u):
     tube = Tube(0.1, 1.0, 6.0)
     steps = np.arange(0.3, u + 0.01, 0.1) if u > 0.3 else np.array([u])
     state = tube_collocation_critical.branch(tube, MESH, "u_max", steps).states[-1]
-    rho, _, l1, b = np.moveaxis(state.y, -1, 0)
+    rho, _, l1, b, _ = np.moveaxis(state.y[0], -1, 0)
     w1 = mat.slope(l1, rho / tube.r0, tube.alpha)
     force = tube.r0 * w1 * np.cos(b) - state.p * rho**2 / 2
     hamiltonian = mat.energy(l1, rho / tube.r0, tube.alpha) - l1 * w1
@@ -153,14 +118,14 @@ def test_total_potential_is_stationary(alpha, delta1):
     tube = Tube(alpha, delta1, 6.0)
     state, mesh = collocation_state(tube, 0.7), MESH
     width = mesh.widths[:, None] * tube.length
-    rho, eta = state.y[..., 0], state.y[..., 1]
+    rho, eta = state.y[0][..., 0], state.y[0][..., 1]
 
     def potential(rho, eta) -> complex:
-        slope, axial = ((mesh.deriv @ f[..., None])[..., 0] / width for f in (rho, eta))
-        at = (mesh.value @ rho[..., None])[..., 0]
+        slope, axial = ((mesh.rule.deriv @ f[..., None])[..., 0] / width for f in (rho, eta))
+        at = (mesh.rule.value @ rho[..., None])[..., 0]
         l1 = np.sqrt(slope * slope + axial * axial)
         density = tube.r0 * mat.energy(l1, at / tube.r0, tube.alpha)
-        return np.sum(width * mesh.weights * (density - state.p * at * at * axial / 2))
+        return np.sum(tube.length * mesh.weights * (density - state.p * at * at * axial / 2))
 
     x, step = mesh.x, 1j * STEP
     for k in range(1, 5):
@@ -172,8 +137,8 @@ def test_total_potential_is_stationary(alpha, delta1):
 
 def test_volume_and_displacement_control_meet_the_same_state():
     tube, mesh = Tube(0.1, 1.0, 6.0), tube_collocation_critical.MESHES[0]
-    state, system = tube_collocation.newton(tube_collocation.first_guess(tube, mesh, 0.4), "u_max", 0.4)
-    again = tube_collocation_critical.start(tube, mesh, "V", system.volume)
+    state = solve(tube_collocation_critical.first_guess(tube, mesh, 0.4), u_max=0.4)
+    again = tube_collocation_critical.start(tube, mesh, "V", state.volume)
     assert again.p == pytest.approx(state.p, abs=1e-11)
 
 
@@ -181,10 +146,10 @@ def test_taylor_derivatives_along_the_branch():
     """dp/du agrees with the difference quotient of p, and d2p/du2 with the quotient of dp/du."""
     tube, mesh, h = Tube(0.0, 1.0, 6.0), tube_collocation_critical.MESHES[0], 1e-4
     found = tube_collocation_critical.branch(tube, mesh, "u_max", 0.8 + h * np.arange(-1, 2))
-    state, system = tube_collocation.newton(found.states[1], "u_max", 0.8)
-    p1, p2 = tube_collocation.derivatives(state, system, "u_max")
-    assert p1 == pytest.approx((found.columns["p"][2] - found.columns["p"][0]) / (2 * h), rel=1e-6)
-    assert p2 == pytest.approx((found.rate[2] - found.rate[0]) / (2 * h), rel=1e-6)
+    rates = [tube_collocation.slopes(s, "u_max") for s in found.states]
+    p = found.columns["p"]
+    assert rates[1][0] == pytest.approx((p[2] - p[0]) / (2 * h), rel=1e-6)
+    assert rates[1][1] == pytest.approx((rates[2][0] - rates[0][0]) / (2 * h), rel=1e-6)
 
 
 def test_limit_point_is_singular_and_stationary():
@@ -221,82 +186,3 @@ def test_regenerated_table_equals_the_committed_one(name, tmp_path):
     # the remaining documentation may differ only where rounding errors are reported
     for key in ("title", "source", "type", "method", "grid", "abscissa", "regenerate"):
         assert new_about[key] == about[key]
-
-
-def test_every_table_is_committed_and_listed(capsys):
-    assert main(["--list"]) == 0
-    listed = {line.split()[1] for line in capsys.readouterr().out.splitlines()}
-    assert {p.stem for p in EVERY} == set(registered()) == listed
-
-
-@pytest.mark.parametrize("path", EVERY, ids=lambda p: p.stem)
-def test_committed_table_is_whole(path):
-    about, columns = read(path)
-    data = path.with_suffix(".csv").read_bytes()
-    assert about["sha256"] == hashlib.sha256(data).hexdigest()
-    assert about["type"] in {"exact", "independent", "printed", "other-code"}
-    assert about["regenerate"] == f"python -m reference_data.solvers {path.stem}"
-    assert list(columns) == list(about["columns"])
-    assert b"\r" not in data
-    assert b"e" not in data.split(b"\n", 1)[1]
-    for column in about["columns"].values():
-        assert column["uncertainty"] >= 0
-        assert column["meaning"]
-        assert column["scaling"]
-
-
-@pytest.mark.parametrize("path", TOMLS, ids=lambda p: p.stem)
-def test_table_of_a_paper_is_in_order_and_sharp(path):
-    about, columns = read(path)
-    keys = about.get("keys", [about["abscissa"]])
-    rows = list(zip(*(columns[k] for k in keys), strict=True))
-    assert keys[0] == about["abscissa"]
-    if len(keys) == 1:
-        assert all(a < b for a, b in pairwise(rows)) or all(a > b for a, b in pairwise(rows))
-    assert len(set(rows)) == len(rows)
-    for name, column in about["columns"].items():
-        # Constrained inflation and papers 3 and 5 have bounds of their own: test_reference_contact,
-        # _paper3_tables, _paper5_tables.
-        own = "contact" in about["parameters"] or "kind" in about["columns"]
-        own |= path.parent.name in ("paper3", "paper5")
-        if not own and not path.stem.startswith("ftim_"):
-            assert column["uncertainty"] < 1e-9 * max(1.0, np.abs(columns[name]).max())
-
-
-def test_disagreement_names_table_column_and_row():
-    good, off = np.array([1.0, 2.0, 3.0]), np.array([1.0, 2.001, 3.0])
-    small = np.full(3, 1e-9)
-    a, b = (tube_collocation_critical.Resolved(v, small) for v in (good, off))
-    with pytest.raises(tables.DisagreementError, match=r"table T, column p, row 1:"):
-        tables.agreed("T", "p", a, b, ("1", "pressure"))
-
-
-def test_numbers_are_plain_decimals():
-    assert tables.plain(0.1) == "0.1"
-    assert tables.plain(-1e-7 / 3) == "-0.0000000333333333333"
-    assert tables.plain(12345.6789012345) == "12345.6789012"
-    assert tables.plain(0.0) == "0"
-
-
-@pytest.mark.parametrize("arguments", [["fig99"], ["fig02a_delta1_1", "fig99"], []])
-def test_bad_request_is_one_line_and_status_two(arguments, tmp_path):
-    command = [sys.executable, "-m", "reference_data.solvers", *arguments, "--out", str(tmp_path)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert len(done.stderr.splitlines()) == 1
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("path", sorted(DATA.rglob("*.py")), ids=lambda p: p.stem)
-def test_reference_side_imports_nothing_of_the_other(path):
-    allowed = {"numpy", "scipy", "reference_data"} | sys.stdlib_module_names
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0
-            names = [node.module]
-        else:
-            continue
-        assert {n.split(".")[0] for n in names} <= allowed

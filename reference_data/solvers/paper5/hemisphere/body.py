@@ -1,0 +1,91 @@
+"""The hanging hemisphere under liquid, paper 5 of the thesis, section 3.3: data and ends.
+
+Neo-Hookean (c2 = 0), R = sin s, s in [0, pi/2] the angle from the lowest point, thickness 1, clamped at the
+equator, where z = 0; liquid up to the level zw < 0. The methods of paper 4 apply to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from reference_data.solvers.core import mooney_rivlin as mat
+from reference_data.solvers.paper4.material import GAMMA, Array
+
+EQUATOR = np.pi / 2
+NEAR = 0.01  # end of the pole's expansion, times the number of steps of a segment
+KAPPA = 100 * GAMMA  # rho g Ao^2/(C1 h) with Ao = 0.1 m instead of 0.01 m
+
+
+@dataclass(frozen=True)
+class Hemisphere:
+    """A body, as :class:`paper4.material.Body` describes it."""
+
+    L: ClassVar[float] = EQUATOR
+    c2: ClassVar[float] = 0.0
+    energy: ClassVar[str] = "relaxed"
+    load: ClassVar[str] = "fluid"
+    control: ClassVar[str] = "zw"
+    weight: ClassVar[float] = KAPPA
+    pole: ClassVar[bool] = True
+    longest: ClassVar[float] = 0.2
+    cautious: ClassVar[float] = 0.02
+
+    def unloaded(self, s: Any) -> Any:
+        """Unloaded radius."""
+        return np.sin(s)
+
+    def eta(self, s: Any) -> Any:
+        """Thickness."""
+        return 1.0 + 0 * s
+
+    def slopes(self, s: Any) -> tuple[Any, Any]:
+        """Derivatives of the unloaded radius and of the thickness."""
+        return np.cos(s), 0.0
+
+    def clamped(self, bottom: list[Any], top: list[Any]) -> list[Any]:
+        """Smooth at the pole, held at the equator."""
+        return [bottom[0], bottom[3] - EQUATOR, top[0] - 1, top[1]]
+
+    def pressure(self, z: Any, load: Any, wet: Any) -> Any:
+        """Pressure of the liquid up to a level, on the wet part."""
+        return np.where(wet, KAPPA * (load - z), 0.0)
+
+    def decided(self, _load: float) -> bool:
+        """Whether the sign of gw - 1 is not needed."""
+        return False
+
+    def segments(self, count: int, steps: int) -> Array:
+        """Segments that grow from where the pole's expansion ends, which is nearer for more steps."""
+        return np.geomspace(NEAR / steps, EQUATOR, count + 1)
+
+    def begin(self, given: Array, load: Array, s: float) -> Array:
+        r"""(r, z, A, F) at a small angle from the stretch and the height of the pole.
+
+        With errors O(s^4), :math:`l_1 = \lambda + \alpha s^2`, :math:`l_2 = \lambda + \beta s^2`,
+        :math:`b = \pi/2 - c s`, :math:`c = p \lambda^2/(2 W_1)`.
+        """
+        lam, z0 = given[..., 0], given[..., 1]
+        w = mat.slope(lam, lam, self.c2)
+        w11, w12 = mat.curvature(lam, lam, self.c2), mat.mixed(lam, lam, self.c2)
+        c = KAPPA * (load - z0) * lam**2 / (2 * w)
+        shift = lam * (c * c - 1) / 2  # alpha = 3 beta + shift
+        beta = (w * (1 - c * c) / 2 - (3 * w11 - w12) * shift) / (8 * w11)
+        l1, l2 = lam + (3 * beta + shift) * s**2, lam + beta * s**2
+        R, b = np.sin(s), EQUATOR - c * s
+        tension = R * mat.slope(l1, l2, self.c2)
+        height = z0 + lam * c * s**2 / 2
+        return np.stack([R * l2, height, tension * np.sin(b), tension * np.cos(b)], axis=-1)
+
+    def free(self, given: Array) -> list[Any]:
+        """The pole has two unknowns only."""
+        return [given[2], given[3]]
+
+    def crossed(self, _load: float) -> bool:
+        """Whether the fluid's surface lies between the ends."""
+        return True
+
+
+BODY = Hemisphere()
