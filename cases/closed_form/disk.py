@@ -9,7 +9,7 @@ point, without shooting.
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 DISK = circular(alpha=0, t_end=3.1).on(cells=192)
 POLES = (1.05, 1.2, 1.5, 1.8, 2.5, 3.0, 4.0)

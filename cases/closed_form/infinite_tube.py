@@ -5,7 +5,7 @@ them with the same pressure and the same potential w - p lam1 lam2^2/2. This is 
 over the volume.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

@@ -4,7 +4,7 @@ P = p r_o/(S h_o) = 2 w1(lam, lam)/lam^2, S the stress of the law's constants (C
 Mooney-Rivlin, the small-strain shear modulus for Ogden's three-term rubber).
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

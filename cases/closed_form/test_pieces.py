@@ -1,6 +1,6 @@
 """Uniaxial, equibiaxial and pure shear tests of every law: nominal stress over stretch."""
 
-from weakforms import Axis, Case, Curve, Panel, homogeneous
+from weakforms.cases import Axis, Case, Curve, Panel, homogeneous
 
 ENDS = {"saint_venant_kirchhoff": 1.6, "harmonic": 2.0}
 """Stretches up to which compressible laws are tested; the others up to 4."""

@@ -7,7 +7,7 @@ stretches (condition 1). This case states both failures, so that it fails if a c
 
 import numpy as np
 
-from weakforms import Case, Claim, Finding, Solutions, decide, homogeneous, material
+from weakforms.cases import Case, Claim, Finding, Solutions, decide, homogeneous, material
 
 GROWING = (
     "neo_hookean",

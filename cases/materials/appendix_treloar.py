@@ -8,7 +8,7 @@ unit of the last digit). The pure shear data are left out, because only one coll
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, homogeneous
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, homogeneous
 
 UNIAXIAL = (
     (1.02, 0.26),

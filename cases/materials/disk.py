@@ -1,6 +1,6 @@
 """The circular membrane of paper 1 with other rubbers: Ogden's, Gent's, Arruda and Boyce's."""
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

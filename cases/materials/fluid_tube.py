@@ -6,7 +6,19 @@ codes, which implement the laws separately. All tubes except Ogden's bifurcate m
 one. The Mooney-Rivlin tube is the paper's form with ``alpha = 0.1``, which is zero in the paper.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, fluid_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    fluid_tube,
+)
 
 ENDS = {"ogden": 0.9, "gent": 0.8, "arruda_boyce": 0.8}
 """Fraction of the highest level at which a branch ends, beyond the first bifurcation."""

@@ -1,6 +1,6 @@
 """Every law of chapter 3: energy, stresses and tangent, against derivatives in closed form."""
 
-from weakforms import Case, Points, material
+from weakforms.cases import Case, Points, material
 
 MODELS = (
     "neo_hookean",

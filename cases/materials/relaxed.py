@@ -6,7 +6,18 @@ every law. The width in uniaxial tension is lam^(-1/2) for every incompressible 
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, Spec, decide, homogeneous, material, reference
+from weakforms.cases import (
+    At,
+    Case,
+    Claim,
+    Finding,
+    Solutions,
+    Spec,
+    decide,
+    homogeneous,
+    material,
+    reference,
+)
 
 MODELS = (
     "neo_hookean",

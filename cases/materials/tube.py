@@ -4,7 +4,20 @@ Branch, limit points and stability are compared with the paper's reference codes
 separately.
 """
 
-from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, decide, tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    tube,
+)
 
 MODELS = ("ogden", "gent", "arruda_boyce")
 TUBES = {m: tube(model=m) for m in MODELS}

@@ -5,7 +5,7 @@ and Arruda and Boyce's rubber. They are compared with the paper's reference code
 separately.
 """
 
-from weakforms import Case, Claim, Finding, Points, Solutions, decide, wrinkled_tube
+from weakforms.cases import Case, Claim, Finding, Points, Solutions, decide, wrinkled_tube
 
 ENDS = {"ogden": 12.0, "gent": 14.0, "arruda_boyce": 14.0}
 """Levels at which branches end, beyond the last change."""

@@ -5,7 +5,7 @@ compared with the paper's reference codes, which implement the laws separately. 
 from each law.
 """
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Case,
     Claim,

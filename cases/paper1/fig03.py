@@ -5,7 +5,7 @@ paper's legends. Points in contact move outwards as the pressure grows; their pa
 inflexion.
 """
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

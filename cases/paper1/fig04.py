@@ -7,7 +7,7 @@ The unknowns that the text lists do not determine the problem; the vertical bala
 
 import numpy as np
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

@@ -6,7 +6,7 @@ The end of inflation is not printed; here it is the last profile of figure 4: p 
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, circular, decide
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, circular, decide
 
 DOWN = {
     1: circular(alpha=0.1, beta=1, contact="adhesive", phase="deflation"),

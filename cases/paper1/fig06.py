@@ -4,7 +4,7 @@
 (b) Mooney-Rivlin at p = 6.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 PANELS = (("a", 0, 4.0, "neo-Hookean"), ("b", 0.1, 6.0, "Mooney-Rivlin"))
 LAWS = ("frictionless", "adhesive")

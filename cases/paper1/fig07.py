@@ -6,7 +6,7 @@ p^(2/3), hence X_iso like p^(-1/3). It decreases in free inflation and increases
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=7.2)
 FREE = circular(alpha=0.1, beta=1)

@@ -4,7 +4,7 @@ At the edge of a growing patch lam1 has a kink and lam2 a jump of its second der
 jumps and lam2 has a kink. The tables do not contain points close to the edge.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 STICK = circular(alpha=0.1, beta=1, contact="adhesive")
 DOWN = STICK.at(phase="deflation")

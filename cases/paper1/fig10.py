@@ -4,7 +4,19 @@
 wider than necessary for the locked patch with its vertical balance.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, PrintedInput, Solutions, circular, decide
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    PrintedInput,
+    Solutions,
+    circular,
+    decide,
+)
 
 SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=6.5)
 STICK = circular(alpha=0.1, beta=1, contact="adhesive", p_end=4.0)

@@ -8,7 +8,7 @@ with zero slope, from the radius that adhesive inflation reaches at that pressur
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

@@ -4,7 +4,7 @@ Panel (a) neo-Hookean, panel (b) Mooney-Rivlin with alpha = 0.1, each for three 
 point the pressure is not a valid abscissa, so that the curves are compared over the displacement.
 """
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

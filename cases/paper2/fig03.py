@@ -4,7 +4,7 @@ Panel (a) shows displacement against pressure near the limit points, panel (b) t
 pre-stretch: a fold line that turns back in a cusp, printed at delta1 = 1.163.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

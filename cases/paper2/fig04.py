@@ -6,7 +6,7 @@ first limit point.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Constant, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Constant, Curve, Finding, Panel, Solutions, decide, tube
 
 TUBE = tube(alpha=0.1, delta1=1)
 PRESSURES = (0.5, 1, 1.5, 1.9)

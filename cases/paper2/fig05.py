@@ -1,6 +1,6 @@
 """Paper 2, figure 5: inflated profiles without and with pre-stretch, at p = 1.5 and p = 1.9."""
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 TUBES = {d: tube(alpha=0.1, delta1=d) for d in (1, 1.5)}
 PRESSURES = (1.5, 1.9)

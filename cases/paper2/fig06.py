@@ -4,7 +4,7 @@ Panel (a) frictionless, panel (b) adhesive inflation and deflation from p = 3. I
 bonded; by the paper's equation (9) the spring then both pulls and pushes ("bilateral").
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 SLIP = {s: tube(contact="frictionless", alpha=s[0], delta1=s[1]) for s in SETS}

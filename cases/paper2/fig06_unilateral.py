@@ -6,7 +6,7 @@ pressure. The traction is not compared here: at low pressure the spring goes sla
 patch, and because of the kink its bound is above 1e-3.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 STICK = {s: tube(contact="adhesive", alpha=s[0], delta1=s[1]) for s in SETS}

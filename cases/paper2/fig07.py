@@ -4,7 +4,7 @@
 contain points within 0.02 of the front, where the stretches have kinks or jumps.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 SLIP = tube(contact="frictionless", alpha=0.1, delta1=1)
 STICK = tube(contact="adhesive", alpha=0.1, delta1=1)

@@ -4,7 +4,7 @@
 deflation, delta1 = 1. The paper's caption says "deflated" for all three.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 STICK = {d: tube(contact="adhesive", alpha=0.1, delta1=d) for d in (1, 2)}
 BONDED = STICK[1].at(phase="deflation", spring="bilateral")

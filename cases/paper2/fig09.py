@@ -1,6 +1,6 @@
 """Paper 2, figure 9: profiles at p = 3 against the substrate, (a) frictionless, (b) adhesive."""
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 SLIP = {s: tube(contact="frictionless", alpha=s[0], delta1=s[1]) for s in SETS}

@@ -1,6 +1,6 @@
 """Paper 2, figure 10: deflating profiles at p = 3, 2, 1.5, 1, 0 (bilateral spring), alpha = 0.1."""
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 DOWN = (3, 2, 1.5, 1, 0)
 BONDED = {

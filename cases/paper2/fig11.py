@@ -1,6 +1,6 @@
 """Paper 2, figure 11: contact length over pressure, (a) frictionless, (b) adhesive inflation."""
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 LAWS = (("a", "frictionless", "fig06a"), ("b", "adhesive", "fig06b"))

@@ -4,7 +4,7 @@
 (towards the mid-plane); the paper plots its magnitude.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
 
 STICK = tube(contact="adhesive", alpha=0.1, delta1=1)
 BONDED = STICK.at(phase="deflation", spring="bilateral")

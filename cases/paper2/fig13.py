@@ -5,7 +5,7 @@ rises monotonically as p falls, for all four tubes; the paper's remark that it s
 for an unstretched tube is true for a unilateral spring.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, reference, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, reference, tube
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 BONDED = {

@@ -10,7 +10,7 @@ lam2.
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, continuity, reference, tube
+from weakforms.cases import At, Case, Claim, Finding, Solutions, continuity, reference, tube
 
 FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2")
 WINDOW = 0.2

@@ -4,7 +4,7 @@ The level has a maximum along the branch, so that the curves are compared over t
 the whole branch. Dashed parts are unstable under level control to axisymmetric perturbations.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

@@ -6,7 +6,7 @@ under volume control up to the bifurcation.
 
 import numpy as np
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

@@ -3,7 +3,7 @@
 The aspect ratio is not printed; both of figure 2 are shown.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
+from weakforms.cases import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
 
 LENGTHS, GAMMAS = (8, 24), (0.058, 0.116, 0.232)
 TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGTHS for g in GAMMAS}

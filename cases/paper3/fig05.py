@@ -4,7 +4,19 @@ The text does not give the levels and the pre-stretch of the figure; here delta 
 limit point and past it. The axial coordinate is the material one; a second panel uses the current height.
 """
 
-from weakforms import At, Axis, Case, Claim, Constant, Curve, Finding, Panel, Solutions, decide, fluid_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Constant,
+    Curve,
+    Finding,
+    Panel,
+    Solutions,
+    decide,
+    fluid_tube,
+)
 
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {length: fluid_tube(L=length, delta=2, gamma=0.116) for length in LENGTHS}

@@ -8,7 +8,7 @@ On the two meridians of the plane of symmetry the principal directions are the m
 circumference's. T1 >= T2, and T1 belongs to the larger stretch.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
 
 TUBES = {24: fluid_tube(L=24, delta=2, secondary=True), 8: fluid_tube(L=8, delta=2, secondary=True)}
 TABLES = {24: "fig06", 8: "fig06_L_8"}

@@ -7,7 +7,7 @@ that tube, and the tube with delta = 3 does not reach it.
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

@@ -4,7 +4,7 @@ delta = 2 is printed for (a) and assumed for (b). The bulge is at Theta = 0, and
 lower ring. The paper shows half of each surface; the mirror-symmetric half is solved for.
 """
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

@@ -7,7 +7,7 @@ above 0, thinner than 1e-3 at low levels.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 LEVELS = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
 TUBES = {M: wrinkled_tube(M=M, delta=2) for M in (0.5, 1.5)}

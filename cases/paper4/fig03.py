@@ -4,7 +4,7 @@ This is figure 2 with more pre-stretch. At zw = 7.44 there are only two zones; t
 delta = 2.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 LEVELS = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
 TUBES = {M: wrinkled_tube(M=M, delta=3) for M in (0.5, 1.5)}

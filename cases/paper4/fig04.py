@@ -4,7 +4,7 @@
 same states.
 """
 
-from weakforms import At, Axis, Case, Curve, Dashed, Panel, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Curve, Dashed, Panel, wrinkled_tube
 
 LEVELS = (3, 4.5, 6, 7.44, 10, 12, 16)
 TABLES = {2: "fig02", 3: "fig03"}

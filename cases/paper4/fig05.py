@@ -5,7 +5,7 @@ The text gives only the pressure p = 0.55. Under gas, M and 2 - M give mirror im
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 PRESSURES = (0, 0.05, 0.1, 0.2, 0.35, 0.45, 0.55)
 TUBES = {d: wrinkled_tube(M=0.5, delta=d, load="gas") for d in (2, 3)}

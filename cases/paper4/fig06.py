@@ -7,7 +7,7 @@ every pressure, but for the radius only from p = 0.42 on.
 
 import numpy as np
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

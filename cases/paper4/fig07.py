@@ -5,7 +5,7 @@ its dry part gw - 1 decays to 1e-9 and below, so that gw > 1 - 1e-7 is tested. U
 disks, shortly before the limit pressure.
 """
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

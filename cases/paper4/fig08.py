@@ -4,7 +4,19 @@ Af = 0.4 and 0.5, and the critical radius (printed as 0.5568). At zw = 4.5 the m
 are wrinkled everywhere; at higher levels they are taut in the middle and wrinkled at both ends.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Dashed,
+    Finding,
+    Panel,
+    Solutions,
+    decide,
+    wrinkled_tube,
+)
 
 RADII = (0.4, 0.5, "critical")
 TUBES = {Af: wrinkled_tube(M=0.5, delta=2, Af=Af) for Af in RADII[:2]}

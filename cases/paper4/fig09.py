@@ -4,7 +4,19 @@ Without load, a membrane that bears compression is not a cylinder. One statement
 for delta = 3 a part of the thin half has gw slightly above 1 at p = 0.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Dashed, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Dashed,
+    Finding,
+    Panel,
+    Solutions,
+    decide,
+    wrinkled_tube,
+)
 
 PRESSURES = (0, 0.05, 0.1, 0.2, 0.35, 0.45, 0.55)
 STANDARD = {d: wrinkled_tube(M=0.5, delta=d, load="gas", energy="standard") for d in (2, 3)}

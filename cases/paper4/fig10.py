@@ -4,7 +4,19 @@ M = 0.5, delta = 2, and M = 0.3, delta = 3. The text gives no loads. Without loa
 wrinkled and both ends are taut; the zone disappears at a very small pressure, or at a moderate level.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, wrinkled_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    wrinkled_tube,
+)
 
 DATA = {2: 0.5, 3: 0.3}
 PRESSURES, LEVELS = (0, 0.001, 0.002, 0.005, 0.05, 0.2), (0, 2, 4, 6, 8, 12)

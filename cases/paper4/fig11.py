@@ -3,7 +3,7 @@
 There is no wrinkling at any pressure, not even without load.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 TUBE = wrinkled_tube(M=0.9, delta=2, load="gas", Af=1)
 PRESSURES = (0, 0.05, 0.1, 0.2)

@@ -6,7 +6,7 @@ continuous where the states meet; the second ones jump.
 
 import numpy as np
 
-from weakforms import Case, Claim, Finding, Solutions, Spec, decide, wrinkled_material
+from weakforms.cases import Case, Claim, Finding, Solutions, Spec, decide, wrinkled_material
 
 C2 = 0.01
 SAMPLES = {

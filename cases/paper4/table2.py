@@ -4,7 +4,7 @@ The largest radius at which the unloaded membrane has gw <= 1 everywhere, comput
 printed 0.5568 is cut off: with the fifth digit it rounds up to 0.5569.
 """
 
-from weakforms import Case, Claim, CutOff, Finding, Points, Printed, Solutions, decide, wrinkled_tube
+from weakforms.cases import Case, Claim, CutOff, Finding, Points, Printed, Solutions, decide, wrinkled_tube
 
 ROWS = ((0.5, 2, "0.5568"), (1.5, 2, "0.5568"), (0.5, 3, "0.4362"), (1.5, 3, "0.4362"), (0.99, 2, "0.7046"))
 UNIFORM = wrinkled_tube(M=1, delta=2)

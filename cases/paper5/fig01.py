@@ -7,7 +7,18 @@ gives the same energy.
 
 import numpy as np
 
-from weakforms import Axis, Case, Claim, Finding, Line, Panel, Solutions, Spec, decide, wrinkled_material
+from weakforms.cases import (
+    Axis,
+    Case,
+    Claim,
+    Finding,
+    Line,
+    Panel,
+    Solutions,
+    Spec,
+    decide,
+    wrinkled_material,
+)
 
 LAWS = (0.01, 0.0)
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")

@@ -7,7 +7,7 @@ and n = 10: a curve with steep flanks.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_patch
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_patch
 
 DRAWN = wrinkled_patch(a=1.0, c=0.1, n=10.0, e_end=0.08)
 FLAT, BENT = At("e", 0.0, profile=()), At("e", 0.08, profile=())

@@ -5,7 +5,19 @@ is wrinkled, and its upper part becomes taut as the level rises; under gas the t
 and the thin upper part taut.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Printed, Solutions, decide, wrinkled_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Printed,
+    Solutions,
+    decide,
+    wrinkled_tube,
+)
 
 DATA = {"M": 1.5, "delta": 3, "Af": 0.4362}
 FLUID, GAS = wrinkled_tube(**DATA), wrinkled_tube(**DATA, load="gas")

@@ -5,7 +5,18 @@ at the upper disk), so that its energy is the relaxed one. For n = 1 all eigenva
 one for n = 20 and for n = 50 becomes negative at the printed levels.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Printed, Solutions, decide, wrinkled_tube
+from weakforms.cases import (
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Printed,
+    Solutions,
+    decide,
+    wrinkled_tube,
+)
 
 WAVES = (1, 20, 50)
 TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, n=WAVES)

@@ -6,7 +6,7 @@ where the pressure is large.
 
 import numpy as np
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, n=(100,), load_end=4.0).on(cells=24)
 SHOWN = At("zw", 3.0, profile=(), field="mode_n100")

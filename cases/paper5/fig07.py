@@ -4,7 +4,7 @@ For n = 1 and 5 none is negative. For n = 15 and 20 the first one is negative ov
 small pressure; it becomes positive again inside the printed range for n = 15, and just outside it for n = 20.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
 
 WAVES = (1, 5, 15, 20)
 TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, load="gas", n=WAVES)

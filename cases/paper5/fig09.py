@@ -7,7 +7,19 @@ the equator (where lam2 = 1 and lam1 > 1) and at the pole it is always taut. The
 
 import math
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, decide, hemisphere
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    decide,
+    hemisphere,
+)
 
 BOWL = hemisphere(low_end=-1.16, past=0.2)
 LEVELS = (-1.1, -0.9, -0.7, -0.6, -0.52)

@@ -4,7 +4,7 @@ For n = 10 none is negative. For n = 50 the first is negative at low levels and 
 eigenvalue is not monotonic in n: parts of the hemisphere are taut.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

@@ -8,10 +8,9 @@ from pathlib import Path
 import pytest
 from shared_run import SharedRun
 
-from weakforms import Case, Claim
+from weakforms import At, Case, Claim, tube
 from weakforms.errors import ConvergenceError
 from weakforms.verification.cases.discovery import FoundCase
-from weakforms.verification.cases.specs import At, tube
 from weakforms.verification.run import solving
 
 SPECS = [tube(delta1=d, u_end=0.3).on(cells=16, levels=2) for d in (1.5, 2)]

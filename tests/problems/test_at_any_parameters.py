@@ -1,18 +1,18 @@
 """Allowed parameters for which an audit once got no answer, on coarse meshes."""
 
 import re
-from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from mpi4py import MPI
 
 from weakforms import solve
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems import registry
-from weakforms.problems.disk.history import History
-from weakforms.problems.disk.model import DiskData, DiskModel
-from weakforms.problems.disk.phases import DiskRun
+from weakforms.problems.contact.guesses import stick_guess
+from weakforms.problems.disk.model import DiskData
+from weakforms.problems.disk.phases import DiskPhases
 from weakforms.problems.liquid_tube import coincidence
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import validated
@@ -20,6 +20,7 @@ from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
 from weakforms.results import validate
 from weakforms.solvers.continuation.walk import walk
+from weakforms.solvers.equilibrium.system import State
 
 
 def test_a_stiff_balloon_is_inflated_to_its_end():
@@ -111,10 +112,10 @@ def test_a_patch_that_is_not_there_does_not_peel():
 
 
 def test_a_branch_that_ends_before_a_value_says_why():
-    run = DiskRun(
-        MPI.COMM_WORLD, DiskData(0.1, 1.0, 50.0, 0.5, 8, 3, mooney_rivlin_of(0.1)), "locked", 3, 0.2, 4
+    run = DiskPhases(
+        MPI.COMM_WORLD, DiskData(mooney_rivlin_of(0.1), 1.0, 50.0, 0.5, 8, 3), "locked", 3, 0.2, 4
     )
-    branch = run.free(0.3)
+    branch = run.inflate(0.3)
     with pytest.raises(ConvergenceError, match=r"t0 = 0\.9 is not reached"):
         branch.end_at("t0", 0.9)
 
@@ -144,27 +145,27 @@ def test_a_walk_shortens_its_steps_and_says_how_far_it_came():
         walk(solve_near, 0.0, 0.0, 3.0, 0.25)
 
 
-def test_the_history_on_a_stiff_substrate_by_newtons_method_is_that_of_plain_sweeps():
-    """Where both converge; sweeps diverge on stiffer ones."""
-    run = DiskRun(
-        MPI.COMM_SELF, DiskData(0.1, 1.0, 100.0, 0.5, 8, 3, mooney_rivlin_of(0.1)), "locked", 2, 0.2, 6
+def test_the_history_does_not_depend_on_where_newtons_method_starts():
+    """From frozen values that are a tenth off, and from states on a substrate of half the stiffness."""
+    run = DiskPhases(
+        MPI.COMM_SELF, DiskData(mooney_rivlin_of(0.1), 1.0, 2000.0, 0.5, 8, 3), "locked", 2.2, 0.2, 6
     )
-    swept = run.history
-    newton = History(DiskModel(run.comm, run.data, run.stick.bond))
-    softened = [run._softened(v.state, 20.0) for v in run._slipped(newton.fronts)]
-    newton.solve_stiff(*run._guesses(newton.model, softened, newton.fronts), 100.0)
-    assert newton._found == pytest.approx(swept._found, abs=1e-9)
-    finer = History(DiskModel(run.comm, replace(run.data, cells=16), run.stick.bond))
-    finer.solve_like(newton)
-    assert finer._found == pytest.approx(swept._found, abs=1e-4)
+    found, slipped = run.history.found, [run._slipped(front) for front in run.history.fronts]
+    other = run.bonded(run.history.span)
+    other.solve([stick_guess(other.model, at) for at in slipped], 1.1 * other.guess(slipped))
+    assert other.found == pytest.approx(found, abs=1e-9)
+    softer = [State(s.u, s.loads | {"k": 1000.0}) for s in other._states]
+    other.solve(softer, other.guess(slipped))
+    other.solve([State(s.u, s.loads | {"k": 2000.0}) for s in other._states], other.found)
+    assert other.found == pytest.approx(found, abs=1e-9)
 
 
 def test_adhesion_to_a_stiff_substrate_is_followed():
-    run = DiskRun(
-        MPI.COMM_SELF, DiskData(0.1, 1.0, 2000.0, 0.5, 8, 3, mooney_rivlin_of(0.1)), "locked", 2.43, 0.2, 6
+    run = DiskPhases(
+        MPI.COMM_SELF, DiskData(mooney_rivlin_of(0.1), 1.0, 2000.0, 0.5, 8, 3), "locked", 2.43, 0.2, 6
     )
     assert run.end_of_inflation.loads["p"] == pytest.approx(2.43, abs=1e-12)
-    assert run.end_of_inflation.loads["front"] < run.stick.bond.span
+    assert run.end_of_inflation.loads["front"] < run.history.span
 
 
 DEEP = {"alpha": 0.8742, "beta": 1.015, "k": 742.6, "l": 0.1863}
@@ -196,3 +197,43 @@ def test_branches_without_limit_point_or_bifurcation_have_no_coincidence():
     path = SimpleNamespace(pieces=[], data=SimpleNamespace(delta=4.783), zw_end=0.7)
     with pytest.raises(AbsentError, match=r"at delta = 4\.783 the branch has 0 limit points and 0 bifurc"):
         coincidence._Finder._points(None, path)
+
+
+def test_a_stiffening_liquid_tube_ends_where_it_is_wide():
+    """With ``alpha = 0.51`` the level has no limit point; the trace once went on to a level of 1260."""
+    given = {"L": 3.331, "delta": 6.689, "gamma": 0.1716, "alpha": 0.5086, "n_max": 1}
+    result = solve("fluid_tube", **given, numerics={"cells": 16, "degree": 3, "levels": 2})
+    (rest,) = result.absent
+    assert result.failures == []
+    assert rest.what == "rest of branch primary"
+    assert "there the mean radius is 10" in rest.reason
+    columns = result.branches[0].columns
+    assert (np.diff(columns["zw"]) > 0).all()
+    assert np.sqrt(columns["V"][-1] / (np.pi * 3.331)) == pytest.approx(10, rel=0.05)
+
+
+def test_a_bent_state_that_is_far_is_reached_by_steps():
+    """Newton's method with the whole amplitude at once diverges there."""
+    given = {
+        "L": 12.03,
+        "delta": 5.4,
+        "gamma": 1.167,
+        "alpha": 0.01257,
+        "amplitude": 0.1056,
+        "uneven": 0.1351,
+    }
+    result = solve("fluid_tube_surface", **given, numerics={"cells": 16, "degree": 3})
+    assert result.failures == []
+    numbers = result.quantities
+    assert numbers["zw_bent"].value < numbers["zw_bifurcation"].value
+
+
+@pytest.mark.parametrize("name", registry.abouts())
+def test_defaults_are_accepted_as_typed_on_a_command_line(name):
+    """``surface degree=1`` was refused: "input should be 1"."""
+    model = registry.get(name).parameters
+    defaults = {key: value for key, value in model().model_dump().items() if key in model.model_fields}
+    typed = {key: str(value) for key, value in defaults.items() if value not in (None, "", ())}
+    assert validated(model, typed, name) == model(**typed)
+    for key, value in defaults.items():
+        assert key not in typed or getattr(validated(model, {key: typed[key]}, name), key) == value

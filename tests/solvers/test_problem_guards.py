@@ -7,14 +7,14 @@ import pytest
 from stand_ins import always, bare, raising, refused
 
 from weakforms.errors import AbsentError, ConvergenceError
-from weakforms.problems.disk.history import SWEEPS, History
+from weakforms.problems.contact.history import ITERATIONS, History
 from weakforms.problems.liquid_tube import coincidence
 from weakforms.problems.liquid_tube.bent import bifurcation_point, fitted
 from weakforms.problems.liquid_tube.bent import branch as bent_branch
 from weakforms.problems.liquid_tube.bent import problem as whole_surface
 from weakforms.problems.liquid_tube.bent.family import SecondaryFamily
+from weakforms.problems.problem import Task
 from weakforms.problems.triangles import branch as triangles
-from weakforms.problems.tube import contact_phases
 from weakforms.problems.tube import problem as tube_problem
 from weakforms.problems.wrinkled import branch as wrinkled_branch
 from weakforms.problems.wrinkled import critical as wrinkled_critical
@@ -32,44 +32,22 @@ STALLED = ConvergenceError("Newton stalled")
 
 
 @pytest.mark.parametrize(("radial", "axial"), [(1.0, 3.0), (4.0, -1.0), (np.nan, 3.0), (4.0, np.nan)])
-def test_a_history_of_the_disk_that_does_not_settle(radial, axial):
-    told = bare(History, _value=np.eye(1), _radial=2 * np.eye(1), fronts=np.ones(1), _write=always(None))
-    given = [None], np.array([2.0]), np.array([3.0])
-    told._outside = always((np.array([4.0]), np.array([3.0])))
-    told.solve(*given)  # rho_c' = 2 Lc: nothing is left to mend
-    turns = iter(range(SWEEPS))
+def test_a_history_that_does_not_settle_is_refused(radial, axial):
+    """What is frozen twice over in the first condition and once in the second; outside it turns round."""
+    told = bare(History, fronts=np.ones(1), write=always(None), _weights=np.ones(2))
+    told._frozen, told._sensitivity = np.diag([2.0, 1.0]), always(-np.diag([2.0, 1.0]))
+    given = [None], np.array([2.0, 3.0])
+    told._outside = always(np.array([4.0, 3.0]))
+    told.solve(*given)  # nothing is left to mend
+    assert told.found == pytest.approx([2.0, 3.0])
+    turns = iter(range(ITERATIONS))
 
     def outside():
         way = (-1.0) ** next(turns)
-        return np.array([4.0 + way * (radial - 4.0)]), np.array([3.0 + way * (axial - 3.0)])
+        return np.array([4.0 + way * (radial - 4.0), 3.0 + way * (axial - 3.0)])
 
     told._outside = outside
-    refused(f"history of the stuck patch: defect .* after {SWEEPS} sweeps", told.solve, *given)
-
-
-def test_a_history_of_the_tube_that_does_not_settle(monkeypatch):
-    """The slope outside is another one after every sweep."""
-    slopes, solved = iter(range(10**6)), SimpleNamespace(values={"slope_outside": 1.0})
-    model = SimpleNamespace(history=np.zeros(1), set_history=always(None))
-    model.system = SimpleNamespace(monitor=lambda _: float(next(slopes)))
-    monkeypatch.setattr(contact_phases, "ContactModel", always(model))
-    monkeypatch.setattr(
-        contact_phases, "ExtendedNewton", always(SimpleNamespace(solve=lambda s, _: (s, None)))
-    )
-    monkeypatch.setattr(contact_phases, "stick_guess", always(None))
-    monkeypatch.setattr(contact_phases, "replace", always(None))
-    told = bare(
-        contact_phases.ContactRun,
-        comm=None,
-        data=SimpleNamespace(delta1=1.0),
-        terms=2,
-        frictionless=None,
-        onset=SimpleNamespace(values={"lam1_mid": 1.0}),
-        _slipped=always(solved),
-        _reached=always(SimpleNamespace(state=SimpleNamespace(loads={"front": 1.0}))),
-    )
-    words = f"history of the stuck patch: defect .* after {contact_phases.SWEEPS} sweeps"
-    refused(words, lambda: told.stick)
+    refused(f"history of the stuck patch: defect .* after {ITERATIONS} iterations", told.solve, *given)
 
 
 # -- tubes under gas and liquid --------------------------------------------------------------------
@@ -81,8 +59,8 @@ def test_a_fold_line_that_finer_meshes_do_not_have(monkeypatch):
     monkeypatch.setattr(tube_problem, "branch_maker", maker)
     monkeypatch.setattr(tube_problem, "fold_line", always(SimpleNamespace(stalled="")))
     problem = tube_problem.TubeFold()
-    given = problem.parameters(), problem.numerics(cells=32, levels=2), None, None, None
-    refused("delta1 = 1: a limit point on 16 cells, but none on 32: raise cells", problem.families, *given)
+    task = Task(problem.parameters(), problem.numerics(cells=32, levels=2), None, None, None)
+    refused("delta1 = 1: a limit point on 16 cells, but none on 32: raise cells", problem.families, task)
 
 
 def pieces(*kinds, stalled=""):

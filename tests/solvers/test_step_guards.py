@@ -71,7 +71,9 @@ def test_a_trace_says_why_it_stalled_and_keeps_what_it_has():
 def test_a_trace_without_an_end_is_given_up():
     continuation, first = line(max_points=3)
     refused(
-        r"^continuation did not end within 3 points$", list, continuation.trace(first, stop=always(False))
+        r"^continuation did not end within 3 points; raise step",
+        list,
+        continuation.trace(first, stop=always(False)),
     )
 
 

@@ -7,20 +7,20 @@ from ufl.conditional import Condition
 from ufl.core.expr import Expr
 
 
-def enclosed_volume(rho: Expr, eta: Expr) -> Expr:
+def enclosed_volume(rho: Expr, eta_slope: Expr) -> Expr:
     r"""Volume inside a surface of revolution, per ``2 pi`` and meridional coordinate.
 
     .. math:: V/(2\pi) = \int \tfrac12 \rho^2 \eta' \,\mathrm{d}Z
     """
-    return rho**2 * eta.dx(0) / 2
+    return rho**2 * eta_slope / 2
 
 
-def gas_potential(rho: Expr, eta: Expr, p: Expr) -> Expr:
+def gas_potential(rho: Expr, eta_slope: Expr, p: Expr) -> Expr:
     """Potential of a gas with controlled pressure, per ``2 pi``: minus pressure times enclosed volume."""
-    return -p * enclosed_volume(rho, eta)
+    return -p * enclosed_volume(rho, eta_slope)
 
 
-def substrate_potential(rho: Expr, eta: Expr, k: Expr, s: Expr, in_contact: Expr) -> Expr:
+def substrate_potential(rho: Expr, eta_slope: Expr, k: Expr, s: Expr, in_contact: Expr) -> Expr:
     r"""Elastic foundation at radius ``s`` around the axis, per ``2 pi`` and meridional coordinate.
 
     .. math:: \int \tfrac k2\, \chi\, \rho\, (\rho - s)^2\, \eta' \,\mathrm{d}Z
@@ -31,12 +31,12 @@ def substrate_potential(rho: Expr, eta: Expr, k: Expr, s: Expr, in_contact: Expr
 
     Args:
         rho: Deformed radius.
-        eta: Deformed axial position.
+        eta_slope: Derivative of the deformed axial position.
         k: Stiffness ``K R_f^2/(C1 h_o)``.
         s: Radius of the substrate.
         in_contact: Indicator of contact, held fixed when the potential is differentiated.
     """
-    return k * in_contact * rho * (rho - s) ** 2 * eta.dx(0) / 2
+    return k * in_contact * rho * (rho - s) ** 2 * eta_slope / 2
 
 
 def bed_potential(rho: Expr, rho_slope: Expr, gap: Expr, k: Expr, in_contact: Expr) -> Expr:

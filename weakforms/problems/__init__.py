@@ -1,12 +1,6 @@
-"""Physical problems: mesh, unknowns, energy, boundary conditions, functionals, contact history."""
+"""Physical problems: mesh, unknowns, energy, boundary conditions, functionals, contact history.
 
-import pkgutil
-from importlib import import_module
-
-from weakforms.problems.problem import registry
-
-__all__ = ["registry"]
-
-# A module that defines a problem registers it when it is imported, so that no list of problems is needed.
-for _found in pkgutil.walk_packages(__path__, f"{__name__}."):
-    import_module(_found.name)
+A problem is one folder: ``about.py`` says what it is, what it computes and how it is tested, and needs no
+dolfinx; ``problem.py`` and the modules beside it have its parameters and its weak form.
+:mod:`weakforms.problems.registry` finds both; no list names them.
+"""

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
-from dataclasses import asdict
-from typing import Any, ClassVar, Protocol, Self
+from dataclasses import asdict, replace
+from math import inf
+from typing import Any, Protocol, Self
 
 import numpy as np
-from mpi4py import MPI
 from pydantic import Field, model_validator
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
-from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, sample_points, silent
+from weakforms.problems.problem import Numerics, Problem, StateRequest, Task, ended, sample_points
 from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
 from weakforms.results.drawing import critical, draw, seed_of
-from weakforms.solvers.continuation.branch import DIAGNOSTICS
-from weakforms.solvers.equilibrium.newton import STOPPING
-from weakforms.solvers.support.provenance import provenance
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
+from weakforms.solvers.equilibrium.system import State as Equilibrium
+from weakforms.solvers.equilibrium.system import System
 
 
 class MeshNumerics(Numerics):
@@ -39,6 +41,10 @@ class MeshNumerics(Numerics):
     def meshes(self) -> list[int]:
         """Number of cells of each mesh, coarse to fine."""
         return [self.cells // 2**k for k in reversed(range(self.levels))]
+
+    def described(self) -> dict[str, Any]:
+        """Entries of a result that describe the discretisation."""
+        return {**super().described(), "meshes": self.meshes}
 
 
 class Family(Protocol):
@@ -68,78 +74,61 @@ class Family(Protocol):
         """Solve for a state."""
 
 
-class PathProblem:
+def from_rest(
+    system: System,
+    load: str,
+    along: str,
+    end: float,
+    step: float,
+    begin: Equilibrium | None = None,
+    usual_load: float = inf,
+) -> EquilibriumBranch:
+    """Equilibria by arc length from the state without load, until a column passes its end.
+
+    Args:
+        system: The equilibrium equations.
+        load: The load, zero at first.
+        along: A column that changes along the whole branch.
+        end: Its value at which the branch ends.
+        step: Largest step.
+        begin: Guess of the first state; by default the state that the system holds.
+        usual_load: Load above which steps grow in proportion to it.
+    """
+    steps = StepControl(first=step / 4, largest=step, usual_load=usual_load)
+    continuation = Continuation(ExtendedNewton(system, [load]), control=steps)
+    rising = 1.0 if end > system.monitor(along) else -1.0
+    start = continuation.start(begin or system.state(), Held(load, 0.0), towards={along: rising})
+    return EquilibriumBranch(
+        continuation, load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0
+    )
+
+
+class BranchProblem(Problem):
     """A problem whose results are branches and their states; a subclass defines the branches."""
 
-    name: ClassVar[str]
-    scales: ClassVar[dict[str, str]]
-    columns: ClassVar[tuple[str, ...]]
-    derived: ClassVar[tuple[str, ...]] = ()
-    """Columns that cannot be prescribed."""
-
-    def families(
-        self, parameters: Any, numerics: Any, requests: Requests, comm: MPI.Intracomm, progress: Progress
-    ) -> dict[str, Family]:
+    def families(self, task: Task) -> dict[str, Family]:
         """The branches by name, in the order of the results."""
         raise NotImplementedError
-
-    def resolving(self, _parameters: Any, numerics: Any) -> Any:
-        """Numerics that resolve the problem at its parameters, if the default does not."""
-        return numerics
 
     def points(self, parameters: Any) -> np.ndarray:
         """Default sample points of fields, from one end of the body to the other."""
         raise NotImplementedError
 
-    def solve(
-        self,
-        parameters: Any,
-        numerics: Any,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
-        """Trace the branches on all meshes, locate their special points, solve for the requested states.
-
-        Raises:
-            AbsentError: If states are requested and there is no branch.
-        """
-        begun = time.perf_counter()
-        numerics = self.resolving(parameters, numerics)
-        result = self._result(parameters, numerics)
+    def fill(self, result: Result, task: Task) -> None:
+        """Trace the branches on all meshes, locate their special points, solve for the requested states."""
+        result.numerics["stopping"] = STOPPING
         try:
-            families = self.families(parameters, numerics, requests, comm, progress)
+            families = self.families(task)
         except AbsentError as error:
-            if requests.states:
+            if task.requests.states:
                 raise
             result.absent.append(Absence(error.what, str(error)))
         else:
-            self._answer(result, families, requests, self.points(parameters), progress)
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
+            self._answer(result, families, task)
 
-    def _result(self, parameters: Parameters, numerics: MeshNumerics) -> Result:
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={
-                **numerics.model_dump(),
-                "meshes": numerics.meshes,
-                "stopping": STOPPING,
-            },
-            provenance={},
-        )
-
-    def _answer(
-        self,
-        result: Result,
-        families: dict[str, Family],
-        requests: Requests,
-        default_points: np.ndarray,
-        progress: Progress,
-    ) -> None:
+    def _answer(self, result: Result, families: dict[str, Family], task: Task) -> None:
         """Put branches, special points and the requested states into a result, which also lists failures."""
+        requests, progress, default_points = task.requests, task.progress, self.points(task.parameters)
         degrees = {name: family.quadrature_degree for name, family in families.items()}
         alike = len(set(degrees.values())) == 1
         result.numerics["quadrature_degree"] = next(iter(degrees.values())) if alike else degrees
@@ -154,16 +143,26 @@ class PathProblem:
         for i, wanted in enumerate(requests.states):
             progress("states", i, len(requests.states))
             points = sample_points(wanted.profile, default_points)
-            try:
-                family = families[wanted.branch]
-                result.states.append(family.state(wanted.name, wanted.value, wanted.crossing, points))
-            except ConvergenceError as error:
-                result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+            family = families[wanted.branch]
+            for crossing, count in asked_crossings(result.branch(wanted.branch), wanted):
+                try:
+                    state = family.state(wanted.name, wanted.value, crossing, points)
+                    result.states.append(replace(state, crossings=count))
+                except ConvergenceError as error:
+                    result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+                except InputError as error:
+                    raise InputError(f"{error}{self._ending(result, wanted.branch)}") from error
         for name, family in families.items():
             self._solve_drawn(result, name, family, requests.drawn, default_points)
         for family in families.values():
             result.failures.extend(family.failures)
             result.absent.extend(family.absent)
+
+    def _ending(self, result: Result, name: str) -> str:
+        """Where and why a branch ends, for the message on a state that it does not have."""
+        parameters = self.parameters.model_validate(result.parameters)
+        end = ended(result.branch(name), self.ends(parameters, name), result)
+        return f"; the branch ends at {end}" if end else ""
 
     def _solve_drawn(
         self, result: Result, name: str, family: Family, count: int, default_points: np.ndarray
@@ -176,8 +175,7 @@ class PathProblem:
         if not count:
             return
         seed = seed_of(f"{self.name} {name} {sorted(result.parameters.items())}")
-        barred = (*DIAGNOSTICS, *self.derived)
-        columns = [column for column in self.columns if column not in barred]
+        columns = [column.name for column in self.about.columns if not column.derived]
         record = {"seed": seed, "points": [], "left_out": []}
         branch = result.branch(name)
         for drawn in draw(branch, columns, seed, critical(branch, result.special_points)):
@@ -191,3 +189,11 @@ class PathProblem:
             else:
                 record["points"].append(asdict(drawn))
         result.numerics.setdefault("drawn", {})[name] = record
+
+
+def asked_crossings(branch: Branch, wanted: StateRequest) -> list[tuple[int, int | None]]:
+    """The crossings that a request asks for, each with their number along the branch if that is known."""
+    known = wanted.name in branch.columns
+    count = (branch.crossings(wanted.name, wanted.value) or None) if known else None
+    every = range(1, (count or 1) + 1) if wanted.crossing == "all" else [wanted.crossing]
+    return [(crossing, count) for crossing in every]

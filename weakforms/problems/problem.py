@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any, ClassVar, Protocol
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from mpi4py import MPI
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from weakforms.errors import InputError
-from weakforms.results import Result
-from weakforms.solvers.continuation.branch import DIAGNOSTICS
+from weakforms.errors import InputError, not_among
+from weakforms.problems.about import About
+from weakforms.results import Branch, Ended, Result
+from weakforms.solvers.support.provenance import provenance
+
+Needs = Mapping[str, Sequence[Mapping[str, tuple[Any, ...]]]]
+"""For each parameter the values of others without which it has no effect."""
 
 
 class Parameters(BaseModel):
@@ -20,18 +25,68 @@ class Parameters(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, validate_default=True)
 
+    needs: ClassVar[Needs] = {}
+    """Parameters that have an effect only with some values of others: for each name the alternatives, each
+    of which gives the values that others must have; no values stand for any other than the default."""
+
     @classmethod
     def further(cls) -> frozenset[str]:
         """Names that may be given in addition to the fields' names."""
         return frozenset()
+
+    def without_effect(self) -> list[str]:
+        """A sentence about each parameter that was given and that changes nothing (:attr:`needs`)."""
+        out = []
+        for name in self.model_fields_set & set(self.needs):
+            if not any(all(self._has(*item) for item in needed.items()) for needed in self.needs[name]):
+                given = f"{name} = {getattr(self, name)}"
+                out.append(f"{given} has no effect here; it needs {self.needed_by(name)}")
+        return sorted(out)
+
+    @classmethod
+    def needed_by(cls, name: str) -> str:
+        """The values of others without which a parameter has no effect, as text; empty if there are none."""
+        return " or ".join(_needed(item) for item in cls.needs.get(name, ()))
+
+    def _has(self, name: str, values: tuple[Any, ...]) -> bool:
+        value = getattr(self, name)
+        return value in values if values else value != type(self).model_fields[name].default
+
+
+def _needed(needed: Mapping[str, tuple[Any, ...]]) -> str:
+    """Values that other parameters must have, as text."""
+    return " and ".join(
+        f"{name} = {' or '.join(map(str, values))}" if values else name for name, values in needed.items()
+    )
 
 
 class TogetherError(ValueError):
     """A contradiction between several parameters; its text names them and their values."""
 
 
+@dataclass(frozen=True)
+class End:
+    """One of the reasons for which a branch of a problem ends."""
+
+    by: str
+    """The parameter that says where, or another short word."""
+    column: str
+    """The column that takes a value there."""
+    value: float | Callable[[Mapping[str, np.ndarray]], float] | None
+    """The value, possibly as a function of the branch's columns; ``None`` for an end of which nothing else is
+    known than that no other end was reached."""
+    reason: str = ""
+    """More about it, if no parameter ends the branch."""
+    largest: bool = False
+    """Whether no state of the branch has a larger value, so that requests for one are refused."""
+
+
 class Numerics(Parameters):
     """Discretisation of a problem; the stated accuracies hold for the defaults."""
+
+    def described(self) -> dict[str, Any]:
+        """Entries of a result that describe the discretisation."""
+        return self.model_dump()
 
 
 @dataclass(frozen=True)
@@ -42,7 +97,7 @@ class StateRequest:
     """A column, or a kind of special point."""
     value: float
     """Value of the column, or number of the special point of that kind, from 1."""
-    crossing: int = 1
+    crossing: int | Literal["all"] = 1
     branch: str = "primary"
     profile: tuple[float, ...] | None = None
     """Sample points of fields in addition to the default ones; ``None`` for no fields."""
@@ -67,25 +122,49 @@ def silent(_what: str, _done: int, _total: int) -> None:
     """Report no progress."""
 
 
-class Problem(Protocol):
-    """A physical problem of the papers."""
+@dataclass(frozen=True)
+class Task:
+    """One solve of a problem."""
 
-    name: ClassVar[str]
-    title: ClassVar[str]
-    paper: ClassVar[int]
-    source: ClassVar[str]
-    energy: ClassVar[str]
-    """The functional as text."""
-    scales: ClassVar[dict[str, str]]
-    """Scaling of every column and parameter."""
+    parameters: Any
+    numerics: Any
+    requests: Requests
+    comm: MPI.Intracomm
+    progress: Progress
+
+
+class Problem:
+    """A physical problem: its description, its parameters, and how it is solved."""
+
+    about: ClassVar[About]
     parameters: ClassVar[type[Parameters]]
     numerics: ClassVar[type[Numerics]]
-    special_points: ClassVar[tuple[str, ...]]
-    columns: ClassVar[tuple[str, ...]]
-    branches: ClassVar[tuple[str, ...]]
+
+    @property
+    def name(self) -> str:
+        """Name of the problem."""
+        return self.about.name
+
+    @property
+    def scales(self) -> dict[str, str]:
+        """Meaning and scaling of every number of the results."""
+        return self.about.scales
 
     def check(self, parameters: Any, requests: Requests) -> None:
-        """Refuse, before anything is solved, wrong combinations of parameters and requests."""
+        """Refuse, before anything is solved, wrong combinations of parameters and requests.
+
+        Raises:
+            InputError: For a state that no solution has; subclasses refuse more.
+        """
+        check_requests(self.about, requests)
+
+    def resolving(self, _parameters: Any, numerics: Any) -> Any:
+        """Numerics that resolve the problem at its parameters, if the default does not."""
+        return numerics
+
+    def ends(self, _parameters: Any, _branch: str) -> Sequence[End]:
+        """The reasons for which a branch may end, the first that applies first."""
+        return ()
 
     def solve(
         self,
@@ -95,33 +174,27 @@ class Problem(Protocol):
         comm: MPI.Intracomm,
         progress: Progress = silent,
     ) -> Result:
-        """Solve and answer the requests."""
-
-
-@dataclass
-class Registry:
-    """Problems by name."""
-
-    problems: dict[str, Problem] = field(default_factory=dict)
-
-    def add(self, problem: Problem) -> Problem:
-        """Register one."""
-        self.problems[problem.name] = problem
-        return problem
-
-    def get(self, name: str) -> Problem:
-        """The problem of that name.
+        """Solve and answer the requests.
 
         Raises:
-            InputError: If there is none.
+            AbsentError: If states are requested and there is no branch.
         """
-        if name not in self.problems:
-            known = ", ".join(self.problems)
-            raise InputError(f"unknown problem {name!r}; the problems are {known}")
-        return self.problems[name]
+        begun = time.perf_counter()
+        task = Task(parameters, self.resolving(parameters, numerics), requests, comm, progress)
+        result = Result(
+            problem=self.name,
+            parameters=parameters.model_dump(),
+            scales=self.scales,
+            numerics=task.numerics.described(),
+            provenance={},
+        )
+        self.fill(result, task)
+        result.provenance = provenance(comm, time.perf_counter() - begun)
+        return result
 
-
-registry = Registry()
+    def fill(self, result: Result, task: Task) -> None:
+        """Put what is solved for into a result."""
+        raise NotImplementedError
 
 
 def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
@@ -132,8 +205,8 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
     """
     unknown = sorted(set(given) - set(model.model_fields) - model.further())
     if unknown:
-        known = ", ".join(model.model_fields)
-        raise InputError(f"{what} has no parameter {unknown[0]!r}; it has {known}")
+        names = [name for name in model.model_fields if name != "constants"]
+        raise InputError(f"{what} has no parameter {unknown[0]!r}{not_among(unknown[0], names)}")
     try:
         return model(**given)
     except ValidationError as error:
@@ -147,32 +220,79 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
         raise InputError(f"{what}: " + "; ".join(parts)) from error
 
 
-def check_requests(problem: Problem, requests: Requests) -> None:
+def check_requests(about: About, requests: Requests) -> None:
     """Refuse requests for states that no solution of the problem has.
 
     Raises:
         InputError: If a column or branch is unknown, a crossing is below one, or a value is not a number.
     """
-    barred = (*DIAGNOSTICS, *getattr(problem, "derived", ()))
-    allowed = [*(c for c in problem.columns if c not in barred), *problem.special_points]
+    allowed = [*(column.name for column in about.columns if not column.derived), *about.special_points]
     for wanted in requests.states:
         if wanted.name not in allowed:
             raise InputError(
-                f"{problem.name}: cannot ask for a state at {wanted.name!r}; allowed: {', '.join(allowed)}"
+                f"{about.name}: cannot ask for a state at {wanted.name!r}"
+                f"{not_among(wanted.name, allowed, 'allowed:')}"
             )
-        if wanted.branch not in problem.branches:
+        if wanted.branch not in about.branches:
             raise InputError(
-                f"{problem.name} has no branch {wanted.branch!r}; it has {', '.join(problem.branches)}"
+                f"{about.name} has no branch {wanted.branch!r}{not_among(wanted.branch, about.branches)}"
             )
         if not np.isfinite(wanted.value):
-            raise InputError(f"{problem.name}: {wanted.name} = {wanted.value} is not a finite number")
-        if wanted.crossing < 1:
-            raise InputError(f"{problem.name}: crossing = {wanted.crossing} must be 1 or more")
-        if wanted.name in problem.special_points and wanted.value not in range(1, 1000):
+            raise InputError(f"{about.name}: {wanted.name} = {wanted.value} is not a finite number")
+        if wanted.crossing != "all" and wanted.crossing < 1:
+            raise InputError(f"{about.name}: crossing = {wanted.crossing} must be 1 or more")
+        if wanted.name in about.special_points and wanted.value not in range(1, 1000):
             raise InputError(
-                f"{problem.name}: {wanted.name} = {wanted.value:g} must be a whole number from 1: "
+                f"{about.name}: {wanted.name} = {wanted.value:g} must be a whole number from 1: "
                 "the number of the point along the branch"
             )
+
+
+def require_within(problem: Problem, parameters: Parameters, requests: Requests) -> None:
+    """Refuse requests for states beyond the end of a branch.
+
+    Raises:
+        InputError: With the parameter that ends the branch.
+    """
+    for wanted in requests.states:
+        for end in problem.ends(parameters, wanted.branch):
+            if end.largest and wanted.name == end.column and wanted.value > end.value:
+                raise InputError(
+                    f"{problem.name}: {wanted.name} = {wanted.value:g} lies beyond {end.by} = {end.value:g}; "
+                    f"raise {end.by}"
+                )
+
+
+NEAR = 1e-9
+"""Relative distance from a value within which the last point of a branch has it."""
+
+
+def ended(branch: Branch, ends: Sequence[End], result: Result) -> Ended | None:
+    """Why a branch ends: the first of the reasons that its last step meets, else what a result says of it."""
+    for end in ends:
+        value = end.value(branch.columns) if callable(end.value) else end.value
+        if value is not None and _reaches(branch.columns.get(end.column, ()), value):
+            return Ended(end.by, end.column, float(value), end.reason)
+    # The control of a peeling curve, the front, is not shown.
+    column = branch.control if branch.control in branch.columns else next(iter(branch.columns))
+    last = column, float(branch.columns[column][-1])
+    absent = [a.reason for a in result.absent if a.what == f"rest of branch {branch.name}"]
+    failed = [f.reason for f in result.failures if f.what.startswith(f"branch {branch.name}")]
+    for by, reasons in (("absent", absent), ("failure", failed)):
+        if reasons:
+            return Ended(by, *last, reasons[0])
+    other = [end for end in ends if end.value is None and end.column in branch.columns]
+    for end in other[:1]:
+        return Ended(end.by, end.column, float(branch.columns[end.column][-1]), end.reason)
+    return None
+
+
+def _reaches(values: Sequence[float], value: float) -> bool:
+    """Whether a column has a value at its last point, or passes it in its last step."""
+    if not len(values):
+        return False
+    beyond = [v - value for v in values[-2:]]
+    return abs(beyond[-1]) <= NEAR * max(1.0, abs(value)) or beyond[0] * beyond[-1] < 0
 
 
 def sample_points(wanted: tuple[float, ...] | None, default: np.ndarray) -> np.ndarray | None:

@@ -3,7 +3,7 @@
 First contact, frictionless and adhesive inflation, deflation; G = 0 during adhesive inflation.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular, decide
+from weakforms.cases import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular, decide
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 SLIP = {

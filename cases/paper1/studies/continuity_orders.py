@@ -5,7 +5,7 @@ depends only on the slope angle, whose derivative is continuous like the pressur
 is C0 and lam2 C1; in adhesive deflation lam1 jumps and lam2 is C0.
 """
 
-from weakforms import At, Case, Claim, Finding, Solutions, circular, continuity, reference
+from weakforms.cases import At, Case, Claim, Finding, Solutions, circular, continuity, reference
 
 WINDOW = 0.12
 """Width of the sampling window for third derivatives, which contain the error of samples divided by its

@@ -4,7 +4,7 @@ With elements of degree d, functionals and limit pressures converge with order 2
 norm with order d + 1.
 """
 
-from weakforms import Case, Order, circular
+from weakforms.cases import Case, Order, circular
 
 DISK = circular(alpha=0, beta=1, t_end=1.5)
 

@@ -4,7 +4,20 @@ A neo-Hookean disk has a limit point of the pressure. For large pre-stretch it t
 film of constant tension, p = 4 at t0 = 1. A Mooney-Rivlin disk (alpha = 0.1, beta = 1) has none.
 """
 
-from weakforms import At, Axis, Case, Claim, Count, Curve, Finding, Panel, Points, Solutions, circular, decide
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    circular,
+    decide,
+)
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 ENDS = {(0, 1): 3.1, (0, 2): 3.1, (0.1, 1): 4.1, (0.1, 2): 4.1}

@@ -1,6 +1,6 @@
 """Paper 1 at other parameters than in the paper: other alpha, beta, k and l, all phases."""
 
-from weakforms import Axis, Case, Curve, Panel, Points, circular
+from weakforms.cases import Axis, Case, Curve, Panel, Points, circular
 
 SETS = (
     {"alpha": 0.05, "beta": 1.2, "k": 80, "l": 0.6},

@@ -5,7 +5,7 @@ the indentation is slightly *smaller* than without friction. This contradicts fi
 that the paper's patch must be locked.
 """
 
-from weakforms import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 ENDS = {1: 4.9, 2: 9.0}
 RADIAL = {b: circular(alpha=0.1, beta=b, contact="adhesive", adhesion="radial", p_end=ENDS[b]) for b in ENDS}

@@ -6,7 +6,7 @@ of first order in the step. At t0 = 0.57 a step of 0.01 gives a pressure 2.6 % t
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, circular, circular_scheme, decide
+from weakforms.cases import At, Case, Claim, Finding, Solutions, circular, circular_scheme, decide
 
 STEPS = (8, 16, 32, 64)
 RUNS = [circular_scheme(t_end=0.58).on(steps=n, cells=50 * n) for n in STEPS]

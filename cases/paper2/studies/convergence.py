@@ -3,7 +3,7 @@
 Theory for degree k: displacement k + 1, stretch k, limit pressure and eigenvalue 2k.
 """
 
-from weakforms import At, Case, Claim, Finding, Order, Solutions, decide, tube
+from weakforms.cases import At, Case, Claim, Finding, Order, Solutions, decide, tube
 
 TUBE = tube(alpha=0.1, delta1=1)
 CELLS = (16, 32, 64)

@@ -1,6 +1,6 @@
 """Paper 2, constrained inflation at other parameters than in the paper: alpha, delta1, l_f, k and s."""
 
-from weakforms import Axis, Case, Curve, Panel, tube
+from weakforms.cases import Axis, Case, Curve, Panel, tube
 
 SETS = ({"alpha": 0.05, "delta1": 1.3, "lf": 8, "k": 50, "s": 1.2}, {"alpha": 0.05, "delta1": 1.5, "lf": 6})
 # The substrate is far from the tube, so that the patch is still short at p = 3. Finite differences do not

@@ -1,6 +1,6 @@
 """Paper 2, free inflation far from the paper's parameters: alpha 0 to 0.2, delta1 1 to 3, l_f 4 to 10."""
 
-from weakforms import Axis, Case, Count, Curve, Panel, Points, tube
+from weakforms.cases import Axis, Case, Count, Curve, Panel, Points, tube
 
 SETS = ((0, 1, 4), (0.05, 1.3, 6), (0.2, 1, 6), (0.2, 3, 8), (0.1, 1.05, 10), (0, 2.5, 10))
 TUBES = {s: tube(alpha=s[0], delta1=s[1], lf=s[2]) for s in SETS}

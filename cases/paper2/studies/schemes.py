@@ -8,7 +8,7 @@ first order in the contact length.
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, decide, tube, tube_scheme
+from weakforms.cases import At, Case, Claim, Finding, Solutions, decide, tube, tube_scheme
 
 CELLS = (50, 100, 200, 400)
 END = At("p", 3.0)

@@ -4,7 +4,7 @@ The paper remarks that for larger and for very low pre-stretch the limit point d
 order changes, one state is both; it is solved for with the pre-stretch as an additional unknown.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Case,
     Claim,
     Finding,

@@ -4,7 +4,7 @@ Stability is under level control unless volume is mentioned; n is the number of 
 circumference, and n = 0 is axisymmetric without torsion.
 """
 
-from weakforms import At, Case, Claim, Finding, Points, Solutions, States, decide, fluid_tube
+from weakforms.cases import At, Case, Claim, Finding, Points, Solutions, States, decide, fluid_tube
 
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}

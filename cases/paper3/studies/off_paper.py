@@ -3,7 +3,7 @@
 The paper remarks that for larger and for very small pre-stretch the bifurcation comes before the limit point.
 """
 
-from weakforms import Axis, Case, Claim, Curve, Finding, Panel, Solutions, Spec, decide, fluid_tube
+from weakforms.cases import Axis, Case, Claim, Curve, Finding, Panel, Solutions, Spec, decide, fluid_tube
 
 SETS = ((8, 5, 0.116), (8, 7, 0.116), (24, 1.1, 0.116), (16, 2.5, 0.05), (12, 1.3, 0.25), (24, 7, 0.25))
 TUBES = {s: fluid_tube(L=s[0], delta=s[1], gamma=s[2]) for s in SETS}

@@ -3,7 +3,7 @@
 Case ``critical`` checks the same for every tube; this case is small enough for the quick profile.
 """
 
-from weakforms import Case, Claim, Finding, Points, Solutions, decide, fluid_tube
+from weakforms.cases import Case, Claim, Finding, Points, Solutions, decide, fluid_tube
 
 TUBE = fluid_tube(L=8, delta=2, gamma=0.116)
 ASKED = {"zw": 5e-10, "V": 5e-10, "r_mid": 2e-9, "r_max": 1e-8, "Pi": 2e-9}

@@ -7,7 +7,7 @@ that is exactly zero.
 
 import numpy as np
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Case,
     Claim,

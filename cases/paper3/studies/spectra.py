@@ -5,7 +5,7 @@ waves around (n = 0 is axisymmetric without torsion), and the axisymmetric one a
 and bifurcation are their zeros.
 """
 
-from weakforms import Axis, Case, Curve, Panel, fluid_tube
+from weakforms.cases import Axis, Case, Curve, Panel, fluid_tube
 
 COLUMNS = {
     "Lambda_n0": r"$\Lambda(n = 0)$",

@@ -3,7 +3,7 @@
 There is no limit load up to p = 0.55 or zw = 16; for M = 0.5, delta = 3 one lies just above p = 0.55.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

@@ -8,7 +8,7 @@ and w is C1 is thus true only if r' is small there.
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Constant, Finding, Solutions, continuity, decide, wrinkled_tube
+from weakforms.cases import At, Case, Claim, Constant, Finding, Solutions, continuity, decide, wrinkled_tube
 
 GAS = {d: wrinkled_tube(M=0.5, delta=d, load="gas") for d in (2, 3)}
 FLUID = wrinkled_tube(M=1.5, delta=2)

@@ -7,7 +7,7 @@ with this paper and reports that their wrinkled regions agree. Its numbers could
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, decide, wrinkled_tube
+from weakforms.cases import At, Case, Claim, Finding, Solutions, decide, wrinkled_tube
 
 GRID = tuple(np.linspace(0.0, 8.0, 81))
 STATES = {

@@ -1,6 +1,6 @@
 """Paper 4 at other parameters than in the paper: M, delta, c2, L and disks."""
 
-from weakforms import At, Axis, Case, Curve, Panel, Spec, wrinkled_tube
+from weakforms.cases import At, Axis, Case, Curve, Panel, Spec, wrinkled_tube
 
 SETS = (
     ("gas", 0.1, 2, 0.01, 8, "critical", (0.05, 0.2)),

@@ -4,7 +4,7 @@ There are a few elements of degree 4 around. Along the meridian, the mesh has no
 axisymmetric solution. With many elements around, the state would be unstable to waves (Paper 5).
 """
 
-from weakforms import At, Case, Claim, Finding, Solutions, decide, wrinkled_sheet, wrinkled_tube
+from weakforms.cases import At, Case, Claim, Finding, Solutions, decide, wrinkled_sheet, wrinkled_tube
 
 STATES = (
     ({"M": 0.5}, At("zw", 4.5)),

@@ -5,7 +5,7 @@ grid. The thresholds are the roots of min gw = 1 in M for the taut solution, and
 c2.
 """
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Case,
     Claim,

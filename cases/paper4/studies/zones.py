@@ -4,7 +4,7 @@ M = 1.5, delta = 2 under fluid: a narrow taut zone at the thin top exists from t
 near one third of the length, and both merge when the wrinkled zone between them disappears.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

@@ -6,7 +6,7 @@ is empty above a critical beta. Model B1 contains the circumferential curvature 
 bending energy of a thin shell.
 """
 
-from weakforms import (
+from weakforms.cases import (
     Case,
     Claim,
     Finding,

@@ -7,7 +7,7 @@ taut part grows from above) is higher. At a fixed level such a membrane is unsta
 import math
 from itertools import pairwise
 
-from weakforms import (
+from weakforms.cases import (
     Axis,
     Case,
     Claim,

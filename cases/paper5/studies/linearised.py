@@ -7,7 +7,7 @@ one shape is tried.
 
 import numpy as np
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Case,
     Claim,

@@ -9,7 +9,7 @@ stability.
 
 import numpy as np
 
-from weakforms import (
+from weakforms.cases import (
     At,
     Axis,
     Case,

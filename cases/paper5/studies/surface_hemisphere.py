@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from weakforms import At, Case, Claim, Finding, Solutions, decide, hemisphere, surface
+from weakforms.cases import At, Case, Claim, Finding, Solutions, decide, hemisphere, surface
 
 SIZES = (0.1, 0.05, 0.025)
 MESHES = [

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.disk.phases import DiskRun
+from weakforms.problems.disk.phases import DiskPhases
 from weakforms.results import Quantity
 from weakforms.results import State as StateRecord
 from weakforms.solvers.continuation.branch import FittedBranch, Solved
@@ -36,12 +36,12 @@ class PeelingBranch(FittedBranch):
         p: Pressure.
     """
 
-    def __init__(self, run: DiskRun, p: float) -> None:
-        self.p, self._edge = p, run.data.edge
+    def __init__(self, run: DiskPhases, p: float) -> None:
+        self.p, self._edge = p, run.data.length
         self._radius: dict[float, float] = {}
         self._above_contact = p > run.onset.values["p"]
         lowest = run.adhesive.at("p", p).state.loads["front"] if self._above_contact else 0.0
-        lowest = max(lowest, SMALLEST_FRONT * run.data.edge)
+        lowest = max(lowest, SMALLEST_FRONT * run.data.length)
         solver = ExtendedNewton(run.stick.system, ["front"])
         continuation = Continuation(solver, control=_steps(run))
         held = Held("front", run.end_of_inflation.loads["front"])
@@ -129,12 +129,12 @@ class PeelingBranch(FittedBranch):
         return rate
 
 
-def _steps(run: DiskRun) -> StepControl:
+def _steps(run: DiskPhases) -> StepControl:
     """Shorter steps than elsewhere, because the curve is short and is the result."""
     return StepControl(first=run.step / 8, largest=run.step / 4)
 
 
-def _lowered(run: DiskRun, p: float) -> State:
+def _lowered(run: DiskPhases, p: float) -> State:
     """The state with the patch reached at ``p_end``, at a lower pressure."""
     if p == run.p_end:
         return run.end_of_inflation

@@ -13,43 +13,27 @@ whole of this small problem.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import replace
 
-import basix.ufl
 import numpy as np
 import ufl
 from dolfinx import fem
-from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from pydantic import Field
-from ufl.core.expr import Expr
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.forms.kinematics import Slope, disk_stretches
-from weakforms.forms.loads import bed_potential, gas_potential
-from weakforms.forms.materials import mooney_rivlin
-from weakforms.problems.disk.guesses import FIRST_T0, parabola
-from weakforms.problems.disk.problem import ENERGY, SCALES, SOURCE
+from weakforms.problems.disk.about import CIRCULAR_SCHEME
+from weakforms.problems.disk.model import FreeDisk
+from weakforms.problems.disk.phases import FIRST_T0, parabola
 from weakforms.problems.material_choice import mooney_rivlin_of
-from weakforms.problems.meshes import graded_interval, tag_points
-from weakforms.problems.problem import (
-    Numerics,
-    Parameters,
-    Progress,
-    Requests,
-    check_requests,
-    registry,
-    silent,
-)
-from weakforms.problems.quantity_problem import solve_twice
+from weakforms.problems.meridian.blocks import Blocks
+from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
+from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.results import Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State, System
-
-POLE, RIM = 1, 2
+from weakforms.solvers.equilibrium.system import Formulation, State
 
 DEEPEST = 3.0
 """Height of the pole, over that of the substrate, up to which the scheme is followed."""
@@ -77,47 +61,26 @@ class CircularSchemeNumerics(Numerics):
     steps: int = Field(28, ge=4, le=2000, multiple_of=2, description="steps of the pole height, finest")
 
 
-@dataclass
-class FixedDisk:
-    """The disk on one mesh with its contact indicator in the form."""
+class FixedDisk(FreeDisk):
+    """The disk on one mesh, in contact where ``eta > l``, with the vertical balance of what sticks."""
 
-    system: System
-    rigid: fem.Function
-    """Unit vertical displacement of the patch."""
-    x: np.ndarray
-    """Radii of the nodes from the pole outwards."""
-    order: np.ndarray
-    """Degrees of freedom of ``lam2`` at these nodes; the next one is ``eta`` at the same node."""
-
-    @classmethod
-    def build(cls, comm: MPI.Intracomm, given: CircularSchemeParameters, cells: int) -> FixedDisk:
-        """Assemble the form."""
-        edge = 1 / given.beta
-        mesh = graded_interval(comm, cells, edge, 0.0)
-        space = fem.functionspace(mesh, basix.ufl.element("Lagrange", "interval", 1, shape=(2,)))
-        unknown, rigid = fem.Function(space), fem.Function(space)
-        loads = {"p": fem.Constant(mesh, 0.0)}
-        variables = {name: (c, ufl.variable(c)) for name, c in loads.items()}
-        tags = tag_points(mesh, {POLE: 0.0, RIM: edge})
-        dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 4})
-        ends = ufl.Measure("ds", mesh, subdomain_data=tags)
-        energy = _potential(mesh, unknown, variables["p"][1], given) * dx
-        test = ufl.TestFunction(space)
-        residual = ufl.derivative(energy, unknown, test)
-        rim = fem.locate_dofs_topological(space, 0, tags.find(RIM))
-        system = System(
-            Formulation(
-                unknown=unknown,
-                residual=residual,
-                loads=variables,
-                bcs=[fem.dirichletbc(np.array([given.beta, 0.0]), rim, space)],
-                mass=ufl.inner(ufl.TrialFunction(space), test) * dx,
-                monitors={"t0": unknown[1] * ends(POLE), "balance": ufl.action(residual, rigid)},
-            )
-        )
-        x = space.tabulate_dof_coordinates()[: system.size // 2, 0]
+    def __init__(self, comm: MPI.Intracomm, given: CircularSchemeParameters, cells: int) -> None:
+        mesh = Blocks([0.0, 1 / given.beta], cells, degree=1, quadrature=4)
+        values = {"p": 0.0, "k": given.k, "l": given.l}
+        super().__init__(comm, mooney_rivlin_of(given.alpha), values, given.beta, mesh)
+        self.rigid = fem.Function(self.space)
+        """Unit vertical displacement of the patch."""
+        x = self.material(self.nodes(), {})
         order = np.argsort(x)
-        return cls(system, rigid, x[order], 2 * order)
+        self.x, self.order = x[order], 2 * order
+        """Radii of the nodes from the pole outwards, and the degrees of freedom of ``lam2`` there; the next
+        one is ``eta`` at the same node."""
+
+    def formulation(self) -> Formulation:
+        """The weak form with the balance of the patch as a whole."""
+        given = super().formulation()
+        balance = ufl.action(given.residual, self.rigid)
+        return replace(given, monitors={"t0": given.monitors["t0"], "balance": balance})
 
     def run(self, given: CircularSchemeParameters, steps: int) -> dict[str, float]:
         """Inflate to first touch, then step by step."""
@@ -180,33 +143,12 @@ class FixedDisk:
         return {"rho_contact": float(rho[last] + share * (rho[last + 1] - rho[last]))}
 
 
-def _potential(mesh: Mesh, unknown: fem.Function, p: Expr, given: CircularSchemeParameters) -> Expr:
-    """The potential of :mod:`weakforms.problems.disk.model` with contact where ``eta > l``."""
-    x = ufl.SpatialCoordinate(mesh)[0]
-    lam2, eta = unknown
-    rho, rho_slope = x * lam2, lam2 + x * lam2.dx(0)
-    stretches = disk_stretches(x, lam2, lam2.dx(0), eta.dx(0))
-    touches = ufl.conditional(ufl.gt(eta, given.l), 1.0, 0.0)
-    energy = mooney_rivlin(stretches.lam1, stretches.lam2, given.alpha) * x
-    energy += gas_potential(rho, Slope(-eta.dx(0)), p)
-    return energy + bed_potential(rho, rho_slope, eta - given.l, given.k, touches)
-
-
-class CircularScheme:
+class CircularScheme(Problem):
     """Adhesive inflation of the disk by the paper's scheme."""
 
-    name: ClassVar[str] = "circular_scheme"
-    title: ClassVar[str] = "Adhesive inflation of the disk by frozen rings on a fixed mesh"
-    paper: ClassVar[int] = 1
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = CIRCULAR_SCHEME
     parameters = CircularSchemeParameters
     numerics = CircularSchemeNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = "t0; the quantities p, rho_contact and lam_pole are at t_end"
 
     def check(self, parameters: CircularSchemeParameters, requests: Requests) -> None:
         """Refuse requests for states; the only state is that at ``t_end``.
@@ -214,7 +156,7 @@ class CircularScheme:
         Raises:
             InputError: For a state, or an end below the substrate or far above it.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         if parameters.t_end <= parameters.l:
             raise InputError(
                 f"circular_scheme: t_end = {parameters.t_end:g} must be above l = {parameters.l:g}"
@@ -226,21 +168,12 @@ class CircularScheme:
                 "t_end or raise l"
             )
 
-    def solve(
-        self,
-        parameters: CircularSchemeParameters,
-        numerics: CircularSchemeNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Run the scheme twice; uncertainties assume first order."""
+        parameters, numerics, progress = task.parameters, task.numerics, task.progress
 
         def run(coarser: int) -> dict[str, float]:
-            disk = FixedDisk.build(MPI.COMM_SELF, parameters, numerics.cells // coarser)
+            disk = FixedDisk(MPI.COMM_SELF, parameters, numerics.cells // coarser)
             return disk.run(parameters, numerics.steps // coarser)
 
-        return solve_twice(self, parameters, numerics, comm, progress, run, order=1.0)
-
-
-registry.add(CircularScheme())
+        result.quantities |= on_two_meshes(run, 1.0, self.name, progress)

@@ -5,28 +5,24 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 import numpy as np
-from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.branch_problem import Family, PathProblem
+from weakforms.problems.branch_problem import BranchProblem, Family, from_rest
 from weakforms.problems.homogeneous import body as closed_body
+from weakforms.problems.homogeneous.about import HOMOGENEOUS, INFINITE_TUBE, SPHERE
 from weakforms.problems.homogeneous.body import Body, system_of
 from weakforms.problems.homogeneous.material import require_defined
 from weakforms.problems.homogeneous.maxwell import maxwell_states
 from weakforms.problems.material_choice import Chosen, MaterialChoice
-from weakforms.problems.problem import Numerics, Progress, Requests, check_requests, registry, silent
+from weakforms.problems.problem import End, Needs, Numerics, Requests, Task
 from weakforms.results import Result
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.equilibrium.constraints import Fold, Held
-from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import State, System
 from weakforms.solvers.uncertainty.family import BranchFamily
-
-THESIS = "Patil (2016), chapter 3"
-
-DIAGNOSTICS = ("n_negative", "residual", "iterations")
 
 USUAL = 10.0
 """Load up to which the usual step is used."""
@@ -44,47 +40,30 @@ class PointNumerics(Numerics):
     )
 
 
-class ClosedProblem(PathProblem):
+class ClosedProblem(BranchProblem):
     """Base class of these problems: one branch from rest to an end."""
 
     numerics = PointNumerics
-    paper: ClassVar[str] = "closed_form"
-    source: ClassVar[str] = THESIS
-    branches: ClassVar[tuple[str, ...]] = ("primary",)
 
     def points(self, _parameters: MaterialChoice) -> np.ndarray:
         """One point, because fields are constant."""
         return np.array([0.5])
 
-    def _result(self, parameters: MaterialChoice, numerics: PointNumerics) -> Result:
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={**numerics.model_dump(), "stopping": STOPPING},
-            provenance={},
-        )
-
 
 def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -> EquilibriumBranch:
     """Equilibria from the state of rest, by arc length, until a column passes its end."""
     system = system_of(body, chosen)
-    control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
-    begin = _start_under_force(system, body, control) if body.force else system.state()
-    continuation = Continuation(ExtendedNewton(system, [body.load]), control=control)
-    rising = 1.0 if end > 1 else -1.0
-    start = continuation.start(begin, Held(body.load, 0.0), towards={along: rising})
-    return EquilibriumBranch(
-        continuation, body.load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0
-    )
+    begin = _start_under_force(system, body, step) if body.force else None
+    return from_rest(system, body.load, along, end, step, begin, USUAL)
 
 
-def _start_under_force(system: System, body: Body, control: StepControl) -> State:
+def _start_under_force(system: System, body: Body, step: float) -> State:
     """The state under the body's force alone, reached from rest in steps, so that it is not inside out.
 
     Raises:
         ConvergenceError: If the force is not reached.
     """
+    control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
     continuation = Continuation(ExtendedNewton(system, ["force"]), control=control)
     sign = 1.0 if body.force > 0 else -1.0
     start = continuation.start(system.state(), Held("force", 0.0), towards={body.unknowns[0]: sign})
@@ -103,11 +82,8 @@ def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, 
         InputError: If there is no limit point to start from.
     """
     system = system_of(body, chosen, vary)
-    solver = ExtendedNewton(system, [body.load])
-    plain = Continuation(solver, control=StepControl(first=step / 4, largest=step))
     along = body.unknowns[0]
-    start = plain.start(system.state(), Held(body.load, 0.0), towards={along: 1.0})
-    branch = EquilibriumBranch(plain, body.load, start, stop=lambda q: q.monitors[along] > lam_end)
+    branch = from_rest(system, body.load, along, lam_end, step)
     turns = branch.turns()
     if not len(turns):
         raise InputError(f"no limit point up to {along} = {lam_end:g}: no line of them starts there")
@@ -131,6 +107,8 @@ def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, 
 class SphereParameters(MaterialChoice):
     """A balloon, and the constant in which its limit point is followed."""
 
+    needs: ClassVar[Needs] = {"vary_end": [{"vary": ()}]}
+
     lam_end: float = Field(4.0, gt=1.001, le=50, description="stretch at which inflation ends")
     vary: str = Field(
         "", description="constant of the model over which the limit point is followed; '': none"
@@ -141,20 +119,8 @@ class SphereParameters(MaterialChoice):
 class Sphere(ClosedProblem):
     """Inflation of a spherical balloon of any law."""
 
-    name: ClassVar[str] = "sphere"
-    title: ClassVar[str] = "Inflation of a spherical balloon of any material law"
-    energy: ClassVar[str] = "Pi = w(lam, lam) - P lam^3/3,  P = 2 w1(lam, lam)/lam^2"
-    scales: ClassVar[dict[str, str]] = {
-        "P": "p r_o/(S h_o), S the model's stress (C1 for neo_hookean and mooney_rivlin)",
-        "lam": "radius over its value at rest",
-        "Pi": "potential per reference area over S h_o",
-    }
+    about = SPHERE
     parameters = SphereParameters
-    columns = ("P", "lam", "lam1", "lam2", "Pi", *DIAGNOSTICS)
-    derived = ("lam1", "lam2")
-    special_points = ("limit_point", "cusp_point")
-    branches: ClassVar[tuple[str, ...]] = ("primary", "fold")
-    control: ClassVar[str] = "P (past a limit point compare over lam); branch fold: a constant of the model"
 
     def check(self, parameters: SphereParameters, requests: Requests) -> None:
         """Refuse stretches that the law does not reach, and fold lines in constants that it does not have.
@@ -162,7 +128,7 @@ class Sphere(ClosedProblem):
         Raises:
             InputError: With a message that says what is allowed.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_defined(self.name, parameters, parameters.lam_end, parameters.lam_end, "lam_end")
         chosen = parameters.material
         if not parameters.vary:
@@ -180,15 +146,18 @@ class Sphere(ClosedProblem):
                 f"sphere: vary_end = {end}: must be a number {limits.allowed}, other than {begin:g}"
             )
 
-    def families(
-        self,
-        parameters: SphereParameters,
-        numerics: PointNumerics,
-        _requests: Requests,
-        _comm: MPI.Intracomm,
-        progress: Progress,
-    ) -> dict[str, Family]:
+    def ends(self, parameters: SphereParameters, branch: str) -> list[End]:
+        """The largest stretch; of the fold line also the ends of its constant."""
+        stretch = End("lam_end", "lam", parameters.lam_end, largest=branch == "primary")
+        if branch == "primary":
+            return [stretch]
+        begin = dict(parameters.material.constants).get(parameters.vary)
+        start = End("start", parameters.vary, begin, "the line returns to where it starts")
+        return [End("vary_end", parameters.vary, parameters.vary_end), stretch, start]
+
+    def families(self, task: Task) -> dict[str, Family]:
         """The branch and, if a constant varies, the fold line of its limit points."""
+        parameters, numerics, progress = task.parameters, task.numerics, task.progress
         body, chosen, step = closed_body.sphere(), parameters.material, numerics.step
 
         def make(level: int) -> EquilibriumBranch:
@@ -217,38 +186,21 @@ class InfiniteTubeParameters(MaterialChoice):
 class InfiniteTube(ClosedProblem):
     """Uniform inflation of a long tube: limit pressure, and the pressure at which two states coexist."""
 
-    name: ClassVar[str] = "infinite_tube"
-    title: ClassVar[str] = "Uniform inflation of an infinite tube: limit and Maxwell pressures"
-    energy: ClassVar[str] = "Pi = w(lam1, lam2) - (p/2) lam1 lam2^2 - F lam1"
-    scales: ClassVar[dict[str, str]] = {
-        "p": "P R_o/(S h_o), S the model's stress",
-        "force": "axial force in addition to the pressure over 2 pi R_o h_o S",
-        "lam1": "axial stretch",
-        "lam2": "hoop stretch",
-        "V": "volume over its value at rest",
-        "Pi": "potential per reference area over S h_o",
-        "p_maxwell": "pressure at which a thin and a thick state have the same Pi, if there is one",
-        "lam1_thin": "axial stretch of the thin state at that pressure (and so on)",
-    }
+    about = INFINITE_TUBE
     parameters = InfiniteTubeParameters
-    columns = ("p", "lam1", "lam2", "V", "Pi", *DIAGNOSTICS)
-    special_points = ("limit_point", "bifurcation_point")
-    control: ClassVar[str] = "p (past a limit point compare over lam2)"
 
     def check(self, parameters: InfiniteTubeParameters, requests: Requests) -> None:
         """Refuse stretches that the law does not reach."""
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_defined(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
 
-    def families(
-        self,
-        parameters: InfiniteTubeParameters,
-        numerics: PointNumerics,
-        _requests: Requests,
-        _comm: MPI.Intracomm,
-        progress: Progress,
-    ) -> dict[str, Family]:
+    def ends(self, parameters: InfiniteTubeParameters, _branch: str) -> list[End]:
+        """The largest hoop stretch."""
+        return [End("lam_end", "lam2", parameters.lam_end, largest=True)]
+
+    def families(self, task: Task) -> dict[str, Family]:
         """The family of the branch."""
+        parameters, numerics, progress = task.parameters, task.numerics, task.progress
         body, chosen = closed_body.infinite_tube(parameters.force), parameters.material
 
         def make(level: int) -> EquilibriumBranch:
@@ -257,20 +209,11 @@ class InfiniteTube(ClosedProblem):
 
         return {"primary": BranchFamily(make, numerics.levels, ORDER, across=("p", "lam2"))}
 
-    def solve(
-        self,
-        parameters: InfiniteTubeParameters,
-        numerics: PointNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Solve for the branch, its limit points, and the Maxwell pressure if there is one."""
-        result = super().solve(parameters, numerics, requests, comm, progress)
-        body = closed_body.infinite_tube(parameters.force)
-        found = maxwell_states(body, parameters.material, result.branches[0].columns)
-        result.quantities.update(found)
-        return result
+        super().fill(result, task)
+        body = closed_body.infinite_tube(task.parameters.force)
+        result.quantities.update(maxwell_states(body, task.parameters.material, result.branches[0].columns))
 
 
 class HomogeneousParameters(MaterialChoice):
@@ -285,27 +228,12 @@ class HomogeneousParameters(MaterialChoice):
 class Homogeneous(ClosedProblem):
     """Uniaxial, equibiaxial and pure-shear tests of any law."""
 
-    name: ClassVar[str] = "homogeneous"
-    title: ClassVar[str] = "Test pieces of any material law: uniaxial, equibiaxial, pure shear"
-    energy: ClassVar[str] = (
-        "Pi = w(lam1, lam2) - T lam1 (uniaxial), w(lam, lam) - 2 T lam (equibiaxial), w(lam, 1) - T lam "
-        "(pure shear)"
-    )
-    scales: ClassVar[dict[str, str]] = {
-        "T": "nominal stress over S, the model's stress",
-        "lam": "stretch along the load",
-        "lam2": "the other stretch of the sheet",
-        "Pi": "potential per reference volume over S",
-    }
+    about = HOMOGENEOUS
     parameters = HomogeneousParameters
-    columns = ("T", "lam", "lam1", "lam2", "lam_across", "Pi", *DIAGNOSTICS)
-    derived = ("lam1", "lam2")
-    special_points = ("limit_point", "bifurcation_point")
-    control: ClassVar[str] = "T (past a limit point compare over lam)"
 
     def check(self, parameters: HomogeneousParameters, requests: Requests) -> None:
         """Refuse stretches that the law does not reach."""
-        check_requests(self, requests)
+        super().check(parameters, requests)
         if parameters.lam_end == 1:
             raise InputError("homogeneous: lam_end = 1 is the state of rest; allowed: below or above 1")
         end = parameters.lam_end
@@ -315,15 +243,13 @@ class Homogeneous(ClosedProblem):
             across = float(chosen.material.width(end, **dict(chosen.constants)))
         require_defined(self.name, parameters, end, across, "lam_end")
 
-    def families(
-        self,
-        parameters: HomogeneousParameters,
-        numerics: PointNumerics,
-        _requests: Requests,
-        _comm: MPI.Intracomm,
-        progress: Progress,
-    ) -> dict[str, Family]:
+    def ends(self, parameters: HomogeneousParameters, _branch: str) -> list[End]:
+        """The last stretch."""
+        return [End("lam_end", "lam", parameters.lam_end, largest=parameters.lam_end > 1)]
+
+    def families(self, task: Task) -> dict[str, Family]:
         """The family of the curve."""
+        parameters, numerics, progress = task.parameters, task.numerics, task.progress
         body, chosen = closed_body.coupon(parameters.loading), parameters.material
 
         def make(level: int) -> EquilibriumBranch:
@@ -331,8 +257,3 @@ class Homogeneous(ClosedProblem):
             return branch_of(body, chosen, "lam", parameters.lam_end, numerics.step)
 
         return {"primary": BranchFamily(make, numerics.levels, ORDER, across=("T", "lam"))}
-
-
-registry.add(Sphere())
-registry.add(InfiniteTube())
-registry.add(Homogeneous())

@@ -32,6 +32,10 @@ TOP_STATES = 6
 ZW_END, STEP = 0.7, 0.5
 """Default end of the branch, as a fraction of its highest level, and default largest step."""
 
+WIDEST = 10.0
+"""Mean radius at which the branch ends. The tube of a stiffening law may have no limit point: its level then
+rises for ever."""
+
 TRANSFER = 257
 """Number of points by which a state is interpolated to another position of the front, as a guess."""
 
@@ -71,7 +75,7 @@ class TubeModes:
     def observe(self) -> dict[str, float]:
         """Radii and resultants at the middle, largest radius, lowest eigenvalues."""
         state = self.model.system.state()
-        place = self.model.locate(np.array(self.model.data.L / state.loads["delta"] / 2), state.loads)
+        place = self.model.position(np.array(self.model.data.L / state.loads["delta"] / 2), state.loads)
         middle = self._middle(float(place))
         values = (
             middle["r"],
@@ -135,7 +139,12 @@ class FluidPath:
         if level > self._highest:
             self._highest, self._volume = level, volume
         rises = volume > self._volume and point.tangent.loads["zw"] > 0
-        return level < self.zw_end * self._highest or (rises and self.data.material is not None)
+        stiffens = rises and self.data.material is not None
+        return level < self.zw_end * self._highest or stiffens or self._widest(point)
+
+    def _widest(self, point: CurvePoint) -> bool:
+        """Whether the tube is as wide on average as :data:`WIDEST`."""
+        return point.monitors["V"] > np.pi * WIDEST**2 * self.data.L
 
     # -- parts --------------------------------------------------------------------------------
 
@@ -176,6 +185,11 @@ class FluidPath:
         branch = self._branch(continuation, start, stop, ("Z_front", "r_front"))
         if branch.points[-1].state.loads["zw"] < self.data.L:
             branch.end_at("zw", self.data.L)
+        if self._widest(branch.points[-1]):
+            branch.ended = (
+                f"the level rises to zw = {branch.points[-1].state.loads['zw']:.6g} without falling below "
+                f"{self.zw_end:g} of its highest value; there the mean radius is {WIDEST:g}"
+            )
         return branch
 
     def _draining(self, before: ModalBranch) -> ModalBranch:
@@ -233,7 +247,7 @@ class FluidPath:
     def _necked(self, delta: float) -> State:
         loads = {"front": 0.5, "zw": 0.0, **DRY, "delta": delta}
         length, narrow = self.data.L / delta, delta**-0.5
-        z = self.model.nodes(loads)
+        z = self.model.points(loads)
         wall = np.cosh(z - length / 2) / np.cosh(length / 2)
         return self.model.state_from(narrow + (1 - narrow) * wall, delta * z, loads)
 
@@ -242,7 +256,7 @@ class FluidPath:
         points = np.linspace(0.0, self.data.length, TRANSFER)
         r, z = self.sampled(state, points, ("r", "z"))
         given = {**state.loads, **loads}
-        nodes = self.model.nodes(given)
+        nodes = self.model.points(given)
         return self.model.state_from(CubicSpline(points, r)(nodes), CubicSpline(points, z)(nodes), given)
 
     def sampled(self, state: State, points: np.ndarray, names: tuple[str, ...]) -> list[np.ndarray]:
@@ -250,7 +264,7 @@ class FluidPath:
         system = self.model.system
         system.set_state(state.u, state.loads)
         profile = {name: system.formulation.profile[name] for name in names}
-        found = Sampler(self.model.unknown, profile, self.model.locate(points, state.loads))()
+        found = Sampler(self.model.unknown, profile, self.model.position(points, state.loads))()
         return [found[name] for name in names]
 
 

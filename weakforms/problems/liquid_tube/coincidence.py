@@ -7,7 +7,6 @@ the axisymmetric second variation and that with one wave are singular.
 
 from __future__ import annotations
 
-import time
 from typing import ClassVar
 
 from mpi4py import MPI
@@ -15,18 +14,18 @@ from pydantic import Field
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
+from weakforms.problems.liquid_tube.about import FLUID_TUBE_COINCIDENCE
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
-from weakforms.problems.liquid_tube.problem import CAPS, ENERGY, SCALES, SOURCE, FluidTubeNumerics
+from weakforms.problems.liquid_tube.problem import CAPS, FluidTubeNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_model
-from weakforms.problems.problem import Progress, Requests, registry, silent
+from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.results import Absence, Quantity, Result
 from weakforms.solvers.continuation.branch import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.stability.modes import Singular
-from weakforms.solvers.support.provenance import provenance
 from weakforms.solvers.support.roots import root
 from weakforms.solvers.uncertainty.refinement import estimate
 
@@ -48,23 +47,12 @@ class CoincidenceParameters(MaterialChoice):
     delta_high: float = Field(5.0, gt=1, le=10, description="pre-stretch with the other order")
 
 
-class FluidTubeCoincidence:
+class FluidTubeCoincidence(Problem):
     """A state that is both limit point and first bifurcation with one wave."""
 
-    name: ClassVar[str] = "fluid_tube_coincidence"
-    title: ClassVar[str] = (
-        "Pre-stretch at which limit point and bifurcation of the fluid-loaded tube coincide"
-    )
-    paper: ClassVar[int] = 3
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = FLUID_TUBE_COINCIDENCE
     parameters = CoincidenceParameters
     numerics = FluidTubeNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = "none: the quantities belong to the one state"
 
     def check(self, parameters: CoincidenceParameters, requests: Requests) -> None:
         """Refuse what the ranges of single parameters cannot.
@@ -81,42 +69,26 @@ class FluidTubeCoincidence:
                 f"delta_high = {parameters.delta_high:g}"
             )
 
-    def solve(
-        self,
-        parameters: CoincidenceParameters,
-        numerics: FluidTubeNumerics,
-        _requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Search on the coarsest mesh, then solve on all meshes.
 
         Where the points come in the same order at both ends, or there are none, it is absent.
         """
-        begun = time.perf_counter()
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         find = _Finder(parameters, numerics, comm)
-        result = Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={**numerics.model_dump(), "meshes": numerics.meshes},
-            provenance={},
-        )
         progress("coincidence", 0, numerics.levels + 1)
         try:
             delta = find.near()
         except AbsentError as error:
             result.absent.append(Absence(error.what, str(error)))
-        else:
-            found = []
-            for level in range(numerics.levels):
-                progress("coincidence", level + 1, numerics.levels + 1)
-                found.append(find.exactly(level, delta))
-            for name in ("delta", *SHOWN):
-                value = estimate([values[name] for values in found], CAPS.get(name, 2 * numerics.degree))
-                result.quantities[name] = Quantity(float(value.value), float(value.uncertainty))
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
+            return
+        found = []
+        for level in range(numerics.levels):
+            progress("coincidence", level + 1, numerics.levels + 1)
+            found.append(find.exactly(level, delta))
+        for name in ("delta", *SHOWN):
+            value = estimate([values[name] for values in found], CAPS.get(name, 2 * numerics.degree))
+            result.quantities[name] = Quantity(float(value.value), float(value.uncertainty))
 
 
 class _Finder:
@@ -202,6 +174,3 @@ class _Finder:
             )
         system.set_state(state.u, state.loads)
         return {**system.monitors(), **modes.observe(), **state.loads}
-
-
-registry.add(FluidTubeCoincidence())

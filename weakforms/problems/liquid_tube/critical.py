@@ -105,7 +105,7 @@ class PrimaryBranch:
         waves = self.path.model.waves
         waves.set_state(piece.null_vector(solved), {})
         columns = {name: waves.unknown[i] for i, name in enumerate(("u", "beta", "w"))}
-        where = self.path.model.locate(points, solved.state.loads)
+        where = self.path.model.position(points, solved.state.loads)
         found = Sampler(waves.unknown, columns, where)()
         waves.set_state(np.zeros(waves.size), {})
         mode = np.array([found[name] for name in columns])

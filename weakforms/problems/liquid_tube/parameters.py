@@ -7,11 +7,9 @@ from typing import ClassVar, Self
 from pydantic import Field, model_validator
 
 from weakforms.problems.branch_problem import MeshNumerics
+from weakforms.problems.liquid_tube.about import MOST_WAVES
 from weakforms.problems.liquid_tube.branch import STEP, ZW_END
 from weakforms.problems.material_choice import MaterialChoice
-
-MOST_WAVES = 6
-"""Largest wave number that can be requested."""
 
 
 class FluidTubeNumerics(MeshNumerics):

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, Field
 
 from weakforms.problems.material_choice import MaterialChoice
-from weakforms.problems.problem import Numerics
+from weakforms.problems.problem import Needs, Numerics
 from weakforms.problems.triangles.meshes import SUFFIXES, Triangulation, from_file, hemisphere, tube
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 
@@ -50,6 +50,13 @@ class SurfaceParameters(MaterialChoice):
 
     ratio: ClassVar[str] = "c2"
 
+    needs: ClassVar[Needs] = {
+        "meridional": [{"geometry": ("tube",)}],
+        "circumferential": [{"geometry": ("tube",)}],
+        "size": [{"geometry": ("hemisphere",)}],
+        "gamma": [{"load": ("fluid",)}],
+    }
+
     geometry: Annotated[str, AfterValidator(_known)] = Field(
         "tube",
         description="tube, hemisphere, or a file with triangles (msh, vtu, stl)",
@@ -59,7 +66,7 @@ class SurfaceParameters(MaterialChoice):
     circumferential: Annotated[int, AfterValidator(_closes)] = Field(
         48, le=2000, description="tube: quadrilaterals around it"
     )
-    degree: Literal[1] = Field(1, description="of the elements: flat triangles")
+    degree: int = Field(1, ge=1, le=1, description="of the elements: flat triangles")
     size: float = Field(0.1, ge=0.004, le=0.5, description="hemisphere: length of the triangles' edges")
     M: float | None = Field(
         None, gt=0, lt=2, description="thickness at the lowest point over its mean (tube: 1.5)"

@@ -7,15 +7,13 @@ whole tangent decides on stability, without decomposition into waves.
 
 from __future__ import annotations
 
-import time
-from typing import ClassVar
-
 import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.problem import Progress, Requests, StateRequest, check_requests, registry, silent
+from weakforms.problems.problem import End, Problem, Progress, Requests, StateRequest, Task
+from weakforms.problems.triangles.about import SURFACE
 from weakforms.problems.triangles.branch import Point, SurfaceRun
 from weakforms.problems.triangles.fields import fields
 from weakforms.problems.triangles.model import Body, SurfaceModel
@@ -30,69 +28,14 @@ from weakforms.problems.triangles.parameters import (
 from weakforms.problems.triangles.symmetry import Meridian
 from weakforms.results import Branch, Failure, Quantity, Result, SpecialPoint, State
 from weakforms.solvers.equilibrium.newton import STOPPING
-from weakforms.solvers.support.provenance import provenance
-
-SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
-
-SCALES = {
-    "length": "Ao, undeformed radius (the tube's or the hemisphere's; of a file 1)",
-    "geometry": "tube, hemisphere, or the name of a file",
-    "meridional": "quadrilaterals along the tube, each cut into two triangles",
-    "circumferential": "quadrilaterals around the tube",
-    "size": "length of the triangles' edges on the hemisphere over Ao",
-    "M": "thickness at the lowest point over its mean (2 - M at the highest)",
-    "delta": "axial pre-stretch",
-    "c2": "C2/C1",
-    "C1": "for another model the stress S by which its constants are divided (weakforms show material)",
-    "L": "L_o/Ao",
-    "Af": "radius of the clamped edges over their undeformed one",
-    "gamma": "rho g Ao^2/(C1 h)",
-    "rule": "of the load on a triangle: 1 edge midpoints, 2 centroid, 3 three inner points, 4 of degree 6",
-    "zw": "level of the fluid over Ao, in the coordinate z of the reference surface",
-    "p": "P Ao/(C1 h)",
-    "V": "integral of (x N_x + y N_y)/2 over the surface over Ao^3",
-    "Pi": "strain energy less integral of P (x N_x + y N_y)/2, over C1 h Ao^2",
-    "r_max": "largest distance of a node from the axis over Ao",
-    "departure": "largest distance of a node from the equilibrium among surfaces of revolution over Ao",
-    "Lambda_1": "lowest eigenvalue against the membrane's mass (density C1/(Ao g)) over g/Ao; 2, 3 alike",
-    "n_negative": "negative eigenvalues of the whole tangent, by inertia",
-    "lower": "load at which a negative eigenvalue first appears along the branch",
-    "upper": "load at which the last one disappears",
-    "gaps": "stable intervals between them",
-    "n_lower": "waves around the axis of the critical mode at the lower end, on this mesh",
-    "n_upper": "waves around the axis of the critical mode at the upper end",
-    "direction": "1 if instability starts there along the branch, -1 if it ends",
-    "n": "waves around the axis of the critical mode, on this mesh",
-    "Lambda_1_stable": "of a stability change: lowest eigenvalue at the stable end of its bracket (Lambda_1 "
-    "is that at the unstable one); both near zero unless it jumps",
-    "unknowns": "degrees of freedom, including prescribed ones",
-}
 
 
-class Surface:
+class Surface(Problem):
     """The relaxed membrane as a discrete surface in space."""
 
-    name: ClassVar[str] = "surface"
-    title: ClassVar[str] = "Wrinkled membrane of revolution on flat triangles in space"
-    paper: ClassVar[int] = 5
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = (
-        "Pi/(C1 h Ao^2) = int H W(C) dA + int Phi(z) N_z dA,  Phi = -p z + gamma max(zw - z, 0)^2/2,  "
-        "C = (J^T J)^-1 F^T F of each triangle;  W = I1 - 3 + c2 (I2 - 3) where taut, "
-        "lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another "
-        "model w and w(lam1, lam1^(-1/2)), its S for C1"
-    )
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = SURFACE
     parameters = SurfaceParameters
     numerics = SurfaceNumerics
-    columns = (
-        *("zw", "p", "V", "Pi", "r_max", "departure", "Lambda_1", "Lambda_2", "Lambda_3"),
-        *("n_negative", "residual", "iterations"),
-    )
-    derived = ("V", "Pi", "r_max", "departure", "Lambda_1", "Lambda_2", "Lambda_3")
-    special_points = ("stability_change",)
-    branches = ("primary",)
-    control: ClassVar[str] = "zw (load = fluid) or p (gas)"
 
     def check(self, parameters: SurfaceParameters, requests: Requests) -> None:
         """Refuse wrong combinations of parameters; a file is read and checked.
@@ -100,7 +43,7 @@ class Surface:
         Raises:
             InputError: With a message that names the value and the allowed ones.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
         kind, full = parameters.kind, parameters.filled()
         for name in ("M", "delta", "L", "Af"):
@@ -120,29 +63,22 @@ class Surface:
             given = parameters.triangles()
             Meridian.of(given).require_revolved(parameters.geometry)
 
-    def solve(
-        self,
-        parameters: SurfaceParameters,
-        numerics: SurfaceNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def ends(self, parameters: SurfaceParameters, _branch: str) -> list[End]:
+        """The last load."""
+        full = parameters.filled()
+        return [End("load_end", full.control, full.load_end), End("load_end", full.control, None)]
+
+    def fill(self, result: Result, task: Task) -> None:
         """Follow the load, count negative eigenvalues, locate the ends of the unstable range.
 
         The numbers belong to the mesh; only located points have an uncertainty.
         """
-        begun = time.perf_counter()
+        parameters, numerics, requests = task.parameters, task.numerics, task.requests
+        comm, progress = task.comm, task.progress
         full = parameters.filled()
+        result.parameters = full.model_dump()
+        result.numerics["stopping"] = f"symmetric states: relative Newton step 1e-11; all: {STOPPING}"
         run = _run(full, comm)
-        result = Result(
-            problem=self.name,
-            parameters=full.model_dump(),
-            scales=self.scales,
-            numerics=numerics.model_dump()
-            | {"stopping": f"symmetric states: relative Newton step 1e-11; all: {STOPPING}"},
-            provenance={},
-        )
         loads = np.linspace(full.load_start, full.load_end, numerics.scan + 1)
         reached = _walk(run, loads, result, progress)
         _branch(run, reached, numerics, result, progress)
@@ -159,8 +95,6 @@ class Surface:
                 result.states.append(_state(run, wanted, result.special_points, numerics.eigenvalues))
             except ConvergenceError as error:
                 result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
 
 
 def _require_loads(full: SurfaceParameters, requests: Requests) -> None:
@@ -245,6 +179,3 @@ def _state(run: SurfaceRun, wanted: StateRequest, found: list[SpecialPoint], cou
     quantities = {name: Quantity(float(value)) for name, value in values.items()}
     shown = fields(run, point) if wanted.profile is not None else ()
     return State({wanted.name: wanted.value}, wanted.branch, quantities, shown, wanted.crossing)
-
-
-registry.add(Surface())

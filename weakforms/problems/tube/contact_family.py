@@ -7,14 +7,14 @@ from typing import ClassVar
 
 from mpi4py import MPI
 
-from weakforms.errors import AbsentError, InputError
+from weakforms.problems.contact.family import contact_branch
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.contact import ContactData
-from weakforms.problems.tube.contact_phases import ContactRun
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
-from weakforms.results import Absence, SpecialPoint
+from weakforms.problems.tube.phases import TubePhases
+from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.branch import SolutionCurve
-from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
+from weakforms.solvers.continuation.pieces import PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 from weakforms.solvers.uncertainty.refinement import Slow
 
@@ -69,8 +69,9 @@ def contact_family(
     """The branch of a constrained tube: free and in contact, or in deflation."""
     cap = 2 * numerics.degree
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
+    unilateral = runs[-1].data.unilateral
 
-    def family(part: Callable[[ContactRun], SolutionCurve], slow: Slow | None) -> BranchFamily:
+    def family(part: Callable[[TubePhases], SolutionCurve], frozen: bool) -> BranchFamily:
         def make(level: int) -> SolutionCurve:
             progress("branch", level, numerics.levels)
             return part(runs[level])
@@ -78,42 +79,23 @@ def contact_family(
         caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(EDGE_COLUMNS, min(cap, 2.0))
         caps["kappa"] = cap - 1
         kind = BranchFamily
-        if runs[-1].data.unilateral:
+        if unilateral:
             kind, caps = UnilateralFamily, caps | KINK_ORDERS
+        slow = (LET_GO if unilateral else SERIES) if frozen else None
         return kind(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
 
-    none = NO_PATCH | {"kappa": float("nan")}
-    deflates = parameters.phase == "deflation"
-    try:
-        untouched = runs[-1].untouched
-    except AbsentError as error:
-        if deflates:
-            raise InputError(str(error)) from error
-        free = family(lambda run: run.inflated, None)
-        return PiecewiseFamily([Piece(free, none)], absent=[Absence(error.what, str(error))])
-    if untouched:
-        free = family(lambda run: run.emptied if deflates else run.until_end, None)
-        return PiecewiseFamily([Piece(free, none)], absent=[Absence("contact", untouched)])
-    if deflates:
-        slow = LET_GO if runs[-1].data.unilateral else SERIES
-        return PiecewiseFamily([Piece(family(lambda run: run.deflation, slow), {})])
-    history = SERIES if parameters.contact == "adhesive" else None
-    pieces = [
-        Piece(family(lambda run: run.free, None), none),
-        Piece(family(lambda run: getattr(run, parameters.contact), history), {}),
-    ]
-
-    def onset() -> list[SpecialPoint]:
+    def onset() -> SpecialPoint:
         shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
-        same = [run.onset for run in runs]
-        return [special_point(same, shown, cap, "primary", "p", {"t2_min": 2.0})]
+        return special_point([run.onset for run in runs], shown, cap, "primary", "p", {"t2_min": 2.0})
 
-    return PiecewiseFamily(pieces, onset)
+    none = NO_PATCH | {"kappa": float("nan")}
+    sticks, deflates = parameters.contact == "adhesive", parameters.phase == "deflation"
+    return contact_branch(runs, family, sticks, deflates, none, onset)
 
 
-def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm) -> ContactRun:
+def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm) -> TubePhases:
     data = ContactData(
-        alpha=parameters.alpha,
+        law=parameters.material,
         delta1=parameters.delta1,
         lf=parameters.lf,
         k=parameters.k,
@@ -121,7 +103,6 @@ def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: M
         cells=numerics.meshes[level] // 2,
         degree=numerics.degree,
         grading=numerics.grading,
-        material=parameters.material,
         unilateral=parameters.phase == "deflation" and parameters.spring == "unilateral",
     )
-    return ContactRun(comm, data, parameters.p_end, numerics.step, FIRST_TERMS + MORE_TERMS * level)
+    return TubePhases(comm, data, parameters.p_end, numerics.step, FIRST_TERMS + MORE_TERMS * level)

@@ -1,37 +1,37 @@
-"""Paper 2: inflation of a pre-stretched cylindrical membrane held by two rigid disks.
+r"""Paper 2: inflation of a pre-stretched cylindrical membrane held by two rigid disks.
 
 Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282. Lengths are divided by the disk radius
 ``R_f = R_o/sqrt(delta1)``, stresses by ``C1 h_o``; ``Z = delta1 z`` in ``[0, l_f/2]`` is measured from the
-mid-plane on the axially stretched tube.
+mid-plane on the axially stretched tube. The total potential over :math:`2\pi C_1 h_o R_f^2` is
+
+.. math:: \frac{\Pi}{2\pi} = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
+          - \frac p2 \rho^2 \eta_{,Z} + \frac k2\,\chi\,\rho\,(\rho - s)^2\,\eta_{,Z} \Big] \mathrm{d}Z
+
+(equation 8 of the paper; ``r0 dz = dZ/sqrt(delta1)``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
-import basix.ufl
 import numpy as np
 import ufl
-from dolfinx import fem
-from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
-from weakforms.forms.kinematics import Stretches, tube_stretches
-from weakforms.forms.loads import enclosed_volume, gas_potential
-from weakforms.forms.materials import stress_resultants
+from weakforms.forms.loads import substrate_potential
 from weakforms.forms.wrinkling import Law
-from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
-from weakforms.problems.meshes import graded_interval, tag_points
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, one_end
+from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Fold, Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import Formulation, State, System
-
-MIDPLANE, DISK, FAR_DISK = 1, 2, 3
 
 START_STRETCH = 1.3
 """Pre-stretch at which the steps to a first state start. At ``delta1 = 1`` and ``p = 0`` the tube is slack
@@ -62,62 +62,107 @@ class TubeMesh:
     full: bool = False
 
 
-def potential(rho: Expr, eta: Expr, p: Expr, law: Law, delta1: Expr) -> Expr:
-    r"""Total potential per unit of ``Z`` and over :math:`2\pi C_1 h_o R_f^2`.
+class TubeModel(MeridianModel):
+    """Weak form of the tube; its unknowns are ``rho`` and ``eta``.
 
-    .. math:: \Pi/2\pi = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
-              - \frac p2 \rho^2 \eta_{,Z} \Big] \mathrm{d}Z
-
-    (equation 8 of the paper without substrate; ``r0 dz = dZ/sqrt(delta1)``).
+    Args:
+        comm: Ranks.
+        material: The law.
+        values: First values of the loads ``p``, ``delta1`` and, with a substrate, ``k`` and ``s``.
+        half: Half the length.
+        mesh: Its blocks and elements; a whole tube begins at ``-half``.
+        energy: See :class:`MeridianModel`.
     """
-    stretches = tube_stretches(rho, eta, delta1)
-    energy = law(stretches.lam1, stretches.lam2)
-    return energy / ufl.sqrt(delta1) + gas_potential(rho, eta, p)
+
+    name = "tube"
+
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        material: Chosen,
+        values: Mapping[str, float],
+        half: float,
+        mesh: Blocks,
+        energy: str = "standard",
+    ) -> None:
+        # At the mid-plane eta = 0 by symmetry; a whole tube has a disk at either end.
+        disk, middle = (1.0, half), (None, 0.0)
+        body = Body(
+            name="tube",
+            parameters=(),
+            length=lambda _q: half,
+            radius=lambda _s, _q: 1.0,
+            thickness=lambda _s, q: 1 / ufl.sqrt(q["delta1"]),
+            held=((1.0, -half) if mesh.breaks[0] < 0 else middle, disk),
+            scales=lambda q: (q["delta1"], 1 / ufl.sqrt(q["delta1"])),
+        )
+        super().__init__(comm, body, values, mesh, energy, material)
+        z = {name: float(self.breaks[k]) for name, k in self.fronts.items()}
+        self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), self.material(x[0], z)]))
+
+    @classmethod
+    def free(cls, comm: MPI.Intracomm, material: Chosen, delta1: float, lf: float, at: TubeMesh) -> TubeModel:
+        """The tube without a substrate: half of it, or the whole."""
+        half, disk = lf / 2, one_end(at.grading)
+        grading, breaks = [disk], [0.0, half]
+        if at.full:
+            grading, breaks = [lambda t: 1 - disk(1 - t), disk], [-half, 0.0, half]
+        values = {"p": 0.0, "delta1": delta1}
+        mesh = Blocks(breaks, at.cells, at.degree, 2 * at.degree + 2, grading=grading)
+        return cls(comm, material, values, half, mesh)
+
+    def mass(self) -> ufl.Form:
+        """``int |dx|^2 dZ``."""
+        trial, test = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
+        return ufl.inner(trial, test) * self.expressions["width"] * self.dx
+
+    def touching(self) -> Expr | float:
+        """Indicator of contact with a substrate."""
+        return ufl.conditional(ufl.gt(self.expressions["r"], self.q["s"]), 1.0, 0.0)
+
+    def foundation(self) -> Expr | float:
+        """The substrate, if there is one."""
+        if "k" not in self.q:
+            return super().foundation()
+        e, q = self.expressions, self.q
+        return substrate_potential(e["r"], e["z_s"], q["k"], q["s"], self.touching())
+
+    def at_middle(self, value: Expr) -> ufl.Form:
+        """Value at ``Z = 0`` as a form, so that every rank gets it like an integral."""
+        return ufl.avg(value) * self.inner(BREAK) if self.breaks[0] < 0 else value * self.ends(LOWER)
+
+    def axial_force(self) -> Expr:
+        r"""Of the membrane, :math:`r_0 w_{,1}\cos\beta`."""
+        e = self.expressions
+        return ufl.sqrt(self.q["delta1"]) * self.resultants[0] * e["lam2"] * e["cos_beta"]
+
+    def formulation(self) -> Formulation:
+        r"""The weak form, with columns and with fields that include both first integrals of free inflation.
+
+        .. math:: F = r_0 w_{,1}\cos\beta - \tfrac12 p\rho^2, \qquad H = w - \lambda_1 w_{,1}
+        """
+        e, given = self.expressions, super().formulation()
+        rho, lam1, lam2 = e["r"], e["lam1"], e["lam2"]
+        t1, _ = self.resultants
+        return replace(
+            given,
+            monitors={
+                "u_max": self.at_middle(rho - 1),
+                "lam1_mid": self.at_middle(lam1),
+                "t1_mid": self.at_middle(t1),
+                **given.monitors,
+                "resistance": self.at_middle(resistance(self.law, lam1, lam2)),
+            },
+            internal=("resistance",),
+            profile={
+                **given.profile,
+                "F_axial": self.axial_force() - self.q["p"] * rho**2 / 2,
+                "H": self.law(lam1, lam2) - lam1 * t1 * lam2,
+            },
+        )
 
 
-def formulation(
-    comm: MPI.Intracomm, material: Chosen | float, delta1: float, lf: float, at: TubeMesh
-) -> Formulation:
-    """Weak form of free inflation, with the pressure and the pre-stretch as loads.
-
-    If the material is a number, it is C2/C1 of the paper's Mooney-Rivlin law.
-    """
-    half = lf / 2
-    mesh = graded_interval(comm, at.cells, half, at.grading, mirrored=at.full)
-    space = fem.functionspace(mesh, basix.ufl.element("Lagrange", "interval", at.degree, shape=(2,)))
-    unknown = fem.Function(space, name="tube")
-    unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), x[0]]))
-    rho, eta = unknown
-    constants = {name: fem.Constant(mesh, value) for name, value in (("p", 0.0), ("delta1", delta1))}
-    loads = {name: (constants[name], ufl.variable(constants[name])) for name in ("p", "delta1")}
-    p, d1 = (variable for _, variable in loads.values())
-    law = (material if isinstance(material, Chosen) else mooney_rivlin_of(material)).law(mesh)
-
-    dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 2 * at.degree + 2})
-    energy = potential(rho, eta, p, law, d1) * dx
-    stretches = tube_stretches(rho, eta, d1)
-    t1, _ = stress_resultants(law, stretches.lam1, stretches.lam2)
-    middle = _midplane(mesh, at.full)
-    return Formulation(
-        unknown=unknown,
-        residual=ufl.derivative(energy, unknown, ufl.TestFunction(space)),
-        loads=loads,
-        bcs=_clamps(space, half, at.full),
-        mass=ufl.inner(ufl.TrialFunction(space), ufl.TestFunction(space)) * dx,
-        monitors={
-            "u_max": middle(rho - 1),
-            "lam1_mid": middle(stretches.lam1),
-            "t1_mid": middle(t1),
-            "V": enclosed_volume(rho, eta) * dx,
-            "Pi": energy,
-            "resistance": middle(resistance(law, stretches)),
-        },
-        internal=("resistance",),
-        profile=_profile(unknown, stretches, p, d1, law),
-    )
-
-
-def resistance(law: Law, stretches: Stretches) -> Expr:
+def resistance(law: Law, lam1: Expr, lam2: Expr) -> Expr:
     r"""``λ₁ w,₁₁ - LEAST_RESISTANCE w,₁``: negative if the law hardly resists more meridional stretch.
 
     In free inflation :math:`H = w - \lambda_1 w_{,1}` is constant, and its derivative with respect to the
@@ -125,55 +170,9 @@ def resistance(law: Law, stretches: Stretches) -> Expr:
     Varga's), the stretch of the mid-plane becomes unbounded at a finite displacement, and beyond it there is
     no solution of finite stretch.
     """
-    l1 = ufl.variable(stretches.lam1)
-    slope = ufl.diff(law(l1, stretches.lam2), l1)
+    l1 = ufl.variable(lam1)
+    slope = ufl.diff(law(l1, lam2), l1)
     return l1 * ufl.diff(slope, l1) - LEAST_RESISTANCE * slope
-
-
-def _profile(unknown: fem.Function, stretches: Stretches, p: Expr, delta1: Expr, law: Law) -> dict[str, Expr]:
-    r"""Columns along the meridian, including the two first integrals of free inflation.
-
-    .. math:: F = r_0 w_{,1}\cos\beta - \tfrac12 p\rho^2, \qquad H = w - \lambda_1 w_{,1}
-    """
-    rho, eta = unknown
-    lam1, lam2 = stretches.lam1, stretches.lam2
-    t1, t2 = stress_resultants(law, lam1, lam2)
-    w1 = t1 * lam2
-    return {
-        "rho": rho,
-        "eta": eta,
-        "lam1": lam1,
-        "lam2": lam2,
-        "t1": t1,
-        "t2": t2,
-        "F_axial": ufl.sqrt(delta1) * w1 * stretches.cos_beta - p * rho**2 / 2,
-        "H": law(lam1, lam2) - lam1 * w1,
-    }
-
-
-def _midplane(mesh: Mesh, full: bool) -> Callable[[Expr], ufl.Form]:
-    """Value at ``Z = 0`` as a form, so that every rank gets it like an integral."""
-    tags = tag_points(mesh, {MIDPLANE: 0.0})
-    if full:
-        inner = ufl.Measure("dS", mesh, subdomain_data=tags)
-        return lambda value: ufl.avg(value) * inner(MIDPLANE)
-    outer = ufl.Measure("ds", mesh, subdomain_data=tags)
-    return lambda value: value * outer(MIDPLANE)
-
-
-def _clamps(space: fem.FunctionSpace, half: float, full: bool) -> list[fem.DirichletBC]:
-    """Disks at ``rho = 1, eta = ±l_f/2``; on the half tube ``eta = 0`` at the mid-plane by symmetry."""
-    mesh = space.mesh
-    tags = tag_points(mesh, {MIDPLANE: 0.0, DISK: half, FAR_DISK: -half})
-
-    def fixed(tag: int, axial: float) -> fem.DirichletBC:
-        dofs = fem.locate_dofs_topological(space, 0, tags.find(tag))
-        return fem.dirichletbc(np.array([1.0, axial]), dofs, space)
-
-    if full:
-        return [fixed(DISK, half), fixed(FAR_DISK, -half)]
-    dofs = fem.locate_dofs_topological(space.sub(1), 0, tags.find(MIDPLANE))
-    return [fixed(DISK, half), fem.dirichletbc(np.array(0.0), dofs, space.sub(1))]
 
 
 def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:

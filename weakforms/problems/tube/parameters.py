@@ -9,6 +9,7 @@ from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.problem import Needs
 
 
 class TubeNumerics(MeshNumerics):
@@ -37,6 +38,11 @@ class TubeParameters(MaterialChoice):
     """The tube and its substrate."""
 
     ratio: ClassVar[str] = "alpha"
+    needs: ClassVar[Needs] = {
+        **dict.fromkeys(("k", "s", "p_end"), ({"contact": ("frictionless", "adhesive")},)),
+        "spring": [{"phase": ("deflation",)}],
+        "u_end": [{"contact": ("none",)}],
+    }
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")

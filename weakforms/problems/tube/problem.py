@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar
 
 import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
-from weakforms.problems.branch_problem import Family, PathProblem
+from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
-from weakforms.problems.problem import Progress, Requests, check_requests, registry
+from weakforms.problems.problem import End, Progress, Requests, Task
+from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
-from weakforms.problems.tube.model import TubeMesh, fold_line, formulation, free_branch
+from weakforms.problems.tube.model import FIRST_U, TubeMesh, TubeModel, fold_line, free_branch
 from weakforms.problems.tube.parameters import (
     LONGEST_WHOLE,
     TubeFoldParameters,
@@ -22,101 +22,18 @@ from weakforms.problems.tube.parameters import (
     resolving,
 )
 from weakforms.solvers.continuation.branch import EquilibriumBranch, SolutionCurve
-from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.uncertainty.family import BranchFamily
-
-SOURCE = "Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282"
-
-SCALES = {
-    "length": "R_f, radius of the disks (= R_o/sqrt(delta1))",
-    "p": "P R_f/(C1 h_o)",
-    "alpha": "C2/C1",
-    "delta1": "axial pre-stretch, 1",
-    "lf": "L_f/R_f",
-    "k": "K R_f^2/(C1 h_o)",
-    "s": "S/R_f",
-    "u_max": "radial displacement of the mid-plane over R_f",
-    "lam1_mid": "meridional stretch at the mid-plane, 1",
-    "t1_mid": "meridional Cauchy resultant at the mid-plane over C1 h_o",
-    "V": "enclosed volume of the half tube over 2 pi R_f^3",
-    "Pi": "total potential of the half tube over 2 pi C1 h_o R_f^2",
-    "Z": "axial coordinate on the pre-stretched tube from the mid-plane over R_f",
-    "rho": "deformed radius over R_f",
-    "eta": "deformed axial position from the mid-plane over R_f",
-    "lam1": "meridional stretch, 1",
-    "lam2": "circumferential stretch, 1",
-    "t1": "meridional Cauchy resultant over C1 h_o",
-    "t2": "circumferential Cauchy resultant over C1 h_o",
-    "Z_front": "Z of the contact front",
-    "contact_length": "deformed length of the whole patch over R_f",
-    "lam2_mid": "circumferential stretch at the mid-plane, 1",
-    "line_force": "axial line force at the edge of the patch over C1 h_o (equation 22)",
-    "line_force_membrane": "axial line force without the jump of the spring's term over C1 h_o",
-    "traction_front": "|f_t| at the front, inside, times R_f/(C1 h_o)",
-    "traction_max": "largest axial traction |f_t| of the substrate times R_f/(C1 h_o)",
-    "spring_max": "largest radial spring density |f_k| times R_f/(C1 h_o)",
-    "t2_min": "smallest circumferential resultant over C1 h_o",
-    "kappa": "curvature of the free part at the front times R_f; negative: bulged outward",
-    "f_t": "axial traction of the substrate on the membrane times R_f/(C1 h_o)",
-    "f_k": "radial spring density times R_f/(C1 h_o); negative: pushes inward",
-    "eigenvalue_1": "lowest eigenvalue of the second variation at fixed p against int |u|^2 dZ",
-}
-
-ENERGY = (
-    "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z "
-    "+ (k/2) chi rho (rho - s)^2 eta_Z ] dZ,  "
-    "lam1 = delta1 sqrt(rho_Z^2 + eta_Z^2),  lam2 = rho/sqrt(delta1),  "
-    "w = I1 - 3 + alpha (I2 - 3), or of another model (weakforms show material; its S for C1)"
-)
-
-
-DERIVED_COLUMNS = (
-    "line_force",
-    "line_force_membrane",
-    "traction_front",
-    "traction_max",
-    "spring_max",
-    "t2_min",
-)
-"""Columns of constrained inflation that cannot be prescribed."""
-
-CONTACT_COLUMNS = ("Z_front", "contact_length", "lam2_mid", "kappa", *DERIVED_COLUMNS)
-"""Columns of constrained inflation only."""
-
 
 SCANNED = 17
 """Number of pre-stretches at which a limit point is searched."""
 
 
-class Tube(PathProblem):
+class Tube(BranchProblem):
     """Inflation of a pre-stretched cylindrical membrane, free or constrained by a substrate."""
 
-    name: ClassVar[str] = "tube"
-    title: ClassVar[str] = "Inflation of a pre-stretched cylindrical membrane"
-    paper: ClassVar[int] = 2
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = TUBE
     parameters = TubeParameters
     numerics = TubeNumerics
-    columns = (
-        "p",
-        "u_max",
-        "lam1_mid",
-        "t1_mid",
-        "V",
-        "Pi",
-        *CONTACT_COLUMNS,
-        "n_negative",
-        "residual",
-        "iterations",
-    )
-    derived = DERIVED_COLUMNS
-    special_points = ("limit_point", "bifurcation_point", "contact_onset")
-    branches = ("primary",)
-    control: ClassVar[str] = (
-        "p (past a limit point compare over u_max, which increases along the whole branch)"
-    )
 
     def check(self, parameters: TubeParameters, requests: Requests) -> None:
         """Refuse wrong combinations of parameters and requests.
@@ -124,7 +41,7 @@ class Tube(PathProblem):
         Raises:
             InputError: If phase or extent do not fit the contact, or a state cannot exist.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
                 "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"
@@ -143,15 +60,19 @@ class Tube(PathProblem):
         if parameters.contact != "none" and parameters.extent != "half":
             raise InputError("tube: contact is solved on the half tube; allowed: extent = 'half'")
 
-    def families(
-        self,
-        parameters: TubeParameters,
-        numerics: TubeNumerics,
-        _requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress,
-    ) -> dict[str, Family]:
+    def ends(self, parameters: TubeParameters, _branch: str) -> list[End]:
+        """Where free inflation, contact and deflation end."""
+        if parameters.contact == "none":
+            return [End("u_end", "u_max", parameters.u_end, largest=True)]
+        highest = End("p_end", "p", parameters.p_end, largest=True)
+        if parameters.phase == "inflation":
+            return [highest]
+        empty = End("unloaded", "p", 0.0, "deflation ends without pressure")
+        return [empty, End("slack", "u_max", FIRST_U, "the tube is slack"), highest]
+
+    def families(self, task: Task) -> dict[str, Family]:
         """The branch on all meshes: free, or in contact."""
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         if parameters.contact != "none":
             return {"primary": contact_family(parameters, numerics, comm, progress)}
         make = branch_maker(parameters, numerics, comm, progress)
@@ -182,7 +103,7 @@ def branch_maker(
             numerics.grading,
             full=parameters.extent == "full",
         )
-        system = System(formulation(comm, parameters.material, parameters.delta1, parameters.lf, at))
+        system = TubeModel.free(comm, parameters.material, parameters.delta1, parameters.lf, at).system
         branch = free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
         if branch.ended is not None:
             branch.ended = f"tube: {branch.ended}; lower u_end"
@@ -193,35 +114,21 @@ def branch_maker(
     return make
 
 
-class TubeFold(PathProblem):
+class TubeFold(BranchProblem):
     """Limit points of free inflation over the pre-stretch, through the cusp in which they merge."""
 
-    name: ClassVar[str] = "tube_fold"
-    title: ClassVar[str] = "Fold line of the freely inflated tube and its cusp"
-    paper: ClassVar[int] = 2
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = TUBE_FOLD
     parameters = TubeFoldParameters
     numerics = TubeNumerics
-    columns = ("delta1", *(c for c in Tube.columns if c not in CONTACT_COLUMNS))
-    special_points = ("cusp_point",)
-    branches = ("primary",)
-    control: ClassVar[str] = "delta1 (past the cusp compare over u_max, which increases along the whole line)"
 
-    def check(self, parameters: TubeFoldParameters, requests: Requests) -> None:
-        """Refuse requests for states that cannot exist."""
-        check_requests(self, requests)
+    def ends(self, parameters: TubeFoldParameters, _branch: str) -> list[End]:
+        """The ends of the range of pre-stretches."""
+        start = End("unstretched", "delta1", 1.0, "the line returns to a tube without pre-stretch")
+        return [End("delta1_end", "delta1", parameters.delta1_end, largest=True), start]
 
-    def families(
-        self,
-        parameters: TubeFoldParameters,
-        numerics: TubeNumerics,
-        _requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress,
-    ) -> dict[str, Family]:
+    def families(self, task: Task) -> dict[str, Family]:
         """The first limit point at one end of the pre-stretches, followed on all meshes."""
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         given = {n: v for n, v in parameters.model_dump().items() if n != "delta1_end"}
         ends = 1.0, parameters.delta1_end
 
@@ -283,7 +190,3 @@ def _named(chosen: Chosen) -> str:
     """A law and its constants as text."""
     model = () if chosen.model == MOONEY_RIVLIN else (f"model = {chosen.model}",)
     return ", ".join((*model, *(f"{name} = {value:g}" for name, value in chosen.constants)))
-
-
-registry.add(Tube())
-registry.add(TubeFold())

@@ -15,39 +15,23 @@ problem.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from typing import Literal
 
-import basix.ufl
 import numpy as np
-import ufl
-from dolfinx import fem
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.forms.kinematics import tube_stretches
-from weakforms.forms.loads import gas_potential, substrate_potential
-from weakforms.forms.materials import mooney_rivlin
-from weakforms.problems.meshes import graded_interval, tag_points
-from weakforms.problems.problem import (
-    Numerics,
-    Parameters,
-    Progress,
-    Requests,
-    check_requests,
-    registry,
-    silent,
-)
-from weakforms.problems.quantity_problem import solve_twice
-from weakforms.problems.tube.model import first_state
-from weakforms.problems.tube.problem import ENERGY, SCALES, SOURCE
+from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.meridian.blocks import Blocks
+from weakforms.problems.problem import Numerics, Parameters, Problem, Task
+from weakforms.problems.quantity_problem import on_two_meshes
+from weakforms.problems.tube.about import TUBE_SCHEME
+from weakforms.problems.tube.model import TubeModel, first_state
 from weakforms.results import Absence, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State, System
-
-MIDPLANE, DISK = 1, 2
+from weakforms.solvers.equilibrium.system import State
 
 
 class SchemeParameters(Parameters):
@@ -73,57 +57,18 @@ class SchemeNumerics(Numerics):
     )
 
 
-@dataclass
-class FixedMesh:
-    """The tube on one mesh with its contact indicator in the form."""
+class FixedMesh(TubeModel):
+    """The tube on one mesh, in contact where ``rho > s``."""
 
-    system: System
-    radial: np.ndarray
-    """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; the next one is ``eta``
-    at the same node."""
-    parameters: SchemeParameters
-    _held: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
-    _at: np.ndarray = field(default_factory=lambda: np.empty(0))
-
-    @classmethod
-    def build(cls, comm: MPI.Intracomm, given: SchemeParameters, cells: int) -> FixedMesh:
-        """Assemble the form."""
-        half = given.lf / 2
-        mesh = graded_interval(comm, cells, half, 0.0)
-        element = basix.ufl.element("Lagrange", "interval", 1, shape=(2,))
-        space = fem.functionspace(mesh, element)
-        unknown = fem.Function(space)
-        unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), x[0]]))
-        rho, eta = unknown
-        values = {"p": 0.0, "k": 0.0, "delta1": given.delta1}
-        constants = {name: fem.Constant(mesh, value) for name, value in values.items()}
-        loads = {name: (c, ufl.variable(c)) for name, c in constants.items()}
-        p, k, delta1 = (loads[name][1] for name in ("p", "k", "delta1"))
-        stretches = tube_stretches(rho, eta, delta1)
-        touches = ufl.conditional(ufl.gt(rho, given.s), 1.0, 0.0)
-        dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 6})
-        energy = mooney_rivlin(stretches.lam1, stretches.lam2, given.alpha) / ufl.sqrt(delta1)
-        energy += gas_potential(rho, eta, p) + substrate_potential(rho, eta, k, given.s, touches)
-        tags = tag_points(mesh, {MIDPLANE: 0.0, DISK: half})
-        ends = ufl.Measure("ds", mesh, subdomain_data=tags)
-        disk = fem.locate_dofs_topological(space, 0, tags.find(DISK))
-        middle = fem.locate_dofs_topological(space.sub(1), 0, tags.find(MIDPLANE))
-        test = ufl.TestFunction(space)
-        system = System(
-            Formulation(
-                unknown=unknown,
-                residual=ufl.derivative(energy * dx, unknown, test),
-                loads=loads,
-                bcs=[
-                    fem.dirichletbc(np.array([1.0, half]), disk, space),
-                    fem.dirichletbc(np.array(0.0), middle, space.sub(1)),
-                ],
-                mass=ufl.inner(ufl.TrialFunction(space), test) * dx,
-                monitors={"u_max": (rho - 1) * ends(MIDPLANE)},
-            )
-        )
-        z = space.tabulate_dof_coordinates()[: system.size // 2, 0]
-        return cls(system, 2 * np.argsort(z), given)
+    def __init__(self, comm: MPI.Intracomm, given: SchemeParameters, cells: int) -> None:
+        values, half = {"p": 0.0, "k": 0.0, "s": given.s, "delta1": given.delta1}, given.lf / 2
+        mesh = Blocks([0.0, half], cells, degree=1, quadrature=6)
+        super().__init__(comm, mooney_rivlin_of(given.alpha), values, half, mesh)
+        self.parameters = given
+        self.radial = 2 * np.argsort(self.nodes())
+        """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; the next one is
+        ``eta`` at the same node."""
+        self._held, self._at = np.empty(0, dtype=np.int64), np.empty(0)
 
     # -- the schemes ---------------------------------------------------------------------------
 
@@ -190,53 +135,32 @@ class FixedMesh:
         return {"u_max": float(rho[0] - 1), "contact_length": float(2 * front)}
 
 
-class TubeScheme:
+class TubeScheme(Problem):
     """The constrained tube in contact, on a fixed mesh."""
 
-    name: ClassVar[str] = "tube_scheme"
-    title: ClassVar[str] = "Contact of the tube by the paper's schemes on a fixed mesh"
-    paper: ClassVar[int] = 2
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = TUBE_SCHEME
     parameters = SchemeParameters
     numerics = SchemeNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = "p; the quantities u_max and contact_length are at p_end"
 
-    def check(self, parameters: SchemeParameters, requests: Requests) -> None:
-        """Refuse requests for states; the only state is that at ``p_end``."""
-        check_requests(self, requests)
-
-    def solve(
-        self,
-        parameters: SchemeParameters,
-        numerics: SchemeNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Run the scheme on two meshes (and numbers of steps); uncertainties assume first order."""
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         alone = MPI.COMM_SELF if comm.size > 1 else comm
-
         absent: list[Absence] = []
 
         def run(coarser: int) -> dict[str, float]:
             cells, steps = numerics.cells // coarser, numerics.steps // coarser
             return _run(alone, parameters, cells, steps, absent)
 
-        result = solve_twice(self, parameters, numerics, comm, progress, run, order=1.0)
+        result.quantities |= on_two_meshes(run, 1.0, self.name, progress)
         result.absent.extend(absent[-1:])
-        return result
 
 
 def _run(
     comm: MPI.Intracomm, parameters: SchemeParameters, cells: int, steps: int, absent: list[Absence]
 ) -> dict[str, float]:
     """The quantities on one mesh; contact that is not there is noted in a list."""
-    tube = FixedMesh.build(comm, parameters, cells)
+    tube = FixedMesh(comm, parameters, cells)
     state, touched = tube.touch()
     if not touched:
         reason = (
@@ -250,6 +174,3 @@ def _run(
     else:
         state = tube.pressure_steps(state, steps, stick=parameters.scheme == "pressure_steps")
     return tube.outcome(state)
-
-
-registry.add(TubeScheme())

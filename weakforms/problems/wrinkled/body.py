@@ -1,42 +1,16 @@
-"""Membranes of revolution whose wrinkling is studied: reference surface, thickness, supports."""
+"""Membranes of revolution whose wrinkling is studied."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import ufl
 
+from weakforms.problems.meridian.body import Body, Values
+
 SHARED = ("p", "zw", "gamma", "c2", "residual_stiffness")
 """Parameters of every body: gas pressure, level and weight of the liquid, C2/C1, ``eps`` of the homotopy."""
-
-Values = Mapping[str, Any]
-"""Parameters by name: numbers, or expressions of a form."""
-
-
-@dataclass(frozen=True)
-class Body:
-    """A membrane of revolution and its supports; all functions accept numbers and expressions."""
-
-    name: str
-    parameters: tuple[str, ...]
-    """Names of its parameters besides :data:`SHARED`."""
-    length: Callable[[Values], Any]
-    """Meridional length of the reference surface."""
-    radius: Callable[[Any, Values], Any]
-    """Radius ``R(S)`` of the reference surface."""
-    thickness: Callable[[Any, Values], Any]
-    """Thickness ``H(S)`` over its mean."""
-    shape: Callable[[Any, Values], tuple[Any, Any]]
-    """Shape ``(r/R, z)`` from which the unknowns are measured; it has the prescribed values at the ends."""
-    held: tuple[tuple[bool, bool], tuple[bool, bool]] = ((True, True), (True, True))
-    """Whether ``r`` and ``z`` are prescribed at the first and at the last end; at a pole ``r`` is 0."""
-    easy: tuple[tuple[str, float], ...] = ()
-    """Parameters at which the shape is near an unloaded state, the start of the steps to other parameters."""
-    pole: bool = False
-    """Whether the first end lies on the axis."""
 
 
 def _cylinder_thickness(s: Any, q: Values) -> Any:
@@ -75,7 +49,7 @@ HEMISPHERE = Body(
     radius=lambda t, _q: ufl.sin(t),
     thickness=lambda _t, _q: 1.0,
     shape=lambda t, _q: (1.0, -SHAPE_DEPTH * ufl.cos(t)),
-    held=((False, False), (True, True)),
+    held=((None, None), (0.0, 0.0)),
     pole=True,
 )
 """Paper 5: it hangs from its equator. Lengths are divided by its radius, ``S = t`` is the angle from the

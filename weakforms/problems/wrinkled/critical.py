@@ -10,9 +10,9 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
+from weakforms.problems.meridian.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.fitted import PLACE, Membrane
-from weakforms.problems.wrinkled.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.start import WALK
 from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.solvers.continuation.walk import walk

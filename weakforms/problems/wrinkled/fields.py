@@ -11,7 +11,8 @@ from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.wrinkled.model import TAUT, WRINKLED, WrinkledModel
+from weakforms.problems.meridian.model import TAUT, WRINKLED
+from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.solvers.support.sampling import Interpolant
 
 PER_CELL = 9

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.meridian.model import BY_STATE
 from weakforms.problems.wrinkled.fields import Zones, zones
-from weakforms.problems.wrinkled.model import BY_STATE, WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.start import VERGE, VERGE_FITTED, PlainMembrane
 from weakforms.problems.wrinkled.state import (
     AtBreak,

@@ -8,7 +8,6 @@ coordinate from the lower end.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -17,20 +16,19 @@ from mpi4py import MPI
 from pydantic import BeforeValidator, Field
 
 from weakforms.errors import InputError
-from weakforms.problems.branch_problem import Family, MeshNumerics, PathProblem
+from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.problem import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.problem import End, Needs, Requests, Task
+from weakforms.problems.wrinkled.about import WRINKLED_TUBE
 from weakforms.problems.wrinkled.body import CYLINDER
-from weakforms.problems.wrinkled.branch import WrinkledBranch
+from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.fitted import Membrane
 from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
 from weakforms.results import Quantity, Result
-from weakforms.solvers.support.provenance import provenance
+from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
-
-SOURCE = "Patil, Nordmark & Eriksson (2015), Eur. J. Mech. A/Solids 54, 1-10"
 
 DENSITY, GRAVITY, RADIUS, THICKNESS, SHEAR = 1000.0, 9.81, 0.010, 0.1e-3, 0.2111e6
 """The paper's data for water, cylinder and ``C1`` in SI units."""
@@ -41,55 +39,6 @@ PAPER_GAMMA = DENSITY * GRAVITY * RADIUS**2 / (SHEAR * THICKNESS)
 LOAD = {"fluid": "zw", "gas": "p"}
 LOAD_END = {"fluid": 16.0, "gas": 0.6}
 """Default loads at which branches end."""
-
-SCALES = {
-    "length": "Ao, undeformed radius",
-    "M": "thickness at the lower end over its mean h (2 - M at the upper end)",
-    "M_taut": "thickness ratio M up to which, from 1 on, the unloaded membrane is taut: it wrinkles at none",
-    "delta": "axial pre-stretch L_f/L_o",
-    "c2": "C2/C1",
-    "C1": "for another model the stress S by which its constants are divided (weakforms show material)",
-    "L": "L_o/Ao",
-    "Af": "radius of the disks over Ao",
-    "gamma": "rho g Ao^2/(C1 h)",
-    "zw": "level of the fluid above the lower end over Ao",
-    "p": "P Ao/(C1 h)",
-    "V": "enclosed volume over 2 pi Ao^3",
-    "Pi": "total potential over 2 pi C1 h Ao^2",
-    "r_max": "largest radius over Ao, the disks included",
-    "N": "meridional tension per undeformed hoop length at Z = 0 over C1 h",
-    "gw_max": "largest value of the wrinkling function lam2 sqrt(lam1); taut above 1",
-    "gw_min": "smallest value of the wrinkling function",
-    "wrinkled_fraction": "fraction of the material length with gw < 1",
-    "Z": "material coordinate from the lower end over Ao",
-    "Z_front_1": "front 1 from the lower end (and so on): material coordinate where gw = 1",
-    "state": "state of the zone that opens or closes: 1 taut, -1 wrinkled",
-    "r": "deformed radius over Ao",
-    "z": "height above the lower end over Ao",
-    "lam1": "meridional stretch, 1",
-    "lam2": "hoop stretch, 1",
-    "gw": "wrinkling function, 1",
-    "tension": "meridional tension per undeformed hoop length over C1 h",
-    "axial": "N cos(phi) - P r^2/2 over C1 h: constant under gas, and above the fluid",
-    "slope": "dr/dz of the meridian",
-    "eigenvalue_1": "lowest eigenvalue of the second variation at fixed load, axisymmetric, against the mass",
-    "n": "waves around the axis",
-    "beta": "bending stiffness over H^3 and C1 h Ao^2: (2/3)(1 + c2)(h/Ao)^2 for an isotropic sheet",
-    "direction": "of a change of stability: 1 if waves appear there along the branch, -1 if they disappear",
-    "Lambda": "Lambda_nN_k: k-th lowest eigenvalue for N waves, d2Pi = Lambda M, M = int H R |dx|^2, over "
-    "C1/(rho_m Ao^2)",
-    "meridional": "mode along the meridian, int H R |dx|^2 dS = 1",
-    "circumferential": "mode around the axis (a length)",
-    "normal": "mode along the outward normal",
-    "Af_critical": "largest radius of the disks with gw <= 1 everywhere at zero load, over Ao",
-}
-
-ENERGY = (
-    "Pi/(2 pi C1 h Ao^2) = int_0^L [ eta W - P r^2 z'/2 ] ds,  eta = M + 2 (1 - M) s/L,  "
-    "P = p or gamma max(zw - z, 0);  W = w(lam1, lam2) where gw = lam2 sqrt(lam1) > 1, else "
-    "w(lam1, lam1^(-1/2)) = lam1^2 + 2/lam1 - 3 + c2 (2 lam1 + 1/lam1^2 - 3);  "
-    "w = I1 - 3 + c2 (I2 - 3) or of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r"
-)
 
 
 def _radius(value: object) -> object:
@@ -125,6 +74,7 @@ class WrinkledParameters(MaterialChoice):
     """The membrane, its disks and its load."""
 
     ratio: ClassVar[str] = "c2"
+    needs: ClassVar[Needs] = {"beta": [{"n": ()}]}
 
     M: float = Field(0.5, gt=0, lt=2, description="thickness at the lower end over its mean")
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
@@ -157,35 +107,12 @@ class WrinkledParameters(MaterialChoice):
         return LOAD[self.load]
 
 
-class WrinkledTube(PathProblem):
+class WrinkledTube(BranchProblem):
     """Pre-stretched cylindrical membrane of non-uniform thickness under fluid or gas."""
 
-    name: ClassVar[str] = "wrinkled_tube"
-    title: ClassVar[str] = "Wrinkling of a pre-stretched cylindrical membrane of non-uniform thickness"
-    paper: ClassVar[int] = 4
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = WRINKLED_TUBE
     parameters = WrinkledParameters
     numerics = WrinkledNumerics
-    columns = (
-        "zw",
-        "p",
-        "V",
-        "Pi",
-        "N",
-        "wrinkled_fraction",
-        "r_max",
-        "gw_max",
-        "gw_min",
-        "n_negative",
-        "residual",
-        "iterations",
-    )
-    derived = ("wrinkled_fraction", "r_max", "gw_max", "gw_min")
-    special_points = ("limit_point", "zone_opening", "zone_closing", "stability_change", "front")
-    branches = ("primary",)
-    control: ClassVar[str] = "zw (load = fluid) or p (gas); past a limit load compare over V, which increases"
 
     def check(self, parameters: WrinkledParameters, requests: Requests) -> None:
         """Refuse wrong combinations of parameters and requests.
@@ -193,7 +120,7 @@ class WrinkledTube(PathProblem):
         Raises:
             InputError: For a state that cannot exist, or a load that the membrane does not have.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
         control = parameters.control
         for wanted in requests.states:
@@ -213,38 +140,27 @@ class WrinkledTube(PathProblem):
                 f"wrinkled_tube: gamma = {parameters.gamma:g} is for a fluid; allowed with load = 'fluid'"
             )
 
-    def solve(
-        self,
-        parameters: WrinkledParameters,
-        numerics: WrinkledNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def ends(self, parameters: WrinkledParameters, _branch: str) -> list[End]:
+        """The last load, or a volume, or a load that has decreased from its highest value."""
+        load = parameters.control
+        return [
+            End("load_end", load, parameters.load_end or LOAD_END[parameters.load]),
+            End("volume_end", "V", lambda columns: parameters.volume_end * columns["V"][0]),
+            End("past limit", load, lambda columns: PAST_LIMIT * max(columns[load]), "past its limit load"),
+            End("at", load, None, "extended to the states that were asked for"),
+        ]
+
+    def fill(self, result: Result, task: Task) -> None:
         """Solve for the critical radius, then for the branch and the requested states with fronts."""
-        begun = time.perf_counter()
-        result = self._result(parameters, numerics)
-        result.numerics["cells"] = numerics.cells
+        parameters, numerics, requests = task.parameters, task.numerics, task.requests
+        comm, progress = task.comm, task.progress
+        result.numerics["stopping"] = STOPPING
         progress("critical radius", 0, 1)
         critical = _critical(parameters, numerics, comm)
         result.quantities["Af_critical"] = quantity(estimate(critical, 2 * numerics.degree))
-        families = {"primary": self._branch(parameters, numerics, requests, comm, critical)}
-        self._answer(result, families, requests, self.points(parameters), progress)
-        result.special_points.extend(families["primary"].fronts)
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
-
-    def families(
-        self,
-        parameters: WrinkledParameters,
-        numerics: WrinkledNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        _progress: Progress,
-    ) -> dict[str, Family]:
-        """The branch on all meshes."""
-        critical = _critical(parameters, numerics, comm)
-        return {"primary": self._branch(parameters, numerics, requests, comm, critical)}
+        branch = self._branch(parameters, numerics, requests, comm, critical)
+        self._answer(result, {"primary": branch}, task)
+        result.special_points.extend(branch.fronts)
 
     def _branch(
         self,
@@ -311,6 +227,3 @@ def quantity(found: Estimate) -> Quantity:
     """An estimate as a quantity of a result."""
     order = float(found.order)
     return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
-
-
-registry.add(WrinkledTube())

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.meridian.model import WRINKLED
 from weakforms.problems.wrinkled.fitted import PLACE, Membrane
-from weakforms.problems.wrinkled.model import WRINKLED
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
 from weakforms.results import Field, Quantity, SpecialPoint

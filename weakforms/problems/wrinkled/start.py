@@ -11,9 +11,10 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.wrinkled.body import Body
+from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.model import BY_STATE, DRY, TAUT, WRINKLED
 from weakforms.problems.wrinkled.fields import Zones, zones
-from weakforms.problems.wrinkled.model import BY_STATE, DRY, TAUT, WRINKLED, WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.state import BLOCKS, Held, Mesh, Touch, model_on, solver_of
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord

@@ -10,9 +10,10 @@ import numpy as np
 from mpi4py import MPI
 
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.wrinkled.body import Body
+from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.model import DRY, WET
 from weakforms.problems.wrinkled.fields import Meridian, Zones
-from weakforms.problems.wrinkled.model import DRY, WET, WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord
 from weakforms.solvers.equilibrium.system import State
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import time
 from typing import ClassVar
 
-from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.problem import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.problem import Problem, Requests, Task
+from weakforms.problems.wrinkled.about import WRINKLED_TUBE_THRESHOLD
 from weakforms.problems.wrinkled.critical import natural_radius, threshold
-from weakforms.problems.wrinkled.problem import ENERGY, SCALES, SOURCE, WrinkledNumerics, quantity
+from weakforms.problems.wrinkled.problem import WrinkledNumerics, quantity
 from weakforms.results import Failure, Result
-from weakforms.solvers.support.provenance import provenance
 
 
 class ThresholdParameters(MaterialChoice):
@@ -33,24 +31,12 @@ class ThresholdParameters(MaterialChoice):
     upper: bool = Field(False, description="which threshold: above the uniform thickness, not below it")
 
 
-class WrinkledTubeThreshold:
+class WrinkledTubeThreshold(Problem):
     """Thickness ratio beyond which the unloaded membrane wrinkles."""
 
-    name: ClassVar[str] = "wrinkled_tube_threshold"
-    title: ClassVar[str] = "Thickness ratio at which the unloaded cylindrical membrane starts to wrinkle"
-    paper: ClassVar[int] = 4
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = WRINKLED_TUBE_THRESHOLD
     parameters = ThresholdParameters
     numerics = WrinkledNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = (
-        "none; the quantity M is the root of min gw = 1 at zero load, Z where it is reached; a membrane that "
-        "is taut at every ratio looked at has M_taut, the last of them, and gw_min there instead"
-    )
 
     def check(self, parameters: ThresholdParameters, requests: Requests) -> None:
         """Refuse states (there is only the unloaded one), and disks between which no membrane is taut.
@@ -58,7 +44,7 @@ class WrinkledTubeThreshold:
         Raises:
             InputError: For these, or a law without a form.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=False)
         natural = natural_radius(parameters.delta)
         if parameters.Af <= natural:
@@ -68,38 +54,20 @@ class WrinkledTubeThreshold:
                 f"delta^(-1/2) = {natural:.6g}"
             )
 
-    def solve(
-        self,
-        parameters: ThresholdParameters,
-        numerics: WrinkledNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """The threshold ``M`` and the place ``Z`` where the membrane wrinkles first.
 
         Where it wrinkles at no ratio: the last one looked at, ``M_taut``, and the least ``gw`` there,
         ``gw_min``.
         """
-        begun = time.perf_counter()
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         progress("threshold", 0, 1)
-        result = Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={**numerics.model_dump(), "meshes": numerics.meshes},
-            provenance={},
-        )
+        values = {name: getattr(parameters, name) for name in ("delta", "c2", "L", "Af")}
+        side = 1 if parameters.upper else -1
+        mesh = numerics.meshes, numerics.degree
         try:
-            values = {name: getattr(parameters, name) for name in ("delta", "c2", "L", "Af")}
-            side = 1 if parameters.upper else -1
-            mesh = numerics.meshes, numerics.degree
             found = threshold(comm, values, *mesh, side, parameters.other_law)
-            result.quantities |= {name: quantity(one) for name, one in found.items()}
         except ConvergenceError as error:
             result.failures.append(Failure("threshold", str(error)))
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
-
-
-registry.add(WrinkledTubeThreshold())
+        else:
+            result.quantities |= {name: quantity(one) for name, one in found.items()}

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.interpolate import BarycentricInterpolator
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.results.model import ROUND_OFF, crossings
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, hermite
 from weakforms.solvers.equilibrium.constraints import Fold, Held, MonitorPlane
 from weakforms.solvers.equilibrium.newton import Constraint
@@ -123,9 +124,12 @@ class SolutionCurve:
 
     def _fraction(self, i: int, name: str, value: float) -> float:
         """Fraction of the interval between two neighbours where a column (a load: its cubic) has a value."""
+        before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
+        for share, left in ((0.0, before), (1.0, after)):
+            if abs(left) <= ROUND_OFF * abs(value):
+                return share
         if name in self.loads:
             return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
-        before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
         return before / (before - after)
 
     def crossings(self, name: str, value: float) -> np.ndarray:
@@ -137,10 +141,7 @@ class SolutionCurve:
         if name not in (*self.loads, *self.system.formulation.monitors):
             known = ", ".join((*self.loads, *self.system.formulation.monitors))
             raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
-        distance = self._over_points(name) - value
-        # A point that has the value exactly counts with the interval before it.
-        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
-        return np.concatenate([[0], hits]) if distance[0] == 0 else hits
+        return crossings(self._over_points(name), value)
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
         """Solve for the state of this mesh in the plane across the branch through a point of another mesh.

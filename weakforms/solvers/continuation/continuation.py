@@ -254,7 +254,10 @@ class Continuation:
             grow = (control.predictor_error / max(self._error, 1e-16)) ** (1 / order)
             before, at = at, new
             step = min(step * min(max(grow, 0.4), 1.8), control.most(at.state, self.solver.scalars))
-        raise ConvergenceError(f"continuation did not end within {control.max_points} points")
+        raise ConvergenceError(
+            f"continuation did not end within {control.max_points} points; raise step, or choose an earlier "
+            "end"
+        )
 
 
 def hermite(x: float) -> tuple[float, float, float, float]:

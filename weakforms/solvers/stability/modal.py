@@ -11,6 +11,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Quantity, SpecialPoint
+from weakforms.results.model import crossings
 from weakforms.solvers.continuation.branch import FittedBranch, Solved
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.equilibrium.system import State
@@ -142,9 +143,7 @@ class ModalBranch(FittedBranch):
             return np.empty(0, dtype=int)
         if name not in self.modes.columns:
             return super().crossings(name, value)
-        distance = np.array([self.observed(point)[name] for point in self.points]) - value
-        hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
-        return np.concatenate([[0], hits]) if distance[0] == 0 else hits
+        return crossings(np.array([self.observed(point)[name] for point in self.points]), value)
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
         """As for any branch, with the additional columns."""

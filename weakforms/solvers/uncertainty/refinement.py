@@ -3,7 +3,7 @@
 The claims are: the true error is within the uncertainty for 95 % of all numbers, and within twice the
 uncertainty (the bound of every verdict) for all of them; the uncertainty is at most 30 times the error, down
 to round-off. They are tested over sets of parameters: :mod:`weakforms.verification.audit.coverage`,
-``tests/verification/test_bounds_hold.py``.
+``tests/verification/audit/test_bounds_hold.py``.
 """
 
 from __future__ import annotations

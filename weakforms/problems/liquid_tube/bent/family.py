@@ -87,7 +87,7 @@ def secondary_family(
         return made[-1]
 
     degree = numerics.secondary_degree
-    caps = dict.fromkeys(RESULTANTS, float(degree + READ))
+    caps = {column.name: float(degree + READ) for column in RESULTANTS}
     cap = float(degree + SUPERCONVERGENT)
     return SecondaryFamily(make, numerics.secondary_levels, cap, ("zw", "r_mid"), "secondary", caps)
 
@@ -206,7 +206,7 @@ class SecondaryFamily(BranchFamily):
         slopes = [level.initial() for level in coarser]
         fewer = last.initial(AMPLITUDES[:-1])  # for the error of the extrapolation
         near, fine = last.initial(COMPARED), self.fine.initial(COMPARED)
-        for name in SLOPES:
+        for name in (slope.name for slope in SLOPES):
             whole = slopes[-1][name]
             found = estimate([*(s[name] for s in slopes), whole + fine[name] - near[name]], self.cap)
             points[0].values[name] = float(found.value)

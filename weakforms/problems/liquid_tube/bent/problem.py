@@ -7,8 +7,7 @@ same zero and the same secondary branch. A mesh that is not uniform around split
 
 from __future__ import annotations
 
-import time
-from typing import ClassVar, Literal, Self
+from typing import Literal, Self
 
 import numpy as np
 from mpi4py import MPI
@@ -16,19 +15,19 @@ from numpy.polynomial import chebyshev
 from pydantic import Field, model_validator
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.liquid_tube.bent.about import FLUID_TUBE_SURFACE
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, displacement, position, turned
 from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
-from weakforms.problems.problem import Numerics, Parameters, Progress, Requests, registry, silent
+from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
 from weakforms.results import Failure, Quantity, Result
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
 from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.spectra import Stability
-from weakforms.solvers.support.provenance import provenance, quadrature_degree
+from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.support.roots import root
-
-SOURCE = "Patil, Nordmark & Eriksson (2015), Proc. R. Soc. A 471, 20150016"
 
 NODES, SPAN = 6, 0.01
 """Number of volumes over which the zero is interpolated, and the relative half width of their Chebyshev
@@ -36,24 +35,6 @@ grid."""
 
 LOOKED_AT = 12
 """Number of eigenvalues near zero among which those of the ``n = 1`` modes are searched."""
-
-SCALES = {
-    "length": "A, radius of the disks and of the stress-free tube",
-    "zw_bifurcation": "level at which the critical eigenvalue, or the mean of the pair, is zero, over A",
-    "V_bifurcation": "volume there over A^3",
-    "Lambda_pair_1": "smaller of the eigenvalues of the n = 1 modes at that volume",
-    "Lambda_pair_2": "larger one (full circumference)",
-    "Lambda_split": "difference of these eigenvalues: zero for a double one",
-    "multiplicity": "number of eigenvalues smaller there than 1e-9 of the next one",
-    "zw_bent": "level of the secondary state with the prescribed amplitude over A",
-    "V_bent": "its volume over A^3",
-    "Pi_bent": "its potential over mu H A^2",
-    "Lambda_bent_1": "its eigenvalue nearest to zero; on the full circumference the eigenvalue of the "
-    "rotation",
-    "phase": "force that prevents the rotation at that state: zero up to round-off",
-    "amplitude": "root mean square displacement along the axisymmetric branch's mode over A",
-    "uneven": "relative amplitude by which the widths of the cells vary around",
-}
 
 
 class WholeNumerics(Numerics):
@@ -85,25 +66,12 @@ class WholeParameters(Parameters):
     )
 
 
-class FluidTubeSurface:
+class FluidTubeSurface(Problem):
     """Numbers of the whole surface at and near its ``n = 1`` bifurcation, on one mesh."""
 
-    name: ClassVar[str] = "fluid_tube_surface"
-    title: ClassVar[str] = "Fluid-loaded tube as a whole surface: symmetry of circle and mesh"
-    paper: ClassVar[int] = 3
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = (
-        "Pi/(mu H A^2) = int_0^{L/delta} int_0^{2 pi} [ (I1 - 3 + alpha (I2 - 3))/2 "
-        "+ (gamma/2) max(zw - z, 0)^2 N_z ] dTheta dZ - (gamma pi/2) (zw^2 - max(zw - L, 0)^2),  "
-        "N = x_Theta x x_Z"
-    )
-    scales: ClassVar[dict[str, str]] = SCALES
+    about = FLUID_TUBE_SURFACE
     parameters = WholeParameters
     numerics = WholeNumerics
-    special_points: ClassVar[tuple[str, ...]] = ()
-    columns: ClassVar[tuple[str, ...]] = ()
-    branches: ClassVar[tuple[str, ...]] = ("primary",)
-    control: ClassVar[str] = "none: the problem's numbers are quantities"
 
     def check(self, parameters: WholeParameters, requests: Requests) -> None:
         """Refuse requests for states, which do not exist, and an uneven mesh on the mirror-symmetric half.
@@ -119,39 +87,21 @@ class FluidTubeSurface:
                 "allowed on the half: 0"
             )
 
-    def solve(
-        self,
-        parameters: WholeParameters,
-        numerics: WholeNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Locate the bifurcation on the surface's mesh and solve for a state of the branch that starts there.
 
         The numbers belong to the mesh and have no uncertainty.
         """
-        begun = time.perf_counter()
-        result = Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={
-                **numerics.model_dump(),
-                "stopping": STOPPING,
-            },
-            provenance={},
-        )
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         run = WholeRun(parameters, numerics, comm)
-        result.numerics["quadrature_degree"] = quadrature_degree(run.system.formulation.residual)
+        degree = quadrature_degree(run.system.formulation.residual)
+        result.numerics |= {"stopping": STOPPING, "quadrature_degree": degree}
         for i, (what, part) in enumerate({"bifurcation": run.critical, "bent state": run.bent}.items()):
             progress(what, i, 2)
             try:
                 result.quantities |= {name: Quantity(value) for name, value in part().items()}
             except ConvergenceError as error:
                 result.failures.append(Failure(what, str(error)))
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
 
 
 class WholeRun:
@@ -233,11 +183,16 @@ class WholeRun:
 
     def bent(self) -> dict[str, float]:
         """The secondary state with the prescribed displacement along the axisymmetric mode."""
-        guess = self._guess(self.begin)
-        offset = self.amplitude * self.size
-        target = self.system.dot(self.rows[0], guess.u) + offset
-        guess.u = guess.u + offset * self.modes[0]
-        state, _ = self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])
+        start = self._guess(self.begin)
+        along = self.system.dot(self.rows[0], start.u)
+
+        def solve(before: State, amplitude: float) -> State:
+            target = along + amplitude * self.size
+            guess, left = before.copy(), target - self.system.dot(self.rows[0], before.u)
+            guess.u = guess.u + left * self.modes[0]
+            return self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])[0]
+
+        state = walk(solve, start, 0.0, self.amplitude, self.amplitude)
         values = self.system.monitors()
         nearest = Stability(self.system).modes(state, 1)[0]
         return {
@@ -247,6 +202,3 @@ class WholeRun:
             "Lambda_bent_1": nearest.eigenvalue,
             "phase": state.loads.get("phase", 0.0),
         }
-
-
-registry.add(FluidTubeSurface())

@@ -10,7 +10,6 @@ unstable to waves around it (Paper 5).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import basix.ufl
 import numpy as np
@@ -24,18 +23,12 @@ from ufl.core.expr import Expr
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
 from weakforms.forms.wrinkling import surface_tension_field
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.problem import Numerics, Progress, Requests, check_requests, registry, silent
-from weakforms.problems.quantity_problem import solve_twice
+from weakforms.problems.problem import Numerics, Problem, Requests, Task
+from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.wrinkled.body import CYLINDER, SHARED
 from weakforms.problems.wrinkled.branch import WrinkledBranch
-from weakforms.problems.wrinkled.problem import (
-    ENERGY,
-    SCALES,
-    SOURCE,
-    WrinkledNumerics,
-    WrinkledParameters,
-    wrinkled_membrane,
-)
+from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
+from weakforms.problems.wrinkled.sheets.about import WRINKLED_SHEET
 from weakforms.problems.wrinkled.state import Held
 from weakforms.results import Result
 from weakforms.solvers.equilibrium.constraints import Held as Prescribed
@@ -111,7 +104,7 @@ class Sheet:
         q = {name: fem.Constant(mesh, loads[name]) for name in names}
         dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 4 * self.degree})
         x, y, z = position
-        material = self.start.model.other_law
+        material = self.start.model.material_law
         law = None if material is None else material.surface_law(mesh)
         strain, volume, liquid = sheet_densities(mesh, position, q, law)
         share = 2 / np.pi  # a quarter of the membrane, per 2 pi
@@ -176,39 +169,21 @@ def sheet_densities(
     return CYLINDER.thickness(along, q) * energy, volume, -head * (x_y * y_x - x_x * y_y)
 
 
-class WrinkledSheet:
+class WrinkledSheet(Problem):
     """The membrane of Paper 4 at one load, by a form without axial symmetry."""
 
-    name: ClassVar[str] = "wrinkled_sheet"
-    title: ClassVar[str] = "The cylindrical membrane of non-uniform thickness as a two-dimensional sheet"
-    paper: ClassVar[int] = 4
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = ENERGY
-    scales: ClassVar[dict[str, str]] = SCALES | {
-        "radius": "integral of the radius over the membrane over 2 pi Ao^2",
-        "twist": "largest distance of a material point from its own half-plane through the axis over Ao",
-    }
+    about = WRINKLED_SHEET
     parameters = SheetParameters
     numerics = SheetNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = "zw or p; the quantities are at the load `at_load`"
 
     def check(self, parameters: SheetParameters, requests: Requests) -> None:
         """Refuse requests for states, because there is only one, and laws without a two-dimensional form."""
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
 
-    def solve(
-        self,
-        parameters: SheetParameters,
-        numerics: SheetNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Solve on two meshes, starting from the axisymmetric state with its fronts."""
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
         branch = WrinkledBranch(membrane, parameters.at_load, parameters.volume_end, 0.5, 12)
         plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)
@@ -218,7 +193,4 @@ class WrinkledSheet:
             cells = numerics.around // coarser, numerics.along // coarser
             return Sheet(*cells, numerics.degree, start).solve(comm)
 
-        return solve_twice(self, parameters, numerics, comm, progress, run, CAP)
-
-
-registry.add(WrinkledSheet())
+        result.quantities |= on_two_meshes(run, CAP, self.name, progress)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 import ufl
@@ -15,18 +14,9 @@ from pydantic import Field
 
 from weakforms.forms.materials import mooney_rivlin
 from weakforms.forms.wrinkling import Law, modified_gradient, tension_field
-from weakforms.problems.problem import (
-    Numerics,
-    Parameters,
-    Progress,
-    Requests,
-    check_requests,
-    registry,
-    silent,
-)
-from weakforms.problems.wrinkled.problem import SOURCE
+from weakforms.problems.problem import Numerics, Parameters, Problem, Task
+from weakforms.problems.wrinkled.sheets.about import WRINKLED_MATERIAL
 from weakforms.results import Quantity, Result
-from weakforms.solvers.support.provenance import provenance
 
 ROUND_OFF = 1e-14
 """Relative uncertainty of an expression evaluated at a point."""
@@ -49,57 +39,20 @@ class MaterialParameters(Parameters):
     )
 
 
-class MaterialNumerics(Numerics):
-    """No numerics: nothing is discretised."""
-
-
-class WrinkledMaterial:
+class WrinkledMaterial(Problem):
     """Energy, stresses and tangent of a sheet that may wrinkle."""
 
-    name: ClassVar[str] = "wrinkled_material"
-    title: ClassVar[str] = "Energy of a sheet that may wrinkle, at two stretches"
-    paper: ClassVar[int] = 4
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = (
-        "w(l1, l2) taut; w(l, l^(-1/2)) wrinkled with tension along l; 0 slack;  w = I1 - 3 + c2 (I2 - 3)"
-    )
-    scales: ClassVar[dict[str, str]] = {
-        "W": "energy per reference volume over C1",
-        "W1": "its derivative in l1 (and so on): nominal stress over C1",
-        "W11": "its second derivative in l1 (and so on) over C1",
-    }
+    about = WRINKLED_MATERIAL
     parameters = MaterialParameters
-    numerics = MaterialNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = "none; the quantities are at l1, l2"
+    numerics = Numerics
 
-    def check(self, parameters: MaterialParameters, requests: Requests) -> None:
-        """Refuse requests for states, because there is only one."""
-        check_requests(self, requests)
-
-    def solve(
-        self,
-        parameters: MaterialParameters,
-        numerics: MaterialNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Evaluate the expressions of the forms."""
-        begun = time.perf_counter()
+        parameters, progress = task.parameters, task.progress
         progress("energy", 0, 1)
         law = derivatives(lambda a, b: mooney_rivlin(a, b, parameters.c2), FORMS[parameters.energy])
         found = law(parameters.l1, parameters.l2)
-        return Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics=numerics.model_dump(),
-            provenance=provenance(comm, time.perf_counter() - begun),
-            quantities={k: Quantity(v, ROUND_OFF * max(1.0, abs(v))) for k, v in found.items()},
-        )
+        result.quantities |= {k: Quantity(v, ROUND_OFF * max(1.0, abs(v))) for k, v in found.items()}
 
 
 def derivatives(law: Law, form: Callable[[Law], Law]) -> Callable[[float, float], dict[str, float]]:
@@ -123,6 +76,3 @@ def derivatives(law: Law, form: Callable[[Law], Law]) -> Callable[[float, float]
         return dict(zip(("W", "W1", "W2", "W11", "W12", "W22"), values.tolist(), strict=True))
 
     return at
-
-
-registry.add(WrinkledMaterial())

@@ -24,14 +24,13 @@ from ufl.core.expr import Expr
 from weakforms.errors import InputError
 from weakforms.forms.materials import mooney_rivlin
 from weakforms.forms.wrinkling import metric, principal_stretches, tension_field
-from weakforms.problems.branch_problem import Family, MeshNumerics, PathProblem
+from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.problem import Progress, Requests, check_requests, registry
+from weakforms.problems.problem import End, Requests, Task
+from weakforms.problems.wrinkled.sheets.about import WRINKLED_PATCH
 from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.uncertainty.refinement import estimate
-
-SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
 
 POINTS = 21
 """Amplitudes on the branch."""
@@ -149,37 +148,12 @@ class PatchFamily:
         return State({name: value}, self.name, self._quantities(value), fields)
 
 
-class WrinkledPatch(PathProblem):
+class WrinkledPatch(BranchProblem):
     """A flat wrinkled patch, perturbed so that the direction of tension keeps its stretch."""
 
-    name: ClassVar[str] = "wrinkled_patch"
-    title: ClassVar[str] = "Instability of a flat wrinkled patch under pressure"
-    paper: ClassVar[int] = 5
-    source: ClassVar[str] = SOURCE
-    energy: ClassVar[str] = (
-        "U + P W,  U = int W_R(l1, l2) dX dY,  W = -b int z x_X dX dY;  x = a X + e sin nX, y = b Y, "
-        "z = c + e cos nX"
-    )
-    scales: ClassVar[dict[str, str]] = {
-        "length": "any",
-        "a": "stretch along X",
-        "b": "stretch along Y",
-        "e": "amplitude",
-        "U": "strain energy over C1 and the width",
-        "U_e": "derivative with respect to e (and so on)",
-        "W": "potential of the pressure over the pressure and the width",
-        "W_e": "derivative with respect to e (and so on)",
-        "shear": "integral of the squared shear of the metric",
-        "x": "deformed position along",
-        "z": "deformed height",
-    }
+    about = WRINKLED_PATCH
     parameters = PatchParameters
     numerics = PatchNumerics
-    columns = ("e", "U", "U_e", "U_ee", "W", "W_e", "W_ee", "shear")
-    derived = columns[1:]
-    special_points = ()
-    branches = ("primary",)
-    control: ClassVar[str] = "e"
 
     def check(self, parameters: PatchParameters, requests: Requests) -> None:
         """Refuse requests for states without a solution.
@@ -187,27 +161,22 @@ class WrinkledPatch(PathProblem):
         Raises:
             InputError: For a column that cannot be prescribed.
         """
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=False)
         for wanted in requests.states:
             if not 0 <= wanted.value <= 1:
                 raise InputError(f"wrinkled_patch: e = {wanted.value:g}; allowed: from 0 to 1")
 
-    def families(
-        self,
-        parameters: PatchParameters,
-        numerics: PatchNumerics,
-        _requests: Requests,
-        _comm: MPI.Intracomm,
-        _progress: Progress,
-    ) -> dict[str, Family]:
+    def ends(self, parameters: PatchParameters, _branch: str) -> list[End]:
+        """The largest amplitude."""
+        return [End("e_end", "e", parameters.e_end)]
+
+    def families(self, task: Task) -> dict[str, Family]:
         """The only branch, which every rank solves completely."""
+        parameters, numerics = task.parameters, task.numerics
         return {"primary": PatchFamily(parameters, numerics)}
 
     def points(self, parameters: PatchParameters) -> np.ndarray:
         """20 points for each wave."""
         waves = math.ceil(parameters.n * parameters.Lx / (2 * math.pi))
         return np.linspace(0.0, parameters.Lx, 20 * waves + 1)
-
-
-registry.add(WrinkledPatch())

@@ -21,8 +21,9 @@ from ufl.core.expr import Expr
 
 from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
+from weakforms.problems.meridian.blocks import LOWER, UPPER
 from weakforms.problems.wrinkled.fields import Meridian
-from weakforms.problems.wrinkled.model import LOWER, UPPER, WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.solvers.equilibrium.system import Formulation, State
 from weakforms.solvers.stability.modes import SecondVariation, judged
 from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability

@@ -6,7 +6,6 @@ the linearised theory of the paper's section 2.4, and with a small bending stiff
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any, ClassVar
 
@@ -16,25 +15,22 @@ from pydantic import Field
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.problem import Progress, Requests, check_requests, registry, silent
+from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wrinkled.problem import (
-    SCALES,
     WrinkledNumerics,
     WrinkledParameters,
     quantity,
     wrinkled_membrane,
 )
 from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.waves.about import WRINKLED_BENDING, WRINKLED_LINEAR
 from weakforms.problems.wrinkled.waves.bands import Bands
 from weakforms.problems.wrinkled.waves.koiter import shell_eigenvalue
 from weakforms.problems.wrinkled.waves.numbers import MOST_WAVES
 from weakforms.problems.wrinkled.waves.trial import trial_form
 from weakforms.results import Failure, Quantity, Result
 from weakforms.solvers.equilibrium import constraints as fixed
-from weakforms.solvers.support.provenance import provenance
 from weakforms.solvers.uncertainty.refinement import estimate
-
-SOURCE = "Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315"
 
 ROUND_OFF = 1e-10
 """Relative round-off error."""
@@ -70,40 +66,19 @@ class BendingParameters(LevelParameters):
     n: float = Field(10.0, gt=0, le=MOST_WAVES, description="wave number, any real one")
 
 
-class AtLevel:
+class AtLevel(Problem):
     """Base class of both: states on all meshes, and quantities with uncertainties."""
 
-    name: ClassVar[str]
-    paper: ClassVar[int] = 5
-    source: ClassVar[str] = SOURCE
     numerics = WrinkledNumerics
-    columns = ()
-    special_points = ()
-    branches = ("primary",)
-    scales: ClassVar[dict[str, str]]
 
     def check(self, parameters: Any, requests: Requests) -> None:
         """Refuse requests for states, because there is only one, and laws without a form for waves."""
-        check_requests(self, requests)
+        super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
 
-    def solve(
-        self,
-        parameters: Any,
-        numerics: WrinkledNumerics,
-        requests: Requests,
-        comm: MPI.Intracomm,
-        progress: Progress = silent,
-    ) -> Result:
+    def fill(self, result: Result, task: Task) -> None:
         """Solve for the state at the level on all meshes, and compute the quantities."""
-        begun = time.perf_counter()
-        result = Result(
-            problem=self.name,
-            parameters=parameters.model_dump(),
-            scales=self.scales,
-            numerics={**numerics.model_dump(), "meshes": numerics.meshes},
-            provenance={},
-        )
+        parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         try:
             progress("state", 0, 1)
             levels = _states(parameters, numerics, comm)
@@ -111,8 +86,6 @@ class AtLevel:
             result.quantities |= self._quantities(levels, parameters, 2 * numerics.degree)
         except ConvergenceError as error:
             result.failures.append(Failure(f"zw = {parameters.zw:g}", str(error)))
-        result.provenance = provenance(comm, time.perf_counter() - begun)
-        return result
 
     def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
         raise NotImplementedError
@@ -135,24 +108,8 @@ def _on_all(levels: list[Held], value: Callable[[Held], float], cap: float, left
 class WrinkledLinear(AtLevel):
     """The linearised theory: a perturbation without meridional displacement."""
 
-    name: ClassVar[str] = "wrinkled_linear"
-    title: ClassVar[str] = "Linearised theory of waves around a wrinkled cylinder"
-    energy: ClassVar[str] = (
-        "Pi2/pi = A + n B along u = f z0', v = f, w = -f r0' (no meridional displacement), f = 0 above the "
-        "level; n_star = A/(-B)"
-    )
+    about = WRINKLED_LINEAR
     parameters = LinearParameters
-    control: ClassVar[str] = "none; the quantities belong to one level and trial function"
-    scales: ClassVar[dict[str, str]] = {
-        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw")},
-        "A": "the part of Pi2/pi that does not depend on n, over C1 h Ao^2",
-        "B": "derivative of Pi2/pi with respect to n",
-        "B_exact": "-int p r0 f^2 (r0'^2 + z0'^2) dS",
-        "curved": "second difference of Pi2/pi in n over its size: 0 when it is affine",
-        "n_star": "A/(-B)",
-        "n_critical": "real n at which the lowest eigenvalue is zero",
-        "n_true": "smallest whole n with a negative eigenvalue",
-    }
 
     def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
         trials = [trial_form(held, parameters.f) for held in levels]
@@ -174,22 +131,8 @@ class WrinkledLinear(AtLevel):
 class WrinkledBending(AtLevel):
     """Bending energy of the incremental circumferential curvature, which keeps the equilibrium."""
 
-    name: ClassVar[str] = "wrinkled_bending"
-    title: ClassVar[str] = "Waves around a wrinkled cylinder with a small bending stiffness"
-    energy: ClassVar[str] = "2 Pi2/pi of the membrane + int beta H^3 R k22^2 dS"
+    about = WRINKLED_BENDING
     parameters = BendingParameters
-    control: ClassVar[str] = "none; the quantities belong to one level"
-    scales: ClassVar[dict[str, str]] = {
-        **{k: SCALES[k] for k in ("length", "M", "delta", "c2", "C1", "L", "Af", "gamma", "zw", "beta")},
-        "n": "wave number, real",
-        "Lambda_membrane": "lowest eigenvalue for n waves without bending stiffness",
-        "Lambda_B1": "lowest eigenvalue for n waves with bending stiffness",
-        "Lambda_B2": "lowest eigenvalue for n waves with the bending energy of a shell, simply supported",
-        "n_minus": "lower end of the band of unstable n with that stiffness",
-        "n_plus": "upper end of this band; without bending stiffness there is none",
-        "beta_c": "smallest stiffness at which no real n is unstable",
-        "n_c": "last unstable n; the wavelength is 2 pi r/n_c",
-    }
 
     def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
         n, beta = parameters.n, parameters.beta
@@ -220,7 +163,3 @@ class WrinkledBending(AtLevel):
 def _relative(values: list[float], cap: float) -> float:
     """Uncertainty of a small positive number, from the uncertainty of its logarithm."""
     return float(values[-1] * (estimate([float(np.log(v)) for v in values], cap).uncertainty + ROUND_OFF))
-
-
-registry.add(WrinkledLinear())
-registry.add(WrinkledBending())

@@ -18,7 +18,8 @@ from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
 from weakforms.forms.revolution import second_order
-from weakforms.problems.wrinkled.model import TAUT, WrinkledModel
+from weakforms.problems.meridian.model import TAUT
+from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.state import Held
 from weakforms.problems.wrinkled.waves.modes import waves_at, waves_of
 

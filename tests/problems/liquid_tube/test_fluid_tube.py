@@ -11,10 +11,11 @@ from scipy.linalg import eigh
 import weakforms.problems.liquid_tube.model as fluid_module
 from weakforms import InputError, reference, solve
 from weakforms.errors import ConvergenceError
+from weakforms.problems import registry
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.liquid_tube.model import TubeData
-from weakforms.problems.problem import Requests, StateRequest, registry
+from weakforms.problems.problem import Requests, StateRequest
 
 pytestmark = pytest.mark.paper3
 GAMMA = 0.116

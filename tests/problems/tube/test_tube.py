@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-import weakforms.problems.tube.model as tube_module
+import weakforms.problems.meridian.model as meridian_module
 from weakforms import Axis, Case, Curve, InputError, Panel, Points, solve, tube
 from weakforms.forms import loads, materials
-from weakforms.problems.material_choice import Chosen
-from weakforms.problems.tube.model import TubeMesh, formulation, free_branch
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
+from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.results import Result, validate
-from weakforms.solvers.equilibrium.system import System
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.run.runner import verify
 
@@ -24,7 +23,7 @@ COARSE = {"cells": 32, "degree": 3}
 
 @pytest.fixture(scope="module")
 def branch():
-    system = System(formulation(MPI.COMM_SELF, 0.1, 1.2, 6.0, TubeMesh(24, 3, 0.6)))
+    system = TubeModel.free(MPI.COMM_SELF, mooney_rivlin_of(0.1), 1.2, 6.0, TubeMesh(24, 3, 0.6)).system
     return free_branch(system, 1.2, 5.0, 0.08)
 
 
@@ -120,7 +119,7 @@ def test_a_pre_stretch_beyond_the_largest_of_its_law_is_refused():
 def test_stresses_beyond_the_largest_stretch_are_no_numbers():
     """The energies would be finite, but of the wrong sign, and Newton's method could converge there."""
     gent = Chosen("gent", (("shear", 2.0), ("jm", 8.97)))
-    system = System(formulation(MPI.COMM_SELF, gent, 4.28, 6.0, TubeMesh(8, 2, 0.0)))
+    system = TubeModel.free(MPI.COMM_SELF, gent, 4.28, 6.0, TubeMesh(8, 2, 0.0)).system
     assert not np.any(np.isfinite(np.delete(system.residual(), system.bc_dofs)))
 
 
@@ -184,7 +183,7 @@ SENTINEL = Case(
 
 def wrong_pressure_sign(monkeypatch):
     right = loads.gas_potential
-    monkeypatch.setattr(tube_module, "gas_potential", lambda rho, eta, p: -right(rho, eta, p))
+    monkeypatch.setattr(meridian_module, "gas_potential", lambda *given: -right(*given))
 
 
 def wrong_sign_in_second_invariant(monkeypatch):
@@ -197,13 +196,15 @@ def wrong_sign_in_second_invariant(monkeypatch):
 
 
 def wrong_power_of_volume(monkeypatch):
-    monkeypatch.setattr(tube_module, "gas_potential", lambda rho, eta, p: -p * rho * eta.dx(0) / 2)
+    monkeypatch.setattr(meridian_module, "gas_potential", lambda rho, slope, p: -p * rho * slope / 2)
 
 
 def pre_stretch_forgotten_in_hoop(monkeypatch):
-    right = tube_module.tube_stretches
+    right = meridian_module.revolution_stretches
     monkeypatch.setattr(
-        tube_module, "tube_stretches", lambda rho, eta, d: replace(right(rho, eta, d), lam2=rho)
+        meridian_module,
+        "revolution_stretches",
+        lambda rho, *given: replace(right(rho, *given), lam2=rho),
     )
 
 

@@ -2,10 +2,12 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from weakforms import solve
 from weakforms.errors import ConvergenceError
+from weakforms.problems.wrinkled import events
 from weakforms.problems.wrinkled.events import Event
 from weakforms.problems.wrinkled.waves.stability import Sample, StabilityChanges
 
@@ -76,3 +78,19 @@ def test_waves_that_vanish_where_a_taut_zone_opens():
     assert (first.values["direction"], last.values["direction"]) == (1.0, -1.0)
     assert abs(last.values["zw"] - opening.values["zw"]) <= last.uncertainty["zw"]
     assert last.uncertainty["zw"] > opening.uncertainty["zw"], "the distance of the root adds to it"
+
+
+def test_an_interval_is_halved_only_as_often_as_allowed(monkeypatch):
+    """Fronts that seem to leap however short the interval: three halvings, and thus seven middles."""
+    zones = SimpleNamespace(first=1.0, fronts=(0.2, 0.4))
+    same = SimpleNamespace(zones=zones, state=SimpleNamespace(loads={"p": 0.0}))
+    middles = []
+
+    def fitted(_state, _condition):
+        middles.append(same)
+        return [same]
+
+    membrane = SimpleNamespace(control="p", length=1.0, fitted=fitted)
+    monkeypatch.setattr(events, "_leaps", lambda *_: True)
+    assert events._between(membrane, same, same, 0, np.zeros(2), halvings=3) == []
+    assert len(middles) == 7

@@ -7,17 +7,18 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-import weakforms.problems.wrinkled.model as model_module
+import weakforms.problems.meridian.model as model_module
 from weakforms import At, Axis, Case, Curve, InputError, Panel, solve, wrinkled_tube
 from weakforms.forms import loads
 from weakforms.forms.materials import neo_hookean
 from weakforms.forms.wrinkling import natural_width
+from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.model import BY_STATE, TAUT, WRINKLED
 from weakforms.problems.wrinkled import state as wrinkled_state
-from weakforms.problems.wrinkled.body import CYLINDER, Body
+from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.fitted import Membrane
-from weakforms.problems.wrinkled.model import BY_STATE, TAUT, WRINKLED
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 from weakforms.problems.wrinkled.state import BLOCKS, Layout
 from weakforms.solvers.equilibrium.constraints import Held

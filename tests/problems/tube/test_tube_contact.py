@@ -7,28 +7,27 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-import weakforms.problems.tube.contact as contact_module
+import weakforms.problems.tube.model as tube_module
 from weakforms import InputError, reference, solve
 from weakforms.forms import loads
-from weakforms.problems.material_choice import Chosen
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.tube.contact import ContactData
-from weakforms.problems.tube.contact_phases import ContactRun
-from weakforms.problems.tube.model import TubeMesh, formulation, free_branch
+from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.problems.tube.parameters import TubeNumerics, resolving
-from weakforms.solvers.equilibrium.system import System
+from weakforms.problems.tube.phases import TubePhases
 
 pytestmark = pytest.mark.paper2
 MESH = {"cells": 48, "degree": 4, "levels": 2}
 
 
 def data(**changes):
-    given = {"alpha": 0.1, "delta1": 1.0, "lf": 6.0, "k": 20.0, "s": 1.3}
-    return ContactData(**given | changes, cells=12, degree=4, grading=0.6)
+    given = {"alpha": 0.1, "delta1": 1.0, "lf": 6.0, "k": 20.0, "s": 1.3} | changes
+    return ContactData(mooney_rivlin_of(given.pop("alpha")), **given, cells=12, degree=4, grading=0.6)
 
 
 @pytest.fixture(scope="module")
 def run():
-    return ContactRun(MPI.COMM_SELF, data(), p_end=3.0, step=0.08, terms=14)
+    return TubePhases(MPI.COMM_SELF, data(), p_end=3.0, step=0.08, terms=14)
 
 
 def test_front_is_where_the_membrane_touches(run):
@@ -67,8 +66,10 @@ def test_deflation_begins_where_inflation_ends(run):
 
 
 def test_a_hard_substrate_holds_the_tube_at_its_radius():
-    run = ContactRun(MPI.COMM_SELF, data(k=5000.0), p_end=2.0, step=0.08)
-    assert run.frictionless.at("p", 2.0).values["u_max"] == pytest.approx(0.3, abs=1e-3)
+    run = TubePhases(MPI.COMM_SELF, data(k=5000.0), p_end=2.0, step=0.08)
+    for branch in (run.frictionless, run.adhesive):
+        assert branch.at("p", 2.0).values["u_max"] == pytest.approx(0.3, abs=1e-3)
+    assert run.adhesive.at("p", 2.0).values["line_force"] < 1e-4
 
 
 @pytest.mark.parametrize("phase", ["inflation", "deflation"])
@@ -106,7 +107,7 @@ def test_states_before_and_after_contact_are_told_apart():
 )
 def test_a_patch_that_is_still_short_at_p_end_has_its_history(changes):
     """The first edges of the history come before the first point of the frictionless trace."""
-    run = ContactRun(MPI.COMM_SELF, data(**changes), p_end=3.0, step=0.08, terms=22)
+    run = TubePhases(MPI.COMM_SELF, data(**changes), p_end=3.0, step=0.08, terms=22)
     (edge,) = {run.frictionless.points[0].state.loads["front"]}
     before = run._slipped(edge / 2)
     assert before.state.loads["front"] == pytest.approx(edge / 2, rel=1e-12)
@@ -121,7 +122,7 @@ def test_a_largest_value_is_found_between_the_nodes():
     """At p = 3 the spring's largest force is inside the patch: its nodal values have errors of 1e-7."""
     table = reference(2, "off_contact_deflation_bilateral_alpha_0.1_delta1_1.5_lf_6")
     finer = replace(data(delta1=1.5, k=100.0, s=1.6), cells=24)
-    run = ContactRun(MPI.COMM_SELF, finer, p_end=3.0, step=0.08, terms=18)
+    run = TubePhases(MPI.COMM_SELF, finer, p_end=3.0, step=0.08, terms=18)
     assert table.columns["p"][-1] == 3.0
     found = run.adhesive.at("p", 3.0).values["spring_max"]
     assert found == pytest.approx(table.columns["spring_max"][-1], rel=1e-8)
@@ -129,7 +130,7 @@ def test_a_largest_value_is_found_between_the_nodes():
 
 def test_contact_is_followed_until_the_patch_holds_nearly_all_of_the_tube():
     given = {"alpha": 0.035, "lf": 1.5, "delta1": 1.5, "s": 1.015, "k": 15.0}
-    end = ContactRun(MPI.COMM_SELF, data(**given), p_end=10.0, step=0.08).frictionless.points[-1]
+    end = TubePhases(MPI.COMM_SELF, data(**given), p_end=10.0, step=0.08).frictionless.points[-1]
     assert end.state.loads["p"] > 10.0
     assert 0.97 < end.state.loads["front"] / 0.75 < 1.0
 
@@ -137,7 +138,7 @@ def test_contact_is_followed_until_the_patch_holds_nearly_all_of_the_tube():
 def test_a_pressure_at_once_after_contact_is_refused_with_the_least_one(run):
     close = run.onset.values["p"] + 1e-9
     with pytest.raises(InputError, match=r"p_end = .* too close above first contact at p = 1\.43859"):
-        ContactRun(MPI.COMM_SELF, data(), p_end=close, step=0.08).frictionless  # noqa: B018
+        TubePhases(MPI.COMM_SELF, data(), p_end=close, step=0.08).frictionless  # noqa: B018
 
 
 def test_a_substrate_that_is_never_touched_is_told_with_the_largest_radius_that_is():
@@ -171,7 +172,7 @@ def test_default_meshes_resolve_the_edge_of_a_bulge_in_a_long_tube():
         TubeNumerics(),
         24,
     )
-    system = System(formulation(MPI.COMM_SELF, gent, 1.0, 26.0, TubeMesh(coarsest, 4, 0.6)))
+    system = TubeModel.free(MPI.COMM_SELF, gent, 1.0, 26.0, TubeMesh(coarsest, 4, 0.6)).system
     assert len(free_branch(system, 1.0, 4.57, 0.08).turns()) == 1
 
 
@@ -185,16 +186,16 @@ def test_a_whole_tube_too_long_to_hold_its_bulge_is_refused():
 right = loads.substrate_potential
 
 
-def reference_area(rho, eta, k, s, touching):
-    return k * touching * s * (rho - s) ** 2 * eta.dx(0) / 2
+def reference_area(rho, slope, k, s, touching):
+    return k * touching * s * (rho - s) ** 2 * slope / 2
 
 
-def half_stiffness(rho, eta, k, s, touching):
-    return right(rho, eta, k / 2, s, touching)
+def half_stiffness(rho, slope, k, s, touching):
+    return right(rho, slope, k / 2, s, touching)
 
 
-def outside_instead(rho, eta, k, s, touching):
-    return right(rho, eta, k, s, 1.0 - touching)
+def outside_instead(rho, slope, k, s, touching):
+    return right(rho, slope, k, s, 1.0 - touching)
 
 
 def u_max_at_2():
@@ -218,7 +219,7 @@ def test_without_a_fault_the_value_is_the_references():
 
 @pytest.mark.parametrize("fault", [reference_area, half_stiffness, outside_instead])
 def test_a_fault_in_the_foundation_is_noticed(fault, monkeypatch):
-    monkeypatch.setattr(contact_module, "substrate_potential", fault)
+    monkeypatch.setattr(tube_module, "substrate_potential", fault)
     found = u_max_at_2()
     assert abs(found.value - table_value()) > 1e4 * found.uncertainty
 

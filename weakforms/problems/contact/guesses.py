@@ -1,0 +1,39 @@
+"""States of a front-fitted mesh as guesses for another front, or for a patch that sticks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.equilibrium.system import State
+
+
+def moved(model: Any, state: State, front: float) -> State:
+    """The same membrane on a differently divided mesh, by splines through nodal values."""
+    new = State(state.u.copy(), state.loads | {"front": front})
+    old, wanted = (np.repeat(model.material(model.nodes(), s.loads), 2) for s in (state, new))
+    for component in (slice(0, None, 2), slice(1, None, 2)):
+        parts = model.mesh.comm.allgather((old[component], state.u[component]))
+        x, first = np.unique(np.concatenate([part[0] for part in parts]), return_index=True)
+        values = np.concatenate([part[1] for part in parts])[first]
+        new.u[component] = CubicSpline(x, values)(wanted[component])
+    return new
+
+
+def stick_guess(model: Any, slipped: Solved) -> State:
+    """A frictionless state as a guess for the model with the same mesh and front whose patch sticks.
+
+    What sticks is not an unknown. Outside, it is measured from its own value at the front, not from that of
+    the series, which differs and would cause a jump.
+    """
+    s = np.repeat(model.nodes(), 2)
+    u = slipped.state.u.copy()
+    stuck, outside = np.arange(len(u)) % 2 == model.stuck, s > 1 + 1e-12
+    u[stuck & ~outside] = 0.0
+    u[stuck & outside] -= model.at_front(slipped) * (2 - s[stuck & outside])
+    if model.bond.rigid:  # the other unknown is the height of the edge
+        u[~stuck & ~outside] = model.data.touch
+    return State(u, dict(slipped.state.loads))

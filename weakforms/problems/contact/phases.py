@@ -1,0 +1,164 @@
+"""All phases of a membrane against a substrate: inflation, free and in contact, with a patch that may stick.
+
+What sticks is in the :class:`Bond` of the model and in its :class:`History`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import inf
+from typing import Any
+
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.contact.guesses import moved, stick_guess
+from weakforms.problems.contact.history import History
+from weakforms.problems.contact.inflation import Inflation
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
+from weakforms.solvers.equilibrium.system import State
+
+SPANS, WIDER = 6, 1.02
+"""Spans tried for a history that the patch outgrows, or that is not found, and by how much they change."""
+
+BEYOND = 1e-6
+"""By how much a patch may pass the end of its history, relative to that."""
+
+
+@dataclass(frozen=True)
+class Bond:
+    """A patch that sticks: its shape is a series in the place at which each point touched, up to ``span``."""
+
+    terms: int
+    span: float
+    rigid: bool = False
+    """Whether the patch keeps its whole shape, and not only its stretch along the substrate."""
+
+
+class ContactPhases(Inflation):
+    """All phases on one mesh; each is solved when it is first needed.
+
+    Args:
+        slip: The model without friction.
+        p_end: Pressure at which inflation ends and deflation begins.
+        step: Largest arc-length step.
+        terms: Number of terms of the series of a stuck patch. It is refined together with the mesh, so that
+            the uncertainties include the truncation error.
+    """
+
+    def __init__(self, slip: Any, p_end: float, step: float, terms: int) -> None:
+        super().__init__(slip, p_end, step)
+        self.terms = terms
+
+    def bonded(self, span: float) -> History:
+        """The history, not yet solved for, of a model whose patch sticks."""
+        raise NotImplementedError
+
+    @property
+    def stick(self) -> Any:
+        """The model whose patch sticks, with its history, up to the front reached.
+
+        Raises:
+            ConvergenceError: If no history is found.
+        """
+        return self.history.model
+
+    @property
+    def history(self) -> History:
+        """The history of the stuck patch."""
+        return self._stuck[0]
+
+    @property
+    def adhesive(self) -> FittedBranch:
+        """Adhesive inflation: every point that touched keeps what the bond locks."""
+        return self._stuck[1]
+
+    @cached_property
+    def _stuck(self) -> tuple[History, FittedBranch]:
+        """Find a history that covers the whole patch, which can grow larger than without friction."""
+        span, failed = self._slipping_span(), inf
+        for _ in range(SPANS):
+            try:
+                history = self._history(span)
+            except ConvergenceError:
+                failed, span = span, span / WIDER**4  # a patch that sticks may not grow so far
+                continue
+            first = self.frictionless.points[0]
+            begin = stick_guess(history.model, Solved(first.monitors, first.state))
+            branch = self._follow(history.model, begin)
+            if len(branch.crossings("p", self.p_end)):
+                reached = branch.at("p", self.p_end).state.loads["front"]
+            else:
+                reached = max(point.state.loads["front"] for point in branch.points)
+            if reached <= span * (1 + BEYOND):
+                return history, branch
+            span = min(WIDER * reached, self.last_front * self.data.length)
+            if span >= failed:
+                break
+        raise ConvergenceError(
+            f"{self.name}: the history of the stuck patch is not found up to a front at "
+            f"{span / self.data.length:.4g} of the {self.whole}; lower p_end, or k"
+        )
+
+    def _slipping_span(self) -> float:
+        """The largest front without friction up to ``p_end``.
+
+        Raises:
+            InputError: If the law gives way before, or contact does not raise the pressure.
+        """
+        trace = self.frictionless
+        crossed = trace.crossings("p", self.p_end)
+        if not len(crossed):
+            if self.gives_way(trace.points[-1]):
+                raise InputError(trace.ended)
+            if max(point.state.loads["p"] for point in trace.points[1:]) <= self.onset.values["p"]:
+                trace.at("p", self.p_end)  # contact does not raise the pressure: says what is reached
+            return max(point.state.loads["front"] for point in trace.points)
+        before = max(point.state.loads["front"] for point in trace.points[: int(crossed[0]) + 1])
+        return max(before, trace.at("p", self.p_end).state.loads["front"])
+
+    def _history(self, span: float) -> History:
+        """A model whose patch sticks, and its history up to a front.
+
+        Raises:
+            ConvergenceError: If it is not found.
+        """
+        history = self.bonded(span)
+        slipped = [self._slipped(float(front)) for front in history.fronts]
+        history.solve([stick_guess(history.model, at) for at in slipped], history.guess(slipped))
+        return history
+
+    def _slipped(self, front: float) -> Solved:
+        """Frictionless contact with the edge of the patch at a place, even beyond the traced ones."""
+        trace = self.frictionless
+        first = trace.points[0].state
+        last = max((point.state for point in trace.points), key=lambda state: state.loads["front"])
+        if front > last.loads["front"]:
+            return trace.near(last, "front", front)
+        if front < first.loads["front"]:
+            return trace.near(moved(self.slip, first, front), "front", front)
+        return trace.at("front", front)
+
+    @cached_property
+    def end_of_inflation(self) -> State:
+        """The adhesive state at ``p_end``.
+
+        Raises:
+            InputError: If contact ends before.
+            ConvergenceError: If its trace does.
+        """
+        if len(self.adhesive.crossings("p", self.p_end)):
+            return self.adhesive.at("p", self.p_end).state
+        if self.adhesive.ended:
+            raise InputError(self.adhesive.ended)
+        raise ConvergenceError(f"{self.name}: {self.adhesive.stalled}; lower p_end")
+
+    # -- deflation -----------------------------------------------------------------------------
+
+    @cached_property
+    def deflation(self) -> EquilibriumBranch:
+        """Deflation to ``p = 0`` with the patch reached at ``p_end``, which does not peel."""
+        return self.lowered(0.0)
+
+    def lowered(self, p: float, slack: float = -inf) -> EquilibriumBranch:
+        """Deflation down to a pressure."""
+        return self._deflated(self.stick, self.end_of_inflation, p, slack)

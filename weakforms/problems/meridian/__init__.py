@@ -1,0 +1,1 @@
+"""One axisymmetric membrane, from which the models of the problems are made."""

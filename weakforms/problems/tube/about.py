@@ -1,0 +1,146 @@
+"""What is said of the problems ``tube``, ``tube_fold`` and ``tube_scheme``."""
+
+import math
+
+from weakforms.problems import column
+from weakforms.problems.about import LINE, SCHEME, About, Example, Family
+from weakforms.problems.column import Column, Units, derived, numbers
+
+FREE = (
+    column.PRESSURE,
+    Column("u_max", "radial displacement of the mid-plane over {length}", "u_{max}"),
+    Column("lam1_mid", "meridional stretch at the mid-plane, 1"),
+    Column("t1_mid", "meridional Cauchy resultant at the mid-plane over {resultant}"),
+    Column("V", "enclosed volume of the half tube over {volume}", "V"),
+    Column("Pi", "total potential of the half tube over {energy}"),
+)
+CONTACT = (
+    Column("Z_front", "Z of the contact front", dimension="length"),
+    Column("contact_length", "deformed length of the whole patch over {length}"),
+    Column("lam2_mid", "circumferential stretch at the mid-plane, 1"),
+    Column("kappa", "curvature of the free part at the front times {1/curvature}; negative: bulged outward"),
+    *derived(
+        *numbers(
+            line_force="axial line force at the edge of the patch over {resultant} (equation 22)",
+            line_force_membrane="axial line force without the jump of the spring's term over {resultant}",
+            traction_front="|f_t| at the front, inside, times {1/pressure}",
+            traction_max="largest axial traction |f_t| of the substrate times {1/pressure}",
+            spring_max="largest radial spring density |f_k| times {1/pressure}",
+            t2_min="smallest circumferential resultant over {resultant}",
+        )
+    ),
+)
+"""Columns of constrained inflation only."""
+
+PRE_STRETCH = Column("delta1", "axial pre-stretch, 1", r"\delta_1")
+NUMBERS = (
+    *numbers(
+        length="R_f, radius of the disks (= R_o/sqrt(delta1))",
+        alpha="C2/C1",
+        lf="L_f/R_f",
+        k="K R_f^2/(C1 h_o)",
+        s="S/R_f",
+        eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |u|^2 dZ",
+    ),
+    PRE_STRETCH,
+    Column("Z", "axial coordinate on the pre-stretched tube from the mid-plane over {length}", "Z"),
+    column.RHO,
+    Column("eta", "deformed axial position from the mid-plane over {length}", r"\eta"),
+    column.LAM1,
+    column.LAM2,
+    column.T1,
+    column.T2,
+    Column("f_t", "axial traction of the substrate on the membrane times {1/pressure}"),
+    Column("f_k", "radial spring density times {1/pressure}; negative: pushes inward"),
+)
+
+SHARED = {
+    "paper": 2,
+    "source": "Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282",
+    "energy": "Pi/(2 pi C1 h_o R_f^2) = int_0^{lf/2} [ w(lam1, lam2)/sqrt(delta1) - (p/2) rho^2 eta_Z "
+    "+ (k/2) chi rho (rho - s)^2 eta_Z ] dZ,  "
+    "lam1 = delta1 sqrt(rho_Z^2 + eta_Z^2),  lam2 = rho/sqrt(delta1),  "
+    "w = I1 - 3 + alpha (I2 - 3), or of another model (weakforms show material; its S for C1)",
+    "units": Units("R_f", "C1", "h_o", 2 * math.pi),
+}
+STICKING = {"alpha": (0.05, 0.15), "k": (5.0, 40.0)}
+DEFLATION = {"contact": "adhesive", "phase": "deflation", "delta1": 1.2, "p_end": 2.4}
+
+TUBE = About(
+    name="tube",
+    title="Inflation of a pre-stretched cylindrical membrane",
+    **SHARED,
+    control="p (past a limit point compare over u_max, which increases along the whole branch)",
+    unknown="(rho, eta) over half the tube, held at the disk and symmetric at mid-length",
+    forms=(
+        "forms.kinematics:revolution_stretches",
+        "forms.loads:gas_potential",
+        "forms.loads:substrate_potential",
+    ),
+    columns=(*FREE, *CONTACT, *column.DIAGNOSTICS),
+    numbers=NUMBERS,
+    special_points=("limit_point", "bifurcation_point", "contact_onset"),
+    example=Example("p", "u_max", {"alpha": 0.1, "delta1": 1.1}, numerics={"cells": 32, "levels": 2}),
+    tuned=(
+        Family(
+            {"alpha": (0.02, 0.3), "delta1": (1.0, 1.6), "lf": (4.0, 8.0)},
+            **LINE,
+            fixed={"u_end": 1.6},
+            at=(("u_max", 0.6), ("u_max", 1.5)),
+            quick=4,
+        ),
+        Family(
+            {"alpha": (0.05, 0.3), "k": (5.0, 40.0)},
+            **LINE,
+            fixed={"contact": "frictionless", "delta1": 1.2, "p_end": 1.95},
+            at=(("p", 1.9),),
+            label="contact",
+        ),
+        Family(
+            STICKING,
+            **LINE,
+            fixed={"contact": "adhesive", "delta1": 1.2, "p_end": 2.45},
+            at=(("p", 2.4),),
+            label="adhesive",
+        ),
+        Family(STICKING, **LINE, fixed=DEFLATION, at=(("p", 2.2),), label="deflation"),
+        Family(
+            STICKING,
+            coarse=LINE["coarse"],
+            fine={"cells": 128, "degree": 5},
+            fixed=DEFLATION | {"spring": "unilateral"},
+            at=(("p", 2.2),),
+            label="unilateral",
+        ),
+    ),
+)
+
+TUBE_FOLD = About(
+    name="tube_fold",
+    title="Fold line of the freely inflated tube and its cusp",
+    **SHARED,
+    control="delta1 (past the cusp compare over u_max, which increases along the whole line)",
+    unknown="(rho, eta) as of `tube` with p and delta1, and a null vector of the second variation",
+    forms=("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
+    columns=(PRE_STRETCH, *FREE, *column.DIAGNOSTICS),
+    numbers=(*CONTACT, *NUMBERS),
+    special_points=("cusp_point",),
+    example=Example("delta1", "p", {"alpha": 0.1}, numerics={"cells": 32, "levels": 2}),
+    held_out=(Family({"alpha": (0.05, 0.15), "lf": (4.0, 8.0)}, **LINE),),
+)
+
+TUBE_SCHEME = About(
+    name="tube_scheme",
+    title="Contact of the tube by the paper's schemes on a fixed mesh",
+    **SHARED,
+    control="p; the quantities u_max and contact_length are at p_end",
+    unknown="(rho, eta) over half the tube on a fixed mesh; nodes in contact stick, or slide on the spring",
+    forms=(
+        "forms.kinematics:revolution_stretches",
+        "forms.loads:gas_potential",
+        "forms.loads:substrate_potential",
+    ),
+    numbers=(*FREE, *CONTACT, *NUMBERS),
+    example=Example("p_end", "u_max", values=(1.5, 2.0, 2.5, 3.0), numerics={"cells": 60, "steps": 16}),
+    unestimated=SCHEME,
+)
