@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from dataclasses import replace
+from typing import Any, Literal
 
-from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.errors import EnvironmentLackError, InputError, not_among
 from weakforms.results import Result
 
 States = Mapping[str, float] | Iterable[tuple[str, float]]
@@ -24,6 +26,8 @@ def require_environment() -> Any:
         # This comes first: a .petscrc in the current folder, written by anybody, could load a library.
         petsc4py.init(["weakforms", "-skip_petscrc"])
         from weakforms.problems import registry
+
+        registry.problems()
     except ImportError as error:
         missing = (error.name or str(error)).partition(".")[0]
         raise EnvironmentLackError(
@@ -45,7 +49,7 @@ def solve(
     problem: str,
     *,
     at: States = (),
-    crossing: int = 1,
+    crossing: int | Literal["all"] = 1,
     branch: str = "primary",
     numerics: Mapping[str, Any] | None = None,
     progress: Any = None,
@@ -57,21 +61,25 @@ def solve(
         problem: Name of the problem, such as ``"tube"``.
         at: Requested states: columns and the values at which the state is solved for, with its profile. The
             name of a kind of special point with a number asks for the state at that point.
-        crossing: Which crossing of these values along the branch, from 1.
+        crossing: Which crossing of these values along the branch, from 1, or ``"all"``.
         branch: Name of the branch with these states.
         numerics: Meshes and degree, if not the defaults.
         progress: Called with the current step, the amount of work done and the total amount.
         **parameters: Parameters of the problem; those not given keep their defaults.
 
     Returns:
-        Branch, special points and states, every number with its uncertainty.
+        Branch, special points and states, every number with its uncertainty. A parameter without effect is a
+        Python warning, and listed in ``warnings`` of the result.
 
     Raises:
         InputError: For an unknown problem or parameter, or a value out of range; nothing was solved.
         ConvergenceError: If no branch could be started.
         EnvironmentLackError: If dolfinx is missing.
     """
-    return prepare(problem, parameters, numerics or {}, at, crossing, branch)(progress)
+    result = prepare(problem, parameters, numerics or {}, at, crossing, branch)(progress)
+    for text in result.warnings:
+        warnings.warn(f"{problem}: {text}", UserWarning, stacklevel=2)
+    return result
 
 
 def prepare(
@@ -79,7 +87,7 @@ def prepare(
     parameters: Mapping[str, Any],
     numerics: Mapping[str, Any],
     at: States,
-    crossing: int = 1,
+    crossing: int | Literal["all"] = 1,
     branch: str = "primary",
 ) -> Callable[[Any], Result]:
     """Do everything that :func:`solve` does before solving.
@@ -95,13 +103,13 @@ def prepare(
     chosen = require_environment().get(problem)
     from weakforms.problems.problem import StateRequest
 
-    if branch not in chosen.branches:
-        raise InputError(f"{problem} has no branch {branch!r}; it has {', '.join(chosen.branches)}")
-    if crossing < 1:
-        raise InputError(f"{problem}: crossing = {crossing} must be 1 or more")
+    if branch not in chosen.about.branches:
+        raise InputError(f"{problem} has no branch {branch!r}{not_among(branch, chosen.about.branches)}")
+    if crossing != "all" and crossing < 1:
+        raise InputError(f"{problem}: crossing = {crossing} must be 1 or more, or 'all'")
     wanted = at.items() if isinstance(at, Mapping) else at
-    states = [StateRequest(name, _number(name, v), crossing, branch, profile=()) for name, v in wanted]
-    return _prepared(problem, parameters, numerics, states)
+    states = [StateRequest(name, state_value(name, v), crossing, branch, profile=()) for name, v in wanted]
+    return prepared(problem, parameters, numerics, states)
 
 
 def solve_requests(
@@ -116,10 +124,10 @@ def solve_requests(
 
     In addition, ``drawn`` states are solved for at random points of each trace.
     """
-    return _prepared(problem, parameters, numerics, states, branch_uncertainty, drawn)(None)
+    return prepared(problem, parameters, numerics, states, branch_uncertainty, drawn)(None)
 
 
-def _prepared(
+def prepared(
     problem: str,
     parameters: Mapping[str, Any],
     numerics: Mapping[str, Any],
@@ -127,20 +135,41 @@ def _prepared(
     branch_uncertainty: bool = True,
     drawn: int = 0,
 ) -> Callable[[Any], Result]:
+    """Do everything that :func:`solve_requests` does before solving, as :func:`prepare` does.
+
+    Raises:
+        InputError: For an unknown problem, parameter or branch, or a value out of range.
+        EnvironmentLackError: If dolfinx is missing.
+    """
     registry = require_environment()
     from mpi4py import MPI
 
-    from weakforms.problems.problem import Requests, silent, validated
+    from weakforms.problems.problem import Requests, ended, require_within, silent, validated
 
     chosen = registry.get(problem)
     values = validated(chosen.parameters, dict(parameters), problem)
     meshes = validated(chosen.numerics, dict(numerics), f"{problem} numerics")
     requests = Requests(tuple(states), branch_uncertainty, drawn)
     chosen.check(values, requests)
-    return lambda progress: chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
+    require_within(chosen, values, requests)
+
+    def run(progress: Any) -> Result:
+        result = chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
+        for k, branch in enumerate(result.branches):
+            end = ended(branch, chosen.ends(values, branch.name), result)
+            result.branches[k] = replace(branch, ended=end)
+        result.warnings.extend(values.without_effect())
+        return result
+
+    return run
 
 
-def _number(name: str, value: object) -> float:
+def state_value(name: str, value: object) -> float:
+    """The value of a requested state as a number.
+
+    Raises:
+        InputError: If it is none.
+    """
     try:
         return float(value if not isinstance(value, bool) else str(value))
     except (TypeError, ValueError, OverflowError):

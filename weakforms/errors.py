@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
 
 class WeakformsError(Exception):
     """Base of all deliberate errors; the message is one line that tells the user what to do."""
@@ -38,3 +41,21 @@ class EnvironmentLackError(WeakformsError):
     """Something that the suite needs is not installed; the message names the command that installs it."""
 
     exit_status = 4
+
+
+def closest(name: object, known: Iterable[str]) -> str:
+    """The known name that is most like a wrong one; empty if none is."""
+    by_lower = {word.lower(): word for word in known}
+    found = get_close_matches(str(name).lower(), list(by_lower), n=1, cutoff=0.6)
+    return by_lower[found[0]] if found else ""
+
+
+def not_among(name: object, known: Iterable[str], has: str = "it has") -> str:
+    """The end of a message on a wrong name: a similar one, if there is one, and all that are known.
+
+    Either ``"; it has p, V"`` or ``"; did you mean 'V'? It has p, V"``.
+    """
+    names = list(known)
+    listed = f"{has} {', '.join(names) or 'none'}"
+    similar = closest(name, names)
+    return f"; did you mean {similar!r}? {listed[0].upper()}{listed[1:]}" if similar else f"; {listed}"

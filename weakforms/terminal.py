@@ -233,7 +233,8 @@ def guarded(run: Callable[[], Any], debug: bool = False) -> int:
         if debug:
             traceback.print_exc()
         status, text = _verdict_on(error)
-        complain(text)
+        if text:
+            complain(text)
         return status
     return outcome if isinstance(outcome, int) else 0
 
@@ -246,8 +247,9 @@ def _verdict_on(error: BaseException) -> tuple[int, str]:
         return 2, error.format_message()
     if isinstance(error, typer.Abort | KeyboardInterrupt):
         return 130, "interrupted"
-    if isinstance(error, SystemExit):  # what click and rich raise when the reader of a pipe has closed it
-        return 2, "cannot write to standard output: Broken pipe"
+    if isinstance(error, SystemExit):  # of the completion of a shell, and of click and rich on a closed pipe
+        _stdout_is_gone()
+        return (0 if error.code in (0, None) else 2), ""
     # Anything else is a defect of this program: still one line, and a hint to the traceback.
     defect = 1, f"internal error, please report it ({type(error).__name__}: {error}); see --debug"
     return _refused_by_the_system(error) or defect
@@ -259,8 +261,10 @@ def _refused_by_the_system(error: BaseException) -> tuple[int, str] | None:
         return 4, "there is not enough memory for this"
     if not isinstance(error, OSError):
         return None
-    if _stdout_is_gone() or (error.filename is None and error.errno in (errno.ENOSPC, errno.EPIPE)):
-        return 2, f"cannot write to standard output: {error.strerror}"
+    written = error.filename is None and error.errno in (errno.ENOSPC, errno.EPIPE)
+    if _stdout_is_gone() or written:
+        left = error.errno == errno.EPIPE  # as "| head" does, which has read enough
+        return 2, "" if left else f"cannot write to standard output: {error.strerror}"
     if error.errno not in _LACKS:
         return None
     place = f" ({error.filename})" if error.filename else ""

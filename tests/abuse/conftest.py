@@ -13,7 +13,7 @@ from weakforms.problems import registry
 def solves(monkeypatch) -> list[str]:
     """Count every solve and return a prepared result for it."""
     seen = []
-    for problem in registry.problems.values():
+    for problem in registry.problems().values():
         monkeypatch.setattr(type(problem), "solve", lambda self, *_: seen.append(self.name) or canned())
     return seen
 
@@ -22,7 +22,7 @@ def solves(monkeypatch) -> list[str]:
 def nothing_is_solved() -> Iterator[None]:
     """Like ``solves``, for a whole module."""
     with pytest.MonkeyPatch.context() as patch:
-        for problem in registry.problems.values():
+        for problem in registry.problems().values():
             patch.setattr(type(problem), "solve", lambda *_: canned())
         yield
 

@@ -267,7 +267,7 @@ def test_names_and_constants_of_curves(tmp_path, values, names):
     orderly(call(*COMPARE, tmp_path / "c.csv", *words), 0, 1, 2, 5)
 
 
-@pytest.mark.parametrize("problem", registry.problems)
+@pytest.mark.parametrize("problem", registry.abouts())
 def test_no_mesh_is_without_bounds(problem):
     """An unreasonable value of any numerical option is refused before memory is taken."""
     for name, field in registry.get(problem).numerics.model_fields.items():

@@ -49,7 +49,7 @@ def weakforms():
 def solves(monkeypatch):
     """Count every solve and return a prepared result for it."""
     seen = []
-    for problem in registry.problems.values():
+    for problem in registry.problems().values():
         monkeypatch.setattr(type(problem), "solve", lambda self, *_: seen.append(self.name) or canned())
     return seen
 
@@ -58,7 +58,7 @@ def solves(monkeypatch):
 def canned_solves() -> Iterator[None]:
     """Like ``solves``, for a whole module."""
     with pytest.MonkeyPatch.context() as patch:
-        for problem in registry.problems.values():
+        for problem in registry.problems().values():
             patch.setattr(type(problem), "solve", lambda *_: canned())
         yield
 

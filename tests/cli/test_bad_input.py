@@ -83,7 +83,7 @@ def refused(weakforms, solves, tmp_path, monkeypatch):
         (f"{TUBE} --at limit_point=1.5", "limit_point 1.5 whole number from 1"),
         (f"{TUBE} --at p=1 --crossing 0", "crossing 0 1 or more"),
         (f"{TUBE} --crossing -1", "crossing -1 1 or more"),
-        (f"{TUBE} --crossing two", "'two' integer"),
+        (f"{TUBE} --crossing two", "'two' whole number"),
         (f"{TUBE} --branch secondary", "'secondary' primary"),
         (f"{TUBE} --format xml", "'xml' json csv"),
         (f"{TUBE} --spec missing.json", "missing.json No such file"),

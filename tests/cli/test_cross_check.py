@@ -12,9 +12,11 @@ import pytest
 from weakforms import dimensional, nondimensional
 from weakforms.errors import InputError
 from weakforms.problems import registry
+from weakforms.problems.about import About
+from weakforms.problems.column import DIMENSIONS, PLACEHOLDER, Column, Units
 from weakforms.results import Branch, Result
 from weakforms.results.io import branch_csv
-from weakforms.scaling import KINDS, SCALINGS, Scaling
+from weakforms.scaling import unit
 from weakforms.verification.cases import references
 from weakforms.verification.crosscheck.compare import compare
 from weakforms.verification.run.requests import schema
@@ -89,13 +91,15 @@ def test_a_wrong_constant_is_named(constants, said):
 
 
 def test_there_and_back():
-    columns = {name: np.linspace(0.1, 2.0, 5) for name in SCALINGS["tube"].kinds} | {"lam1": np.ones(5)}
+    columns = {name: np.linspace(0.1, 2.0, 5) for name in registry.abouts()["tube"].dimensions} | {
+        "lam1": np.ones(5)
+    }
     back = nondimensional("tube", dimensional("tube", columns, **CONSTANTS), **CONSTANTS)
     for name, values in columns.items():
         np.testing.assert_allclose(back[name], values, rtol=1e-14)
 
 
-DIMENSIONS = {
+FORCE_AND_LENGTH = {
     "number": (0, 0),
     "length": (0, 1),
     "curvature": (0, -1),
@@ -110,57 +114,69 @@ DIMENSIONS = {
 """Powers of force and length that a kind of quantity has, whatever it is divided by."""
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_number_does_not_depend_on_the_system_of_units(kind):
+def with_one_column(dimension, turn=1.0):
+    columns = (Column("x", dimension=dimension),)
+    return About("any", "Any", 1, "", "", "", units=Units("R", "C", "h", turn), columns=columns)
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_a_number_does_not_depend_on_the_system_of_units(dimension):
     """Constants in metres and newtons or in inches and pounds: each is converted by its dimension."""
     inch, pound = 0.0254, 4.4482216152605
-    force, length = DIMENSIONS[kind]
-    scaling = Scaling("R", "C", "h", {"x": kind}, 2 * np.pi)
-    metric = scaling.unit("x", {"R": 0.02, "C": 2.1e5, "h": 1.5e-4})
-    imperial = scaling.unit("x", {"R": 0.02 / inch, "C": 2.1e5 / (pound / inch**2), "h": 1.5e-4 / inch})
+    force, length = FORCE_AND_LENGTH[dimension]
+    about = with_one_column(dimension, 2 * np.pi)
+    metric = unit(about, "x", {"R": 0.02, "C": 2.1e5, "h": 1.5e-4})
+    imperial = unit(about, "x", {"R": 0.02 / inch, "C": 2.1e5 / (pound / inch**2), "h": 1.5e-4 / inch})
     assert metric == pytest.approx(imperial * pound**force * inch**length, rel=1e-14)
-    thicker = scaling.unit("x", {"R": 0.02, "C": 2.1e5, "h": 3e-4})
-    along = 0 if kind == "stress" else force
+    thicker = unit(about, "x", {"R": 0.02, "C": 2.1e5, "h": 3e-4})
+    along = 0 if dimension == "stress" else force
     assert thicker == pytest.approx(metric * 2**along, rel=1e-14), "a membrane: forces go with its thickness"
-    unturned = Scaling("R", "C", "h", {"x": kind}).unit("x", {"R": 0.02, "C": 2.1e5, "h": 1.5e-4})
-    turns = 2 * np.pi if kind in ("axial", "volume", "energy") else 1.0
+    unturned = unit(with_one_column(dimension), "x", {"R": 0.02, "C": 2.1e5, "h": 1.5e-4})
+    turns = 2 * np.pi if dimension in ("axial", "volume", "energy") else 1.0
     assert metric == pytest.approx(turns * unturned, rel=1e-14)
 
 
-ENDINGS = {
-    "length": "over {length}",
-    "stress": "over {modulus}",
-    "axial": "over 2 pi {length} {thickness} {modulus}",
-    "curvature": "times {length}",
-    "pressure": "{length}/({modulus} {thickness})",
-    "resultant": "over {modulus} {thickness}",
-    "force": "over {modulus} {thickness} {length}",
-    "volume": "{length}^3",
-    "energy": "{modulus} {thickness} {length}^2",
+def test_a_text_is_written_with_the_constants_of_the_problem():
+    units = Units("R_f", "C1", "h_o", 2 * np.pi)
+    assert Column("V", "volume over {volume}").scale(units) == "volume over 2 pi R_f^3"
+    assert Column("p", "P {1/pressure}").scale(units) == "P R_f/(C1 h_o)"
+    assert Column("kappa", "curvature times {1/curvature}").scale(units) == "curvature times R_f"
+    assert Column("Pi", "potential over {energy}").dimension == "energy"
+    assert (units.unit("pressure"), units.unit("number")) == ("C1 h_o/R_f", "")
+
+
+def declared():
+    return [(about, c) for about in registry.abouts().values() for c in (*about.columns, *about.numbers)]
+
+
+SAID_OTHERWISE = {
+    *("X", "X_contact", "X_iso", "Z_front", "Z_front_1", "W_relaxed", "W_modified", "force", "p_maxwell"),
 }
+"""Numbers whose dimension the text does not state: as another one, or in other words."""
 
 
-SAID_OTHERWISE = (
-    *("X = beta x", "over the model's stress S", "smallest X", "X of the contact"),
-    *("Z of the contact", "the same", "gw = 1"),
-)
+PARAMETERS = {"C1", "mu", "beta"}
+"""Numbers whose text says what the constants are, or by what a parameter is divided."""
 
 
-@pytest.mark.parametrize("problem", SCALINGS)
-def test_scalings_are_those_the_problem_states(problem):
-    scaling, stated = SCALINGS[problem], registry.get(problem).scales
-    symbols = {"length": scaling.length, "modulus": scaling.modulus, "thickness": scaling.thickness}
-    for name in {*registry.get(problem).columns, *scaling.kinds} & set(stated):
-        text = stated[name]
-        kind = scaling.kinds.get(name, "number")
-        if kind == "number":
-            assert not scaling.length or f"over {scaling.length}" not in text, name
-            assert scaling.modulus not in text.replace(",", " ").split(), name
-        else:
-            ending = ENDINGS[kind].format(**symbols)
-            assert ending in text or any(word in text for word in SAID_OTHERWISE), (name, text)
-        if kind in ("volume", "energy"):
-            assert ("2 pi" in text) == (scaling.turn != 1), name
+def test_a_text_states_the_dimension_of_its_number():
+    """Otherwise the text and the unit of ``--constant`` could differ."""
+    for about, column in declared():
+        stated = {hit[1] for hit in PLACEHOLDER.finditer(column.text)} or {"number"}
+        if column.text and column.name not in SAID_OTHERWISE:
+            assert stated == {column.dimension}, (about.name, column.name)
+        modulus = about.units.modulus
+        if column.dimension == "number" and modulus:
+            assert modulus not in column.text.split() or column.name in PARAMETERS, (about.name, column.name)
+        assert column.dimension in DIMENSIONS
+
+
+def test_a_number_is_declared_once_in_a_problem_and_has_one_symbol():
+    for about in registry.abouts().values():
+        names = [column.name for column in {*about.columns, *about.numbers}]
+        assert sorted(names) == sorted(set(names)), about.name
+    symbols = {(column.name, column.symbol) for _, column in declared() if column.symbol}
+    assert len({name for name, _ in symbols}) == len(symbols)
 
 
 # -- the verdict as files ------------------------------------------------------------------------

@@ -50,7 +50,8 @@ class Machine:
         }
         (self.tree / "weakforms").mkdir(parents=True)
         (self.tree / "weakforms" / "__init__.py").touch()
-        (self.tree / "weakforms" / "cli.py").write_text(CLI)
+        (self.tree / "weakforms" / "cli").mkdir()
+        (self.tree / "weakforms" / "cli" / "__init__.py").write_text(CLI)
         for name in ("run", "Dockerfile", "pyproject.toml"):
             shutil.copy(ROOT / name, self.tree)
         self.bin.mkdir()
@@ -303,6 +304,13 @@ def test_only_printing_the_report_needs_the_browser(machine, words, stage):
     machine.put("docker", status_of_run(0))
     assert machine.run("report", "out", *words).returncode == 0
     assert machine.tag().startswith(f"weakforms-{stage}:")
+
+
+def test_the_version_is_asked_of_the_program(machine):
+    machine.put("docker", status_of_run(0))
+    assert machine.run("--version").returncode == 0
+    (call,) = machine.calls("docker", "run")
+    assert call[-1] == "--version"
 
 
 def test_image_builds_the_final_stage(machine):

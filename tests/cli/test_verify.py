@@ -12,10 +12,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from weakforms import api, terminal
+from weakforms import api, terminal, tube
 from weakforms.errors import ConvergenceError
 from weakforms.verification.cases import catalogue, discovery
-from weakforms.verification.cases.specs import tube
 from weakforms.verification.run import runner, solving
 from weakforms.verification.run.effort import Effort
 

@@ -13,7 +13,7 @@ from weakforms.docs.prose import docstring, formula, markdown
 from weakforms.errors import EnvironmentLackError
 from weakforms.problems import registry
 from weakforms.problems.problem import validated
-from weakforms.verification.cases import gallery
+from weakforms.verification.cases import examples
 from weakforms.verification.cases.catalogue import describe
 from weakforms.verification.report.pdf import browser
 
@@ -36,7 +36,7 @@ def readers(folder):
 
 
 def test_there_is_a_page_for_everything(readers, folder):
-    wanted = {f"problems/{name}.html" for name in registry.problems}
+    wanted = {f"problems/{name}.html" for name in registry.abouts()}
     wanted |= {f"api/{group}.html" for group in api.GROUPS}
     wanted |= {"index.html", "cases.html", "CONTRIBUTING.html"}
     wanted |= {f"{path.stem}.html" for path in (site.ROOT / "docs").glob("*.md")}
@@ -60,9 +60,10 @@ def test_links_arrive_and_nothing_is_loaded(readers, folder):
             assert not anchor or anchor in ids[there], f"{page}: {value}"
 
 
-@pytest.mark.parametrize("name", sorted(registry.problems))
+@pytest.mark.parametrize("name", sorted(registry.abouts()))
 def test_a_problem_is_shown_with_its_form_and_a_right_example(name, readers):
-    shown, problem = gallery.SHOWN[name], registry.problems[name]
+    problem, about = registry.get(name), registry.abouts()[name]
+    shown = about.example
     text = " ".join(" ".join(readers[f"problems/{name}.html"].words).split())
     facts = describe(name)
     for said in (
@@ -72,14 +73,14 @@ def test_a_problem_is_shown_with_its_form_and_a_right_example(name, readers):
         *(p["name"] for p in facts["parameters"]),
     ):
         assert " ".join(said.split()) in text
-    assert all(source for place, _, source in gallery.written_forms(name) if not place.endswith("body"))
+    assert all(source for place, _, source in examples.written_forms(about) if not place.endswith("body"))
     assert len(facts["example"]) == 3
     ast.parse("\n".join(facts["example"]))
-    for spec in shown.specs(name):
+    for spec in examples.specs(about):
         validated(problem.parameters, dict(spec.parameters), name)
         validated(problem.numerics, dict(spec.numerics), name)
     if not shown.values:
-        assert {shown.x, shown.y} <= {*problem.columns, *problem.scales}
+        assert {shown.x, shown.y} <= {column.name for column in about.columns}
 
 
 def test_show_prints_what_the_page_has():
@@ -150,3 +151,29 @@ def test_signatures_are_as_written():
     member = api.modules("weakforms")[0]["members"]
     signatures = {entry["name"]: entry["signature"] for entry in member}
     assert re.match(r"\(problem: str, \*, at: States = \(\)", signatures["solve"])
+
+
+def test_formulas_of_the_theory_are_numbered_in_order_and_drawn(folder):
+    text = (site.ROOT / "docs/theory.md").read_text("utf-8")
+    numbers = [int(n) for n in re.findall(r"\\tag\{(\d+)\}", text)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert text.count("```math") == len(numbers)
+    assert {int(n) for n in re.findall(r"equation \((\d+)\)", text)} <= set(numbers)
+    page = (folder / "theory.html").read_text("utf-8")
+    assert re.findall(r'class="number">\((\d+)\)<', page) == [str(n) for n in numbers]
+    assert "language-math" not in page
+    assert 'class="tex"' not in page, "a formula that cannot be drawn is shown as TeX"
+    assert "$" not in re.sub(r"(?s)<(style|svg)\b.*?</\1>|<pre>.*?</pre>|<code>.*?</code>", "", page)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("of $\\lambda_1$ here", "<i>λ</i><sub>1</sub>"),
+        ("```math\na = b \\tag{7}\n```", '<span class="number">(7)</span>'),
+        ("```\nrun $HOME and $PATH\n```", "run $HOME and $PATH"),
+        ("it costs 5 $ or 6 $", "5 $ or 6 $"),
+    ],
+)
+def test_markdown_has_formulas_and_leaves_dollars_of_commands(text, shown):
+    assert shown in markdown(text)

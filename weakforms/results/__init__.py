@@ -2,21 +2,14 @@
 
 from weakforms.results.curves import CurveFile, read_curve
 from weakforms.results.io import load_result, validate, write_atomically
-from weakforms.results.model import (
-    Absence,
-    Branch,
-    Failure,
-    Field,
-    Quantity,
-    Result,
-    SpecialPoint,
-    State,
-)
+from weakforms.results.model import Absence, Branch, Ended, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results.result import Result
 
 __all__ = [
     "Absence",
     "Branch",
     "CurveFile",
+    "Ended",
     "Failure",
     "Field",
     "Quantity",

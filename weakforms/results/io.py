@@ -18,7 +18,7 @@ from typing import Any
 import jsonschema
 
 from weakforms.errors import InputError
-from weakforms.results.model import Result
+from weakforms.results.result import Result
 
 MAX_JSON_BYTES = 32 * 2**20
 """Largest size of a JSON file, which needs up to thirty times as much memory."""
@@ -198,6 +198,17 @@ def load_result(path: Path) -> Result:
         return Result.from_json(data)
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"result {path}: {error}") from error
+
+
+def save_result(result: Result, path: Path) -> None:
+    """Write a result as JSON; the file appears under its name only when complete.
+
+    Raises:
+        InputError: If it does not fit the schema, or cannot be written.
+    """
+    data = result.to_json()
+    validate(data)
+    write_atomically(Path(path), dumps(data))
 
 
 def branch_csv(result: Result) -> str:

@@ -1,4 +1,4 @@
-"""The records of a solution and their JSON form (schema ``weakforms.result/1``).
+"""The records of which a result consists, and their JSON form (schema ``weakforms.result/1``).
 
 Every number here is converged. What did not converge is left out and listed as a :class:`Failure`.
 Uncertainties are absolute, in the units of the value, and come from mesh refinement
@@ -9,11 +9,41 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-SCHEMA = "weakforms.result/1"
+from weakforms.errors import not_among
+from weakforms.results.uncertain import uncertain
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+ROUND_OFF = 1e-14
+"""Relative distance within which the first or last point of a branch has a value."""
+
+
+def crossings(column: np.ndarray, value: float) -> np.ndarray:
+    """Indices of the points of a branch after which a column takes a value.
+
+    A point that has the value exactly counts with the interval before it. The first and the last point have
+    it within :data:`ROUND_OFF`, because there no neighbour makes up for rounding.
+    """
+    if not len(column):
+        return np.empty(0, dtype=int)
+    distance = column - value
+    for end in (0, -1):
+        distance[end] *= abs(distance[end]) > ROUND_OFF * abs(value)
+    hits = np.flatnonzero((distance[:-1] * distance[1:] < 0) | (distance[1:] == 0))
+    return np.concatenate([[0], hits]) if distance[0] == 0 else hits
+
+
+KINDS = (
+    *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
+    *("pull_off", "zone_opening", "zone_closing"),
+)
+"""Kinds of special points, as in the schema."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +54,13 @@ class Quantity:
     uncertainty: float | None = None
     order: float | None = None
     """Observed order of convergence in the mesh size, if there are three meshes."""
+
+    def __format__(self, spec: str) -> str:
+        """The number with its uncertainty, ``2.018852029(20)``; a format is for the value alone."""
+        return format(self.value, spec) if spec else uncertain(self.value, self.uncertainty)
+
+    def __str__(self) -> str:
+        return format(self)
 
     def to_json(self) -> dict[str, Any]:
         """JSON object ``{"value", "uncertainty"[, "order"]}``."""
@@ -61,6 +98,34 @@ class Field:
 
 
 @dataclass(frozen=True)
+class Ended:
+    """Why a branch ends where it does."""
+
+    by: str
+    """The parameter that ends it, such as ``u_end``; or ``failure``, ``absent``, or another short word."""
+    column: str
+    """The column that takes a value there."""
+    value: float
+    """This value: the parameter's, or that of the last point."""
+    reason: str = ""
+    """More about it, if no parameter ends the branch."""
+
+    def __str__(self) -> str:
+        why = self.by if not self.reason else f"{self.by}: {self.reason}"
+        return f"{self.column} = {self.value:.6g} ({why})"
+
+    def to_json(self) -> dict[str, Any]:
+        """JSON object ``{"by", "column", "value"[, "reason"]}``."""
+        reason = {"reason": self.reason} if self.reason else {}
+        return {"by": self.by, "column": self.column, "value": self.value, **reason}
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any]) -> Ended:
+        """Inverse of :meth:`to_json`."""
+        return cls(data["by"], data["column"], data["value"], data.get("reason", ""))
+
+
+@dataclass(frozen=True, repr=False)
 class Branch:
     """A curve of equilibria in the order of continuation: one array per column, all of the same length."""
 
@@ -69,18 +134,53 @@ class Branch:
     columns: dict[str, np.ndarray]
     uncertainty: dict[str, np.ndarray] = field(default_factory=dict)
     """Absolute uncertainty for each column and point, in the direction across the branch."""
+    ended: Ended | None = None
+    """Why the branch ends where it does, if this is known."""
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values()), ()))
 
+    def __getitem__(self, name: str) -> np.ndarray:
+        """The values of a column over the points of the branch.
+
+        Raises:
+            KeyError: If there is no such column; the message names a similar one.
+        """
+        if name not in self.columns:
+            raise KeyError(f"no column {name!r}{not_among(name, self.columns)}")
+        return self.columns[name]
+
+    def __repr__(self) -> str:
+        end = f", ends at {self.ended}" if self.ended else ""
+        return f"<Branch {self.name}: {len(self)} points over {self.control}{end}; {', '.join(self.columns)}>"
+
+    def crossings(self, name: str, value: float) -> int:
+        """How often a column takes a value along the branch."""
+        column = np.asarray(self[name], float)
+        return len(crossings(column[np.isfinite(column)], value))
+
     def to_json(self) -> dict[str, Any]:
         """JSON object with lists for columns."""
+        ended = {} if self.ended is None else {"ended": self.ended.to_json()}
         return {
             "name": self.name,
             "control": self.control,
             "columns": {key: _plain(value) for key, value in self.columns.items()},
             "uncertainty": {key: _plain(value) for key, value in self.uncertainty.items()},
+            **ended,
         }
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A ``DataFrame`` of :func:`weakforms.results.frames.branch_frame`."""
+        from weakforms.results.frames import branch_frame
+
+        return branch_frame(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A ``Dataset`` of :func:`weakforms.results.frames.branch_dataset`."""
+        from weakforms.results.frames import branch_dataset
+
+        return branch_dataset(self)
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Branch:
@@ -90,6 +190,7 @@ class Branch:
             data["control"],
             _arrays(data["columns"]),
             _arrays(data.get("uncertainty", {})),
+            Ended.from_json(data["ended"]) if data.get("ended") else None,
         )
 
 
@@ -144,13 +245,17 @@ class State:
     quantities: dict[str, Quantity]
     fields: tuple[Field, ...] = ()
     crossing: int = 1
+    crossings: int | None = None
+    """How often the branch takes this value; ``None`` if this was not counted."""
 
     def to_json(self) -> dict[str, Any]:
         """JSON object as the schema requires."""
+        crossings = {} if self.crossings is None else {"crossings": self.crossings}
         return {
             "at": dict(self.at),
             "branch": self.branch,
             "crossing": self.crossing,
+            **crossings,
             "quantities": {key: q.to_json() for key, q in self.quantities.items()},
             "fields": [item.to_json() for item in self.fields],
         }
@@ -164,6 +269,7 @@ class State:
             {key: Quantity.from_json(q) for key, q in data["quantities"].items()},
             tuple(Field.from_json(item) for item in data.get("fields", [])),
             data.get("crossing", 1),
+            data.get("crossings"),
         )
 
 
@@ -182,75 +288,6 @@ class Failure:
 @dataclass(frozen=True)
 class Absence(Failure):
     """Something asked for that is not there, and what was searched for it: no failure of a solve."""
-
-
-@dataclass
-class Result:
-    """Everything that one ``solve`` returns; its JSON form is the contract with other programs."""
-
-    problem: str
-    parameters: dict[str, Any]
-    scales: dict[str, str]
-    numerics: dict[str, Any]
-    provenance: dict[str, Any]
-    branches: list[Branch] = field(default_factory=list)
-    special_points: list[SpecialPoint] = field(default_factory=list)
-    quantities: dict[str, Quantity] = field(default_factory=dict)
-    states: list[State] = field(default_factory=list)
-    failures: list[Failure] = field(default_factory=list)
-    absent: list[Absence] = field(default_factory=list)
-
-    def branch(self, name: str = "primary") -> Branch:
-        """The branch of that name.
-
-        Raises:
-            KeyError: If there is none.
-        """
-        for branch in self.branches:
-            if branch.name == name:
-                return branch
-        raise KeyError(f"no branch {name!r}; there are {[b.name for b in self.branches]}")
-
-    def points(self, kind: str, branch: str | None = None) -> list[SpecialPoint]:
-        """Special points of one kind, in their order along the branch."""
-        return [
-            point for point in self.special_points if point.kind == kind and branch in (None, point.branch)
-        ]
-
-    def to_json(self) -> dict[str, Any]:
-        """JSON object of schema ``weakforms.result/1``; ``absent`` is there when something is."""
-        absent = {"absent": [item.to_json() for item in self.absent]} if self.absent else {}
-        return {
-            "schema": SCHEMA,
-            "problem": self.problem,
-            "parameters": self.parameters,
-            "scales": self.scales,
-            "numerics": self.numerics,
-            "provenance": self.provenance,
-            "branches": [branch.to_json() for branch in self.branches],
-            "special_points": [point.to_json() for point in self.special_points],
-            "quantities": {key: q.to_json() for key, q in self.quantities.items()},
-            "states": [state.to_json() for state in self.states],
-            "failures": [failure.to_json() for failure in self.failures],
-            **absent,
-        }
-
-    @classmethod
-    def from_json(cls, data: dict[str, Any]) -> Result:
-        """Inverse of :meth:`to_json`."""
-        return cls(
-            data["problem"],
-            dict(data["parameters"]),
-            dict(data["scales"]),
-            dict(data["numerics"]),
-            dict(data["provenance"]),
-            [Branch.from_json(item) for item in data["branches"]],
-            [SpecialPoint.from_json(item) for item in data["special_points"]],
-            {key: Quantity.from_json(q) for key, q in data["quantities"].items()},
-            [State.from_json(item) for item in data["states"]],
-            [Failure(item["what"], item["reason"]) for item in data["failures"]],
-            [Absence(item["what"], item["reason"]) for item in data.get("absent", [])],
-        )
 
 
 def _plain(values: np.ndarray) -> list[float | int | None]:

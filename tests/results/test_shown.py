@@ -1,0 +1,223 @@
+"""How results and their numbers show themselves in Python and in a notebook."""
+
+import builtins
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import weakforms
+from weakforms import EnvironmentLackError
+from weakforms.results import Absence, Branch, Ended, Failure, Field, Quantity, Result, SpecialPoint, State
+from weakforms.results.plot import draw_results
+from weakforms.results.uncertain import uncertain
+from weakforms.results.wording import point_rows
+
+VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
+
+
+@pytest.fixture
+def result():
+    u = np.linspace(0, 5, 11)
+    p = u * (5 - u)
+    branch = Branch(
+        "primary",
+        "p",
+        {"p": p, "u_max": u, "n_negative": (u > 2.5).astype(int)},
+        {"p": np.full(11, 1e-9)},
+        Ended("u_end", "u_max", 5.0),
+    )
+    point = SpecialPoint("limit_point", "primary", "p", {"p": 6.25, "u_max": 2.5}, {"p": 1e-8, "u_max": 1e-7})
+    profile = Field("profile", {"Z": u, "rho": 1 + u}, {"Z": 0.0, "rho": 1e-9})
+    state = State(
+        {"p": 4.0}, "primary", {"u_max": Quantity(1.0, 2e-9), "n_negative": Quantity(0)}, (profile,), 1, 2
+    )
+    return Result(
+        "tube",
+        {"alpha": 0.1, "delta1": 1.1},
+        {"p": "P R_f/(C1 h_o)"},
+        {},
+        VERSIONS | {"ranks": 1, "wall_s": 0.5},
+        [branch],
+        [point],
+        {"area": Quantity(2.0, 1e-3)},
+        [state],
+        warnings=["k = 3.0 has no effect here; it needs contact = adhesive"],
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "spread", "text"),
+    [
+        (2.018852029123, 2.0e-8, "2.018852029(20)"),
+        (0.854081807108, 1.0e-11, "0.854081807108(10)"),
+        (0.854081807108, 0.99e-11, "0.8540818071080(99)"),
+        (1.0, 0.999e-3, "1.0000(10)"),
+        (1.0, 0.9901e-3, "1.0000(10)"),
+        (-3.5, 0.021, "-3.500(21)"),
+        (1234.0, 56.0, "1234(56)"),
+        (1234.0, 560.0, "1230(560)"),
+        (0.0, 1e-3, "0.0000(10)"),
+        (3.2e-9, 1.5e-10, "3.20(15)e-09"),
+        (2.5e7, 1e3, "2.50000(10)e+07"),
+        (1.0, 1e-30, "1.00000000000000(1)"),
+        (1.0, 0.0, "1"),
+        (2 / 3, None, "0.666666666667"),
+        (1.0, math.inf, "1"),
+        (math.nan, 1e-3, "nan"),
+    ],
+)
+def test_a_number_shows_the_digits_that_its_uncertainty_allows(value, spread, text):
+    assert uncertain(value, spread) == text
+    assert f"{Quantity(value, spread)}" == str(Quantity(value, spread)) == text
+
+
+@pytest.mark.parametrize("spread", [1.04e-7, 1.051e-7, 9.96e-5, 0.5])
+def test_the_shown_uncertainty_is_never_smaller_than_the_stated_one(spread):
+    text = uncertain(1.0, spread)
+    digits, last = text.rstrip(")").split("(")
+    places = len(digits.partition(".")[2])
+    assert float(last) * 10.0**-places >= spread * (1 - 1e-9)
+
+
+def test_a_format_is_for_the_value_alone():
+    assert f"{Quantity(2.018852029, 2e-8):.3f}" == "2.019"
+
+
+def test_a_branch_gives_its_columns_by_name(result):
+    branch = result.branch()
+    assert branch["u_max"][-1] == 5
+    with pytest.raises(KeyError, match="no column 'umax'; did you mean 'u_max'"):
+        branch["umax"]
+    with pytest.raises(KeyError, match="no branch 'primry'; did you mean 'primary'"):
+        result.branch("primry")
+
+
+def test_a_misspelt_kind_of_special_point_is_an_error_and_not_an_empty_list(result):
+    assert len(result.points("limit_point")) == 1
+    assert result.points("cusp_point") == []
+    with pytest.raises(KeyError, match="'limit_points'; did you mean 'limit_point'"):
+        result.points("limit_points")
+
+
+def test_a_value_is_counted_each_time_that_the_column_takes_it(result):
+    branch = result.branch()
+    assert [branch.crossings("p", p) for p in (4.1, 7.0, 0.0)] == [2, 0, 2]
+    assert branch.crossings("u_max", 5.0) == 1
+
+
+def test_what_a_special_point_is_stands_before_its_other_numbers(result):
+    values = {"V": 3.0, "n": 1.0, "p": 6.25}
+    result.special_points = [SpecialPoint("bifurcation_point", "primary", "p", values, {"p": 1e-8, "n": 0.0})]
+    ((place, numbers),) = point_rows(result)
+    assert (place, list(numbers), numbers["n"]) == ("bifurcation_point 1", ["p", "n", "V"], "1")
+
+
+def test_a_result_shows_itself_in_one_line(result):
+    assert repr(result) == "<Result tube: branch primary (11 points); 1 limit_point; 1 states; 1 quantities>"
+    assert "ends at u_max = 5 (u_end)" in repr(result.branch())
+    result.failures.append(Failure("x", "y"))
+    assert "1 FAILED" in repr(result)
+
+
+def test_a_notebook_shows_numbers_warnings_and_a_picture(result):
+    result.absent.append(Absence("contact", "<b>none</b>"))
+    page = result._repr_html_()
+    for text in (
+        "6.250000000(10)",
+        "ends at u_max = 5 (u_end)",
+        "no effect",
+        "crossed 2 times",
+        "<svg",
+        "2.0000(10)",
+    ):
+        assert text in page
+    assert "<b>none</b>" not in page
+    assert "&lt;b&gt;none" in page
+
+
+def test_saving_and_loading_keeps_everything(result, tmp_path):
+    weakforms.save(result, tmp_path / "r.json")
+    again = weakforms.load(tmp_path / "r.json")
+    assert again.to_json() == result.to_json()
+    assert again.branch().ended == Ended("u_end", "u_max", 5.0)
+    assert (again.states[0].crossings, again.warnings) == (2, result.warnings)
+
+
+def test_unstable_parts_are_dashed_and_special_points_marked(result):
+    axes = draw_results({"": result}).axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("u_max", "p:  P R_f/(C1 h_o)")
+    solid, dashed = axes.get_lines()[:2]
+    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+    assert solid.get_xdata()[-1] == dashed.get_xdata()[0] == 2.5
+    assert [2.5] in [list(line.get_xdata()) for line in axes.get_lines() if line.get_marker() == "o"]
+    assert [text.get_text() for text in axes.texts] == ["u_max = 5 (u_end)"]
+    assert "limit point" in [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def test_a_long_scaling_is_not_cut_off(result):
+    result.scales["p"] = "p r_o/(S h_o), S the model's stress (C1 for neo_hookean and mooney_rivlin)"
+    figure = draw_results({"": result})
+    figure.canvas.draw()
+    box = figure.axes[0].yaxis.label.get_window_extent()
+    assert 0 <= box.y0 < box.y1 <= figure.bbox.height
+
+
+def test_several_results_are_named_by_what_differs(result):
+    other = Result.from_json(result.to_json())
+    other.parameters["delta1"] = 1.2
+    axes = draw_results({"a": result, "b": other}).axes[0]
+    names = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert names[:2] == ["delta1 = 1.1", "delta1 = 1.2"]
+    other.parameters["delta1"] = 1.1
+    axes = draw_results({"a": result, "b": other}).axes[0]
+    assert [text.get_text() for text in axes.get_legend().get_texts()][:2] == ["a", "b"]
+
+
+@pytest.mark.parametrize("name", ["pandas", "xarray"])
+def test_what_is_missing_is_named_with_the_way_to_get_it(result, name, monkeypatch):
+    known = builtins.__import__
+
+    def without(module: str, *rest: object) -> object:
+        if module.split(".", maxsplit=1)[0] == name:
+            raise ImportError(name=name)
+        return known(module, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    for of in (result, result.branch()):
+        with pytest.raises(EnvironmentLackError, match=f"pip install {name}, or apt install python3-{name}"):
+            getattr(of, f"to_{name}")()
+
+
+def test_branches_become_tables_of_pandas(result):
+    pytest.importorskip("pandas")
+    frame = result.branch().to_pandas()
+    assert list(frame) == ["p", "p_uncertainty", "u_max", "n_negative"]
+    assert list(result.to_pandas()["branch"].unique()) == ["primary"]
+    assert len(frame) == 11
+
+
+def test_branches_become_datasets_of_xarray(result):
+    pytest.importorskip("xarray")
+    data = result.to_xarray()
+    assert data["p"].attrs["scale"] == "P R_f/(C1 h_o)"
+    assert (data.sizes["point"], data.attrs["problem"]) == (11, "tube")
+    assert result.branch().to_xarray().attrs["ended"] == "u_max = 5 (u_end)"
+
+
+def test_the_package_shows_first_what_most_people_need():
+    assert {"solve", "sweep", "compare", "load", "save"} <= set(weakforms.__all__)
+    assert len(weakforms.__all__) < 20
+    assert "Curve" in weakforms.cases.__all__
+    assert weakforms.Curve is weakforms.cases.Curve  # where case files imported it at first
+    assert "paper2.fig03" in weakforms.cases()
+    with pytest.raises(AttributeError):
+        weakforms.nothing  # noqa: B018
+
+
+def test_the_package_tells_type_checkers_that_it_is_annotated():
+    code = "from importlib.resources import files; print(files('weakforms').joinpath('py.typed').is_file())"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "True\n"

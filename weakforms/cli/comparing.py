@@ -1,0 +1,94 @@
+"""The verbs for other programs: compare a curve, answer a folder of requests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from weakforms.cli.app import Json, Resume, app, examples
+from weakforms.terminal import console, once, plain, print_json, progress_bar, rank
+
+
+@app.command(
+    epilog=examples(
+        "weakforms compare paper2.fig02 mine.csv --curve fig02b_delta1_1 --column p",
+        "weakforms compare paper2.fig02 si.csv --map p=pressure --constant R_f=0.02 --out verdict",
+    )
+)
+def compare(  # noqa: PLR0913, PLR0917  (one an option)
+    case: Annotated[str, typer.Argument(help="Id of a case.")],
+    file: Annotated[Path, typer.Argument(help="CSV or JSON with the curve.")],
+    curve: Annotated[str | None, typer.Option(help="Which curve of the case.")] = None,
+    accuracy: Annotated[
+        float | None,
+        typer.Option(help="Relative accuracy that the curve claims; default: what the case asks for."),
+    ] = None,
+    names: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--map", metavar="OURS=THEIRS", help="Name of a column in the file, if it is different."
+        ),
+    ] = None,
+    constants: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--constant", metavar="NAME=VALUE", help="Radius, modulus or thickness, for a curve with units."
+        ),
+    ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--column", metavar="NAME", help="Judge only this column; may be repeated."),
+    ] = None,
+    branch: Annotated[
+        str | None, typer.Option(help="Branch of the file; default: the one that the case draws.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for verdicts.json, pictures and a page that shows both.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Compare a curve of another code with the reference table of a case.
+
+    The curve must have every column that the case judges, unless --column selects some. Exit status: 0 within
+    bounds, 1 out of bounds, 2 bad input (also a result for other parameters), 5 not judged (a column is
+    missing, or the table is too coarse for the accuracy in most of its rows).
+    """
+    from weakforms.verification.cases.catalogue import print_verdicts
+    from weakforms.verification.crosscheck.compare import compare as compare_curve
+
+    given = (once("--map", names), once("--constant", constants))
+    verdicts = compare_curve(case, file, curve, accuracy, *given, only, branch)
+    if out is not None:
+        from weakforms.verification.report.verdict_page import write_verdicts
+
+        write_verdicts(verdicts, out)
+    if as_json:
+        print_json(verdicts.to_json())
+    else:
+        print_verdicts(verdicts, console())
+    if not verdicts.passed:
+        raise typer.Exit(verdicts.exit_status)
+
+
+@app.command(epilog=examples("weakforms batch requests", "weakforms batch requests --out answers --resume"))
+def batch(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder of request files, *.json.")],
+    out: Annotated[Path | None, typer.Option(help="Folder for the answers; default: DIR/results.")] = None,
+    resume: Resume = False,
+) -> None:
+    """Answer a folder of requests: solutions and verdicts, one file each.
+
+    The exit status is the largest of all requests (0 within bounds, 1 out of bounds, 2 bad input, 3 a solve
+    did not converge, 4 something is not installed, 5 not judged).
+    """
+    from weakforms.verification.run.requests import run_batch
+
+    with progress_bar() as progress:
+        answers = run_batch(folder, out, resume, rank() == 0, progress)
+    for found in answers if rank() == 0 else ():
+        console().print(plain(f"{found.name}: {found.status} {found.message}".rstrip()), soft_wrap=True)
+    worst = max(found.status for found in answers)
+    if worst:
+        raise typer.Exit(worst)

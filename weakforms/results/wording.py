@@ -1,0 +1,87 @@
+"""Results as text that people read: what the terminal and a notebook say alike."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from weakforms.results.model import Branch
+from weakforms.results.result import Result
+from weakforms.results.uncertain import uncertain
+
+LABELS = ("n", "direction", "state")
+"""Columns of a special point that say what it is, such as the number of waves that appear there."""
+
+
+def short(result: Result) -> str:
+    """One line about a result."""
+    branches = ", ".join(f"{b.name} ({len(b)} points)" for b in result.branches)
+    counts: dict[str, int] = {}
+    for point in result.special_points:
+        counts[point.kind] = counts.get(point.kind, 0) + 1
+    parts = [f"branch {branches}" if branches else ""]
+    parts += [f"{count} {kind}" for kind, count in counts.items()]
+    parts += [f"{len(result.states)} states" if result.states else ""]
+    parts += [f"{len(result.quantities)} quantities" if result.quantities else ""]
+    parts += [f"{len(result.failures)} FAILED" if result.failures else ""]
+    return f"<Result {result.problem}: {'; '.join(filter(None, parts)) or 'empty'}>"
+
+
+def parameters_line(result: Result) -> str:
+    """All parameters with their values."""
+    return ", ".join(f"{name} = {value}" for name, value in result.parameters.items() if value is not None)
+
+
+def extent(branch: Branch) -> str:
+    """How many points a branch has, between which values of its control, and where and why it ends."""
+    points = f"{len(branch)} points"
+    if branch.control in branch.columns and len(branch):
+        values = branch.columns[branch.control]
+        points += f", {branch.control} from {min(values):.6g} to {max(values):.6g}"
+    return f"{points}; ends at {branch.ended}" if branch.ended else points
+
+
+def point_rows(result: Result) -> list[tuple[str, dict[str, str]]]:
+    """Each special point, numbered within its kind, and its columns with uncertainties, the control first."""
+    seen: Counter[tuple[str, str]] = Counter()
+    out = []
+    for point in result.special_points:
+        seen[point.kind, point.branch] += 1
+        place = f"{point.kind} {seen[point.kind, point.branch]}{_on(point.branch, result)}"
+        first = (point.control, *LABELS)
+        names = sorted(point.values, key=lambda name: first.index(name) if name in first else len(first))
+        out.append((place, {n: uncertain(point.values[n], point.uncertainty.get(n)) for n in names}))
+    return out
+
+
+def state_rows(result: Result) -> list[tuple[str, dict[str, str]]]:
+    """Each state, as ``p = 1.95, crossing 1 of 3``, and its other numbers with uncertainties."""
+    out = []
+    for state in result.states:
+        place = ", ".join(f"{name} = {value:.12g}" for name, value in state.at.items())
+        if max(state.crossing, state.crossings or 1) > 1:
+            place += f", crossing {state.crossing}" + (f" of {state.crossings}" if state.crossings else "")
+        numbers = {name: f"{q}" for name, q in state.quantities.items() if name not in state.at}
+        out.append((place + _on(state.branch, result), numbers))
+    return out
+
+
+def _on(branch: str, result: Result) -> str:
+    """The branch, if a result has several."""
+    return f" on {branch}" if len(result.branches) > 1 else ""
+
+
+def notes(result: Result) -> list[str]:
+    """Warnings, what is not there, what did not converge, and values that a branch takes more than once."""
+    out = [f"warning: {text}" for text in result.warnings]
+    told = set()
+    for state in result.states:
+        ((name, value),) = state.at.items() if len(state.at) == 1 else (("", 0.0),)
+        every = sum(s.at == state.at and s.branch == state.branch for s in result.states)
+        if (state.crossings or 1) > every and (name, value) not in told:
+            told.add((name, value))
+            out.append(
+                f"note: {name} = {value:g} is crossed {state.crossings} times on the {state.branch} branch; "
+                f"this is crossing {state.crossing} (--crossing all gives all)"
+            )
+    out += [f"not there: {item.what}: {item.reason}" for item in result.absent]
+    return [*out, *(f"not converged: {item.what}: {item.reason}" for item in result.failures)]
