@@ -18,6 +18,7 @@ RUN apt-get -o Acquire::Retries=3 update \
         python3-gmsh python3-meshio \
         python3-numpy python3-scipy python3-matplotlib \
         python3-typer python3-rich python3-pydantic python3-jinja2 python3-jsonschema \
+        python3-mdit-py-plugins python3-pandas python3-xarray \
         python3-hypothesis python3-pytest python3-pytest-xdist python3-pytest-timeout \
         python3-pip python3-setuptools python3-wheel \
         libopenblas0-serial openmpi-bin gcc g++ libc6-dev git ca-certificates tini \

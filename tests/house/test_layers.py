@@ -38,7 +38,10 @@ MAY = {
         "weakforms.results",
         "weakforms.errors",
     },
-    "weakforms/results": {"numpy", "jsonschema", "weakforms.results", "weakforms.errors"},
+    "weakforms/results": {
+        *("numpy", "jsonschema", "weakforms.results", "weakforms.errors"),
+        *("matplotlib", "pandas", "xarray"),  # inside functions only, see below
+    },
     "weakforms/errors.py": set(),
     "cases": {"weakforms", "numpy", "scipy"},
     "reference_data": {"numpy", "scipy", "reference_data"},
@@ -88,6 +91,13 @@ def test_imports_point_one_way(part):
     assert wrong == {}
 
 
+def test_results_are_read_and_written_without_anything_that_may_be_missing():
+    """Pictures and tables of other packages are imported where they are made."""
+    blocked = "import sys; sys.modules.update(dict.fromkeys(['matplotlib', 'pandas', 'xarray'])); "
+    code = f"{blocked}import weakforms.results.plot, weakforms.results.frames, weakforms.results.notebook"
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0
+
+
 def test_forms_take_only_the_elements_of_basix():
     assert forbidden(files("weakforms/forms")[0], {"ufl"}) in ([], ["basix.ufl"])
 
@@ -99,7 +109,7 @@ def test_cases_use_only_the_public_name():
         for name in imported(ast.parse(p.read_text("utf-8")), "")
         if name.startswith("weakforms")
     }
-    assert found == {"weakforms"}
+    assert found == {"weakforms.cases"}
 
 
 @pytest.mark.parametrize(
@@ -124,14 +134,30 @@ def test_nothing_of_weakforms_is_imported_by_the_references_when_they_run():
     assert done.stdout.strip() == ""
 
 
+def test_no_two_test_modules_have_one_name():
+    """Test modules are imported by their names; pytest refuses the second one."""
+    names = [path.name for path in files("tests") if path.name.startswith("test_")]
+    assert len(names) == len(set(names))
+
+
+ROOMS = ("cli", "problems", "references", "results", "solvers", "verification")
+
+
 def test_no_folder_is_crowded():
     crowded = {}
-    for top in ("weakforms", "reference_data", "cases"):
+    for top in ("weakforms", "reference_data", "cases", *(f"tests/{room}" for room in ROOMS)):
         for folder in {path.parent for path in files(top)}:
             modules = [path.name for path in folder.glob("*.py") if path.name != "__init__.py"]
             if len(modules) > 15:
                 crowded[folder.relative_to(ROOT).as_posix()] = len(modules)
     assert crowded == {}
+
+
+@pytest.mark.parametrize("part", ["problems", "verification"])
+def test_tests_are_in_the_room_of_what_they_test(part):
+    rooms = {path.parent.relative_to(ROOT / "tests" / part).as_posix() for path in files(f"tests/{part}")}
+    assert {room for room in rooms if not (ROOT / "weakforms" / part / room).is_dir()} == set()
+    assert len(rooms) > 4
 
 
 def arrows() -> dict[str, set[str]]:
@@ -172,13 +198,14 @@ PAGES = [
 def test_a_page_names_files_that_exist(page):
     """A file or folder of the tree given with its path; ``paperN`` and ``*`` match any name."""
     text = (ROOT / page).read_text("utf-8")
+    added = set(re.findall(r"(?m)^`([\w/]+\.py)`:$", text))  # files whose text follows on the page
     named = re.findall(r"(?<![\w/.])((?:weakforms|cases|reference_data|tests|docs)/[\w/.*-]*[\w*/])", text)
     lost = {
         path
         for path in named
         if not any(ROOT.glob(path.strip("/").replace("paperN", "paper[0-9]"))) and "NAME" not in path
     }
-    assert lost == set()
+    assert lost <= added
 
 
 def test_only_compat_looks_at_versions():

@@ -9,11 +9,11 @@ import re
 from types import ModuleType
 from typing import Any
 
-import weakforms
 from weakforms.docs.prose import docstring
 
 GROUPS = {
     "weakforms": "What is imported from `weakforms`",
+    "weakforms.cases": "What case files need",
     "weakforms.forms": "Energies",
     "weakforms.problems": "Physical problems",
     "weakforms.solvers": "Solvers",
@@ -26,7 +26,7 @@ GROUPS = {
 def modules(group: str) -> list[dict[str, Any]]:
     """The modules of a group: name, text, members."""
     package = importlib.import_module(group)
-    if group == "weakforms":
+    if group in ("weakforms", "weakforms.cases"):
         return [_public(package)]
     found = [package]
     for info in sorted(pkgutil.walk_packages(package.__path__, f"{group}."), key=lambda item: item.name):
@@ -37,9 +37,13 @@ def modules(group: str) -> list[dict[str, Any]]:
 
 def _public(package: ModuleType) -> dict[str, Any]:
     """The package's own names, wherever they are defined."""
-    names = [name for name in weakforms.__all__ if not inspect.ismodule(getattr(package, name))]
+    names = [name for name in package.__all__ if not inspect.ismodule(getattr(package, name))]
     members = [_member(name, getattr(package, name)) for name in names]
-    return {"name": "weakforms", "text": docstring(package.__doc__), "members": [m for m in members if m]}
+    return {
+        "name": package.__name__,
+        "text": docstring(package.__doc__),
+        "members": [m for m in members if m],
+    }
 
 
 def _described(module: ModuleType) -> dict[str, Any]:

@@ -6,9 +6,11 @@ from pathlib import Path
 
 from markupsafe import Markup
 
+from weakforms.problems.about import Example
+from weakforms.problems.registry import abouts
 from weakforms.results import Result
 from weakforms.terminal import WorkProgress
-from weakforms.verification.cases.gallery import SHOWN, Shown
+from weakforms.verification.cases import examples
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome
 from weakforms.verification.report.figures import panel_figure
@@ -30,7 +32,8 @@ def pictures(
         names: Problems.
         progress: Called with what is being solved.
     """
-    specs = {name: SHOWN[name].specs(name) for name in names if name in SHOWN}
+    shown = {name: abouts()[name].example for name in names}
+    specs = {name: examples.specs(abouts()[name]) for name in names if shown[name]}
     plan = Plan({spec: [] for of in specs.values() for spec in of}, {})
     folder.mkdir(parents=True, exist_ok=True)
     solver = Solver(folder, jobs, resume=True)
@@ -41,12 +44,12 @@ def pictures(
         if missing:
             out[name] = None, f"No picture: {missing[0]}"
             continue
-        panel = _panel(name, SHOWN[name], of, [solver.results[spec] for spec in of])
-        out[name] = Markup(panel_figure(panel, f"picture-{name}")), _caption(SHOWN[name])
+        panel = _panel(name, shown[name], of, [solver.results[spec] for spec in of])
+        out[name] = Markup(panel_figure(panel, f"picture-{name}")), _caption(shown[name])
     return out
 
 
-def _caption(shown: Shown) -> str:
+def _caption(shown: Example) -> str:
     coarse = ", ".join(f"{key} = {value}" for key, value in shown.numerics.items())
     what = f"{shown.y} over {shown.x}" + (
         ", one mark for each solution" if shown.values else ", of this example"
@@ -54,7 +57,7 @@ def _caption(shown: Shown) -> str:
     return f"Drawn: {what}" + (f" ({coarse})." if coarse else ".")
 
 
-def _panel(name: str, shown: Shown, specs: list[Spec], results: list[Result]) -> PanelOutcome:
+def _panel(name: str, shown: Example, specs: list[Spec], results: list[Result]) -> PanelOutcome:
     """The branch with its special points, or the quantity over the parameter."""
     markers = []
     if shown.values:

@@ -6,7 +6,7 @@ import hashlib
 import html
 import inspect
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from markdown_it import MarkdownIt
 from markupsafe import Markup
@@ -14,6 +14,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.mathtext import MathTextParser
+from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from weakforms.verification.report.figures import drawing, svg
 from weakforms.verification.report.wording import html_tex
@@ -41,14 +42,33 @@ MATH = re.compile(r":math:`([^`]*)`", re.S)
 
 
 def markdown(text: str) -> Markup:
-    """Markdown with tables as HTML; headings of alternatives (``=== Python``) become ordinary headings."""
+    """Markdown with tables and formulas as HTML.
+
+    Formulas stand between dollars, or as a block in ``math`` fences. Headings of alternatives
+    (``=== Python``) become ordinary headings.
+    """
     text = re.sub(r"(?m)^=== (.+)$", r"#### \1", text)
-    rendered = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
+    parser = MarkdownIt("commonmark", {"html": False, "highlight": _highlighted}).enable("table")
+    parser.use(dollarmath_plugin, allow_space=False, allow_digits=False, renderer=_short_or_long)
+    rendered = parser.render(text)
+    rendered = re.sub(
+        r'<pre><code class="language-math">(<div.*?</div>)\s*</code></pre>', r"\1", rendered, flags=re.S
+    )
     rendered = re.sub(
         r"<table>", '<div class="scroll" role="region" tabindex="0" aria-label="Table"><table>', rendered
     )
     rendered = rendered.replace("</table>", "</table></div>")
     return Markup(re.sub(r'<a href="(?!https?:|#)([^"]*?)\.md(#[^"]*)?"', r'<a href="\1.html\2"', rendered))
+
+
+def _short_or_long(tex: str, options: Mapping[str, bool]) -> str:
+    """A formula in a line of text, or in a line of its own."""
+    return formula(tex) if options["display_mode"] else html_tex(f"${' '.join(tex.split())}$")
+
+
+def _highlighted(code: str, language: str, _attributes: str) -> str:
+    """A fenced block: a formula, or nothing, which leaves the code as it is."""
+    return formula(code) if language == "math" else ""
 
 
 def docstring(text: str | None) -> Markup:
@@ -125,14 +145,18 @@ def _inline(text: str) -> str:
 
 
 def formula(tex: str) -> str:
-    """A displayed formula as pictures of its lines, with its TeX as text for screen readers."""
-    source = " ".join(tex.split())
+    r"""A displayed formula as pictures of its lines, with its TeX as text for screen readers.
+
+    A number in ``\tag{}`` is shown beside it.
+    """
+    source, _, number = " ".join(tex.split()).partition(r"\tag")
     lines = [line.replace("&", " ").strip() for line in re.split(r"\\\\", source)]
     try:
         drawn = [_drawn(line) for line in filter(None, lines)]
     except (ValueError, RuntimeError):
         return f'<pre class="tex">{html.escape(source)}</pre>'
-    return f'<div class="formula-block scroll-x">{"".join(drawn)}</div>'
+    shown = f'<span class="number">({html.escape(number.strip("{}"))})</span>' if number else ""
+    return f'<div class="formula-block scroll-x">{"".join(drawn)}{shown}</div>'
 
 
 def _braced(fraction: re.Match[str]) -> str:

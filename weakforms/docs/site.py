@@ -21,7 +21,7 @@ from weakforms.results import write_atomically
 from weakforms.results.io import require_writable
 from weakforms.solvers.support.provenance import revision
 from weakforms.terminal import WorkProgress
-from weakforms.verification.cases import gallery
+from weakforms.verification.cases import examples
 from weakforms.verification.cases.catalogue import describe
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import ROOT
@@ -54,11 +54,11 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
 
     for folder in (out, out / "problems", out / "api"):
         require_writable(folder)
-    names = list(registry.problems)
+    names = list(registry.abouts())
     drawn = pictures(out / "solutions", jobs, names, progress) if solve else {}
     site = Site(out, names)
     for name in names:
-        site.problem(registry.problems[name], *drawn.get(name, (None, "")))
+        site.problem(registry.get(name), *drawn.get(name, (None, "")))
     for group, title in api.GROUPS.items():
         site.write(
             f"api/{group}.html", "api.html", f"{group}", "API", about=title, modules=api.modules(group)
@@ -131,20 +131,19 @@ class Site:
 
     def problem(self, problem: Any, picture: Markup | None, caption: str) -> None:
         """The page of a problem, with the same facts that ``weakforms show`` prints."""
-        name = problem.name
-        shown = gallery.SHOWN.get(name)
+        name, about = problem.name, problem.about
         forms = [
             (place, docstring(inspect.getdoc(what)), source)
-            for place, what, source in gallery.written_forms(name)
+            for place, what, source in examples.written_forms(about)
         ]
         self.write(
             f"problems/{name}.html",
             "problem.html",
-            problem.title,
+            about.title,
             "Problems",
             facts=describe(name),
-            paper=problem.paper,
-            unknown=shown.unknown if shown else "the unknown",
+            paper=about.paper,
+            unknown=about.unknown,
             weak=Markup(formula(VARIATIONS)),
             forms=forms,
             about=docstring(sys.modules[type(problem).__module__].__doc__),

@@ -20,7 +20,8 @@ from mpi4py import MPI
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch, secondary_branch
 from weakforms.problems.liquid_tube.bent.model import SurfaceData
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
-from weakforms.problems.tube.model import TubeMesh, formulation, free_branch
+from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import Stability
@@ -127,7 +128,7 @@ class Tube:
     def set_up(self, comm: MPI.Intracomm) -> None:
         """The half tube."""
         mesh = TubeMesh(self.cells, self.degree, 0.6)
-        self.system = System(formulation(comm, 0.1, 1.0, 6.0, mesh))
+        self.system = TubeModel.free(comm, mooney_rivlin_of(0.1), 1.0, 6.0, mesh).system
         self._begin = self.system.state()
 
     def run(self) -> int:

@@ -9,8 +9,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from weakforms.errors import EnvironmentLackError, InputError
-from weakforms.scaling import SCALINGS
-from weakforms.verification.cases import gallery, references
+from weakforms.verification.cases import examples, references
 from weakforms.verification.cases.discovery import FoundCase, among, find_cases
 from weakforms.verification.crosscheck.compare import Verdicts, tables_of
 from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, scale_text
@@ -20,7 +19,7 @@ from weakforms.verification.report.wording import plain_tex, plural, scientific,
 def _problems() -> dict[str, Any]:
     from weakforms.api import require_environment
 
-    return require_environment().problems
+    return require_environment().problems()
 
 
 def listing(paper: int | None = None) -> list[dict[str, Any]]:
@@ -31,15 +30,9 @@ def listing(paper: int | None = None) -> list[dict[str, Any]]:
     except EnvironmentLackError:
         problems = ()
     for problem in problems:
-        if paper in (None, problem.paper):
-            entries.append(
-                {
-                    "kind": "problem",
-                    "id": problem.name,
-                    "paper": problem.paper,
-                    "title": problem.title,
-                }
-            )
+        about = problem.about
+        if paper in (None, about.paper):
+            entries.append({"kind": "problem", "id": about.name, "paper": about.paper, "title": about.title})
     for found in find_cases():
         if paper in (None, found.paper):
             entry = {"kind": "case", "id": found.id, "paper": found.paper, "title": found.case.title}
@@ -73,23 +66,24 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def _problem_facts(problem: Any) -> dict[str, Any]:
+    about = problem.about
     return {
         "kind": "problem",
-        "id": problem.name,
-        "title": problem.title,
-        "source": problem.source,
-        "energy": problem.energy,
-        "weak_form": gallery.weak_form(problem.name),
-        "example": gallery.example(problem.name),
-        "command": gallery.command(problem.name),
-        "control": problem.control,
+        "id": about.name,
+        "title": about.title,
+        "source": about.source,
+        "energy": about.energy,
+        "weak_form": examples.weak_form(about),
+        "example": examples.code(about),
+        "command": examples.command(about),
+        "control": about.control,
         "parameters": _fields(problem.parameters),
         "numerics": _fields(problem.numerics),
-        "columns": list(problem.columns),
-        "special_points": list(problem.special_points),
-        "branches": list(problem.branches),
+        "columns": [column.name for column in about.columns],
+        "special_points": list(about.special_points),
+        "branches": list(about.branches),
         "scales": problem.scales,
-        "constants": list(SCALINGS[problem.name].constants) if problem.name in SCALINGS else [],
+        "constants": list(about.units.constants),
         **_law_facts(getattr(problem, "materials", {})),
     }
 
@@ -131,6 +125,7 @@ def _fields(model: Any) -> list[dict[str, Any]]:
                 "default": facts.get("default"),
                 "allowed": allowed,
                 "description": facts.get("description", ""),
+                **({"needs": model.needed_by(name)} if model.needed_by(name) else {}),
             }
         )
     return out
@@ -185,7 +180,8 @@ def print_description(facts: dict[str, Any], console: Console) -> None:
     for title in ("parameters", "numerics"):
         table = Table("name", "default", "allowed", "meaning", title=title, title_justify="left")
         for row in facts[title]:
-            table.add_row(row["name"], str(row["default"]), row["allowed"], row["description"])
+            needs = f"; needs {row['needs']}" if "needs" in row else ""
+            table.add_row(row["name"], str(row["default"]), row["allowed"], row["description"] + needs)
         console.print(table)
     console.print(f"control: {facts['control']}")
     console.print(f"columns: {', '.join(facts['columns'])}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from weakforms.problems.registry import symbol
 from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.judging.checks.curve import Curve
 
@@ -20,35 +21,7 @@ class Axis:
     @property
     def tex(self) -> str:
         """The label as TeX, for pictures."""
-        return self.label or LABELS.get(self.name, self.name)
-
-
-LABELS = {
-    "p": r"$p$",
-    "u_max": r"$u_{max}$",
-    "delta1": r"$\delta_1$",
-    "lam1": r"$\lambda_1$",
-    "lam2": r"$\lambda_2$",
-    "rho": r"$\rho$",
-    "eta": r"$\eta$",
-    "Z": r"$Z$",
-    "X_contact": r"$X^*$",
-    "G": r"$G$",
-    "X_iso": r"$X_{iso}$",
-    "rho_contact": r"$\rho^*$",
-    "sigma": r"$\sigma$",
-    "X": r"$X$",
-    "t0": r"$t_0$",
-    "zw": r"$z_w$",
-    "V": r"$V$",
-    "Lambda": r"$\Lambda$",
-    "r_mid": r"$r_{mid}$",
-    "T1": r"$T_1$",
-    "T2": r"$T_2$",
-    "r": r"$r$",
-    "z": r"$z$",
-    "gw": r"$g_w$",
-}
+        return self.label or symbol(self.name) or self.name
 
 
 @dataclass(frozen=True)

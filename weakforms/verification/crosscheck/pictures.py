@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from weakforms.verification.cases.panels import LABELS, Panel
+from weakforms.problems.registry import symbol
+from weakforms.verification.cases.panels import Panel
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.crosscheck.rows import JudgedColumn
 from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome
@@ -18,7 +19,7 @@ def picture(
     """The column over the table's abscissa; on the paper's axes, if the case has such a figure."""
     over, column = table.abscissa, judged.verdict.column
     paper = next((p for p in panels if (p.x.name, p.y.name) == (over, column)), None)
-    labels = [LABELS.get(name, name.replace("_", " ")) for name in (over, column)]
+    labels = [symbol(name) or name.replace("_", " ") for name in (over, column)]
     ranges = [_range(table.columns[name], own[name]) for name in (over, column)]
     if paper is not None:
         ranges = [(axis.low, axis.high) for axis in (paper.x, paper.y)]

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from weakforms.scaling import SCALINGS
+from weakforms.scaling import symbols
 from weakforms.verification.crosscheck.rows import FAILED, FLOOR, JudgedColumn
 
 CONSTANT_SPREAD = 1e-2
@@ -53,15 +53,9 @@ def forgotten(
     within = min(MATCH, 3 * max(spread, 1e-6))
     guesses = [_product(abs(ratio), _numbers(constants), within) or _power(abs(ratio), parameters, within)]
     near_one = abs(math.log(abs(ratio))) < math.log(2)  # a mistake, not a unit
-    unit = "" if constants or near_one else _unit(problem, judged.verdict.column)
+    unit = "" if constants or near_one else symbols(problem, judged.verdict.column)
     guesses += [f"{unit} (see --constant)"] if unit else []
     return ": ".join([said, *filter(None, [" or ".join(filter(None, guesses))])]) + "?" * any(guesses)
-
-
-def _unit(problem: str, column: str) -> str:
-    """The unit of the column in the paper's scaling, in symbols."""
-    scaling = SCALINGS.get(problem)
-    return "" if scaling is None else scaling.symbols(column)
 
 
 def _power(ratio: float, parameters: Mapping[str, object], within: float) -> str:
@@ -119,5 +113,5 @@ def _numbers(given: Mapping[str, object]) -> dict[str, float]:
 
 def abscissa_hint(problem: str, abscissa: str, constants: Mapping[str, object]) -> str:
     """A hint for a curve that lies mostly outside of its table."""
-    unit = "" if constants else _unit(problem, abscissa)
+    unit = "" if constants else symbols(problem, abscissa)
     return f"is {abscissa} in units of {unit} (see --constant)?" if unit else ""

@@ -7,8 +7,9 @@ from contextlib import suppress
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.registry import symbol
 from weakforms.results import SpecialPoint
-from weakforms.verification.cases.panels import LABELS, Panel, Path
+from weakforms.verification.cases.panels import Panel, Path
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.cases.specs import At
 from weakforms.verification.judging.checks.check import Wanted
@@ -104,7 +105,7 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
         comparisons = curve.comparisons(paper, solutions)
     worst = comparisons.get(y) or next(iter(comparisons.values()), None)
     if table is not None and worst is not None:
-        outcome.residual_abscissa = LABELS.get(table.abscissa, table.abscissa)
+        outcome.residual_abscissa = symbol(table.abscissa) or table.abscissa
         outcome.residual_x = table.columns[table.abscissa].tolist()
         outcome.residual = worst.error.tolist()
         outcome.residual_bound = worst.bound.tolist()

@@ -118,9 +118,20 @@ def alone(cases: list[FoundCase], out: Path, writes: bool) -> Iterator[None]:
     Raises:
         InputError: On every rank, if a case is invalid or another run uses the folder.
     """
+    Plan.of(cases)
+    with sole_writer(out, writes):
+        yield
+
+
+@contextmanager
+def sole_writer(out: Path, writes: bool) -> Iterator[None]:
+    """Lock a folder from the rank that writes to it.
+
+    Raises:
+        InputError: On every rank, if another run uses the folder.
+    """
     from mpi4py import MPI
 
-    Plan.of(cases)
     with ExitStack() as held:
         refused = None
         if writes:

@@ -49,7 +49,7 @@ ASIDE = (
     "_reference_data",
     "verification",
     "docs",
-    "cli.py",
+    "cli",
     "terminal.py",
     "pytest_plugin.py",
     "__main__.py",
@@ -96,10 +96,19 @@ class Solver:
         jobs: Number of parallel processes.
         resume: Keep the stored solutions.
         writes: Whether this process writes (rank 0 of several).
+        task: Solves one spec with its states, and returns the result as JSON; by default what a case needs.
     """
 
-    def __init__(self, folder: Path, jobs: int = 1, resume: bool = False, writes: bool = True) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        jobs: int = 1,
+        resume: bool = False,
+        writes: bool = True,
+        task: Callable[[Spec, list[At]], str] | None = None,
+    ) -> None:
         self.folder, self.jobs, self.resume, self.writes = folder, jobs, resume, writes
+        self.task = task or _task
         self.failures: dict[Spec, WeakformsError] = {}
         self.results: dict[Spec, Result] = {}
         self.files: dict[Spec, str] = {}
@@ -163,12 +172,12 @@ class Solver:
             for spec, states, _ in todo:
                 begin(spec)
                 try:
-                    yield spec, _task(spec, states)
+                    yield spec, self.task(spec, states)
                 except WeakformsError as error:
                     yield spec, error
             return
         with workers(self.jobs) as pool:
-            futures = {pool.submit(_task, spec, states): spec for spec, states, _ in todo}
+            futures = {pool.submit(self.task, spec, states): spec for spec, states, _ in todo}
             for future in as_completed(futures):
                 error = future.exception()
                 if error is not None and not isinstance(error, WeakformsError):

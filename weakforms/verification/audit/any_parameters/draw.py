@@ -27,17 +27,6 @@ MANY = 4
 ATTEMPTS = 400
 """Largest number of draws for one admissible set."""
 
-MESHES: Mapping[str, Mapping[str, Any]] = {
-    "fluid_tube": {"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 4},
-    "surface": {"scan": 10},
-}
-"""Numerics that replace defaults that take minutes."""
-
-HELD: Mapping[str, Mapping[str, Any]] = {
-    "surface": {"meridional": 30, "circumferential": 12, "size": 0.25},
-}
-"""Mesh sizes that are parameters, limited to affordable values."""
-
 
 def sets(problem: Problem, seed: int, count: int) -> tuple[list[dict[str, Any]], dict[str, int]]:
     """The first ``count`` admissible sets of a seed; a larger ``count`` starts with the same sets.
@@ -68,7 +57,7 @@ def drawn(problem: Problem, seed: int) -> Iterator[dict[str, Any]]:
     """An endless sequence of sets: each parameter is in its range, and combinations are not checked."""
     rng = np.random.default_rng([seed, zlib.crc32(problem.name.encode())])
     described = problem.parameters.model_json_schema()["properties"]
-    held = HELD.get(problem.name, {})
+    held = problem.about.audit_held
     while True:
         values = {name: _value(entry, rng) for name, entry in described.items() if name not in held}
         given = {name: value for name, value in values.items() if value is not None}

@@ -19,7 +19,7 @@ from typing import Any
 from weakforms.errors import InputError
 from weakforms.problems import registry
 from weakforms.results.io import dumps, load_json, require_writable, write_atomically
-from weakforms.verification.audit.any_parameters.draw import MESHES, sets
+from weakforms.verification.audit.any_parameters.draw import sets
 from weakforms.verification.audit.any_parameters.outcome import NAME, AuditRun, Draw, words
 from weakforms.verification.audit.faults.scratch import tree_digest
 from weakforms.verification.run.machine import environment
@@ -63,7 +63,7 @@ def run_audit(
     run.contradictions = {name: refused for name, (_, refused) in drawn.items() if refused}
     todo = [(name, k, given) for name, (found, _) in drawn.items() for k, given in enumerate(found, 1)]
     for name, k, given in todo:
-        meshes = dict(MESHES.get(name, {}))
+        meshes = dict(registry.get(name).about.audit_numerics)
         call = words(name, given, meshes)
         key = hashlib.sha256(f"{tree} {limit} {call!r}".encode()).hexdigest()[:16]
         file = store / f"{name}-{seed}-{k}.json"

@@ -37,7 +37,7 @@ def audit_verb(
     registry = api.require_environment()
     from weakforms.verification.audit.any_parameters.runner import run_audit
 
-    names = list(dict.fromkeys(problems)) or list(registry.problems)
+    names = list(dict.fromkeys(problems)) or list(registry.abouts())
     chosen = int(datetime.now(UTC).strftime("%Y%m%d")) if seed is None else seed
     sys.stderr.write(f"weakforms: audit with seed {chosen}\n")
     with progress_bar() as progress:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.about import Family
 from weakforms.results import Result
-from weakforms.verification.audit.coverage.families import Family
 from weakforms.verification.audit.same import Number, numbers
 
 FLOOR = 1e-10

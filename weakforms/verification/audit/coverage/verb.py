@@ -12,9 +12,10 @@ from pathlib import Path
 from rich.console import Console
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.about import Family
 from weakforms.results.io import dumps, require_writable, write_atomically
 from weakforms.terminal import plain, print_json
-from weakforms.verification.audit.coverage.families import FAMILIES, Family
+from weakforms.verification.audit.coverage.families import FAMILIES
 from weakforms.verification.audit.coverage.families import SEED as TUNED_SEED
 from weakforms.verification.audit.coverage.judged import Judged, judged
 from weakforms.verification.audit.coverage.outcome import (

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from weakforms.errors import InputError
+from weakforms.problems.registry import abouts
 from weakforms.verification.cases.discovery import Expression, among
 from weakforms.verification.cases.references import ROOT
 
@@ -39,23 +40,8 @@ AREAS = (
 )
 """What a fault is a fault of."""
 
-SUBJECTS = (
-    "circular",
-    "tube",
-    "contact",
-    "adhesion",
-    "peeling",
-    "fluid_tube",
-    "secondary",
-    "wrinkled_tube",
-    "waves",
-    "hemisphere",
-    "surface",
-    "materials",
-    "sphere",
-    "solvers",
-    "verification",
-)
+TOPICS = ("contact", "adhesion", "peeling", "secondary", "waves", "materials", "solvers", "verification")
+SUBJECTS = (*abouts(), *TOPICS)
 """Problems, or parts of the suite, that a fault sits in."""
 
 

@@ -29,14 +29,14 @@ from weakforms.verification.cases.references import ROOT
 FOLDERS = ("weakforms", "reference_data")
 """Where the lines are that are noted."""
 
-UNSEEN = ("tests/mpi/", "tests/verification/test_faults", "tests/cases/test_cases")
+UNSEEN = ("tests/mpi/", "tests/verification/audit/test_faults", "tests/cases/test_cases")
 """Tests that show nothing here: processes of their own, the machinery itself, the cases once more."""
 
 REGISTRY = "reference_data/solvers/registry.py"
 REGISTERED = re.compile(r"reference_data/solvers/\w+/tables\w*\.py")
 """What finds the modules of tables, and their names: it imports them without naming them."""
 
-PROBLEMS = "weakforms/problems/__init__.py"
+PROBLEMS = "weakforms/problems/registry.py"
 """What imports every module beside it in the same way."""
 
 UNKNOWN = 10.0

@@ -14,7 +14,7 @@ from weakforms.verification.audit.faults.catalogue import Fault
 from weakforms.verification.audit.faults.lines import Watchers
 from weakforms.verification.audit.faults.outcome import RANDOM, FaultOutcome, FaultsRun, validate
 from weakforms.verification.audit.faults.random_faults import Mutant, draw
-from weakforms.verification.audit.faults.runner import LONGER, PATIENCE, Campaign, Report, record
+from weakforms.verification.audit.faults.runner import LONGER, Campaign, Report, record
 from weakforms.verification.audit.faults.scratch import scratch_folder
 from weakforms.verification.run.machine import environment
 
@@ -26,6 +26,10 @@ AT_ONCE = 20.0
 
 MOST = 25
 """Expectations that one process is given."""
+
+PATIENCE = 60.0
+"""A mutant's process is ended after so many seconds beyond :data:`LONGER` times what its tests take without
+the mutant: less than for a seeded fault, because many mutants make a loop endless."""
 
 
 class RandomCampaign(Campaign):

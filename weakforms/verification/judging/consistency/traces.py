@@ -14,6 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from weakforms.problems.registry import abouts
 from weakforms.results import Branch, Result, State
 from weakforms.results.drawing import DESCRIBE, nearest
 from weakforms.verification.cases.specs import Spec
@@ -22,10 +23,7 @@ from weakforms.verification.judging.checks.check import Check, Wanted
 from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.run.solutions import Solutions
 
-TRACED = {
-    *("circular", "tube", "tube_fold", "fluid_tube", "wrinkled_tube", "hemisphere", "wrinkled_patch"),
-    *("sphere", "infinite_tube", "homogeneous"),
-}
+TRACED = {name for name, about in abouts().items() if about.is_traced}
 """Problems whose answers are traces with states on demand."""
 
 DRAWN = 2

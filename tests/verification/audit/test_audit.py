@@ -13,9 +13,10 @@ from rich.console import Console
 
 from weakforms.errors import InputError
 from weakforms.problems import registry
+from weakforms.problems.about import About
 from weakforms.problems.problem import Parameters
 from weakforms.verification.audit.any_parameters import runner
-from weakforms.verification.audit.any_parameters.draw import HELD, MESHES, drawn, sets
+from weakforms.verification.audit.any_parameters.draw import drawn, sets
 from weakforms.verification.audit.any_parameters.outcome import (
     NAME,
     STATUSES,
@@ -78,6 +79,7 @@ class Canned:
     """A problem that refuses contradictory parameters."""
 
     name = "canned"
+    about = About(name, "Canned", 1, "", "", "")
     parameters = Ranges
 
     def check(self, parameters, _requests):  # noqa: D102
@@ -107,22 +109,21 @@ def test_contradictions_are_drawn_again_and_counted():
     assert sets(Canned(), 2, 7)[0] != found[:7]
 
 
-@pytest.mark.parametrize("name", list(registry.problems))
+@pytest.mark.parametrize("name", list(registry.abouts()))
 def test_every_problem_can_be_drawn_and_its_laws_are(name):
     found, _ = sets(registry.get(name), 5, 60)
     fields = registry.get(name).parameters.model_fields
     for field in (field for field, of in fields.items() if of.annotation is float):
         given = {row[field] for row in found if field in row}
-        assert len(given) > 10 or field in HELD.get(name, {}), field
+        assert len(given) > 10 or field in registry.abouts()[name].audit_held, field
     if "model" in fields:
         assert len({row["model"] for row in found}) > 3
 
 
 def test_what_is_held_is_known_to_the_problems():
-    for name, values in HELD.items():
-        assert set(values) <= set(registry.get(name).parameters.model_fields)
-    for name, values in MESHES.items():
-        registry.get(name).numerics(**values)
+    for problem in registry.problems().values():
+        assert set(problem.about.audit_held) <= set(problem.parameters.model_fields)
+        problem.numerics(**problem.about.audit_numerics)
 
 
 # -- runs ------------------------------------------------------------------------------------------

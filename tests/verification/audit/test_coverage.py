@@ -10,9 +10,10 @@ from rich.console import Console
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import registry
+from weakforms.problems.about import Family
 from weakforms.problems.problem import Requests, StateRequest, validated
 from weakforms.verification.audit.coverage import hold_out, verb
-from weakforms.verification.audit.coverage.families import FAMILIES, SEED, Family
+from weakforms.verification.audit.coverage.families import FAMILIES, SEED
 from weakforms.verification.audit.coverage.judged import Judged
 from weakforms.verification.audit.coverage.outcome import (
     NAME,
@@ -38,7 +39,7 @@ WIDE = replace(GOOD, error=1e-8)
 
 def test_every_problem_is_held_out_or_it_is_said_why_not():
     covered = {family.problem for family in hold_out.held_out()}
-    assert covered | set(hold_out.WITHOUT) == set(registry.problems)
+    assert covered | set(hold_out.WITHOUT) == set(registry.abouts())
     assert not covered & set(hold_out.WITHOUT)
     assert any(family.branch == "secondary" for family in hold_out.FURTHER)
     assert len({family.name for family in hold_out.held_out()}) == len(hold_out.held_out())
@@ -102,7 +103,7 @@ def test_a_family_of_which_nothing_was_judged_keeps_no_claim():
 
 
 def families(*names):
-    return [Family("tube", {"alpha": (0.0, 1.0)}, {}, {}, label=name) for name in names]
+    return [Family({"alpha": (0.0, 1.0)}, {}, {}, problem=name) for name in names]
 
 
 def test_parts_and_families_are_stored_at_once_and_taken_over(tmp_path, monkeypatch):
@@ -136,7 +137,7 @@ def test_parts_and_families_are_stored_at_once_and_taken_over(tmp_path, monkeypa
 
 
 def test_an_unknown_family_is_refused(tmp_path):
-    with pytest.raises(InputError, match="no family 'tubes'; there are tube; "):
+    with pytest.raises(InputError, match="no family 'tubes'; there are circular; "):
         verb.coverage_verb(["tubes"], 1, False, tmp_path, False, False, Console(file=StringIO()))
 
 

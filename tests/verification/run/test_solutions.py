@@ -37,7 +37,7 @@ LOST = Failure("state at u_max = 2", "Newton stalled")
 
 MISSING = {
     "tube(alpha=0.1) was not solved": (Solutions({}), "result", SPEC),
-    "tube(alpha=0.1): no branch 'primary'; there are ['other']": (solutions(branch="other"), "branch", SPEC),
+    "tube(alpha=0.1): no branch 'primary'; it has other": (solutions(branch="other"), "branch", SPEC),
     "tube(alpha=0.1): folds disagree": (
         solutions(failures=[TURNED], special=[POINT]),
         "points",

@@ -91,3 +91,24 @@ def test_numbers_of_points_carry_what_they_are_off():
     assert abs(quadrature.where(x, x**3, 0.2) - 0.2 ** (1 / 3)) < 1e-6
     assert quadrature.beyond(x, y, 0.99) is None
     assert quadrature.lengths([0.0, 1.0, 3.0], lambda middle: middle > 1) == 2.0
+
+
+CONTACT = {"contact": "adhesive"}
+SCOPES = {
+    ("circular", "work"): [({}, True), ({"phase": "deflation"}, True), ({"phase": "peeling"}, False)],
+    ("circular", "sign"): [({}, True), ({"phase": "deflation"}, True), ({"phase": "peeling"}, False)],
+    ("circular", "V"): [({}, True), (CONTACT, False)],
+    ("circular", "field_t1"): [({}, True), (CONTACT, True), ({"model": "ogden"}, False)],
+    ("tube", "u_max"): [({}, True), ({"extent": "full"}, False), (CONTACT, False)],
+    ("tube", "t2_min"): [(CONTACT, True), ({}, False), (CONTACT | {"phase": "peeling"}, False)],
+    ("tube", "spring_max"): [(CONTACT, True), (CONTACT | {"phase": "deflation"}, False)],
+    ("tube", "Pi"): [({}, True), ({"extent": "full"}, False), ({"model": "ogden"}, False)],
+}
+"""Parameters with which some identities are stated, and with which they would be false."""
+
+
+@pytest.mark.parametrize(("problem", "name"), SCOPES)
+def test_identities_are_stated_where_they_are_true_and_nowhere_else(problem, name):
+    (identity,) = (i for i in IDENTITIES[problem] if i.name == name)
+    for given, expected in SCOPES[problem, name]:
+        assert identity.over(given) is expected, given

@@ -145,7 +145,7 @@ def test_what_was_looked_at_needs_a_reason(entry, tmp_path):
 
 # -- who sees a line -----------------------------------------------------------------------------------
 
-BOUNDS = "tests/verification/test_bounds.py"
+BOUNDS = "tests/verification/judging/test_bounds.py"
 
 
 def test_lines_are_noted_once_and_kept(tmp_path, monkeypatch):
@@ -196,7 +196,7 @@ def test_without_a_measurement_imports_say_who_may_see_it(tmp_path):
         text for text, _ in Watchers(tmp_path).of("reference_data/solvers/paper5/tables_hemisphere.py", 1)
     ]
     assert (
-        "tests/references/test_reference_solvers.py::test_regenerated_table_equals_the_committed_one"
+        "tests/references/paper2/test_tube_methods.py::test_regenerated_table_equals_the_committed_one"
         in tables
     )
     assert not any("test_faults" in text for text in found)

@@ -125,8 +125,8 @@ def test_the_whole_of_it_on_a_solved_tube():
 
 def test_problems_with_traces_are_those_that_trace_paths():
     from weakforms.api import require_environment
-    from weakforms.problems.branch_problem import PathProblem
+    from weakforms.problems.branch_problem import BranchProblem
 
-    problems = require_environment().problems.items()
-    found = {name for name, problem in problems if isinstance(problem, PathProblem)}
+    problems = require_environment().problems().items()
+    found = {name for name, problem in problems if isinstance(problem, BranchProblem)}
     assert found == traces.TRACED

@@ -11,10 +11,11 @@ import pytest
 
 from weakforms import solve
 from weakforms.api import solve_requests
+from weakforms.problems.about import Family
 from weakforms.problems.problem import StateRequest
 from weakforms.problems.tube import contact, contact_family
 from weakforms.problems.wrinkled import fitted
-from weakforms.verification.audit.coverage.families import FAMILIES, QUICK, WIDE, Family
+from weakforms.verification.audit.coverage.families import FAMILIES, QUICK, WIDE
 from weakforms.verification.audit.coverage.judged import Judged, judged, solved, statistics
 from weakforms.verification.audit.coverage.outcome import MOST, RATE
 from weakforms.verification.audit.same import numbers
@@ -110,7 +111,7 @@ def test_what_quadrature_leaves_of_the_kink_of_a_unilateral_spring():
     """Four times as many points; columns with orders of their own, and two beside the kink, apart."""
     name = "tube, unilateral"
     change = moved(name, named(name).coarse, contact, "UNILATERAL_QUADRATURE", 640)
-    apart = {*contact_family.KINKED, *contact_family.SECOND, *contact_family.TRACES, "t2"}
+    apart = {*contact_family.KINK_ORDERS, *contact_family.EDGE_COLUMNS, *contact_family.TRACES, "t2"}
     beside = {column: change.pop(column) for column in ("kappa", "t2_min")}
     assert max(beside.values()) <= 3e-7
     assert max(v for column, v in change.items() if column not in apart) <= contact_family.LET_GO.size

@@ -1,0 +1,153 @@
+"""The problem and the cases of the pages "Add a problem" and "Add a case", in a scratch copy of the tree."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PARTS = ("weakforms", "cases", "reference_data", "docs", "pyproject.toml", "README.md", "CONTRIBUTING.md")
+PAGES = ("docs/add-a-problem.md", "docs/add-a-case.md")
+COMMAND = re.compile(r"^(?:\./run|python3 -m (reference_data\.solvers)) (.*)$", re.M)
+BLOCK = re.compile(r"^`([\w/]+\.py)`:\n\n```python\n(.*?)^```", re.S | re.M)
+CASES = ("closed_form.half_balloon", "closed_form.half_balloon_curve")
+
+
+def blocks() -> dict[str, str]:
+    return dict(hit for page in PAGES for hit in BLOCK.findall((ROOT / page).read_text("utf-8")))
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory) -> Path:
+    """The tree with the files of the pages, and with nothing else changed."""
+    tree = tmp_path_factory.mktemp("tree")
+    for part in PARTS:
+        if (ROOT / part).is_dir():
+            shutil.copytree(ROOT / part, tree / part, ignore=shutil.ignore_patterns("__pycache__"))
+        else:
+            shutil.copy2(ROOT / part, tree / part)
+    for name, text in blocks().items():
+        assert not (tree / name).exists(), f"{name} exists without the page"
+        (tree / name).parent.mkdir(exist_ok=True)
+        (tree / name).write_text(text, "utf-8")
+    return tree
+
+
+def run(tree: Path, *words: str, module: str = "weakforms", status: int = 0) -> str:
+    surroundings = os.environ | {"PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(
+        [sys.executable, "-m", module, *words],
+        cwd=tree,
+        env=surroundings,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == status, done.stdout + done.stderr
+    return done.stdout if status == 0 else done.stderr
+
+
+def test_the_example_is_short():
+    lines = [
+        line
+        for name, text in blocks().items()
+        for line in text.splitlines()
+        if line and name.startswith("weakforms/problems")
+    ]
+    assert 40 < len(lines) <= 80
+
+
+def test_the_example_follows_the_style_of_the_code(tree):
+    if shutil.which("ruff") is None:
+        pytest.skip("ruff is not installed here")
+    for command in (("check", "--no-cache"), ("format", "--check", "--no-cache")):
+        done = subprocess.run(
+            ["ruff", *command, *blocks()], cwd=tree, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_it_is_listed_with_its_cases(tree):
+    entries = json.loads(run(tree, "list", "--json"))
+    assert {"half_balloon", *CASES} <= {entry["id"] for entry in entries}
+
+
+def test_it_is_shown_with_the_constants_of_its_units(tree):
+    facts = json.loads(run(tree, "show", "half_balloon", "--json"))
+    assert facts["scales"]["P"] == "p r_o/(S h_o)"
+    assert facts["scales"]["Pi"] == "total potential over 2 pi S h_o r_o^2"
+    assert facts["constants"] == ["r_o", "S", "h_o"]
+    assert {"lam_end", "model"} <= {entry["name"] for entry in facts["parameters"]}
+
+
+@pytest.fixture(scope="module")
+def ran(tree) -> Path:
+    """The tree after the commands of the pages."""
+    for page in PAGES:
+        for module, words in COMMAND.findall((ROOT / page).read_text("utf-8")):
+            run(tree, *words.split(), module=module or "weakforms")
+    return tree
+
+
+def test_it_is_solved_with_uncertainties(ran):
+    result = json.loads((ran / "balloon.json").read_text("utf-8"))
+    (state,) = result["states"]
+    pressure = state["quantities"]["P"]
+    exact = 4 * (1 / 1.3 - 1.3**-7) * (1 + 0.1 * 1.3**2)
+    assert 0 < pressure["uncertainty"] < 1e-8
+    assert abs(pressure["value"] - exact) <= 2 * pressure["uncertainty"]
+    assert [point["kind"] for point in result["special_points"]] == ["limit_point"]
+    assert result["failures"] == []
+
+
+def test_the_audit_and_the_test_of_uncertainties_find_it(ran):
+    audit = json.loads((ran / "out/audit.json").read_text("utf-8"))
+    assert [draw["status"] for draw in audit["draws"]] == ["answered", "answered"]
+    covered = json.loads((ran / "out/coverage.json").read_text("utf-8"))
+    (family,) = covered["parts"]["tuned"]["families"]
+    assert (family["solved"], family["missed"]) == (2, [])
+    assert sum(row["count"] for row in family["rows"]) > 10
+
+
+def test_its_cases_hold(ran, tmp_path):
+    said = run(ran, "check", *CASES, "--out", str(tmp_path))
+    assert "all 6 checks hold in 2 cases" in " ".join(said.split())
+
+
+def test_it_is_documented(tree, tmp_path):
+    run(tree, "docs", "--no-pictures", "--out", str(tmp_path))
+    page = (tmp_path / "problems/half_balloon.html").read_text("utf-8")
+    assert "gas_potential" in page
+    assert CASES[0] in page
+    guide = (tmp_path / "add-a-problem.html").read_text("utf-8")
+    assert "def formulation(task: Task, cells: int)" in guide
+
+
+def test_a_wrong_weak_form_is_noticed_by_the_case(tree, tmp_path):
+    """With one percent more load it fails."""
+    path = tree / "weakforms/problems/balloon/problem.py"
+    right = path.read_text("utf-8")
+    path.write_text(right.replace("gas_potential(rho", "1.01 * gas_potential(rho"), "utf-8")
+    try:
+        done = run(tree, "check", CASES[0], "--out", str(tmp_path), status=1)
+    finally:
+        path.write_text(right, "utf-8")
+    assert "internal error" not in done
+
+
+def test_a_description_without_a_problem_is_an_error(tree):
+    path = tree / "weakforms/problems/balloon/problem.py"
+    right = path.read_text("utf-8")
+    path.write_text(
+        right.replace("    about, parameters, numerics =", "    described, parameters, numerics =")
+    )
+    try:
+        said = run(tree, "show", "tube", status=1)
+    finally:
+        path.write_text(right, "utf-8")
+    assert "no class has about = About('half_balloon', ...)" in said
