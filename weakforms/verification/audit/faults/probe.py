@@ -108,7 +108,7 @@ class Recorder:
     def pytest_runtest_logreport(self, report: Any) -> None:
         """One line a test, and one for a fixture that failed."""
         name = report.nodeid.partition("[")[0]
-        self.seconds[name] = round(self.seconds.get(name, 0.0) + report.duration, 3)
+        self.seconds[name] = round(self.seconds.get(name, 0.0) + report.duration, 6)
         if report.when != "call" and report.passed:
             return
         crash = getattr(report.longrepr, "reprcrash", None)
@@ -149,7 +149,7 @@ def _watched(expectation: Expectation, folder: Path, monitor: Monitor) -> dict[s
         return run_tests(expectation, monitor)
     begun = time.perf_counter()
     found = run_case(expectation, folder)
-    seconds = round(time.perf_counter() - begun, 3)
+    seconds = round(time.perf_counter() - begun, 6)
     return found | {"times": {expectation.text: seconds}, "lines": {expectation.text: monitor.taken()}}
 
 
