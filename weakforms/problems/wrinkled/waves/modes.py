@@ -10,7 +10,7 @@ perturbation does not move break points.
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import basix.ufl
@@ -23,7 +23,7 @@ from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
 from weakforms.problems.meridian.blocks import LOWER, UPPER
 from weakforms.problems.wrinkled.fields import Meridian
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.solvers.equilibrium.system import Formulation, State
 from weakforms.solvers.stability.modes import SecondVariation, judged
 from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
@@ -199,9 +199,9 @@ class Waves:
         return {name: sign * found[name] for name in MODE}
 
 
-@lru_cache(maxsize=32)
+@kept_with_model
 def waves_of(model: WrinkledModel) -> Waves:
-    """The waves of a model, kept for later calls."""
+    """The waves of a model."""
     return Waves(model)
 
 
