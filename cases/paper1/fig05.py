@@ -15,11 +15,10 @@ DOWN = {
 PRINTED = {1: (0.6, 1.4, 2.4, 3.2), 2: (0.2, 2.2, 4.2, 6.43)}
 CLEAR_OF_EDGE = 0.01
 """Distance of points from the edge, inside the patch."""
-PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
-OVER = {
-    1: (3.4, 3.2, 2.8, 2.4, 2.0, 1.7, 1.4, 1.0, 0.6),
-    2: (8.4, 7.5, 6.43, 5.3, 4.2, 3.2, 2.2, 1.2, 0.2),
-}
+POINTS = tuple(i / 10 for i in range(1, 10))
+PATHS = {beta: Path(DOWN[beta], f"paths_fig05{letter}", POINTS) for beta, letter in ((1, "a"), (2, "b"))}
+OVER = {beta: [at.value for at in path.states(1)][::-1] for beta, path in PATHS.items()}
+"""Pressures of the paths, from the highest one down."""
 
 
 def bulges(solutions: Solutions) -> Finding:
@@ -33,8 +32,8 @@ def rigid(solutions: Solutions) -> Finding:
     found = []
     for beta, pressures in OVER.items():
         front = solutions.value(DOWN[beta], At("p", pressures[0]), "X_contact")
-        inside = [i for i, x in enumerate(PATHS) if x < front - CLEAR_OF_EDGE]
-        ats = [At("p", p, profile=PATHS) for p in pressures]
+        inside = [i for i, x in enumerate(POINTS) if x < front - CLEAR_OF_EDGE]
+        ats = [At("p", p, profile=POINTS) for p in pressures]
         rows = [
             solutions.samples(DOWN[beta], at, "sigma")[inside]
             - solutions.number(DOWN[beta], at, "sigma_contact")
@@ -53,7 +52,7 @@ def tensile_from_the_edge(solutions: Solutions) -> Finding:
     for beta, pressures in OVER.items():
         shares[beta] = []
         for p in pressures:
-            at = At("p", p, profile=PATHS)
+            at = At("p", p, profile=POINTS)
             where = solutions.profile(DOWN[beta], at).columns["X"]
             sigma = solutions.column(DOWN[beta], at, "sigma")[
                 where < solutions.value(DOWN[beta], at, "X_contact")
@@ -70,7 +69,7 @@ def tensile_from_the_edge(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
-ALONG = tuple((DOWN[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)
+ALONG = tuple(wanted for path in PATHS.values() for wanted in path.wants(1))
 
 CASE = Case(
     title="Profiles and paths in adhesive deflation",
@@ -82,7 +81,8 @@ CASE = Case(
             y=Axis("eta", 0, 1.0),
             level=0.5,
             title=f"beta = {beta}",
-            paths=(Path(DOWN[beta], tuple(At("p", p) for p in OVER[beta]), PATHS),),
+            paths=(PATHS[beta],),
+            edge="X_contact",
             curves=tuple(
                 Curve(DOWN[beta], f"$p = {p:g}$", reference=f"fig05{letter}_p_{p:g}", at=At("p", p))
                 for p in PRINTED[beta]

@@ -22,6 +22,7 @@ from weakforms.cases import (
     Spec,
     circular,
     decide,
+    reference,
 )
 
 BASE = circular(contact="adhesive", phase="peeling")
@@ -34,6 +35,7 @@ SETS = {
 """Curve, pressures and height of the axis. Inflation ends at rho* = 0.6, the end of the axis, because G at a
 pressure and radius does not depend on the end of inflation."""
 HIGH = {"fig11a": (2.2, 2.4), "fig11b": (2.2, 2.4), "fig12a": (2.3, 2.7), "fig12b": (5.6,)}
+START = reference(1, "release_start")
 CURVES = {(name, p): spec.at(p=p) for name, (spec, pressures, _) in SETS.items() for p in pressures}
 MR, NH, STIFF, STRETCHED = "fig11b", "fig11a", "fig12a", "fig12b"
 
@@ -77,11 +79,15 @@ def from_zero(solutions: Solutions) -> Finding:
     for name, pressures in HIGH.items():
         for p in pressures:
             g, rho = (solutions.along(CURVES[name, p], column)[::-1] for column in ("G", "rho_contact"))
+            given = {"beta": 1, "k": 50} | dict(SETS[name][0].parameters) | {"p": p}
+            row = np.all([START.columns[n] == given[n] for n in ("alpha", "beta", "k", "p")], axis=0)
+            known = START.number("rho_contact")[row][0]
             reached = solutions.number(adhesive(SETS[name][0]), At("p", p), "rho_contact")
             slope = (g[1] - g[0]) / (rho[1] - rho[0]) / ((g[-1] - g[0]) / (rho[-1] - rho[0]))
             found += [
                 decide.zero(f"{name}, p = {p:g}: G", g[0], 1e-5, g.largest()),
-                decide.agree("rho* at the start", rho[0], reached, 1e-6),
+                decide.agree("rho* at the start", rho[0], known, 1e-6),
+                decide.agree("rho* that inflation reaches", reached, known, 1e-6),
                 decide.rises("G", g),
                 decide.at_most("slope over mean slope", slope, ZERO_SLOPE),
             ]
