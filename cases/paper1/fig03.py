@@ -27,7 +27,7 @@ FIRST_TOUCH = {1: 2.03, 2: 4.89}
 PRINTED = {1: (0.409, 1.659, 4.83, 7.10), 2: (2.66, 4.49, 6.81, 8.63)}
 POINTS = tuple(i / 10 for i in range(1, 10))
 SHORT = {"rho": 1e-8, "eta": 1e-8}
-"""Accuracy asked of paths, relative to their own largest value, which is small near the axis and the clamp."""
+"""Accuracy asked of paths, relative to their own largest value (small near the axis and the clamp)."""
 PATHS = {
     beta: Path(SLIP[beta], f"paths_fig03{letter}", POINTS, SHORT) for beta, letter in ((1, "a"), (2, "b"))
 }

@@ -94,8 +94,8 @@ def from_zero(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
-def _ratio(solutions: Solutions, more: str, less: str, p: float) -> decide.Number:
-    """Ratio of two curves at equal pressure, over their common radii from q outwards."""
+def _common(solutions: Solutions, more: str, less: str, p: float) -> list[decide.Number]:
+    """Two curves at equal pressure, over their common radii from q outwards."""
     curves = [CURVES[name, p] for name in (more, less)]
     radii = [solutions.branch(spec).columns["rho_contact"] for spec in curves]
     rho = np.linspace(max(r.min() for r in radii), min(r.max() for r in radii), 40)
@@ -106,14 +106,42 @@ def _ratio(solutions: Solutions, more: str, less: str, p: float) -> decide.Numbe
         curved = make_interp_spline(r[::-1], c.value[::-1])(rho)
         straight = np.interp(rho, r[::-1], c.value[::-1])
         found.append(decide.Number(curved, np.max(c.uncertainty) + np.abs(curved - straight)))
-    return found[0] / found[1]
+    return found
 
 
 def grows(solutions: Solutions) -> Finding:
     """G of Mooney-Rivlin over neo-Hookean and of k = 100 over k = 50, at equal p and rho*."""
     pairs = [(MR, NH, p) for p in (1.2, 1.4, 1.6)] + [(STIFF, MR, p) for p in (1.4, 1.6)]
+    found = []
+    for a, b, p in pairs:
+        more, less = _common(solutions, a, b, p)
+        found.append(decide.positive(f"{a} over {b} at {p:g}, less 1", more / less - 1))
+    return decide.all_of(found)
+
+
+def at_high_pressure(solutions: Solutions) -> Finding:
+    """Above first contact: G of Mooney-Rivlin less that of neo-Hookean, at equal p and rho*."""
+    found = []
+    for p in HIGH[MR]:
+        more, less = _common(solutions, MR, NH, p)
+        found.append(decide.positive(f"p = {p}", more - less))
+    return decide.all_of(found)
+
+
+def pre_stretch(solutions: Solutions) -> Finding:
+    """Pre-stretched over not: G at equal p and rho*; q at a pressure that is nearer to first contact."""
+    onset = reference(1, "disk_contact_onset")
+    here = {b: (onset.columns["alpha"] == 0.1) & (onset.columns["beta"] == b) for b in (1, 2)}
+    at_touch = [onset.number("p")[here[b] & (onset.columns["l"] == 0.5)][0] for b in (1, 2)]
+    more, less = _common(solutions, STRETCHED, MR, 2.4)
+    two, one = (CURVES[STRETCHED, 4.2], CURVES[MR, 1.6])
     return decide.all_of(
-        decide.positive(f"{a} over {b} at {p:g}, less 1", _ratio(solutions, a, b, p) - 1) for a, b, p in pairs
+        decide.positive("G of beta = 2 minus that of beta = 1, p = 2.4", more - less),
+        decide.less("p over that of first contact", 1.6 / at_touch[0], 4.2 / at_touch[1], 1),
+        *(
+            decide.less(f"{name} of q", *(solutions.point(spec, "pull_off", name) for spec in (one, two)))
+            for name in ("rho_contact", "G")
+        ),
     )
 
 
@@ -182,6 +210,18 @@ CASE = Case(
             "substrate",
             ALL,
             grows,
+        ),
+        Claim(
+            "at_high_pressure",
+            "above first contact too G is larger for the Mooney-Rivlin membrane, which holds less area",
+            ALL,
+            at_high_pressure,
+        ),
+        Claim(
+            "pre_stretch",
+            "pre-stretch raises G and moves the pull-off point outwards",
+            ALL,
+            pre_stretch,
         ),
         Claim(
             "stable_side",

@@ -25,6 +25,7 @@ ENDS = {(0, 1): 3.1, (0, 2): 3.1, (0.1, 1): 4.1, (0.1, 2): 4.1}
 # Twice the usual cells: at t0 = 4 the stretches reach 20 and fall steeply at the clamp.
 FREE = {s: circular(alpha=s[0], beta=s[1], t_end=ENDS[s]).on(cells=192) for s in SETS}
 FILM = {beta: circular(alpha=0, beta=beta, t_end=2.0) for beta in (1.2, 1.5, 2, 3, 5, 10)}
+BEFORE, AFTER = ([At("p", p, crossing=k) for p in (2.8, 3.2, 3.6)] for k in (1, 2))
 SMALL = (0.48, 0.24, 0.12, 0.06)
 
 
@@ -85,6 +86,17 @@ def cubic_start(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
+def stiffens_then_softens(solutions: Solutions) -> Finding:
+    """Height of neo-Hookean disks at equal pressure without and with pre-stretch, around the limit points."""
+    return decide.all_of(
+        way(
+            f"t0 at p = {at.value}, crossing {at.crossing}",
+            [solutions.number(FREE[0, b], at, "t0") for b in (1, 2)],
+        )
+        for at, way in (*((at, decide.falls) for at in BEFORE), *((at, decide.rises) for at in AFTER))
+    )
+
+
 CASE = Case(
     title="Free inflation and its limit points",
     source="Patil, DasGupta & Eriksson (2015), sections 2 and 5",
@@ -128,6 +140,13 @@ CASE = Case(
             "with pre-stretch the limit point tends to p = 4, t0 = 1",
             tuple((s, None) for s in FILM.values()),
             film,
+        ),
+        Claim(
+            "stiffens_then_softens",
+            "at equal pressure the pre-stretched disk is lower before its limit point and higher after it: "
+            "pre-stretch stiffens, then softens (chapter 6.1)",
+            tuple((FREE[0, b], at) for b in (1, 2) for at in (*BEFORE, *AFTER)),
+            stiffens_then_softens,
         ),
         Claim(
             "stretched_start",
