@@ -54,7 +54,8 @@ def apart(solutions: Solutions, alpha: float, beta: int) -> decide.Number:
     for step in (1, 2):  # polygons through all points of the other profile, and through every other one
         start = np.column_stack([column.value for column in stick])[::step]
         along, away = np.diff(start, axis=0), outside[:, None] - start[:-1]
-        share = np.clip(np.sum(away * along, axis=2) / np.sum(along**2, axis=1), 0, 1)
+        length = np.maximum(np.sum(along**2, axis=1), np.finfo(float).tiny)  # a front is sampled twice
+        share = np.clip(np.sum(away * along, axis=2) / length, 0, 1)
         found.append(np.linalg.norm(away - share[:, :, None] * along, axis=2).min(axis=1).max())
     return decide.Number(found[0], abs(found[0] - found[1]))
 

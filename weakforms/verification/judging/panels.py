@@ -16,6 +16,10 @@ from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOu
 from weakforms.verification.run.solutions import Solutions
 
 
+AXIAL = ("Z", "eta")
+"""Coordinates along the axis of a body, which are odd about its mid-plane."""
+
+
 def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOutcome:
     """The panel for the report; a curve that could not be solved is missing."""
     outcome = PanelOutcome(
@@ -57,9 +61,19 @@ def _draw_paths(paper: int | str, panel: Panel, solutions: Solutions) -> list[Pa
             for at in path.states(paper)
         ]
         for i, point in enumerate(path.points):
-            x, y = ([float(sample[axis][i]) for sample in samples] for axis in (0, 1))
-            out.append(PathOutcome(point, x, y))
+            x, y = (np.array([float(sample[axis][i]) for sample in samples]) for axis in (0, 1))
+            for side in (1, -1) if panel.mirrored else (0,):
+                sides = (_beside(panel, name, v, side) for name, v in ((panel.x.name, x), (panel.y.name, y)))
+                out.append(PathOutcome(point, *(v.tolist() for v in sides)))
     return out
+
+
+def _beside(panel: Panel, name: str, values: np.ndarray, side: int) -> np.ndarray:
+    """A coordinate of a path on one side of the mid-plane, or as it is (0)."""
+    if not side or name not in AXIAL:
+        return values
+    axis = panel.x if panel.x.name == name else panel.y
+    return (axis.low + axis.high) / 2 + side * values
 
 
 def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) -> CurveOutcome:
@@ -141,7 +155,7 @@ def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
 
     Axial coordinates are odd about the mid-plane and shifted to start at 0; all other columns are even.
     """
-    if name in ("Z", "eta"):
+    if name in AXIAL:
         axis = panel.x if panel.x.name == name else panel.y
         middle = (axis.low + axis.high) / 2
         return np.concatenate([middle - values[::-1], middle + values[1:]])
