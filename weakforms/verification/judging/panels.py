@@ -15,7 +15,6 @@ from weakforms.verification.judging.checks.curve import Curve
 from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome, PathOutcome
 from weakforms.verification.run.solutions import Solutions
 
-
 AXIAL = ("Z", "eta")
 """Coordinates along the axis of a body, which are odd about its mid-plane."""
 
