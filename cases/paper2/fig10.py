@@ -1,11 +1,16 @@
 """Paper 2, figure 10: deflating profiles at p = 3, 2, 1.5, 1, 0 (bilateral spring), alpha = 0.1."""
 
-from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, decide, tube
 
 DOWN = (3, 2, 1.5, 1, 0)
 BONDED = {
     d: tube(contact="adhesive", phase="deflation", spring="bilateral", alpha=0.1, delta1=d) for d in (1, 2)
 }
+
+
+POINTS = (0.5, 1.0, 1.5, 2.0, 2.6, 2.8)
+"""Material points of the paths, of which the first four are in the patch."""
+PATHS = {d: Path(BONDED[d], f"paths_fig10{letter}", POINTS) for d, letter in ((1, "a"), (2, "b"))}
 
 
 def horizontal(solutions: Solutions) -> Finding:
@@ -41,6 +46,8 @@ CASE = Case(
             y=Axis("rho", 1, 1.6),
             title=rf"$\alpha = 0.1$, $\delta_1 = {d}$; substrate at $\rho = 1.3$",
             mirrored=True,
+            paths=(PATHS[d],),
+            level=1.3,
             curves=tuple(
                 Curve(BONDED[d], rf"$p = {p}$", reference=f"fig10{letter}_p_{p}", at=At("p", float(p)))
                 for p in DOWN
