@@ -98,7 +98,8 @@ def _row(cases: dict[str, CaseOutcome], paper: str, rest: str) -> Row:
     if case is None:
         return Row(**place)
     shown = [panel for panel in case.panels if prefix == "@" or _is_part(panel, prefix)]
-    of_panels = [(curve, of_curve(curve, case.verdicts)) for panel in shown for curve in panel.curves]
+    curves = [c for panel in shown for c in panel.curves if c.reference_name or c.name != c.label]
+    of_panels = [(curve, of_curve(curve, case.verdicts)) for curve in curves]  # exact lines left out
     of_panels += [(path, checks) for panel in shown for path, checks in _paths(panel, case)]
     numeric = [[v for v in checks if v.kind in CURVES] for _, checks in of_panels]
     every = [verdict for checks in numeric for verdict in checks]
@@ -106,11 +107,10 @@ def _row(cases: dict[str, CaseOutcome], paper: str, rest: str) -> Row:
         verdict for verdict in case.verdicts if verdict.kind not in (*CURVES, "trace", "identity", "marks")
     ]
     judged = every if any(numeric) else stated
-    exact = sum(panel.drawn == "exact" for panel in shown)
     bounds = [v.bound if v.widest is None else v.widest for v in every if v.asked]
     return Row(
         **place,
-        drawn=len(of_panels) - exact * bool(exact),
+        drawn=len(of_panels),
         compared=sum(bool(checks) and all(v.passed for v in checks) for checks in numeric),
         asked=_range([v.asked for v in every if v.asked]),
         delivered=_range(bounds),
