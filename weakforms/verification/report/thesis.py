@@ -35,7 +35,7 @@ THESIS = """
 4 11 fig11 11;4 table 1 table1 -;4 table 2 table2 -
 5 1 fig01 1;5 2 fig02 a;5 4a fig04 a;5 4b fig04 b;5 5a fig05 a,;5 5b fig05 b,;5 5c fig05 c,;5 6 fig06 @
 5 7a fig07 a,;5 7b fig07 b,;5 7c fig07 c,;5 7d fig07 d,;5 9 fig09 gw;5 10a fig10 a,;5 10b fig10 b,
-5 section 6 surface_tube -
+5 section 6 surface -
 """
 """Paper, panel, case, and the beginning of the names of its panels in the case: ``-`` for none, ``@`` for
 all."""
