@@ -53,7 +53,8 @@ def jumps_grow(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
-EDGE = float(reference(2, "fig06b_deflation_bilateral_alpha_0.1_delta1_1").columns["Z_front"][0])
+EDGE = float(reference(2, "fig06b_alpha_0.1_delta1_1").columns["Z_front"][-1])
+"""Edge of the patch at p = 3, from which the tube deflates."""
 BESIDE = (EDGE - 1e-4, EDGE + 1e-4)
 POINTS = (0.0, 1.0, 2.0, *BESIDE, 2.8, 3.0)
 

@@ -16,10 +16,9 @@ PATHS = {d: Path(BONDED[d], f"paths_fig10{letter}", POINTS) for d, letter in ((1
 def horizontal(solutions: Solutions) -> Finding:
     """Material points of the patch keep their eta while the tube deflates, because it is frozen."""
     found = []
-    for spec in BONDED.values():
-        fields = [solutions.profile(spec, At("p", float(p), profile=())).columns for p in DOWN]
-        inside = fields[0]["Z"] < 2.2
-        found += [decide.exact("eta", later["eta"][inside], fields[0]["eta"][inside]) for later in fields[1:]]
+    for d, spec in BONDED.items():
+        eta = [solutions.samples(spec, at, "eta").value[:4] for at in PATHS[d].states(2)]
+        found += [decide.exact("eta", later, eta[-1]) for later in eta[:-1]]
     return decide.all_of(found)
 
 
@@ -59,7 +58,7 @@ CASE = Case(
         Claim(
             "horizontal",
             "material points of the patch move on horizontal lines",
-            tuple((spec, At("p", float(p), profile=())) for spec in BONDED.values() for p in DOWN),
+            tuple(wanted for path in PATHS.values() for wanted in path.wants(2)),
             horizontal,
         ),
         Claim(

@@ -33,12 +33,13 @@ def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder)
         "audit.html",
         "coverage.html",
         "faults.html",
+        "thesis.html",
         "junit.xml",
         "report.json",
         "shapes",
     }
     assert expected | {"paper2.html"} < set(os.listdir(folder))
-    assert len(os.listdir(folder)) == 9, "and one page for the hostile group"
+    assert len(os.listdir(folder)) == 10, "and one page for the hostile group"
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
 
 
@@ -128,6 +129,7 @@ def test_groups_have_pages_of_their_own():
         "coverage.html",
         "index.html",
         "faults.html",
+        "thesis.html",
         "paper2.html",
         "materials.html",
         "closed_form.html",
