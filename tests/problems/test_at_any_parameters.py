@@ -14,6 +14,8 @@ from weakforms.problems.contact.guesses import stick_guess
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.phases import DiskPhases
 from weakforms.problems.liquid_tube import coincidence
+from weakforms.problems.liquid_tube import problem as liquid_tube
+from weakforms.problems.liquid_tube.bent import problem as bent
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import validated
@@ -159,6 +161,31 @@ def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stabilit
     monkeypatch.setattr(EquilibriumBranch, "__init__", traced)
     branch.follow()
     assert [point.n_negative for point in branch.points] == [first, *counts[1:]]
+
+
+def no_bifurcation(*_):
+    raise AbsentError("bifurcation point", "the primary branch has 0; choose another delta")
+
+
+def test_a_liquid_tube_that_does_not_bend_keeps_its_primary_branch(monkeypatch):
+    primary = SimpleNamespace(pieces=[SimpleNamespace(family=SimpleNamespace(name="primary", absent=[]))])
+    monkeypatch.setattr(liquid_tube, "primary_family", lambda *_: primary)
+    monkeypatch.setattr(liquid_tube, "secondary_family", no_bifurcation)
+    given = {"parameters": SimpleNamespace(secondary=True), "numerics": None, "comm": None, "progress": None}
+    problem, states = registry.get("fluid_tube"), [SimpleNamespace(branch="secondary")]
+    found = problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=[])))
+    assert list(found) == ["primary"]
+    (absence,) = found["primary"].absent
+    assert (absence.what, "choose another delta" in absence.reason) == ("secondary branch", True)
+    with pytest.raises(AbsentError):
+        problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=states)))
+
+
+def test_a_surface_that_does_not_bend_says_so(monkeypatch):
+    monkeypatch.setattr(bent, "WholeRun", no_bifurcation)
+    result = solve("fluid_tube_surface")
+    assert (result.quantities, result.failures) == ({}, [])
+    assert result.absent[0].reason.startswith("fluid_tube_surface: the primary branch has 0")
 
 
 def test_a_walk_shortens_its_steps_and_says_how_far_it_came():

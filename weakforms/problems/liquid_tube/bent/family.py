@@ -60,8 +60,8 @@ def secondary_family(
     It uses the numerics whose names begin with ``secondary``.
 
     Raises:
-        ConvergenceError: If the primary branch has no ``n = 1`` bifurcation point, or no branch is found
-            there.
+        AbsentError: If the primary branch has no ``n = 1`` bifurcation point.
+        ConvergenceError: If no branch is found there.
     """
     primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
     begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
