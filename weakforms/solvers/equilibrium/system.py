@@ -14,7 +14,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 from ufl.core.expr import Expr
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.solvers.support.jit_cache import compile_together
 from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
 
@@ -277,7 +277,10 @@ class System:
             function = self._interpolant.function
             self._peaks = {name: Peak(function, i) for i, name in enumerate(self.formulation.maxima)}
         self._interpolant.update()
-        return {name: peak() for name, peak in self._peaks.items()}
+        found = {name: peak() for name, peak in self._peaks.items()}
+        if not np.isfinite(list(found.values())).all():
+            raise ConvergenceError("the state has stretches at which the law is not defined")
+        return found
 
     def _first_levels(self) -> dict[str, float]:
         """Positions where expressions first reach their levels, by their polynomials on each cell."""
