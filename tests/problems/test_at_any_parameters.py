@@ -24,7 +24,7 @@ from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membr
 from weakforms.results import validate
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.walk import walk
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 
 def test_a_stiff_balloon_is_inflated_to_its_end():

@@ -13,7 +13,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranc
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 PASSED = 0.1
 """By how much of ``p_end`` a step of deflation may pass its last pressure."""

@@ -15,7 +15,7 @@ from weakforms.problems.contact.guesses import moved, stick_guess
 from weakforms.problems.contact.history import History
 from weakforms.problems.contact.inflation import Inflation
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 SPANS, WIDER = 6, 1.02
 """Spans tried for a history that the patch outgrows, or that is not found, and by how much they change."""

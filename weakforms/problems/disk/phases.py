@@ -29,7 +29,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 HIGHEST_P = 50.0
 """Largest pressure at which inflation may end."""
@@ -132,14 +132,13 @@ class DiskPhases(ContactPhases):
     ) -> None:
         super().__init__(DiskModel(comm, data), p_end, step, terms)
         self._rigid = adhesion == "locked"
-        self._flat = self.slip.system.state()
-        """Start of every branch; it is kept, because each branch changes the state of its system."""
 
     def inflate(self, depth: float) -> EquilibriumBranch:
         """Free inflation up to a pole height."""
         solver = ExtendedNewton(self.slip.system, ["p"])
         front = FREE_FRONT * self.data.length
-        state = State(self._flat.u.copy(), self._flat.loads | {"front": front})
+        flat = self.slip.system.initial
+        state = State(flat.u.copy(), flat.loads | {"front": front})
         held = Held("p", 0.0)
         if self.data.beta < TAUT:
             x = np.repeat(self.slip.material(self.slip.nodes(), state.loads), 2)

@@ -16,6 +16,7 @@ from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.branch import WIDEST, FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.support.sampling import Sampler
 
@@ -112,11 +113,11 @@ class PrimaryBranch:
     ) -> AxisymmetricState:
         base = self._read(solved, points)
         waves = self.path.model.waves
-        waves.set_state(piece.null_vector(solved), {})
         columns = {name: waves.unknown[i] for i, name in enumerate(("u", "beta", "w"))}
         where = self.path.model.position(points, solved.state.loads)
-        found = Sampler(waves.unknown, columns, where)()
-        waves.set_state(np.zeros(waves.size), {})
+        sampler = Sampler(waves.unknown, columns, where)
+        with self.path.model.system.at(solved.state), waves.at(State(piece.null_vector(solved), {})):
+            found = sampler()
         mode = np.array([found[name] for name in columns])
         sign = np.sign(mode[0][np.argmax(np.abs(mode[0]))])
         return AxisymmetricState(base.values, points, base.r, base.z, n, sign * mode)

@@ -31,8 +31,10 @@ from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 START_STRETCH = 1.3
 """Pre-stretch at which the steps to a first state start. At ``delta1 = 1`` and ``p = 0`` the tube is slack
@@ -181,9 +183,10 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
         InputError: If the pre-stretch is beyond the largest stretch of the law.
     """
     system = solver.system
-    state = system.state()
+    state = system.initial.copy()
     if delta1 >= TAUT:
-        forces = system.residual()
+        with system.at(state):
+            forces = system.residual()
         if not np.isfinite(system.dot(forces, forces)):
             raise InputError(
                 f"delta1 = {delta1:g} alone stretches the membrane beyond what its law allows; lower delta1 "

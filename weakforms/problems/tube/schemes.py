@@ -32,7 +32,7 @@ from weakforms.results import Absence, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.roots import root
 
 

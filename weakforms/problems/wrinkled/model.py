@@ -27,7 +27,7 @@ from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.problems.wrinkled.body import SHARED
-from weakforms.solvers.equilibrium.system import Formulation
+from weakforms.solvers.equilibrium.formulation import Formulation
 
 KEPT = 8
 """Number of things of one kind that are kept with a model."""
@@ -134,6 +134,7 @@ class WrinkledModel(MeridianModel):
                 "z": self.point(e["z"]),
             },
             internal=("gw", "gw_slope", "z"),
+            mark=self.mark,
             profile={
                 **{name: e[name] for name in ("r", "z", "lam1", "lam2", "gw")},
                 "tension": tension,

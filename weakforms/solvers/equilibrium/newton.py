@@ -19,7 +19,8 @@ from petsc4py import PETSc
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred, unowned
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
-from weakforms.solvers.equilibrium.system import State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 _REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
 
@@ -43,10 +44,10 @@ class Constraint(Protocol):
     """One scalar equation ``g(U; λ) = 0``."""
 
     def value(self, solver: ExtendedNewton) -> float:
-        """``g`` at the state that the system holds."""
+        """``g`` at the state that the system is lent to."""
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system holds."""
+        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system is lent to."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,8 @@ class ExtendedNewton:
         self.bordered: BorderedMatrix | None = None
         self.left = np.inf
         """Norm of the residual at the end of the last solve."""
+        self.last: State | None = None
+        """The state at which the last solve ended, converged or not."""
         self._callbacks = Deferred()
         self._size = system.size
         self._root = system.comm.size - 1
@@ -165,7 +168,7 @@ class ExtendedNewton:
 
     def _put(self, x: PETSc.Vec) -> None:
         u, scalars = self._split(x)
-        self.system.set_state(u, dict(zip(self.scalars, scalars, strict=True)))
+        self.system.rewrite(u, dict(zip(self.scalars, scalars, strict=True)))
 
     def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
         def work() -> None:
@@ -186,7 +189,7 @@ class ExtendedNewton:
         mat.assemble()
 
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
-        """Bordered tangent at the state that the system holds, with ``K`` factorised already."""
+        """Bordered tangent at the state that the system is lent to, with ``K`` factorised already."""
         columns = [self.system.load_derivative(name) for name in self.scalars]
         gradients = [c.gradient(self) for c in constraints]
         corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
@@ -203,7 +206,7 @@ class ExtendedNewton:
     def solve(
         self, guess: State, constraints: Sequence[Constraint] = (), chord: bool = False
     ) -> tuple[State, SolveRecord]:
-        """Solve from a guess; the system holds the converged state afterwards.
+        """Solve from a guess.
 
         Args:
             guess: First guess; its loads that are not unknowns are kept.
@@ -217,9 +220,12 @@ class ExtendedNewton:
         """
         if len(constraints) != len(self.scalars):
             raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
-        system, before = self.system, self.factor.count
         self.constraints = constraints
-        system.set_state(guess.u, guess.loads)
+        with self.system.at(guess):
+            return self._solve(guess, chord)
+
+    def _solve(self, guess: State, chord: bool) -> tuple[State, SolveRecord]:
+        system, before = self.system, self.factor.count
         self._join(self._x, guess.u, [guess.loads[name] for name in self.scalars])
         snes = self._snes(chord)
         snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
@@ -230,7 +236,7 @@ class ExtendedNewton:
             raise
         finally:
             record = solve_record(snes, self.factor.count - before)
-            self.left = record.norms[-1] if record.norms else np.inf
+            self.left, self.last = record.norms[-1] if record.norms else np.inf, system.state()
         if snes.getConvergedReason() <= 0 or not self._is_balanced(snes):
             raise ConvergenceError(
                 f"SNES ended with {record.reason} after {record.iterations} iterations, "

@@ -24,7 +24,7 @@ from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.support.roots import root
@@ -138,7 +138,7 @@ class WholeRun:
 
     def _guess(self, at: AxisymmetricState) -> State:
         loads = {"zw": at.values["zw"]} | ({"phase": 0.0} if self.full else {})
-        return State(self.model.interpolated(position(at)), loads)
+        return self.model.state_of(position(at), loads)
 
     def _no_rotation(self) -> list[Plane]:
         """Condition of no displacement along the rotated mode, so that a bent state cannot rotate."""
@@ -197,7 +197,8 @@ class WholeRun:
             return self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])[0]
 
         state = walk(solve, start, 0.0, self.amplitude, self.amplitude)
-        values = self.system.monitors()
+        with self.system.at(state):
+            values = self.system.monitors()
         nearest = Stability(self.system).modes(state, 1)[0]
         return {
             "zw_bent": state.loads["zw"],

@@ -17,7 +17,7 @@ from weakforms.forms.revolution import hoop_bending, meridional_bending
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
 from weakforms.problems.wrinkled.waves.modes import Waves, waves_of
-from weakforms.solvers.equilibrium.system import Formulation
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.stability.modes import SecondVariation
 
 POISSON = 0.5
@@ -84,5 +84,5 @@ def _shell_of(model: WrinkledModel) -> ShellWaves:
 
 def shell_eigenvalue(held: Held, n: float, beta: float) -> float:
     """Lowest eigenvalue for ``n`` waves with the shell's bending stiffness ``beta H^3``."""
-    held.put()
-    return _shell_of(held.model).lowest(n, beta)
+    with held.lent():
+        return _shell_of(held.model).lowest(n, beta)

@@ -19,7 +19,7 @@ from weakforms.forms.revolution import second_order
 from weakforms.problems.meridian.model import TAUT
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
-from weakforms.problems.wrinkled.waves.modes import waves_at, waves_of
+from weakforms.problems.wrinkled.waves.modes import waves_of
 
 PROBES = (10.0, 20.0, 30.0)
 """Wave numbers at which the second variation is evaluated."""
@@ -84,19 +84,19 @@ def trial_form(held: Held, power: int) -> dict[str, float]:
     Raises:
         InputError: If there is no wrinkled wet part.
     """
-    waves_at(held)
     if held.zones.first == TAUT or (held.zones.surface is None and not held.zones.wet):
         raise InputError(
             "wrinkled_linear: the lower end is dry or taut, there is no wrinkled wet part to be perturbed; a "
             "smaller Af or a larger M or delta wrinkles it, a higher zw wets it"
         )
     trial = _trial_of(held.model, power)
-    ends = [float(held.model.breaks[-1]), *held.zones.fronts[:1]]
+    ends = [float(held.model.breaks_of(held.state.loads)[-1]), *held.zones.fronts[:1]]
     if held.zones.surface is not None:
         ends.append(held.zones.surface)
-    trial.surface.value = min(ends)
-    values = [trial.second(n) for n in PROBES]
+    with held.lent():
+        trial.surface.value = min(ends)
+        values, rate = [trial.second(n) for n in PROBES], trial.rate()
     b = (values[2] - values[0]) / (PROBES[2] - PROBES[0])
     a = values[0] - PROBES[0] * b
     curved = (values[0] - 2 * values[1] + values[2]) / np.abs(values).max()
-    return {"A": a, "B": b, "B_exact": trial.rate(), "n_star": a / -b, "curved": curved}
+    return {"A": a, "B": b, "B_exact": rate, "n_star": a / -b, "curved": curved}
