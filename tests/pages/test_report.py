@@ -106,6 +106,7 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
         "audit.html",
         "coverage.html",
         "faults.html",
+        "thesis.html",
         "index.html",
         "junit.xml",
         "mine.html",
