@@ -62,6 +62,8 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
         self._callbacks = Deferred()
+        self._inverse = _Preconditioner(self._callbacks)
+        self._kept: SLEPc.EPS | None = None
 
     @contextmanager
     def _tangent_at(self, state: State, shift: float = 0.0) -> Iterator[None]:
@@ -73,26 +75,39 @@ class Stability:
             yield
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
-        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS."""
+        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS.
+
+        With a given inverse it is the same object each time: to make one costs as much as a small spectrum.
+        """
+        if inverse is None:
+            eps = self._new_solver()
+            pc = eps.getST().getKSP().getPC()
+            pc.setType("cholesky")
+            pc.setFactorSolverType("mumps")
+            eps.setFromOptions()
+        else:
+            if self._kept is None:
+                self._kept = self._new_solver()
+                pc = self._kept.getST().getKSP().getPC()
+                pc.setType("python")
+                pc.setPythonContext(self._inverse)
+                self._kept.setFromOptions()
+            eps, self._inverse.solve = self._kept, inverse
+        eps.setOperators(self.system.matrix, self.system.mass)
+        eps.setTarget(target)
+        basis = min(max(2 * wanted, wanted + 15), self.system.matrix.getSize()[0])  # SLEPc's rule
+        eps.setDimensions(nev=wanted, ncv=basis)
+        return eps
+
+    def _new_solver(self) -> SLEPc.EPS:
         eps = SLEPc.EPS().create(self.system.comm)
         eps.setOptionsPrefix(self._prefix)
-        eps.setOperators(self.system.matrix, self.system.mass)
         eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
         eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(target)
-        eps.setDimensions(nev=wanted)
         eps.setTolerances(tol=1e-12, max_it=200)
         st = eps.getST()
         st.setType("sinvert")
         st.getKSP().setType("preonly")
-        pc = st.getKSP().getPC()
-        if inverse is None:
-            pc.setType("cholesky")
-            pc.setFactorSolverType("mumps")
-        else:
-            pc.setType("python")
-            pc.setPythonContext(_Preconditioner(inverse, self._callbacks))
-        eps.setFromOptions()
         return eps
 
     def spectrum(self, state: State, count: int = 2, shift: float = 0.0) -> Spectrum:
@@ -283,13 +298,19 @@ class Stability:
         Raises:
             ConvergenceError: If fewer than ``wanted`` converge, SLEPc raises an error, or an inverse fails.
         """
+        found = None
         try:
             self._run(eps)
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
-            return read(eps)
+            found = read(eps)
         finally:
-            give_back(eps)
+            self._inverse.solve = None
+            if found is None:  # after an error its parts may be in use
+                self._kept = None
+            if eps is not self._kept:
+                give_back(eps)
+        return found
 
     def _run(self, eps: SLEPc.EPS) -> None:
         try:
@@ -312,15 +333,17 @@ def give_back(eps: SLEPc.EPS) -> None:
 
 
 class _Preconditioner:
-    """A preconditioner that solves exactly."""
+    """A preconditioner that solves exactly; it has its inverse only in use, and owns no system."""
 
-    def __init__(self, solve: Inverse, callbacks: Deferred) -> None:
-        self._solve, self._callbacks = solve, callbacks
+    solve: Inverse | None = None
+
+    def __init__(self, callbacks: Deferred) -> None:
+        self._callbacks = callbacks
 
     def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
         """``out`` is the solution for ``rhs``."""
 
         def work() -> None:
-            out.array_w[:] = self._solve(rhs.array_r.copy())
+            out.array_w[:] = self.solve(rhs.array_r.copy())
 
         self._callbacks.run(work, lambda: out.set(0.0))  # every vector is an eigenvector of it
