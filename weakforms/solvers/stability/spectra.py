@@ -61,7 +61,7 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
         self._callbacks = Deferred()
-        self._inverse = _Preconditioner(self._callbacks)
+        self._inverse = Preconditioner(self._callbacks)
         self._kept: SLEPc.EPS | None = None
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
@@ -334,7 +334,7 @@ def give_back(eps: SLEPc.EPS) -> None:
         eps.destroy()
 
 
-class _Preconditioner:
+class Preconditioner:
     """A preconditioner that solves exactly; it has its inverse only in use, and owns no system."""
 
     solve: Inverse | None = None
