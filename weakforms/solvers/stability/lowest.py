@@ -20,13 +20,14 @@ from weakforms.solvers.stability.spectra import LOWEST, Mode, Preconditioner, gi
 ROUGH, SHARP = 1e-3, 1e-11
 """Relative residuals of the first search and of the returned modes."""
 
-BELOW = 0.02
-"""Distance of the target below the lowest eigenvalue, relative to its magnitude."""
+BELOW = (1e-3, 0.02)
+"""Distances of the target below the lowest eigenvalue, relative to its magnitude, the nearest first: the
+eigenvalues next to the lowest are as close to it, and only a target that is as near separates them."""
 
 APART = 1e-8
 """Eigenvalues closer together than this relative distance are copies of one."""
 
-BEYOND = 1.1
+BEYOND = 1.25
 """Ratio of the first target to the last lowest eigenvalue, if that was negative."""
 
 ATTEMPTS = 6
@@ -81,9 +82,11 @@ class Lowest:
         self._go_below()
         target = self._target
         (first,) = self._solve(1, target, ROUGH, [])[:1]
-        near = first[0] - BELOW * max(abs(first[0]), 1e-3)
-        if near > target and not self._below(near):
-            target = near
+        for share in BELOW:
+            near = first[0] - share * max(abs(first[0]), 1e-3)
+            if near > target and not self._below(near):
+                target = near
+                break
         found = self._solve(count, target, SHARP, [])
         for _ in range(ATTEMPTS):
             found = sorted(found, key=lambda pair: pair[0])
