@@ -62,7 +62,7 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
         self._callbacks = Deferred()
-        self._inverse = _Preconditioner(self._callbacks)
+        self._inverse = Preconditioner(self._callbacks)
         self._kept: SLEPc.EPS | None = None
 
     @contextmanager
@@ -332,7 +332,7 @@ def give_back(eps: SLEPc.EPS) -> None:
         eps.destroy()
 
 
-class _Preconditioner:
+class Preconditioner:
     """A preconditioner that solves exactly; it has its inverse only in use, and owns no system."""
 
     solve: Inverse | None = None
