@@ -20,7 +20,8 @@ from numpy.polynomial import chebyshev
 
 from weakforms.problems.contact.guesses import moved
 from weakforms.problems.contact.history import History
-from weakforms.problems.contact.phases import Bond, ContactPhases
+from weakforms.problems.contact.model import Bond
+from weakforms.problems.contact.phases import ContactPhases
 from weakforms.problems.disk.model import DiskData, DiskModel
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen

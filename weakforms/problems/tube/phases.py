@@ -10,7 +10,8 @@ from mpi4py import MPI
 from numpy.polynomial import chebyshev
 
 from weakforms.problems.contact.history import History
-from weakforms.problems.contact.phases import Bond, ContactPhases
+from weakforms.problems.contact.model import Bond
+from weakforms.problems.contact.phases import ContactPhases
 from weakforms.problems.tube.contact import FIRST_FRONT, ContactData, ContactModel
 from weakforms.problems.tube.model import FIRST_U, TAUT, free_branch, yielding, yields
 from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
