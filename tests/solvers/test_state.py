@@ -14,7 +14,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.wrinkled.body import CYLINDER
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton

@@ -10,7 +10,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.wrinkled.events import Event, events
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges

@@ -9,7 +9,8 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.meridian.model import WRINKLED
-from weakforms.problems.wrinkled.fitted import PLACE, Membrane
+from weakforms.problems.wrinkled.fitted import PLACE
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
 from weakforms.results import Field, Quantity, SpecialPoint
