@@ -10,12 +10,13 @@ from types import ModuleType
 
 from weakforms import api
 from weakforms.verification.cases.case import Case
-from weakforms.verification.cases.panels import Axis, Dashed, Line, Panel, Path, Surface
+from weakforms.verification.cases.panels import Axis, Dashed, Line, Panel, Surface
 from weakforms.verification.cases.references import load as reference
 from weakforms.verification.cases.specs import MAKERS, At, Spec
 from weakforms.verification.judging import continuity, decide
 from weakforms.verification.judging.checks.curve import Curve
 from weakforms.verification.judging.checks.order import Order
+from weakforms.verification.judging.checks.path import Path
 from weakforms.verification.judging.checks.points import Count, Points, States
 from weakforms.verification.judging.checks.printed import Printed, PrintedExact, PrintedInput, PrintedState
 from weakforms.verification.judging.checks.readings import CutOff, Misprint, OnGrid

@@ -18,7 +18,7 @@ from typing import Any
 import typer
 from rich.console import Console
 
-from weakforms.errors import InputError, WeakformsError
+from weakforms.errors import InputError, WeakformsError, lacking
 
 _LACKS = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO),
@@ -241,6 +241,8 @@ def guarded(run: Callable[[], Any], debug: bool = False) -> int:
 
 def _verdict_on(error: BaseException) -> tuple[int, str]:
     """Exit status and message for an exception that ends a command."""
+    if isinstance(error, ImportError):
+        error = lacking(error) or error
     if isinstance(error, WeakformsError):
         return error.exit_status, str(error)
     if isinstance(error, USAGE_ERROR):

@@ -7,7 +7,7 @@ stretches (condition 1). This case states both failures, so that it fails if a c
 
 import numpy as np
 
-from weakforms.cases import Case, Claim, Finding, Solutions, decide, homogeneous, material
+from weakforms.cases import Case, Claim, Finding, Solutions, decide, homogeneous, material, reference
 
 GROWING = (
     "neo_hookean",
@@ -31,6 +31,20 @@ SWOLLEN = [material(model="harmonic", l1=x, l2=x) for x in (2.0, 7.0)]
 PRESSED = homogeneous(model="saint_venant_kirchhoff", loading="uniaxial", lam_end=0.3)
 
 
+SAMPLES = {
+    m: [
+        material(model=m, l1=float(a), l2=float(b))
+        for a, b in zip(*(reference("materials", f"law_{m}").columns[n] for n in ("l1", "l2")), strict=True)
+        if (a, b) != (1, 1)
+    ]
+    for m in ALL
+    if m != "harmonic"
+}
+SWAPPED = {
+    m: [(material(model=m, l1=a, l2=b), material(model=m, l1=b, l2=a)) for a, b in ((1.5, 0.9), (2.0, 1.2))]
+    for m in ALL
+}
+EXCHANGED = {"W": "W", "W1": "W2", "W2": "W1", "W11": "W22", "W22": "W11", "W12": "W12"}
 POWER = decide.Stated(
     1.5,
     "goes to infinity",
@@ -51,6 +65,25 @@ def rest(solutions: Solutions) -> Finding:
     """Energy and stresses of all laws at rest."""
     found = [solutions.whole(spec, n).value for spec in REST.values() for n in ("W", "W1", "W2")]
     return decide.exact(f"W, W1, W2 of {len(REST)} laws", found, 0.0)
+
+
+def not_negative(solutions: Solutions) -> Finding:
+    """Energies of all laws but the harmonic one at the stretches of their tables."""
+    return decide.all_of(
+        decide.positive(f"W of {model}", energies(solutions, specs)) for model, specs in SAMPLES.items()
+    )
+
+
+def symmetric(solutions: Solutions) -> Finding:
+    """Energy and its derivatives with both stretches exchanged."""
+    found = []
+    for model, pairs in SWAPPED.items():
+        for one, two in pairs:
+            here, there = (solutions.result(spec).quantities for spec in (one, two))
+            values = np.array([here[name].value for name in EXCHANGED])
+            others = np.array([there[name].value for name in EXCHANGED.values()])
+            found.append(decide.exact(model, values, others, 1 + np.abs(values).max()))
+    return decide.all_of(found)
 
 
 def grows(solutions: Solutions) -> Finding:
@@ -149,6 +182,18 @@ CASE = Case(
     title="Admissible strain energies, and two that are not",
     source="Patil (2016), section 3.1.1",
     checks=(
+        Claim(
+            "not_negative",
+            "condition 1: the energy is positive at every deformation tried, except at rest",
+            tuple((spec, None) for specs in SAMPLES.values() for spec in specs),
+            not_negative,
+        ),
+        Claim(
+            "symmetric",
+            "condition 3: the energy of an isotropic sheet is symmetric in the principal stretches",
+            tuple((spec, None) for pairs in SWAPPED.values() for pair in pairs for spec in pair),
+            symmetric,
+        ),
         Claim(
             "rest",
             "condition 4: no energy and no stress at rest, every law",

@@ -25,12 +25,12 @@ SLIP = {beta: circular(alpha=0.1, beta=beta, contact="frictionless", p_end=9.0) 
 FREE = {beta: circular(alpha=0.1, beta=beta) for beta in (1, 2)}
 FIRST_TOUCH = {1: 2.03, 2: 4.89}
 PRINTED = {1: (0.409, 1.659, 4.83, 7.10), 2: (2.66, 4.49, 6.81, 8.63)}
-PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
-OVER = {
-    1: tuple(At("p", p) for p in (0.1, 0.409, 1.0, 1.659, 2.1, 2.5, 3.0, 3.5, 4.0, 4.83, 5.5, 6.3, 7.10)),
-    2: tuple(At("p", p) for p in (0.5, 1.5, 2.66, 3.6, 4.49, 5.0, 5.4, 5.8, 6.3, 6.81, 7.3, 8.0, 8.63)),
+POINTS = tuple(i / 10 for i in range(1, 10))
+SHORT = {"rho": 1e-8, "eta": 1e-8}
+"""Accuracy asked of paths, relative to their own largest value (small near the axis and the clamp)."""
+PATHS = {
+    beta: Path(SLIP[beta], f"paths_fig03{letter}", POINTS, SHORT) for beta, letter in ((1, "a"), (2, "b"))
 }
-IN_CONTACT = {1: (2.5, 3.0, 3.5, 4.0, 4.83, 5.5, 6.3, 7.10), 2: (5.4, 5.8, 6.3, 6.81, 7.3, 8.0, 8.63)}
 
 
 def of(beta: int, p: float) -> Spec:
@@ -41,11 +41,10 @@ def of(beta: int, p: float) -> Spec:
 def outwards(solutions: Solutions) -> Finding:
     """Radii of material points on the patch, over the pressures in contact."""
     found = []
-    for beta, pressures in IN_CONTACT.items():
+    for beta, path in PATHS.items():
         for x in (0.1, 0.2, 0.3):
-            ats = [At("p", p, profile=PATHS) for p in pressures]
-            inside = [at for at in ats if solutions.value(SLIP[beta], at, "X_contact") > x]
-            rho = decide.stack(solutions.samples(SLIP[beta], at, "rho")[PATHS.index(x)] for at in inside)
+            inside = [at for at in path.states(1) if solutions.value(SLIP[beta], at, "X_contact") > x]
+            rho = decide.stack(solutions.samples(SLIP[beta], at, "rho")[POINTS.index(x)] for at in inside)
             found.append(decide.rises(f"rho of X = {x}", rho))
     return decide.all_of(found)
 
@@ -53,19 +52,19 @@ def outwards(solutions: Solutions) -> Finding:
 def no_inflexion(solutions: Solutions) -> Finding:
     """Curvature of the paths in the (rho, eta) plane, for points that touch late or never."""
     found = []
-    for beta, over in OVER.items():
+    for beta, path in PATHS.items():
         for x in (0.3, 0.5, 0.7):
-            ats = [At(at.name, at.value, profile=PATHS) for at in over]
             rho, eta = (
-                decide.stack(solutions.samples(SLIP[beta], at, n)[PATHS.index(x)] for at in ats).diff()
+                decide.stack(
+                    solutions.samples(SLIP[beta], at, n)[POINTS.index(x)] for at in path.states(1)
+                ).diff()
                 for n in ("rho", "eta")
             )
             found.append(decide.negative(f"turning of X = {x}", rho[:-1] * eta[1:] - eta[:-1] * rho[1:]))
     return decide.all_of(found)
 
 
-STATES = tuple((SLIP[b], At("p", p, profile=PATHS)) for b, ps in IN_CONTACT.items() for p in ps)
-ALONG = tuple((SLIP[b], At(at.name, at.value, profile=PATHS)) for b, over in OVER.items() for at in over)
+ALONG = tuple(wanted for path in PATHS.values() for wanted in path.wants(1))
 
 CASE = Case(
     title="Profiles and paths in frictionless contact",
@@ -77,7 +76,7 @@ CASE = Case(
             y=Axis("eta", 0, 1.0),
             level=0.5,
             title=f"beta = {beta}",
-            paths=(Path(SLIP[beta], OVER[beta], PATHS),),
+            paths=(PATHS[beta],),
             curves=tuple(
                 Curve(of(beta, p), f"$p = {p:g}$", reference=f"fig03{letter}_p_{p:g}", at=At("p", p))
                 for p in PRINTED[beta]
@@ -86,7 +85,7 @@ CASE = Case(
         for letter, beta in (("a", 1), ("b", 2))
     ),
     checks=(
-        Claim("outwards", "points in contact move outwards as the pressure grows", STATES, outwards),
+        Claim("outwards", "points in contact move outwards as the pressure grows", ALONG, outwards),
         Claim("no_inflexion", "paths of material points diverge without inflexion", ALONG, no_inflexion),
         *(
             PrintedInput(

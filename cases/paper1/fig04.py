@@ -35,12 +35,10 @@ CLEAR_OF_EDGE = 0.01
 """Distance of points from the edge, inside the patch."""
 HUNDREDTHS = tuple(k / 100 for k in range(45, 66))
 """Pole heights in contact, around the substrate at l = 0.5, that count as round numbers."""
-PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
-OVER = {
-    1: (0.1, 0.408, 0.8, 1.2, 1.6, 2.094, 2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477),
-    2: (0.8, 1.7, 2.66, 3.6, 4.49, 5.0, 5.4, 5.8, 6.16, 6.7, 7.3, 7.9, 8.49),
-}
-LATE = {1: (2.3, 2.5, 2.7, 2.833, 3.0, 3.2, 3.477), 2: (5.4, 5.8, 6.16, 6.7, 7.3, 7.9, 8.49)}
+POINTS = tuple(i / 10 for i in range(1, 10))
+PATHS = {beta: Path(STICK[beta], f"paths_fig04{letter}", POINTS) for beta, letter in ((1, "a"), (2, "b"))}
+OVER = {beta: [at.value for at in path.states(1)] for beta, path in PATHS.items()}
+LATE = {beta: [p for p in pressures if p > 1.05 * FIRST_TOUCH[beta]] for beta, pressures in OVER.items()}
 
 
 def of(beta: int, p: float) -> Spec:
@@ -53,9 +51,9 @@ def of(beta: int, p: float) -> Spec:
     return STICK[beta].on(cells=144) if p < 1.05 * FIRST_TOUCH[beta] else STICK[beta]
 
 
-def samples(solutions: Solutions, beta: int, pressures: tuple[float, ...], name: str) -> decide.Number:
+def samples(solutions: Solutions, beta: int, pressures: list[float], name: str) -> decide.Number:
     """A column at the material points of the paths, one row for each pressure."""
-    at = [At("p", p, profile=PATHS) for p in pressures]
+    at = [At("p", p, profile=POINTS) for p in pressures]
     return decide.stack(solutions.samples(STICK[beta], a, name) for a in at)
 
 
@@ -66,7 +64,7 @@ def vertical(solutions: Solutions) -> Finding:
         front = np.array([solutions.value(STICK[beta], At("p", p), "X_contact") for p in pressures])
         for name in ("rho", "lam1", "lam2"):
             values = samples(solutions, beta, pressures, name)
-            for i, x in enumerate(PATHS):
+            for i, x in enumerate(POINTS):
                 stuck = values[front > x + CLEAR_OF_EDGE, i]
                 if len(stuck) > 1:
                     found.append(decide.constant(f"{name} of X = {x}", stuck, 1e-6))
@@ -90,8 +88,8 @@ def rise_to_the_edge(solutions: Solutions) -> Finding:
     """Both stretches along the patch at the last pressure, between points 0.1 apart."""
     found = []
     for beta, pressures in LATE.items():
-        edge = solutions.value(STICK[beta], At("p", pressures[-1], profile=PATHS), "X_contact")
-        inside = [i for i, x in enumerate(PATHS) if x < edge]
+        edge = solutions.value(STICK[beta], At("p", pressures[-1], profile=POINTS), "X_contact")
+        inside = [i for i, x in enumerate(POINTS) if x < edge]
         found += [
             decide.rises(f"{name}, beta = {beta}", samples(solutions, beta, pressures[-1:], name)[0, inside])
             for name in ("lam1", "lam2")
@@ -103,14 +101,16 @@ def inflexion(solutions: Solutions) -> Finding:
     """Slope of the path of X = 0.6, which does not touch: it decreases, then increases."""
     found = []
     for beta, pressures in OVER.items():
-        rho, eta = (samples(solutions, beta, pressures, name)[:, PATHS.index(0.6)] for name in ("rho", "eta"))
+        rho, eta = (
+            samples(solutions, beta, pressures, name)[:, POINTS.index(0.6)] for name in ("rho", "eta")
+        )
         slope = eta.diff() / rho.diff()
         found.append(decide.falls(f"deta/drho at first, beta = {beta}", slope[:2]))
         found.append(decide.rises("at last", slope[-2:]))
     return decide.all_of(found)
 
 
-ALONG = tuple((STICK[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)
+ALONG = tuple(wanted for path in PATHS.values() for wanted in path.wants(1))
 
 CASE = Case(
     title="Profiles and paths in adhesive inflation",
@@ -122,7 +122,7 @@ CASE = Case(
             y=Axis("eta", 0, 1.0),
             level=0.5,
             title=f"beta = {beta}",
-            paths=(Path(STICK[beta], tuple(At("p", p) for p in OVER[beta]), PATHS),),
+            paths=(PATHS[beta],),
             curves=tuple(
                 Curve(
                     of(beta, p),

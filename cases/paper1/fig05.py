@@ -5,27 +5,62 @@ The end of inflation is not printed; here it is the last profile of figure 4: p 
 """
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
-from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, circular, decide
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Path,
+    Solutions,
+    circular,
+    decide,
+    reference,
+)
 
 DOWN = {
     1: circular(alpha=0.1, beta=1, contact="adhesive", phase="deflation"),
     2: circular(alpha=0.1, beta=2, contact="adhesive", phase="deflation", p_end=8.49),
 }
+TURNS = {1: (2.4, 1.4), 2: (4.2, 2.2)}
+"""Printed pressures between which the curvature changes its sign (table ``curvature_change`` has where)."""
 PRINTED = {1: (0.6, 1.4, 2.4, 3.2), 2: (0.2, 2.2, 4.2, 6.43)}
 CLEAR_OF_EDGE = 0.01
 """Distance of points from the edge, inside the patch."""
-PATHS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
-OVER = {
-    1: (3.4, 3.2, 2.8, 2.4, 2.0, 1.7, 1.4, 1.0, 0.6),
-    2: (8.4, 7.5, 6.43, 5.3, 4.2, 3.2, 2.2, 1.2, 0.2),
-}
+POINTS = tuple(i / 10 for i in range(1, 10))
+PATHS = {beta: Path(DOWN[beta], f"paths_fig05{letter}", POINTS) for beta, letter in ((1, "a"), (2, "b"))}
+OVER = {beta: [at.value for at in path.states(1)][::-1] for beta, path in PATHS.items()}
+"""Pressures of the paths, from the highest one down."""
 
 
 def bulges(solutions: Solutions) -> Finding:
-    """Meridional curvature of the free part at the edge: positive at p = 2.4, negative at 1.4."""
-    high, low = (solutions.number(DOWN[1], At("p", p), "kappa") for p in (2.4, 1.4))
-    return decide.less("kappa at p = 1.4 and 2.4, on both sides of zero", low, 0, high)
+    """Meridional curvature of the free part at the edge: positive at the higher pressure, then negative."""
+    found = []
+    for beta, (high, low) in TURNS.items():
+        kappa = [solutions.number(DOWN[beta], At("p", p), "kappa") for p in (low, high)]
+        found.append(
+            decide.less(f"kappa at p = {low} and {high}, on both sides of zero", kappa[0], 0, kappa[1])
+        )
+    return decide.all_of(found)
+
+
+def paths_differ(solutions: Solutions) -> Finding:
+    """Radius of outer points at the lowest pressure of deflation, and in inflation at the same height."""
+    found = []
+    for beta, letter in ((1, "a"), (2, "b")):
+        up = reference(1, f"paths_fig04{letter}")
+        for x in (0.6, 0.8):
+            at = PATHS[beta].states(1)[0]
+            rho, eta = (solutions.samples(DOWN[beta], at, name)[POINTS.index(x)] for name in ("rho", "eta"))
+            way = [up.columns[f"{name}_{x}"] for name in ("eta", "rho")]
+            cubic, straight = float(CubicSpline(*way)(eta.value)), float(np.interp(eta.value, *way))
+            before = decide.Number(cubic, abs(cubic - straight))
+            found.append(decide.positive(f"radius of X = {x} inflating minus deflating", before - rho))
+    return decide.all_of(found)
 
 
 def rigid(solutions: Solutions) -> Finding:
@@ -33,8 +68,8 @@ def rigid(solutions: Solutions) -> Finding:
     found = []
     for beta, pressures in OVER.items():
         front = solutions.value(DOWN[beta], At("p", pressures[0]), "X_contact")
-        inside = [i for i, x in enumerate(PATHS) if x < front - CLEAR_OF_EDGE]
-        ats = [At("p", p, profile=PATHS) for p in pressures]
+        inside = [i for i, x in enumerate(POINTS) if x < front - CLEAR_OF_EDGE]
+        ats = [At("p", p, profile=POINTS) for p in pressures]
         rows = [
             solutions.samples(DOWN[beta], at, "sigma")[inside]
             - solutions.number(DOWN[beta], at, "sigma_contact")
@@ -53,7 +88,7 @@ def tensile_from_the_edge(solutions: Solutions) -> Finding:
     for beta, pressures in OVER.items():
         shares[beta] = []
         for p in pressures:
-            at = At("p", p, profile=PATHS)
+            at = At("p", p, profile=POINTS)
             where = solutions.profile(DOWN[beta], at).columns["X"]
             sigma = solutions.column(DOWN[beta], at, "sigma")[
                 where < solutions.value(DOWN[beta], at, "X_contact")
@@ -70,7 +105,7 @@ def tensile_from_the_edge(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
-ALONG = tuple((DOWN[b], At("p", p, profile=PATHS)) for b, over in OVER.items() for p in over)
+ALONG = tuple(wanted for path in PATHS.values() for wanted in path.wants(1))
 
 CASE = Case(
     title="Profiles and paths in adhesive deflation",
@@ -82,7 +117,8 @@ CASE = Case(
             y=Axis("eta", 0, 1.0),
             level=0.5,
             title=f"beta = {beta}",
-            paths=(Path(DOWN[beta], tuple(At("p", p) for p in OVER[beta]), PATHS),),
+            paths=(PATHS[beta],),
+            edge="X_contact",
             curves=tuple(
                 Curve(DOWN[beta], f"$p = {p:g}$", reference=f"fig05{letter}_p_{p:g}", at=At("p", p))
                 for p in PRINTED[beta]
@@ -93,9 +129,15 @@ CASE = Case(
     checks=(
         Claim(
             "bulges",
-            "the free part's curvature at the edge changes sign between p = 2.4 and 1.4",
-            tuple((DOWN[1], At("p", p)) for p in (2.4, 1.4)),
+            "the free part's curvature at the edge changes sign as the pressure falls",
+            tuple((DOWN[b], At("p", p)) for b, pressures in TURNS.items() for p in pressures),
             bulges,
+        ),
+        Claim(
+            "paths_differ",
+            "outer points take other paths in deflation than in inflation, nearer to the axis",
+            ALONG,
+            paths_differ,
         ),
         Claim("rigid", "the patch moves rigidly: sigma - sigma(edge) does not change", ALONG, rigid),
         Claim(

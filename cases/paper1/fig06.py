@@ -4,6 +4,8 @@
 (b) Mooney-Rivlin at p = 6.
 """
 
+import numpy as np
+
 from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
 
 PANELS = (("a", 0, 4.0, "neo-Hookean"), ("b", 0.1, 6.0, "Mooney-Rivlin"))
@@ -14,6 +16,7 @@ PAIRS = {
     for beta in (1, 2)
     for law in LAWS
 }
+FREE = {beta: circular(alpha=0, beta=beta, t_end=3.1).on(cells=192) for beta in (1, 2)}
 AT = {alpha: At("p", p) for _, alpha, p, _ in PANELS}
 
 
@@ -39,6 +42,46 @@ def stick_indents_more(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
+def apart(solutions: Solutions, alpha: float, beta: int) -> decide.Number:
+    """Largest distance of the frictionless profile from the adhesive one, outside both patches."""
+    at = At("p", AT[alpha].value, profile=())
+    slip, stick = (
+        [solutions.column(PAIRS[alpha, beta, law], at, name) for name in ("rho", "eta")] for law in LAWS
+    )
+    edge = max(solutions.value(PAIRS[alpha, beta, law], at, "rho_contact") for law in LAWS)
+    outside = np.column_stack([column.value for column in slip])[slip[0].value > edge]
+    found = []
+    for step in (1, 2):  # polygons through all points of the other profile, and through every other one
+        start = np.column_stack([column.value for column in stick])[::step]
+        along, away = np.diff(start, axis=0), outside[:, None] - start[:-1]
+        length = np.maximum(np.sum(along**2, axis=1), np.finfo(float).tiny)  # a front is sampled twice
+        share = np.clip(np.sum(away * along, axis=2) / length, 0, 1)
+        found.append(np.linalg.norm(away - share[:, :, None] * along, axis=2).min(axis=1).max())
+    return decide.Number(found[0], abs(found[0] - found[1]))
+
+
+def similar_outside(solutions: Solutions) -> Finding:
+    """Distance of the profiles outside the patches, over the difference of the indentations."""
+    found = []
+    for alpha, at in AT.items():
+        away = {beta: apart(solutions, alpha, beta) for beta in (1, 2)}
+        deeper = [solutions.number(PAIRS[alpha, 1, law], at, "t0") for law in LAWS]
+        found += [
+            decide.at_most(f"alpha = {alpha}, beta = 2", away[2], SIMILAR),
+            decide.less("beta = 1: difference of indentations and distance", deeper[1] - deeper[0], away[1]),
+        ]
+    return decide.all_of(found)
+
+
+def above_the_limits(solutions: Solutions) -> Finding:
+    """The pressure of (a), and the limit pressures of free inflation for both pre-stretches."""
+    return decide.all_of(
+        decide.less("limit pressure", solutions.point(FREE[beta], "limit_point", "p"), AT[0].value)
+        for beta in (1, 2)
+    )
+
+
+SIMILAR = decide.Stated(0.01, "very similar", "no number is printed; a line of figure 6 is as wide")
 BEYOND = decide.Stated(1.01, "bulges beyond its clamp", "no number is printed; a line of figure 6 is as wide")
 
 
@@ -84,6 +127,20 @@ CASE = Case(
             "gradient of the stress, and the smaller patch",
             WANTS,
             stick_indents_more,
+        ),
+        Claim(
+            "similar_outside",
+            "outside the patch the profiles of both laws are very similar with pre-stretch",
+            tuple((spec, At("p", AT[key[0]].value, profile=())) for key, spec in PAIRS.items()),
+            similar_outside,
+            differs="the text says that the profiles are very similar outside the patch and differ in it; "
+            "without pre-stretch they are farther apart outside than the indentations differ",
+        ),
+        Claim(
+            "above_the_limits",
+            "p = 4 is above the limit pressures of free inflation for both pre-stretches",
+            (*((spec, None) for spec in FREE.values()), *WANTS),
+            above_the_limits,
         ),
         Claim(
             "bulges",

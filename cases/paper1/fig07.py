@@ -6,12 +6,27 @@ p^(2/3), hence X_iso like p^(-1/3). It decreases in free inflation and increases
 
 import numpy as np
 
-from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, circular, decide
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Line,
+    Panel,
+    Solutions,
+    circular,
+    decide,
+    reference,
+)
 
 SLIP = circular(alpha=0.1, beta=1, contact="frictionless", p_end=7.2)
 FREE = circular(alpha=0.1, beta=1)
 STATES = ((FREE, 1.64), (SLIP, 4.82), (SLIP, 5.95))
-"""The paper's first curve, p = 0, is lam1 = lam2 = 1."""
+REST = reference(1, "fig07a_p_0")
+"""The paper's first curve, p = 0: the unstretched disk, which has no stiffness against p and is a limit."""
+SMALL = tuple(At("t0", t, profile=tuple(REST.columns["X"])) for t in (0.24, 0.12, 0.06))
 
 
 LIKE = decide.Stated(0.02, "like p^(-1/3)", "the next term, of relative order p^(2/3), at p up to 0.2")
@@ -35,6 +50,21 @@ def power(solutions: Solutions) -> Finding:
     )
     return decide.all_of(
         decide.less("exponent off -1/3", low, high), decide.at_most("the larger", high, LIKE)
+    )
+
+
+def rest(solutions: Solutions) -> Finding:
+    """Largest difference of the stretches from those of the table, at heights that tend to zero."""
+    return decide.all_of(
+        decide.order(
+            f"|{name} - 1| over 1/t0",
+            [1 / at.value for at in SMALL],
+            decide.stack(
+                abs(solutions.samples(FREE, at, name) - REST.columns[name]).largest() for at in SMALL
+            ),
+            2,
+        )
+        for name in ("lam1", "lam2")
     )
 
 
@@ -71,6 +101,7 @@ CASE = Case(
                 x=Axis("X", 0, 1),
                 y=Axis(column, 0.8, 1.6),
                 title="free and frictionless",
+                lines=(Line("$p = 0$", (0.0, 1.0), (1.0, 1.0)),),
                 curves=tuple(
                     Curve(of, f"$p = {p:g}$", reference=f"fig07a_p_{p:g}", at=At("p", p), y=column)
                     for of, p in STATES
@@ -93,6 +124,12 @@ CASE = Case(
             "X_iso falls like p^(-1/3) at small pressure",
             tuple((circular(alpha=0.1, beta=1, l=1), At("p", p)) for p in (0.05, 0.1, 0.2)),
             power,
+        ),
+        Claim(
+            "rest",
+            "without pressure both stretches are 1; they tend to it with the square of the height",
+            tuple((FREE, at) for at in SMALL),
+            rest,
         ),
         Claim(
             "least_at_contact",

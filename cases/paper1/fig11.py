@@ -22,6 +22,7 @@ from weakforms.cases import (
     Spec,
     circular,
     decide,
+    reference,
 )
 
 BASE = circular(contact="adhesive", phase="peeling")
@@ -34,6 +35,7 @@ SETS = {
 """Curve, pressures and height of the axis. Inflation ends at rho* = 0.6, the end of the axis, because G at a
 pressure and radius does not depend on the end of inflation."""
 HIGH = {"fig11a": (2.2, 2.4), "fig11b": (2.2, 2.4), "fig12a": (2.3, 2.7), "fig12b": (5.6,)}
+START = reference(1, "release_start")
 CURVES = {(name, p): spec.at(p=p) for name, (spec, pressures, _) in SETS.items() for p in pressures}
 MR, NH, STIFF, STRETCHED = "fig11b", "fig11a", "fig12a", "fig12b"
 
@@ -77,19 +79,23 @@ def from_zero(solutions: Solutions) -> Finding:
     for name, pressures in HIGH.items():
         for p in pressures:
             g, rho = (solutions.along(CURVES[name, p], column)[::-1] for column in ("G", "rho_contact"))
+            given = {"beta": 1, "k": 50} | dict(SETS[name][0].parameters) | {"p": p}
+            row = np.all([START.columns[n] == given[n] for n in ("alpha", "beta", "k", "p")], axis=0)
+            known = START.number("rho_contact")[row][0]
             reached = solutions.number(adhesive(SETS[name][0]), At("p", p), "rho_contact")
             slope = (g[1] - g[0]) / (rho[1] - rho[0]) / ((g[-1] - g[0]) / (rho[-1] - rho[0]))
             found += [
                 decide.zero(f"{name}, p = {p:g}: G", g[0], 1e-5, g.largest()),
-                decide.agree("rho* at the start", rho[0], reached, 1e-6),
+                decide.agree("rho* at the start", rho[0], known, 1e-6),
+                decide.agree("rho* that inflation reaches", reached, known, 1e-6),
                 decide.rises("G", g),
                 decide.at_most("slope over mean slope", slope, ZERO_SLOPE),
             ]
     return decide.all_of(found)
 
 
-def _ratio(solutions: Solutions, more: str, less: str, p: float) -> decide.Number:
-    """Ratio of two curves at equal pressure, over their common radii from q outwards."""
+def _common(solutions: Solutions, more: str, less: str, p: float) -> list[decide.Number]:
+    """Two curves at equal pressure, over their common radii from q outwards."""
     curves = [CURVES[name, p] for name in (more, less)]
     radii = [solutions.branch(spec).columns["rho_contact"] for spec in curves]
     rho = np.linspace(max(r.min() for r in radii), min(r.max() for r in radii), 40)
@@ -100,14 +106,42 @@ def _ratio(solutions: Solutions, more: str, less: str, p: float) -> decide.Numbe
         curved = make_interp_spline(r[::-1], c.value[::-1])(rho)
         straight = np.interp(rho, r[::-1], c.value[::-1])
         found.append(decide.Number(curved, np.max(c.uncertainty) + np.abs(curved - straight)))
-    return found[0] / found[1]
+    return found
 
 
 def grows(solutions: Solutions) -> Finding:
     """G of Mooney-Rivlin over neo-Hookean and of k = 100 over k = 50, at equal p and rho*."""
     pairs = [(MR, NH, p) for p in (1.2, 1.4, 1.6)] + [(STIFF, MR, p) for p in (1.4, 1.6)]
+    found = []
+    for a, b, p in pairs:
+        more, less = _common(solutions, a, b, p)
+        found.append(decide.positive(f"{a} over {b} at {p:g}, less 1", more / less - 1))
+    return decide.all_of(found)
+
+
+def at_high_pressure(solutions: Solutions) -> Finding:
+    """Above first contact: G of Mooney-Rivlin less that of neo-Hookean, at equal p and rho*."""
+    found = []
+    for p in HIGH[MR]:
+        more, less = _common(solutions, MR, NH, p)
+        found.append(decide.positive(f"p = {p}", more - less))
+    return decide.all_of(found)
+
+
+def pre_stretch(solutions: Solutions) -> Finding:
+    """Pre-stretched over not: G at equal p and rho*; q at a pressure that is nearer to first contact."""
+    onset = reference(1, "disk_contact_onset")
+    here = {b: (onset.columns["alpha"] == 0.1) & (onset.columns["beta"] == b) for b in (1, 2)}
+    at_touch = [onset.number("p")[here[b] & (onset.columns["l"] == 0.5)][0] for b in (1, 2)]
+    more, less = _common(solutions, STRETCHED, MR, 2.4)
+    two, one = (CURVES[STRETCHED, 4.2], CURVES[MR, 1.6])
     return decide.all_of(
-        decide.positive(f"{a} over {b} at {p:g}, less 1", _ratio(solutions, a, b, p) - 1) for a, b, p in pairs
+        decide.positive("G of beta = 2 minus that of beta = 1, p = 2.4", more - less),
+        decide.less("p over that of first contact", 1.6 / at_touch[0], 4.2 / at_touch[1], 1),
+        *(
+            decide.less(f"{name} of q", *(solutions.point(spec, "pull_off", name) for spec in (one, two)))
+            for name in ("rho_contact", "G")
+        ),
     )
 
 
@@ -176,6 +210,18 @@ CASE = Case(
             "substrate",
             ALL,
             grows,
+        ),
+        Claim(
+            "at_high_pressure",
+            "above first contact too G is larger for the Mooney-Rivlin membrane, which holds less area",
+            ALL,
+            at_high_pressure,
+        ),
+        Claim(
+            "pre_stretch",
+            "pre-stretch raises G and moves the pull-off point outwards",
+            ALL,
+            pre_stretch,
         ),
         Claim(
             "stable_side",

@@ -63,6 +63,16 @@ def first_branch_at_1_9(solutions: Solutions) -> Finding:
     )
 
 
+def not_monotone(solutions: Solutions) -> Finding:
+    """Limit pressures of neo-Hookean tubes: they fall to a least one near delta1 = 1.65, then rise."""
+    tubes = [tube(alpha=0, delta1=d) for d in LEAST]
+    low, least, high = (solutions.point(t, "limit_point", "p") for t in tubes)
+    return decide.all_of(
+        decide.less("delta1 = 1.65 and 1.5", least, low), decide.less("1.65 and 2", least, high)
+    )
+
+
+LEAST = (1.5, 1.65, 2.0)
 SOFTENING_AT = [(NH[d], At("p", p)) for d in STRETCHES for p in (0.5, 0.8)] + [
     (MR[d], At("p", p)) for d in STRETCHES for p in (0.5, 1.0, 1.5)
 ]
@@ -125,6 +135,12 @@ CASE = Case(
             "the neo-Hookean tube softens with pre-stretch on its falling branch too",
             tuple((NH[d], FALLING) for d in STRETCHES),
             falling_branch_softens,
+        ),
+        Claim(
+            "not_monotone",
+            "the neo-Hookean limit pressure falls with the pre-stretch up to about 1.65 and rises after it",
+            tuple((tube(alpha=0, delta1=d), None) for d in LEAST),
+            not_monotone,
         ),
         Claim(
             "curves_cross",

@@ -44,6 +44,14 @@ CASE = Case(
                     reference=f"fig06b_deflation_unilateral_alpha_{s[0]}_delta1_{s[1]}",
                 )
                 for s in SETS
+            )
+            + tuple(
+                Curve(
+                    PUSHING[a, 1],
+                    rf"$\alpha = {a}$, $\delta_1 = 1$, nearly slack",
+                    reference=f"fig06b_deflation_unilateral_low_alpha_{a}_delta1_1",
+                )
+                for a in (0, 0.1)
             ),
         ),
     ),

@@ -30,11 +30,11 @@ HIGH = decide.Stated(1.2, "high", "no number is printed; four fifths of the rise
 
 
 def where_largest(solutions: Solutions) -> Finding:
-    """lam1 is largest at the disk and lam2 high in the centre, in frictionless contact."""
+    """lam1 is largest at the disk and lam2 high in the centre, for both contact laws."""
     found = []
-    for p in UP:
+    for spec, p in ((spec, p) for spec in (SLIP, STICK) for p in UP):
         lam1, lam2 = (
-            solutions.column(SLIP, At("p", float(p), profile=()), name) for name in ("lam1", "lam2")
+            solutions.column(spec, At("p", float(p), profile=()), name) for name in ("lam1", "lam2")
         )
         found.append(decide.positive(f"p = {p}: lam1 at the end minus lam1 elsewhere", lam1[-1] - lam1[:-1]))
         found.append(decide.at_least("lam2, centre over end", lam2[0] / lam2[-1], HIGH))
@@ -69,7 +69,7 @@ CASE = Case(
         Claim(
             "where_largest",
             "lam1 is largest at the ends, lam2 high in the centre",
-            tuple((SLIP, At("p", float(p), profile=())) for p in UP),
+            tuple((spec, At("p", float(p), profile=())) for spec in (SLIP, STICK) for p in UP),
             where_largest,
         ),
     ),

@@ -4,7 +4,7 @@
 deflation, delta1 = 1. The paper's caption says "deflated" for all three.
 """
 
-from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, reference, tube
 
 STICK = {d: tube(contact="adhesive", alpha=0.1, delta1=d) for d in (1, 2)}
 BONDED = STICK[1].at(phase="deflation", spring="bilateral")
@@ -26,6 +26,37 @@ def never_compressed(solutions: Solutions) -> Finding:
     """Smallest hoop resultant down to p = 0 with a bilateral spring."""
     return decide.positive("smallest t2", solutions.along(BONDED, "t2_min"))
 
+
+def falls_in_deflation(solutions: Solutions) -> Finding:
+    """Both resultants at points inside and outside the patch as the pressure falls."""
+    rows = [At("p", float(p), profile=POINTS) for p in DOWN]
+    return decide.all_of(
+        decide.falls(
+            f"{name} at Z = {z:g}",
+            decide.stack(solutions.samples(BONDED, at, name)[POINTS.index(z)] for at in rows),
+        )
+        for name in ("t1", "t2")
+        for z in POINTS
+        if z not in BESIDE
+    )
+
+
+def jumps_grow(solutions: Solutions) -> Finding:
+    """Jumps of lam1 and t1 at the edge of the patch as the pressure falls from 2.5."""
+    rows = [At("p", float(p), profile=POINTS) for p in (2, 1, 0)]
+    found = []
+    for name in ("lam1", "t1"):
+        inside, outside = (
+            decide.stack(solutions.samples(BONDED, at, name)[POINTS.index(z)] for at in rows) for z in BESIDE
+        )
+        found.append(decide.rises(f"jump of {name}", inside - outside))
+    return decide.all_of(found)
+
+
+EDGE = float(reference(2, "fig06b_alpha_0.1_delta1_1").columns["Z_front"][-1])
+"""Edge of the patch at p = 3, from which the tube deflates."""
+BESIDE = (EDGE - 1e-4, EDGE + 1e-4)
+POINTS = (0.0, 1.0, 2.0, *BESIDE, 2.8, 3.0)
 
 CASE = Case(
     title="Stress resultants along the constrained tube",
@@ -52,6 +83,18 @@ CASE = Case(
             "(the text speaks of the stretch; it is the stress)",
             tuple((STICK[d], At("p", float(p))) for d in (1, 2) for p in UP),
             mid_plane_stress,
+        ),
+        Claim(
+            "falls_in_deflation",
+            "both resultants fall in deflation, inside and outside the patch",
+            tuple((BONDED, At("p", float(p), profile=POINTS)) for p in DOWN),
+            falls_in_deflation,
+        ),
+        Claim(
+            "jumps_grow",
+            "the jumps of lam1 and t1 at the edge of the patch grow as the pressure falls",
+            tuple((BONDED, At("p", float(p), profile=POINTS)) for p in (2, 1, 0)),
+            jumps_grow,
         ),
         Claim(
             "never_compressed",

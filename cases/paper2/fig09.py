@@ -31,13 +31,13 @@ def overhang(solutions: Solutions) -> Finding:
 
 
 def bulges(solutions: Solutions) -> Finding:
-    """Slope of the wall at the disk and radius at the middle, frictionless."""
+    """Slope of the wall at the disk and radius at the middle, for both contact laws."""
     found = []
-    for alpha in (0, 0.1):
+    for laws, alpha in ((laws, alpha) for laws in (SLIP, STICK) for alpha in (0, 0.1)):
         steep, middle = {}, {}
         for d in (1, 2):
             columns = {
-                n: solutions.column(SLIP[alpha, d], At("p", 3.0, profile=()), n) for n in ("rho", "eta")
+                n: solutions.column(laws[alpha, d], At("p", 3.0, profile=()), n) for n in ("rho", "eta")
             }
             rise, run = (abs(column[-1] - column[-2]) for column in columns.values())
             steep[d], middle[d] = run / rise, columns["rho"][0]
@@ -84,7 +84,7 @@ CASE = Case(
         Claim(
             "bulges",
             "pre-stretched profiles bulge in radius, unstretched ones flatten and bulge sideways",
-            tuple((SLIP[s], At("p", 3.0, profile=())) for s in SETS),
+            tuple((laws[s], At("p", 3.0, profile=())) for laws in (SLIP, STICK) for s in SETS),
             bulges,
         ),
         Claim(

@@ -1,6 +1,6 @@
 """Paper 2, figure 10: deflating profiles at p = 3, 2, 1.5, 1, 0 (bilateral spring), alpha = 0.1."""
 
-from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, tube
+from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Path, Solutions, decide, tube
 
 DOWN = (3, 2, 1.5, 1, 0)
 BONDED = {
@@ -8,13 +8,17 @@ BONDED = {
 }
 
 
+POINTS = (0.5, 1.0, 1.5, 2.0, 2.6, 2.8)
+"""Material points of the paths, of which the first four are in the patch."""
+PATHS = {d: Path(BONDED[d], f"paths_fig10{letter}", POINTS) for d, letter in ((1, "a"), (2, "b"))}
+
+
 def horizontal(solutions: Solutions) -> Finding:
     """Material points of the patch keep their eta while the tube deflates, because it is frozen."""
     found = []
-    for spec in BONDED.values():
-        fields = [solutions.profile(spec, At("p", float(p), profile=())).columns for p in DOWN]
-        inside = fields[0]["Z"] < 2.2
-        found += [decide.exact("eta", later["eta"][inside], fields[0]["eta"][inside]) for later in fields[1:]]
+    for d, spec in BONDED.items():
+        eta = [solutions.samples(spec, at, "eta").value[:4] for at in PATHS[d].states(2)]
+        found += [decide.exact("eta", later, eta[-1]) for later in eta[:-1]]
     return decide.all_of(found)
 
 
@@ -41,6 +45,8 @@ CASE = Case(
             y=Axis("rho", 1, 1.6),
             title=rf"$\alpha = 0.1$, $\delta_1 = {d}$; substrate at $\rho = 1.3$",
             mirrored=True,
+            paths=(PATHS[d],),
+            level=1.3,
             curves=tuple(
                 Curve(BONDED[d], rf"$p = {p}$", reference=f"fig10{letter}_p_{p}", at=At("p", float(p)))
                 for p in DOWN
@@ -52,7 +58,7 @@ CASE = Case(
         Claim(
             "horizontal",
             "material points of the patch move on horizontal lines",
-            tuple((spec, At("p", float(p), profile=())) for spec in BONDED.values() for p in DOWN),
+            tuple(wanted for path in PATHS.values() for wanted in path.wants(2)),
             horizontal,
         ),
         Claim(

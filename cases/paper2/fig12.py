@@ -22,6 +22,24 @@ def grows(solutions: Solutions) -> Finding:
     return decide.rises("|f_t|", solutions.numbers(STICK, [At("p", float(p)) for p in UP], "traction_front"))
 
 
+def at_the_edge(solutions: Solutions) -> Finding:
+    """|f_t| over its largest value: near the centre, and that value's place."""
+    found = []
+    for spec, p in ((STICK, 3.0), *((BONDED, float(p)) for p in DOWN)):
+        at = At("p", p, profile=(0.5,))
+        traction, z = solutions.column(spec, at, "f_t"), solutions.profile(spec, at).columns["Z"]
+        inside = z < solutions.value(spec, at, "Z_front")
+        size = abs(traction[inside])
+        found += [
+            decide.at_most(f"p = {p}: at Z = 0.5", size[z[inside] == 0.5] / size.largest(), NEARLY_ZERO),
+            decide.positive("that at the edge minus the others", size[-1] - size[:-1]),
+        ]
+    return decide.all_of(found)
+
+
+NEARLY_ZERO = decide.Stated(0.01, "nearly zero", "no number is printed; a line of figure 12 is as wide")
+
+
 def turns_up(solutions: Solutions) -> Finding:
     """|f_t| at the front in deflation: the pressure at its minimum."""
     p, values = (solutions.along(BONDED, name) for name in ("p", "traction_front"))
@@ -83,6 +101,15 @@ CASE = Case(
             turns_up,
             differs="according to the text the adhesive traction decreases with the pressure in deflation; "
             "below about p = 0.3 it increases again",
+        ),
+        Claim(
+            "at_the_edge",
+            "f_t is nearly zero in the central zone and largest at the edge of the patch",
+            (
+                (STICK, At("p", 3.0, profile=(0.5,))),
+                *((BONDED, At("p", float(p), profile=(0.5,))) for p in DOWN),
+            ),
+            at_the_edge,
         ),
         Claim("same_order", "f_t and f_k are of the same order", ((STICK, At("p", 3.0)),), same_order),
         Claim(

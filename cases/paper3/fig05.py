@@ -4,6 +4,8 @@ The text does not give the levels and the pre-stretch of the figure; here delta 
 limit point and past it. The axial coordinate is the material one; a second panel uses the current height.
 """
 
+import numpy as np
+
 from weakforms.cases import (
     At,
     Axis,
@@ -59,6 +61,33 @@ def grows_and_falls(solutions: Solutions) -> Finding:
         for length, delta in EVERY
         for name, way in (("T1", decide.falls), ("T2", decide.rises))
     )
+
+
+def stretches(solutions: Solutions) -> Finding:
+    """Stretches at the material point: lam2 rises all the way, lam1 falls at first, then rises."""
+    found = []
+    for length in LENGTHS:
+        lam1, lam2 = (resultants(solutions, length, 2, name) for name in ("lam1", "lam2"))
+        found += [decide.rises(f"lam2, L = {length}", lam2), decide.rises("lam1 at last", lam1[-2:])]
+    return decide.all_of(*found, decide.falls("lam1 at first, L = 24", lam1[:2]))
+
+
+def constant_above(solutions: Solutions) -> Finding:
+    """T2 of the long tube in its dry part over the levels, and at its upper ring."""
+    ats = [At("zw", float(zw), profile=ABOVE) for zw in LEVELS[24]]
+    t2 = decide.stack(solutions.samples(TUBES[24], at, "T2") for at in ats)
+    spread = decide.Number(np.ptp(t2.value[:, :-1], axis=0), np.max(t2.uncertainty))
+    return decide.all_of(
+        decide.at_most("spread of T2 over the levels", spread, STEADY),
+        decide.at_most("T2 below the ring", t2[:, :-1], SMALL),
+        decide.at_least("T2 at the ring", t2[:, -1], NOT_LOW),
+    )
+
+
+ABOVE = (8.0, 9.0, 10.0, 12.0)
+STEADY = decide.Stated(1e-3, "constant", "no number is printed; a line of figure 5b, 1 high, is wider")
+SMALL = decide.Stated(0.02, "low", "no number is printed; a fiftieth of the axis of figure 5b")
+NOT_LOW = decide.Stated(0.3, "not low", "no number is printed; a third of the axis of figure 5b")
 
 
 def no_wrinkling(solutions: Solutions) -> Finding:
@@ -139,6 +168,26 @@ CASE = Case(
             "no resultant is negative on the primary branch: the membrane does not wrinkle",
             tuple((tube, at) for tube in EVERY.values() for at in TENSE),
             no_wrinkling,
+        ),
+        Claim(
+            "stretches",
+            "at that point the circumferential stretch increases with the level; the meridional one of the "
+            "long tube decreases at first",
+            tuple(
+                (TUBES[length], at_height(length, 2, at))
+                for length in LENGTHS
+                for at in (*RISING, At("limit_point", 1.0))
+            ),
+            stretches,
+            differs="the text says that both stretches increase with added liquid; the meridional one of the "
+            "long tube decreases up to a level of about 5 before it increases",
+        ),
+        Claim(
+            "constant_above",
+            "L/A = 24: near the upper end T2 does not change with the level, and it is low below the ring",
+            tuple((TUBES[24], At("zw", float(zw), profile=ABOVE)) for zw in LEVELS[24]),
+            constant_above,
+            differs="the text says that T2 is low near the upper end; at the ring itself it is 0.38",
         ),
         Claim(
             "low_and_constant",

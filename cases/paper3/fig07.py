@@ -48,14 +48,31 @@ def crest(z: np.ndarray, r: np.ndarray) -> decide.Number:
 
 
 def goes_down(solutions: Solutions) -> Finding:
-    """Past the limit point: level, largest radius, and its height."""
+    """Past the limit point: level, largest radius and its height, radius at the free surface."""
     found = [
         decide.falls("zw", solutions.numbers(TUBE, LATER, "zw")),
         decide.rises("r_max", solutions.numbers(TUBE, LATER, "r_max")),
+        decide.rises("radius at the free surface", solutions.numbers(TUBE, LATER, "r_front")),
     ]
     ends = (LATER[0], LATER[-1])
     heights = [crest(*(solutions.sampled(TUBE, at, n)[0] for n in ("z", "r"))) for at in ends]
     return decide.all_of(*found, decide.falls("height of r_max", heights))
+
+
+UPPER = tuple(At(at.name, at.value, at.crossing, (9.0,)) for at in (BEFORE, AFTER))
+MORE_FOCUSSED = decide.Stated(
+    3, "localised", "no number is printed; figure 7 shows a bulge of several times the height"
+)
+
+
+def localised(solutions: Solutions) -> Finding:
+    """Largest radius beyond that at mid-length, after the limit point over before it."""
+    bulge = [solutions.number(TUBE, at, "r_max") - solutions.number(TUBE, at, "r_mid") for at in UPPER]
+    along = [solutions.samples(TUBE, at, "lam1")[0] for at in UPPER]
+    return decide.all_of(
+        decide.at_least("bulge after over before", bulge[1] / bulge[0], MORE_FOCUSSED),
+        decide.falls("lam1 near the upper end", along),
+    )
 
 
 CASE = Case(
@@ -83,9 +100,16 @@ CASE = Case(
         ),
         Claim(
             "goes_down",
-            "after the limit point the level recedes while the bulge grows and moves down",
+            "after the limit point the level recedes while the bulge grows and moves down and the free "
+            "surface widens",
             tuple((TUBE, at) for at in LATER),
             goes_down,
+        ),
+        Claim(
+            "localised",
+            "after the limit point the deformation is localised below, and it is smaller near the upper end",
+            tuple((TUBE, at) for at in UPPER),
+            localised,
         ),
         PrintedState(
             "zw",

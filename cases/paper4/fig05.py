@@ -5,10 +5,23 @@ The text gives only the pressure p = 0.55. Under gas, M and 2 - M give mirror im
 
 import numpy as np
 
-from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, wrinkled_tube
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Solutions,
+    decide,
+    reference,
+    wrinkled_tube,
+)
 
 PRESSURES = (0, 0.05, 0.1, 0.2, 0.35, 0.45, 0.55)
 TUBES = {d: wrinkled_tube(M=0.5, delta=d, load="gas") for d in (2, 3)}
+CHANGES = reference(4, "stretch_change")
 MIRRORED = wrinkled_tube(M=1.5, delta=2, load="gas")
 ALIKE = At("p", 0.2, profile=tuple(np.linspace(0, 8, 81)))
 
@@ -56,17 +69,29 @@ MUCH = decide.Stated(
 )
 
 
+def sampled(p: float) -> At:
+    """A state at the points of the table of changes."""
+    return At("p", p, profile=tuple(np.linspace(0, 8, 161)))
+
+
 def hoop_changes_most(solutions: Solutions) -> Finding:
-    """Largest relative changes of the stretches from p = 0 to 0.3, delta = 2."""
-    hoop, along = (
-        abs(
-            solutions.samples(TUBES[2], At("p", 0.3, profile=ALIKE.profile), n)
-            / solutions.samples(TUBES[2], At("p", 0.0, profile=ALIKE.profile), n)
-            - 1
-        ).largest()
-        for n in ("lam2", "lam1")
-    )
-    return decide.at_least("change of the hoop stretch over meridional change", hoop / along, MUCH)
+    """Largest relative changes of the stretches from p = 0, against the table, and their ratios."""
+    found = []
+    for row, (d, p) in enumerate(zip(CHANGES.columns["delta"], CHANGES.columns["p"], strict=True)):
+        hoop, along = (
+            abs(
+                solutions.samples(TUBES[int(d)], sampled(float(p)), name)
+                / solutions.samples(TUBES[int(d)], sampled(0.0), name)
+                - 1
+            ).largest()
+            for name in ("lam2", "lam1")
+        )
+        found += [
+            decide.agree(f"hoop, delta = {d:g}, p = {p:g}", hoop, CHANGES.number("hoop_change")[row], 1e-7),
+            decide.agree("meridional", along, CHANGES.number("meridional_change")[row], 1e-6),
+            decide.at_least("hoop over meridional", hoop / along, MUCH),
+        ]
+    return decide.all_of(found)
 
 
 CASE = Case(
@@ -82,7 +107,7 @@ CASE = Case(
                 Curve(
                     TUBES[d],
                     rf"$p = {p}$",
-                    reference=f"fig05_delta_{d}_p_{p}" if p else None,
+                    reference=f"fig05_delta_{d}_p_{p}",
                     at=At("p", float(p), profile=()),
                 )
                 for p in PRESSURES
@@ -108,7 +133,7 @@ CASE = Case(
         Claim(
             "hoop_changes_most",
             "the hoop stretch changes much faster with pressure than the meridional one",
-            tuple((TUBES[2], At("p", p, profile=ALIKE.profile)) for p in (0.0, 0.3)),
+            tuple((TUBES[d], sampled(p)) for d in TUBES for p in (0.0, 0.1, 0.2, 0.3)),
             hoop_changes_most,
         ),
     ),

@@ -143,7 +143,7 @@ def panel(name: str, d: int, pressures: tuple[float, ...], note: str) -> Panel:
             Curve(
                 TUBES[d],
                 rf"$p = {p}$",
-                reference=f"fig05_delta_{d}_p_{p}" if p else None,
+                reference=f"fig05_delta_{d}_p_{p}",
                 at=At("p", float(p), profile=()),
             )
             for p in pressures

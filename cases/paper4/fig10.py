@@ -59,7 +59,7 @@ def curves(spec: dict, d: int, control: str, loads: tuple, table: str) -> tuple[
         Curve(
             spec[d],
             rf"${label} = {v}$",
-            reference=f"{table}_delta_{d}_{control}_{v}" if v or control == "p" else None,
+            reference=f"{table}_delta_{d}_{control}_{v}" if v else f"fig10a_delta_{d}_p_0",
             at=At(control, float(v), profile=()),
         )
         for v in loads

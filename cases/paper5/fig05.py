@@ -5,7 +5,10 @@ at the upper disk), so that its energy is the relaxed one. For n = 1 all eigenva
 one for n = 20 and for n = 50 becomes negative at the printed levels.
 """
 
+import numpy as np
+
 from weakforms.cases import (
+    At,
     Axis,
     Case,
     Claim,
@@ -54,6 +57,32 @@ def one_negative(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
+def same_by_modified_gradient(solutions: Solutions) -> Finding:
+    """Lowest eigenvalues at zw = 3 by the relaxed energy and by the modified deformation gradient."""
+    return decide.all_of(
+        decide.agree(
+            f"Lambda_1, n = {n}", *(solutions.number(s, AT, f"Lambda_n{n}_1") for s in (MODIFIED, TUBE)), 1e-7
+        )
+        for n in WAVES
+    )
+
+
+def full_energy(solutions: Solutions) -> Finding:
+    """Lowest eigenvalues without load by the full energy, and the exponents of their growth with n."""
+    values = decide.stack(-solutions.number(FULL, EMPTY, f"Lambda_n{n}_1") for n in TRIED)
+    growth = values.log().diff() / np.diff(np.log(TRIED))
+    return decide.all_of(
+        decide.positive("minus the lowest eigenvalues", values),
+        decide.falls("exponents", growth),
+        decide.less("the last one and 2", 2, growth[-1]),
+    )
+
+
+AT, EMPTY, TRIED = At("zw", 3.0), At("p", 0.0), (10, 20, 40)
+MODIFIED = TUBE.at(energy="modified_gradient", load_end=4.0)
+FULL = TUBE.at(energy="standard", load="gas", load_end=0.05, n=TRIED)
+
+
 def crossing(n: int, digits: str, index: int) -> Printed:
     """A printed level."""
     return Printed(
@@ -97,6 +126,19 @@ CASE = Case(
             "for n = 20 and n = 50 the first eigenvalue becomes negative once",
             ((TUBE, None),),
             one_negative,
+        ),
+        Claim(
+            "same_by_modified_gradient",
+            "the eigenvalues with the modified deformation gradient are the same",
+            ((TUBE, AT), (MODIFIED, AT)),
+            same_by_modified_gradient,
+        ),
+        Claim(
+            "full_energy",
+            "with the full energy the membrane is unstable without load too, the more the larger n: the "
+            "eigenvalues fall like the square of n",
+            ((FULL, EMPTY),),
+            full_energy,
         ),
         crossing(50, "2.6", 0),
         crossing(20, "3.6", 1),

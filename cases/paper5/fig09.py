@@ -67,6 +67,23 @@ def taut_ends(solutions: Solutions) -> Finding:
     return decide.positive("gw - 1 at pole and equator", ends - 1)
 
 
+def cone(solutions: Solutions) -> Finding:
+    """Distance of the dry wrinkled part of the meridian from its chord at each low level."""
+    found = []
+    for level in LOW:
+        gw, r, z = (solutions.column(BOWL, at(level), name) for name in ("gw", "r", "z"))
+        dry, _ = decide.sides(-z, -level)
+        wrinkled, _ = decide.sides(gw, 1)
+        (rows,) = (dry & wrinkled).nonzero()
+        first, last = rows[0], rows[-1]
+        chord = r[first] + (z[rows] - z[first]) * ((r[last] - r[first]) / (z[last] - z[first]))
+        found += [
+            decide.every(f"zw = {level}: more than three rows", [len(rows) > 3]),
+            decide.zero("distance from the chord", r[rows] - chord, 1e-6),
+        ]
+    return decide.all_of(found)
+
+
 def limit(solutions: Solutions) -> Finding:
     """Highest level, and the depth of an empty sheet that hangs as a cone, which is below all levels."""
     counts = solutions.branch(BOWL).columns["n_negative"]
@@ -134,6 +151,12 @@ CASE = Case(
             "at low levels the hemisphere is wrinkled below and above the level",
             tuple((BOWL, at(v)) for v in LEVELS),
             around_the_level,
+        ),
+        Claim(
+            "cone",
+            "where it is wrinkled above the liquid the hemisphere is a cone",
+            tuple((BOWL, at(v)) for v in LOW),
+            cone,
         ),
         Claim(
             "taut_at_high_levels",

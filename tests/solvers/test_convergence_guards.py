@@ -8,7 +8,7 @@ import pytest
 from small_systems import system_of
 from stand_ins import bare, refused
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.bent import stability as bent
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.triangles import problem as surface
@@ -91,10 +91,14 @@ def test_a_change_of_stability_that_the_surface_does_not_have():
 
 
 def test_a_bifurcation_that_the_primary_branch_does_not_have():
-    piece = SimpleNamespace(special=lambda: [SimpleNamespace(values={"n": 1.0})], crossings=lambda *_: [])
-    told = bare(PrimaryBranch, path=SimpleNamespace(pieces=[piece]))
-    refused("has 0 bifurcation points of n = 2, not 1", told.bifurcation, [0.0], 2)
+    forks = [SimpleNamespace(values={"n": 1.0})]
+    piece = SimpleNamespace(special=lambda: forks, crossings=lambda *_: [], stalled="steps too small")
+    told = bare(PrimaryBranch, path=SimpleNamespace(pieces=[piece], zw_end=0.7))
+    refused("has 0 bifurcation points of n = 2, not 1, as far as .*too small", told.bifurcation, [0.0], 2)
     refused("has 1 bifurcation points of n = 1, not 2", told.bifurcation, [0.0], 1, 2)
+    piece.stalled = None
+    with pytest.raises(AbsentError, match=r"has 1 bif.* to 0\.7 of the highest.*choose another delta"):
+        told.bifurcation([0.0], 1, 2)
     refused("zw = 5 is not taken 1 times", told.at, "zw", 5.0, [0.0])
 
 

@@ -58,11 +58,11 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
     from weakforms.verification.cases.catalogue import print_verdicts
     from weakforms.verification.crosscheck.compare import compare as compare_curve
 
+    if out is not None:  # before anything is compared: pictures need an extra
+        from weakforms.verification.report.verdict_page import write_verdicts
     given = (once("--map", names), once("--constant", constants))
     verdicts = compare_curve(case, file, curve, accuracy, *given, only, branch)
     if out is not None:
-        from weakforms.verification.report.verdict_page import write_verdicts
-
         write_verdicts(verdicts, out)
     if as_json:
         print_json(verdicts.to_json())

@@ -3,7 +3,20 @@
 First contact, frictionless and adhesive inflation, deflation; G = 0 during adhesive inflation.
 """
 
-from weakforms.cases import Axis, Case, Claim, Curve, Finding, Panel, Points, Solutions, circular, decide
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Curve,
+    Finding,
+    Panel,
+    Points,
+    Solutions,
+    States,
+    circular,
+    decide,
+)
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
 SLIP = {
@@ -11,10 +24,13 @@ SLIP = {
 }
 ENDS = {(0, 1): 4.4, (0, 2): 5.9, (0.1, 1): 4.9, (0.1, 2): 9.0}
 STICK = {s: circular(alpha=s[0], beta=s[1], contact="adhesive", p_end=ENDS[s]) for s in SETS}
+FULL = {(0, 1): 3.477, (0, 2): 5.0, (0.1, 1): 3.477, (0.1, 2): 8.49}
+"""Pressures from which the membranes deflate."""
 DOWN = {
-    (0.1, 1): circular(alpha=0.1, beta=1, contact="adhesive", phase="deflation"),
-    (0.1, 2): circular(alpha=0.1, beta=2, contact="adhesive", phase="deflation", p_end=8.49),
+    s: circular(alpha=s[0], beta=s[1], contact="adhesive", phase="deflation", p_end=p)
+    for s, p in FULL.items()
 }
+FLAT = At("kappa", 0.0)
 
 
 def label(s: tuple[float, float]) -> str:
@@ -82,6 +98,13 @@ CASE = Case(
             base=circular(contact="frictionless", p_end=6.0),
             parameters=("alpha", "beta", "l"),
             asked={"p": 1e-9, "lam_pole": 5e-10},
+        ),
+        States(
+            "curvature_change",
+            circular(contact="adhesive", phase="deflation"),
+            ("alpha", "beta", "p_end"),
+            FLAT,
+            {"p": 1e-6, "t0": 1e-6, "lam1_contact_outer": 1e-6},
         ),
         Claim(
             "no_release",

@@ -17,6 +17,7 @@ from weakforms.cases import (
     Solutions,
     circular,
     decide,
+    reference,
 )
 
 SETS = ((0, 1), (0, 2), (0.1, 1), (0.1, 2))
@@ -24,6 +25,7 @@ ENDS = {(0, 1): 3.1, (0, 2): 3.1, (0.1, 1): 4.1, (0.1, 2): 4.1}
 # Twice the usual cells: at t0 = 4 the stretches reach 20 and fall steeply at the clamp.
 FREE = {s: circular(alpha=s[0], beta=s[1], t_end=ENDS[s]).on(cells=192) for s in SETS}
 FILM = {beta: circular(alpha=0, beta=beta, t_end=2.0) for beta in (1.2, 1.5, 2, 3, 5, 10)}
+BEFORE, AFTER = ([At("p", p, crossing=k) for p in (2.8, 3.2, 3.6)] for k in (1, 2))
 SMALL = (0.48, 0.24, 0.12, 0.06)
 
 
@@ -74,14 +76,25 @@ def stretched_start(solutions: Solutions) -> Finding:
 
 
 def cubic_start(solutions: Solutions) -> Finding:
-    """p/((1 + alpha) t0^3) of the unstretched disk for both laws, from small heights."""
-    constants = [
-        at_rest(
-            decide.stack(solutions.number(FREE[a, 1], At("t0", t), "p") / ((1 + a) * t**3) for t in SMALL)
+    """p/t0^3 of the unstretched disk for both laws, from small heights, and the table over 1 + alpha."""
+    table = reference(1, "small_t0")
+    known, alpha = table.number("p_per_t0_cubed"), table.columns["alpha"]
+    found = [decide.constant("C of all laws", known / (1 + alpha), 1e-9)]
+    for a in (0, 0.1):
+        here = decide.stack(solutions.number(FREE[a, 1], At("t0", t), "p") / t**3 for t in SMALL)
+        found.append(decide.agree(f"alpha = {a}: p/t0^3", at_rest(here), known[alpha == a][0], 1e-4))
+    return decide.all_of(found)
+
+
+def stiffens_then_softens(solutions: Solutions) -> Finding:
+    """Height of neo-Hookean disks at equal pressure without and with pre-stretch, around the limit points."""
+    return decide.all_of(
+        way(
+            f"t0 at p = {at.value}, crossing {at.crossing}",
+            [solutions.number(FREE[0, b], at, "t0") for b in (1, 2)],
         )
-        for a in (0, 0.1)
-    ]
-    return decide.agree("C of both laws", *constants, 1e-4)
+        for at, way in (*((at, decide.falls) for at in BEFORE), *((at, decide.rises) for at in AFTER))
+    )
 
 
 CASE = Case(
@@ -127,6 +140,13 @@ CASE = Case(
             "with pre-stretch the limit point tends to p = 4, t0 = 1",
             tuple((s, None) for s in FILM.values()),
             film,
+        ),
+        Claim(
+            "stiffens_then_softens",
+            "at equal pressure the pre-stretched disk is lower before its limit point and higher after it: "
+            "pre-stretch stiffens, then softens (chapter 6.1)",
+            tuple((FREE[0, b], at) for b in (1, 2) for at in (*BEFORE, *AFTER)),
+            stiffens_then_softens,
         ),
         Claim(
             "stretched_start",

@@ -32,7 +32,7 @@ def curve(kind: str, data: dict[str, float], p_end: float) -> Curve:
 
 ENDS = {
     "free": (4.1, 4.1, 4.1, 4.1, 3.1),
-    "frictionless": (8.0, None, 8.0, 8.0, 8.0),
+    "frictionless": (8.0,) * 5,
     "adhesive": (5.6, 3.6, 2.95, 6.9, 5.5),
     "deflation": (5.0, 2.5, 2.0, 6.0, 4.5),
 }
@@ -68,9 +68,7 @@ CASE = Case(
                 y=Axis("t0", 0, 4 if kind == "free" else 0.8),
                 title=kind,
                 note="Not a figure of the paper.",
-                curves=tuple(
-                    curve(kind, d, end) for d, end in zip(SETS, ends, strict=True) if end is not None
-                ),
+                curves=tuple(curve(kind, d, end) for d, end in zip(SETS, ends, strict=True)),
             )
             for kind, ends in ENDS.items()
         ),

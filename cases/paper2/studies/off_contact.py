@@ -10,6 +10,7 @@ KINDS = {
     "frictionless": ({"contact": "frictionless"}, (*SETS, *DISTANT)),
     "adhesive": ({"contact": "adhesive"}, SETS),
     "deflation_bilateral": ({"contact": "adhesive", "phase": "deflation"}, (*SETS, *DISTANT)),
+    "deflation_unilateral": ({"contact": "adhesive", "phase": "deflation", "spring": "unilateral"}, SETS),
 }
 
 CASE = Case(

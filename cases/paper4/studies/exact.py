@@ -8,7 +8,18 @@ and w is C1 is thus true only if r' is small there.
 
 import numpy as np
 
-from weakforms.cases import At, Case, Claim, Constant, Finding, Solutions, continuity, decide, wrinkled_tube
+from weakforms.cases import (
+    At,
+    Case,
+    Claim,
+    Constant,
+    Finding,
+    Solutions,
+    continuity,
+    decide,
+    reference,
+    wrinkled_tube,
+)
 
 GAS = {d: wrinkled_tube(M=0.5, delta=d, load="gas") for d in (2, 3)}
 FLUID = wrinkled_tube(M=1.5, delta=2)
@@ -24,6 +35,9 @@ FRONTS = {
     "gas": (GAS[2], INFLATED, (6.305956442427,)),
 }
 """States, and their fronts from the reference, at which jumps are measured."""
+TABLE = reference(4, "front_jumps")
+STEEP = 1.0
+"""Scale of second derivatives, which are of the order of one over the radius."""
 GAMMA = 1000 * 9.81 * 0.01**2 / (0.2111e6 * 0.1e-3)
 WINDOW, NODES = 0.3, 24
 OFFSETS = WINDOW * (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
@@ -97,7 +111,7 @@ def simpson(values: np.ndarray, h: float) -> float:
 
 
 def jumps(solutions: Solutions) -> Finding:
-    """[r''] z' = [z''] r' at each front, [z''] not zero and [r''] much smaller."""
+    """[r''] and [z''] at each front against the table, [r''] z' = [z''] r', and [r''] much smaller."""
     found = []
     for kind, (spec, _, fronts) in FRONTS.items():
         at = jumps_at(kind)
@@ -109,10 +123,15 @@ def jumps(solutions: Solutions) -> Finding:
             for name, values in (("r", slope * along), ("z", along)):  # r' and z'
                 below, above = (continuity.one_sided(offset, values, side, WINDOW)[0] for side in (-1, 1))
                 slopes[name], bends[name] = above[0], above[1] - below[1]
+            (row,) = np.flatnonzero(np.isclose(TABLE.columns["Z"], front))
             crossed = bends["r"] * slopes["z"], bends["z"] * slopes["r"]
             found += [
                 decide.agree(
                     f"Z = {front:.3f}: [r''] z' and [z''] r'", *crossed, ASKED, abs(bends["z"] * slopes["z"])
+                ),
+                *(
+                    decide.agree(f"[{n}'']", bends[n], TABLE.number(f"jump_{n}2")[row], ASKED, STEEP)
+                    for n in "rz"
                 ),
                 decide.positive("|[z'']|", abs(bends["z"])),
                 decide.at_most("|[r''] / [z'']|", abs(bends["r"] / bends["z"]), MUCH_SMALLER),

@@ -37,6 +37,7 @@ FRONTS = {
     "gas_M_0.5_delta_3": (wrinkled_tube(M=0.5, delta=3, load="gas"), "p", 0.6),
     "gas_M_1_delta_2_Af_0.6": (wrinkled_tube(M=1, delta=2, load="gas", Af=0.6), "p", 0.6),
     "case2_gas_M_0.3_delta_3": (wrinkled_tube(M=0.3, delta=3, load="gas", Af=1), "p", 0.01),
+    "case2_gas_M_0.5_delta_2": (wrinkled_tube(M=0.5, delta=2, load="gas", Af=1), "p", 0.01),
     "case2_fluid_M_0.5_delta_2": (wrinkled_tube(M=0.5, delta=2, Af=1), "zw", 12),
     "case2_fluid_M_0.3_delta_3": (wrinkled_tube(M=0.3, delta=3, Af=1), "zw", 12),
 }

@@ -37,7 +37,7 @@ DEFLATION = (
 )
 LOWEST_SLACK = 0.5  # unilateral deflation of an unstretched tube is tabulated down to here
 JUST_BELOW = 2.9  # there the finite differences do not resolve the strip that has lifted
-LOW = (0.2, 0.45, 0.05)  # and a few columns of it at these pressures
+LOW = (0.25, 0.45, 0.05)  # and a few columns of it at these pressures
 SLACK_NOTES = (
     " As p falls below 0.5 the free part becomes nearly slack and a boundary layer at the front (curvature "
     "near -100 at p = 0.25) too thin for the finite differences: from there to p = 0.2 only what does not "

@@ -88,6 +88,31 @@ def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tup
     return cc.table(contact, name, title, source, parameters, found, notes=notes)
 
 
+def paths(name: str, case: Case, source: str) -> Table:
+    """Radius and axial position of material points over the pressure in deflation, bilateral spring."""
+    walk, z = steps(0.0, P_END, 0.25)[::-1], np.array(POINTS) / case.tube.delta1
+    raw_a = [
+        [defl.profile(state, z) for state in run[::-1]] for run in cc.deflated_fd(case, "bilateral", walk)
+    ]
+    raw_b = [
+        [columns(case.tube, at_places(state, z)) for state in run[::-1]]
+        for run in cc.deflated(case, "bilateral", walk)
+    ]
+    found = text.SERIES["adhesive"].keys(p=walk[::-1])
+    for i, point in enumerate(POINTS):
+        for c in ("rho", "eta"):
+            a, b = ([np.array([row[c][i] for row in run]) for run in raw] for raw in (raw_a, raw_b))
+            a = cfd.extrapolated(a, defl.POWERS, amplified=AMPLIFIED)
+            about = (text.COLUMNS[c][0], f"{text.COLUMNS[c][1]} of Z = {point:g}")
+            found.append(agreed(name, f"{c}_{point:g}", a, resolved(*b), about))
+    parameters = case.parameters | {"phase": "deflation", "spring": "bilateral", "p_end": P_END}
+    title = f"Paths of material points, adhesive deflation, {case.title}"
+    notes = f"{text.DEFLATION_NOTES} {text.SPRING['bilateral']}"
+    return cc.table("adhesive", name, title, source, parameters, found, notes=notes)
+
+
+POINTS = (0.5, 1.0, 1.5, 2.0, 2.6, 2.8)
+"""Z of the points of the paths; the last two stay outside the patch."""
 SOFT_1, SOFT_2 = cc.PAPER[2:]  # alpha = 0.1, delta1 = 1 and 2
 FIGURES: tuple[tuple[str, str, Case, str, tuple[float, ...]], ...] = (
     ("fig07a", "figure 7(a)", SOFT_1, "frictionless", (1.6, 2.0, 2.5, 3.0)),
@@ -110,6 +135,9 @@ def _tables() -> dict[str, Builder]:
         for letter, kind in (("a", "frictionless"), ("b", "inflation")):
             name = f"fig09{letter}_{case.label}"
             out[name] = partial(profile, name, case, kind, P_END, f"figure 9({letter})", FIELDS)
+    for letter, case in (("a", SOFT_1), ("b", SOFT_2)):
+        name = f"paths_fig10{letter}"
+        out[name] = partial(paths, name, case, f"figure 10({letter})")
     for letter, kind, pressures in (
         ("a", "inflation", (1.5, 2.0, 2.5, 3.0)),
         ("b", "deflation", (2.5, 2.0, 1.5, 1.0, 0.0)),

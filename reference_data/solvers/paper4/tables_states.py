@@ -82,7 +82,7 @@ def state(name: str, membrane: Membrane, load: float, source: str) -> Table:
 
 
 ZW = (0, 3, 4.5, 6, 7.44, 10, 12, 16)
-GAS = (0.05, 0.1, 0.2, 0.35, 0.45, 0.55)
+GAS = (0, 0.05, 0.1, 0.2, 0.35, 0.45, 0.55)
 CASE2 = ((0.5, 2), (0.3, 3))
 STATES: list[tuple[str, Membrane, float, str]] = []
 
@@ -100,7 +100,7 @@ for _delta in (2, 3):
     for _x in GAS:
         _about = "figures 5 and 6" + ("" if _x == 0.55 else "; the level is chosen here")
         _add(f"fig05_delta_{_delta}_p_{_x:g}", Membrane(0.5, _delta, load="gas"), _x, _about)
-    for _x in (0, *GAS):
+    for _x in GAS:
         _m = Membrane(0.5, _delta, load="gas", energy="standard")
         _add(f"fig09_delta_{_delta}_p_{_x:g}", _m, _x, "figure 9; the level is chosen here")
 for _M in (0.99, 1):

@@ -190,9 +190,10 @@ class Inflation:
         reached = end.state.loads["p"]
         if reached < self.p_end:
             followed = f"contact was followed up to p = {reached:.6g}, not p_end = {self.p_end:g}"
-            if branch.stalled:
+            if branch.stalled and not ends(end):
                 branch.stalled = f"{followed}: {branch.stalled}"
             else:
+                branch.stalled = None
                 branch.ended = f"{self.name}: {followed}: {ends(end)}; lower p_end"
         return branch
 

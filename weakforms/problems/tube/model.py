@@ -26,6 +26,7 @@ from weakforms.forms.wrinkling import Law
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, one_end
 from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.limits import LEAST_RESISTANCE
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -48,10 +49,6 @@ TAUT = 1.02
 STEEPEST = 1 - 1e-6
 """If the pressure's share in the direction of the branch exceeds this, the membrane is nearly inextensible: a
 law of limited stretch is nearly at its limit, and the branch continues to any pressure."""
-
-LEAST_RESISTANCE = 0.02
-"""Lower limit of ``lam1 w,11 / w,1`` at the mid-plane; below it no mesh resolves the meridional stretch
-there."""
 
 
 @dataclass(frozen=True)

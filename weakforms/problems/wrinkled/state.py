@@ -14,7 +14,7 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import DRY, WET, Marks
 from weakforms.problems.wrinkled.fields import Meridian, Zones, zones
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord
 from weakforms.solvers.equilibrium.state import State
 
@@ -81,15 +81,15 @@ def model_on(mesh: Mesh, blocks: int) -> WrinkledModel:
     return WrinkledModel(mesh.comm, mesh.body, values, blocks, mesh.cells, mesh.degree, *kind)
 
 
-@lru_cache(maxsize=64)
+@kept_with_model
 def meridian_of(model: WrinkledModel) -> Meridian:
-    """The fields of a model, kept for later calls."""
+    """The fields of a model."""
     return Meridian(model)
 
 
-@lru_cache(maxsize=256)
+@kept_with_model
 def solver_of(model: WrinkledModel, scalars: tuple[str, ...], stol: float = 1e-10) -> ExtendedNewton:
-    """The Newton solver of a model for some unknown loads; kept."""
+    """The Newton solver of a model for some unknown loads."""
     return ExtendedNewton(model.system, scalars, stol=stol, max_iterations=30)
 
 

@@ -11,12 +11,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
+from weakref import proxy
 
 import numpy as np
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.equilibrium.callbacks import Deferred, unowned
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -125,16 +126,16 @@ class ExtendedNewton:
     def _make_snes(self, defaults: dict[str, str | int]) -> PETSc.SNES:
         snes = PETSc.SNES().create(self.system.comm)
         snes.setOptionsPrefix(self._prefix)
-        snes.setFunction(self._residual, self._x.duplicate())
+        snes.setFunction(unowned(self._residual), self._x.duplicate())
         sizes = (self._x.getSizes(), self._x.getSizes())
         shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
-        shell.setPythonContext(_BorderedOperator(self))
+        shell.setPythonContext(_BorderedOperator(proxy(self)))
         shell.setUp()
-        snes.setJacobian(self._jacobian, shell)
+        snes.setJacobian(unowned(self._jacobian), shell)
         ksp = snes.getKSP()
         ksp.setType("preonly")
         ksp.getPC().setType("python")
-        ksp.getPC().setPythonContext(_BorderedSolve(self))
+        ksp.getPC().setPythonContext(_BorderedSolve(proxy(self)))
         snes.setTolerances(rtol=0.0, atol=0.0, **self._tolerances)
         snes.setConvergenceHistory(self._tolerances["max_it"] + 1, reset=True)
         options = PETSc.Options()

@@ -12,7 +12,7 @@ from dolfinx import fem, la
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import Lendable
 from weakforms.solvers.support.jit_cache import compile_together
@@ -186,7 +186,10 @@ class System(Lendable):
             function = self._interpolant.function
             self._peaks = {name: Peak(function, i) for i, name in enumerate(self.formulation.maxima)}
         self._interpolant.update()
-        return {name: peak() for name, peak in self._peaks.items()}
+        found = {name: peak() for name, peak in self._peaks.items()}
+        if not np.isfinite(list(found.values())).all():
+            raise ConvergenceError("the state has stretches at which the law is not defined")
+        return found
 
     def _first_levels(self) -> dict[str, float]:
         """Positions where expressions first reach their levels, by their polynomials on each cell."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from weakforms.verification.cases.panels import Panel, Surface
 from weakforms.verification.judging.checks.check import Check
 from weakforms.verification.judging.checks.curve import Curve
+from weakforms.verification.judging.checks.path import Path
 
 
 @dataclass(frozen=True)
@@ -28,10 +29,10 @@ class Case:
     tags: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        """Give curves without an accuracy the accuracy of the case."""
+        """Give curves and paths without an accuracy the accuracy of the case."""
 
-        def complete(curve: Curve) -> Curve:
-            return replace(curve, asked=self.asked) if curve.asked is None else curve
+        def complete(drawn: tuple[Curve | Path, ...]) -> tuple[Curve | Path, ...]:
+            return tuple(replace(d, asked=self.asked) if d.asked is None else d for d in drawn)
 
-        panels = [replace(p, curves=tuple(complete(c) for c in p.curves)) for p in self.panels]
+        panels = [replace(p, curves=complete(p.curves), paths=complete(p.paths)) for p in self.panels]
         object.__setattr__(self, "panels", tuple(panels))

@@ -133,7 +133,7 @@ def _fields(model: Any) -> list[dict[str, Any]]:
 
 def _case_facts(found: FoundCase) -> dict[str, Any]:
     case = found.case
-    tables = [c.reference for p in case.panels for c in p.curves if c.reference]
+    tables = [d.reference for p in case.panels for d in (*p.curves, *p.paths) if d.reference]
     tables += [check.reference for check in case.checks if getattr(check, "reference", "")]
     return {
         "kind": "case",

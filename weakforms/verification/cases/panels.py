@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from weakforms.problems.registry import symbol
 from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.judging.checks.curve import Curve
+from weakforms.verification.judging.checks.path import Path
 
 
 @dataclass(frozen=True)
@@ -22,16 +23,6 @@ class Axis:
     def tex(self) -> str:
         """The label as TeX, for pictures."""
         return self.label or symbol(self.name) or self.name
-
-
-@dataclass(frozen=True)
-class Path:
-    """Paths of material points of a body over a series of its states; drawn dotted."""
-
-    of: Spec
-    over: tuple[At, ...]
-    points: tuple[float, ...]
-    """Material coordinates, each with one path."""
 
 
 @dataclass(frozen=True)
@@ -69,12 +60,14 @@ class Panel:
     """Height of a line across the panel, such as an undeformed substrate."""
     markers: str | tuple[str, ...] = ""
     """Kind, or kinds, of special points that are marked on the curves."""
+    edge: str = ""
+    """Quantity of a state, such as ``X_contact``: the material point that is marked on its profile."""
     mirrored: bool = False
     """Whether profiles of the half body are drawn for the whole body, as in the paper."""
     note: str = ""
     dashed: Dashed | None = None
     lines: tuple[Line, ...] = ()
-    """Content of a panel without curves."""
+    """Exact lines, drawn before the curves."""
 
 
 @dataclass(frozen=True)

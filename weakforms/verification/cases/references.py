@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from weakforms.errors import InputError
+from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.numbers import Number
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -129,11 +130,11 @@ def _uncertainty(name: str, facts: dict[str, Any], column: str) -> float:
     return float(value)
 
 
-def load_curve(paper: int | str, name: str) -> Reference:
-    """Read a table whose abscissa rises, or falls, from row to row.
+def load_curve(paper: int | str, name: str, of: Spec | None = None) -> Reference:
+    """Read a table whose abscissa rises, or falls, from row to row, for a solution if it is given.
 
     Raises:
-        InputError: As :func:`load`, and if it is not such a table.
+        InputError: As :func:`load`, and if it is not such a table, or has other parameters than the solution.
     """
     table = load(paper, name)
     steps = np.diff(table.columns[table.abscissa]) if table.abscissa else np.zeros(1)
@@ -141,6 +142,13 @@ def load_curve(paper: int | str, name: str) -> Reference:
         raise InputError(
             f"reference table {name} is not a curve: its abscissa must rise, or fall, from row to row"
         )
+    for parameter, value in table.parameters.items():
+        given = None if of is None else dict(of.parameters).get(parameter)
+        # A solution may have several values that are solved for together.
+        if given is not None and given != value and not (isinstance(given, tuple) and value in given):
+            raise InputError(
+                f"table {name} is for {parameter} = {value}, the case compares {parameter} = {given} with it"
+            )
     return table
 
 

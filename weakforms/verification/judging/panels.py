@@ -9,22 +9,14 @@ import numpy as np
 from weakforms.errors import ConvergenceError
 from weakforms.problems.registry import symbol
 from weakforms.results import SpecialPoint
-from weakforms.verification.cases.panels import Panel, Path
+from weakforms.verification.cases.panels import Panel
 from weakforms.verification.cases.references import Reference
-from weakforms.verification.cases.specs import At
-from weakforms.verification.judging.checks.check import Wanted
 from weakforms.verification.judging.checks.curve import Curve
 from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome, PathOutcome
 from weakforms.verification.run.solutions import Solutions
 
-
-def path_wants(path: Path) -> list[Wanted]:
-    """States along a path, sampled at its material points."""
-    return [(path.of, _on_path(path, at)) for at in path.over]
-
-
-def _on_path(path: Path, at: At) -> At:
-    return At(at.name, at.value, at.crossing, path.points, at.branch)
+AXIAL = ("Z", "eta")
+"""Coordinates along the axis of a body, which are odd about its mid-plane."""
 
 
 def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOutcome:
@@ -41,7 +33,7 @@ def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOut
         level=panel.level,
         note=panel.note,
     )
-    if panel.lines:
+    if panel.lines and not panel.curves:
         outcome.drawn = "exact"
     outcome.curves = [CurveOutcome(line.label, line.label, [*line.x], [*line.y]) for line in panel.lines]
     if panel.dashed is not None:
@@ -55,22 +47,32 @@ def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOut
         outcome.curves.append(drawn)
         outcome.markers.extend(marks)
     with suppress(ConvergenceError):  # the same holds for a state of a path
-        outcome.paths = _draw_paths(panel, solutions)
+        outcome.paths = _draw_paths(paper, panel, solutions)
     return outcome
 
 
-def _draw_paths(panel: Panel, solutions: Solutions) -> list[PathOutcome]:
+def _draw_paths(paper: int | str, panel: Panel, solutions: Solutions) -> list[PathOutcome]:
     """Paths of all material points through the states that could be solved."""
     out = []
     for path in panel.paths:
         samples = [
-            [solutions.sampled(path.of, _on_path(path, at), name)[0] for name in (panel.x.name, panel.y.name)]
-            for at in path.over
+            [solutions.sampled(path.of, at, name)[0] for name in (panel.x.name, panel.y.name)]
+            for at in path.states(paper)
         ]
         for i, point in enumerate(path.points):
-            x, y = ([float(sample[axis][i]) for sample in samples] for axis in (0, 1))
-            out.append(PathOutcome(point, x, y))
+            x, y = (np.array([float(sample[axis][i]) for sample in samples]) for axis in (0, 1))
+            for side in (1, -1) if panel.mirrored else (0,):
+                sides = (_beside(panel, name, v, side) for name, v in ((panel.x.name, x), (panel.y.name, y)))
+                out.append(PathOutcome(point, *(v.tolist() for v in sides)))
     return out
+
+
+def _beside(panel: Panel, name: str, values: np.ndarray, side: int) -> np.ndarray:
+    """A coordinate of a path on one side of the mid-plane, or as it is (0)."""
+    if not side or name not in AXIAL:
+        return values
+    axis = panel.x if panel.x.name == name else panel.y
+    return (axis.low + axis.high) / 2 + side * values
 
 
 def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) -> CurveOutcome:
@@ -152,7 +154,7 @@ def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
 
     Axial coordinates are odd about the mid-plane and shifted to start at 0; all other columns are even.
     """
-    if name in ("Z", "eta"):
+    if name in AXIAL:
         axis = panel.x if panel.x.name == name else panel.y
         middle = (axis.low + axis.high) / 2
         return np.concatenate([middle - values[::-1], middle + values[1:]])
@@ -162,11 +164,22 @@ def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
 def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
     kinds = (panel.markers,) if isinstance(panel.markers, str) else panel.markers
     points = [p for kind in filter(None, kinds) for p in solutions.points(curve.of, kind)]
-    return [
+    return _edge(panel, curve, solutions) + [
         Marker(point.kind, _marker_label(point), point.values[panel.x.name], point.values[panel.y.name])
         for point in points
         if point.branch == curve.branch
     ]
+
+
+def _edge(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
+    """The material point that is marked on a profile, between the two samples around it."""
+    if not panel.edge or curve.at is None:
+        return []
+    columns = solutions.profile(curve.of, curve.at).columns
+    place = solutions.value(curve.of, curve.at, panel.edge)
+    along = next(iter(columns.values()))
+    x, y = (float(np.interp(place, along, columns[axis.name])) for axis in (panel.x, panel.y))
+    return [Marker("contact_edge", "contact edge", x, y)]
 
 
 def _marker_label(point: SpecialPoint) -> str:

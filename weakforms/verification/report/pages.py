@@ -27,7 +27,7 @@ from weakforms.verification.judging.outcome import (
     SurfaceOutcome,
     Verdict,
 )
-from weakforms.verification.report import summary, wording
+from weakforms.verification.report import summary, thesis, wording
 from weakforms.verification.report.elsewhere import Elsewhere
 from weakforms.verification.report.figures import convergence_figure, panel_figure
 from weakforms.verification.report.junit import clean
@@ -52,6 +52,9 @@ RESERVED = (
     "audit",
     "coverage",
     "exempt",
+    "thesis",
+    "panels",
+    "statements",
 )
 """Identifiers that the templates use."""
 GROUPS = {
@@ -112,7 +115,7 @@ def render(
         group["page"]: template("group.html").render(facts, group=group, here=group["page"])
         for group in facts["groups"]
     }
-    for name in ("faults.html", "audit.html", "coverage.html"):
+    for name in ("thesis.html", "faults.html", "audit.html", "coverage.html"):
         pages[name] = template(name).render(facts, here=name)
     return pages | {"index.html": template("index.html").render(facts, here="index.html")}
 
@@ -209,6 +212,8 @@ def _facts(
         "groups": groups,
         "ledger": summary.ledger_counts(run.cases),
         "differing": _differing(views),
+        "panels": thesis.panels(run),
+        "statements": thesis.statements(run),
         "seeded": seeded or Seeded(),
         "others": others,
         "audited": audited or Audited(),
@@ -233,7 +238,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     found: dict[str, list[dict[str, Any]]] = {}
     for view in views:
         found.setdefault(view["case"].id.partition(".")[0], []).append(view)
-    taken = {"index", "faults", "audit", "coverage"}
+    taken = {"index", "thesis", "faults", "audit", "coverage"}
     out = []
     for key, members in found.items():
         name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))

@@ -14,7 +14,6 @@ from weakforms.verification.judging.consistency import marks
 from weakforms.verification.judging.consistency.identities import Identities
 from weakforms.verification.judging.consistency.table_traces import TableTrace
 from weakforms.verification.judging.consistency.traces import Trace
-from weakforms.verification.judging.panels import path_wants
 
 
 @dataclass
@@ -49,7 +48,6 @@ def case_wants(found: FoundCase) -> list[tuple[Spec, At | None]]:
     """All solutions and states of one case."""
     case = found.case
     out = [want for check in _written(case) for want in check.wants(found.paper)]
-    out += [want for panel in case.panels for path in panel.paths for want in path_wants(path)]
     return out + [want for surface in case.surfaces for want in surfaces.surface_wants(surface)]
 
 
@@ -62,7 +60,7 @@ def checks_of(found: FoundCase) -> list[Check]:
 
 def _written(case: Case) -> list[Check]:
     """The checks in the case's file."""
-    return [*(curve for panel in case.panels for curve in panel.curves), *case.checks]
+    return [*(drawn for panel in case.panels for drawn in (*panel.curves, *panel.paths)), *case.checks]
 
 
 def check_ids(found: FoundCase) -> list[str]:

@@ -76,7 +76,7 @@ class SecondaryBranch(EquilibriumBranch):
         model: The surface.
         bifurcation: State at which it starts.
         mode: Approximate null vector there, outward at ``Theta = 0``.
-        n_negative: Number of negative eigenvalues there, without the zero one.
+        n_negative: Number of negative eigenvalues there, without the zero one (see :meth:`follow`).
         step: Largest arc-length step, as a root mean square displacement.
         end: The branch ends at this fraction of ``zw`` at the bifurcation.
         followed: False if another mesh's states give the guesses for its states; then its only point is the
@@ -119,13 +119,16 @@ class SecondaryBranch(EquilibriumBranch):
             self.follow()
 
     def follow(self) -> None:
-        """Trace the branch to its end."""
+        """Trace the branch to its end; if it is unstable from its start, the zero counts as negative."""
         super().__init__(
             self.continuation,
             "zw",
             self.points[0],
             stop=lambda point: point.state.loads["zw"] < self._lowest,
         )
+        first, *more = self.points
+        if more and more[0].n_negative == first.n_negative + 1:
+            first.n_negative += 1
 
     def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
         """The bifurcation point with the mode as direction, both corrected.

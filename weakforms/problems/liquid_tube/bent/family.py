@@ -60,8 +60,8 @@ def secondary_family(
     It uses the numerics whose names begin with ``secondary``.
 
     Raises:
-        ConvergenceError: If the primary branch has no ``n = 1`` bifurcation point, or no branch is found
-            there.
+        AbsentError: If the primary branch has no ``n = 1`` bifurcation point.
+        ConvergenceError: If no branch is found there.
     """
     primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
     begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
@@ -147,8 +147,7 @@ class SecondaryFamily(BranchFamily):
         """A point of the trace on all meshes, with the number of negative eigenvalues on the finest."""
         fine, first = self.fine, self.levels[0].points[0]
         if point is first:
-            point = fine.points[0]
-            record, negative = point.record, point.n_negative
+            record, negative = fine.points[0].record, first.n_negative
             solved = [level.bifurcation for level in self.levels]
         else:
             begin, plane = self.levels[0].across(point, self.across)

@@ -14,13 +14,13 @@ from mpi4py import MPI
 from numpy.polynomial import chebyshev
 from pydantic import Field, model_validator
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.liquid_tube.bent.about import FLUID_TUBE_SURFACE
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, displacement, position, turned
 from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
-from weakforms.results import Failure, Quantity, Result
+from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
@@ -93,7 +93,11 @@ class FluidTubeSurface(Problem):
         The numbers belong to the mesh and have no uncertainty.
         """
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
-        run = WholeRun(parameters, numerics, comm)
+        try:
+            run = WholeRun(parameters, numerics, comm)
+        except AbsentError as error:
+            result.absent.append(Absence(error.what, f"fluid_tube_surface: {error}"))
+            return
         degree = quadrature_degree(run.system.formulation.residual)
         result.numerics |= {"stopping": STOPPING, "quadrature_degree": degree}
         for i, (what, part) in enumerate({"bifurcation": run.critical, "bent state": run.bent}.items()):

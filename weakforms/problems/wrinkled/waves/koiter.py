@@ -9,14 +9,12 @@ couples the meridian's rotation across nodes (Engel et al. 2002). Both ends are 
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import ufl
 from dolfinx import fem
 from ufl.core.expr import Expr
 
 from weakforms.forms.revolution import hoop_bending, meridional_bending
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
 from weakforms.problems.wrinkled.waves.modes import Waves, waves_of
 from weakforms.solvers.equilibrium.formulation import Formulation
@@ -79,7 +77,7 @@ class ShellWaves:
         return self.variation.spectrum(1).eigenvalues[0]
 
 
-@lru_cache(maxsize=8)
+@kept_with_model
 def _shell_of(model: WrinkledModel) -> ShellWaves:
     return ShellWaves(model)
 

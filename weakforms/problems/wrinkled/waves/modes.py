@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import basix.ufl
 import numpy as np
@@ -24,7 +24,7 @@ from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
 from weakforms.problems.meridian.blocks import LOWER, UPPER
 from weakforms.problems.wrinkled.fields import Meridian
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
@@ -199,9 +199,9 @@ class Waves:
         return {name: sign * found[name] for name in MODE}
 
 
-@lru_cache(maxsize=32)
+@kept_with_model
 def waves_of(model: WrinkledModel) -> Waves:
-    """The waves of a model, kept for later calls."""
+    """The waves of a model."""
     return Waves(model)
 
 

@@ -8,8 +8,6 @@ has no meridional displacement, so that the second variation is linear in ``n``:
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -19,7 +17,7 @@ from ufl.core.expr import Expr
 from weakforms.errors import InputError
 from weakforms.forms.revolution import second_order
 from weakforms.problems.meridian.model import TAUT
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
 from weakforms.problems.wrinkled.waves.modes import waves_of
 
@@ -71,7 +69,7 @@ class Trial:
         return float(self.model.mesh.comm.allreduce(fem.assemble_scalar(form), op=MPI.SUM))
 
 
-@lru_cache(maxsize=32)
+@kept_with_model
 def _trial_of(model: WrinkledModel, power: int) -> Trial:
     return Trial(model, power)
 
