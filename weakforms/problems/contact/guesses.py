@@ -6,7 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from weakforms.problems.contact.model import PatchModel
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 

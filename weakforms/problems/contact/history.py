@@ -14,7 +14,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.contact.model import PatchModel
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State

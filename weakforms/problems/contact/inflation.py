@@ -10,8 +10,9 @@ import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError, WeakformsError
 from weakforms.problems.contact.model import PatchModel
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State

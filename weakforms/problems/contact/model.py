@@ -10,7 +10,7 @@ import numpy as np
 from dolfinx.mesh import Mesh
 
 from weakforms.problems.contact.series import Series
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.system import System
 
 

@@ -13,7 +13,8 @@ from weakforms.problems.contact.guesses import moved, stick_guess
 from weakforms.problems.contact.history import History
 from weakforms.problems.contact.inflation import Inflation
 from weakforms.problems.contact.model import PatchModel
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 SPANS, WIDER = 6, 1.02

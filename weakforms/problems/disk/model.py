@@ -28,7 +28,7 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
 
 

@@ -26,8 +26,9 @@ from weakforms.problems.disk.model import DiskData, DiskModel
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.limits import limit_of
-from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State

@@ -26,8 +26,8 @@ from weakforms.problems.wrinkled.problem import PAPER_GAMMA, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
 from weakforms.results import Result
-from weakforms.solvers.continuation.branch import SolutionCurve
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.equilibrium import constraints as fixed
 
 GAMMA = 100 * PAPER_GAMMA

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 from petsc4py import PETSc
-from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
-from weakforms.solvers.stability.spectra import LOWEST, Mode, give_back
+from weakforms.solvers.stability.eigensolver import by_cholesky, give_back, shift_and_invert
+from weakforms.solvers.stability.spectra import LOWEST, Mode
 
 ROUGH, SHARP = 1e-3, 1e-11
 """Relative residuals of the first search and of the returned modes."""
@@ -91,21 +91,11 @@ class Lowest:
     def _solve(
         self, wanted: int, target: float, tolerance: float, apart_from: list[PETSc.Vec]
     ) -> list[tuple[float, PETSc.Vec]]:
-        eps = SLEPc.EPS().create(self.system.comm)
-        eps.setOptionsPrefix(self._prefix)
-        eps.setOperators(self.system.matrix, self.system.mass)
-        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(target)
-        eps.setDimensions(nev=wanted)
+        eps = shift_and_invert(self.system, self._prefix, wanted, target)
         eps.setTolerances(tol=tolerance, max_it=300)
         if apart_from:
             eps.setDeflationSpace(apart_from)
-        st = eps.getST()
-        st.setType("sinvert")
-        st.getKSP().setType("preonly")
-        st.getKSP().getPC().setType("cholesky")
-        st.getKSP().getPC().setFactorSolverType("mumps")
+        by_cholesky(eps)
         eps.setFromOptions()
         try:
             eps.solve()

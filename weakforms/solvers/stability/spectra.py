@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -16,6 +16,13 @@ from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.stability.eigensolver import (
+    Inverse,
+    by_cholesky,
+    by_inverse,
+    give_back,
+    shift_and_invert,
+)
 
 LOWEST = -1e6
 """Lower limit of the search for eigenvalues."""
@@ -28,7 +35,6 @@ BESIDE = 1e-4
 """Relative distance between a known eigenvalue and the target for its mode."""
 
 
-Inverse = Callable[[np.ndarray], np.ndarray]
 Found = TypeVar("Found")
 
 
@@ -74,24 +80,12 @@ class Stability:
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
         """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS."""
-        eps = SLEPc.EPS().create(self.system.comm)
-        eps.setOptionsPrefix(self._prefix)
-        eps.setOperators(self.system.matrix, self.system.mass)
-        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(target)
-        eps.setDimensions(nev=wanted)
+        eps = shift_and_invert(self.system, self._prefix, wanted, target)
         eps.setTolerances(tol=1e-12, max_it=200)
-        st = eps.getST()
-        st.setType("sinvert")
-        st.getKSP().setType("preonly")
-        pc = st.getKSP().getPC()
         if inverse is None:
-            pc.setType("cholesky")
-            pc.setFactorSolverType("mumps")
+            by_cholesky(eps)
         else:
-            pc.setType("python")
-            pc.setPythonContext(_Preconditioner(inverse, self._callbacks))
+            by_inverse(eps, inverse, self._callbacks)
         eps.setFromOptions()
         return eps
 
@@ -301,26 +295,23 @@ class Stability:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
 
 
+def spectrum_of(system: System, state: State, shift: float) -> Spectrum:
+    """The lowest eigenvalues of a state, with the mass matrix of its own mesh (which fronts move)."""
+    with system.at(state), system.weighed_here():
+        return Stability(system).spectrum(state, shift=shift)
+
+
+def same_count(counts: Iterable[int]) -> int:
+    """The number of negative eigenvalues that all meshes agree on.
+
+    Raises:
+        ConvergenceError: If they do not.
+    """
+    found = set(counts)
+    if len(found) != 1:
+        raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(found)}")
+    return found.pop()
+
+
 def _values(eps: SLEPc.EPS) -> list[float]:
     return [eps.getEigenvalue(i).real for i in range(eps.getConverged())]
-
-
-def give_back(eps: SLEPc.EPS) -> None:
-    """Destroy a solver; after an error some of its parts are in use, and the first error counts."""
-    with suppress(PETSc.Error):
-        eps.destroy()
-
-
-class _Preconditioner:
-    """A preconditioner that solves exactly."""
-
-    def __init__(self, solve: Inverse, callbacks: Deferred) -> None:
-        self._solve, self._callbacks = solve, callbacks
-
-    def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
-        """``out`` is the solution for ``rhs``."""
-
-        def work() -> None:
-            out.array_w[:] = self._solve(rhs.array_r.copy())
-
-        self._callbacks.run(work, lambda: out.set(0.0))  # every vector is an eigenvector of it
