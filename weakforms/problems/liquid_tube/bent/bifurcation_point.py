@@ -15,7 +15,8 @@ from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
-from weakforms.problems.liquid_tube.bent.model import Shape, SurfaceModel
+from weakforms.problems.liquid_tube.bent.model import SurfaceModel
+from weakforms.problems.liquid_tube.bent.surface import Shape
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held

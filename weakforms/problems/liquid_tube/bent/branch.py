@@ -14,8 +14,9 @@ from mpi4py import MPI
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, Trend, bifurcation_on
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
-from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.bent.model import SurfaceModel
 from weakforms.problems.liquid_tube.bent.stability import BentStability
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent

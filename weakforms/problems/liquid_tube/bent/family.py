@@ -23,7 +23,7 @@ from weakforms.problems.liquid_tube.bent.branch import (
     secondary_branch,
 )
 from weakforms.problems.liquid_tube.bent.columns import RESULTANTS, SLOPES
-from weakforms.problems.liquid_tube.bent.model import SurfaceData
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.problem import Progress
