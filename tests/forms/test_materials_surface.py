@@ -23,7 +23,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled.body import CYLINDER
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import NEAR_FRONTS, PAPER_GAMMA
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.solvers.equilibrium.constraints import Held

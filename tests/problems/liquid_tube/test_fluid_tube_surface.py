@@ -21,7 +21,8 @@ from weakforms.problems.liquid_tube.bent.family import free_surface
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
 from weakforms.problems.liquid_tube.bent.front import front_of
 from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
-from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.bent.model import SurfaceModel
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.liquid_tube.model import TubeData

@@ -18,7 +18,7 @@ from weakforms.problems.wrinkled import state as wrinkled_state
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.fields import Zones
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 from weakforms.problems.wrinkled.state import BLOCKS, Layout
 from weakforms.solvers.equilibrium.constraints import Held

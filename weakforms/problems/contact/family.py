@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from weakforms.errors import AbsentError, InputError
 from weakforms.problems.contact.phases import ContactPhases
 from weakforms.results import Absence, SpecialPoint
-from weakforms.solvers.continuation.branch import SolutionCurve
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily
 

@@ -15,7 +15,7 @@ from mpi4py import MPI
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.branch import WIDEST, FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.support.sampling import Sampler

@@ -10,11 +10,13 @@ from mpi4py import MPI
 from numpy.polynomial import chebyshev
 
 from weakforms.problems.contact.history import History
-from weakforms.problems.contact.phases import Bond, ContactPhases
+from weakforms.problems.contact.model import Bond
+from weakforms.problems.contact.phases import ContactPhases
 from weakforms.problems.tube.contact import FIRST_FRONT, ContactData, ContactModel
 from weakforms.problems.tube.model import FIRST_U, TAUT, free_branch, yielding, yields
-from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 

@@ -10,13 +10,14 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.wrinkled.events import Event, events
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
 from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
-from weakforms.solvers.continuation.branch import DIAGNOSTICS, FittedBranch, SolutionCurve, Solved
+from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.equilibrium import constraints as fixed
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.uncertainty.family import CRITICAL

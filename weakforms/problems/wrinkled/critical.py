@@ -12,8 +12,8 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.body import CYLINDER
-from weakforms.problems.wrinkled.fitted import PLACE, Membrane
-from weakforms.problems.wrinkled.start import WALK
+from weakforms.problems.wrinkled.fitted import PLACE
+from weakforms.problems.wrinkled.membrane import WALK, Membrane
 from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate

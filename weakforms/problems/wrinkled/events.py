@@ -10,7 +10,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled.fields import Zones
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed

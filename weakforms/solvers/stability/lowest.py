@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 from petsc4py import PETSc
-from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
-from weakforms.solvers.stability.spectra import LOWEST, Mode, Preconditioner, give_back
+from weakforms.solvers.stability.eigensolver import by_inverse, give_back, shift_and_invert
+from weakforms.solvers.stability.spectra import LOWEST, Mode
 
 ROUGH, SHARP = 1e-3, 1e-11
 """Relative residuals of the first search and of the returned modes."""
@@ -131,22 +131,14 @@ class Lowest:
     ) -> list[tuple[float, PETSc.Vec]]:
         """Eigenvalues nearest to a target, with their vectors; apart from given ones."""
         self._factorise(target)
-        eps = SLEPc.EPS().create(self.system.comm)
-        eps.setOptionsPrefix(self._prefix)
+        eps = shift_and_invert(self.system.comm, self._prefix)
         eps.setOperators(self.system.matrix, self.system.mass)
-        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(0.0)
+        eps.setTarget(0.0)  # the matrix is shifted
         eps.setDimensions(nev=wanted)
         eps.setTolerances(tol=tolerance, max_it=300)
         if apart_from:
             eps.setDeflationSpace(apart_from)
-        st, inverse = eps.getST(), Preconditioner(self._callbacks)
-        st.setType("sinvert")
-        st.getKSP().setType("preonly")
-        st.getKSP().getPC().setType("python")
-        st.getKSP().getPC().setPythonContext(inverse)
-        inverse.solve = self.factor.solve
+        by_inverse(eps, self._callbacks).solve = self.factor.solve
         eps.setFromOptions()
         try:
             try:
