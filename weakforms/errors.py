@@ -43,6 +43,24 @@ class EnvironmentLackError(WeakformsError):
     exit_status = 4
 
 
+EXTRAS = {
+    **dict.fromkeys(("matplotlib", "jinja2", "markupsafe"), "pictures"),
+    **dict.fromkeys(("markdown_it", "mdit_py_plugins"), "docs"),
+}
+"""Packages that a plain ``pip install weakforms`` leaves out, with the extra that brings them."""
+
+
+def lacking(error: ImportError) -> EnvironmentLackError | None:
+    """The error of a package that an extra of this package brings; None for any other import that failed."""
+    package = (error.name or "").partition(".")[0]
+    if package not in EXTRAS:
+        return None
+    return EnvironmentLackError(
+        f"{package} is not installed here. Get it with: pip install 'weakforms[{EXTRAS[package]}]' "
+        f"(or use ./run, which has everything)"
+    )
+
+
 def closest(name: object, known: Iterable[str]) -> str:
     """The known name that is most like a wrong one; empty if none is."""
     by_lower = {word.lower(): word for word in known}

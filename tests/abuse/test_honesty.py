@@ -14,8 +14,9 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.equilibrium import newton
 from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import Spectrum, Stability
 from weakforms.solvers.uncertainty.family import BranchFamily
 
@@ -49,7 +50,7 @@ def branch_of(
     """Follow the branch through ``u = begin`` (its first component) to ``end``."""
     solver = ExtendedNewton(system, ["load"])
     continuation = Continuation(solver, control=StepControl(first=step, largest=step, **control))
-    state = system.state()
+    state = system.initial.copy()
     state.u[0], state.loads["load"] = begin, begin
     first = continuation.start(state, Held("u", begin), towards={"u": 1.0})
     return EquilibriumBranch(continuation, "load", first, stop=lambda point: point.monitors["u"] > end)
@@ -182,8 +183,9 @@ def test_no_convergence_from_some_point_on(monkeypatch):
     right = ExtendedNewton.solve
 
     def solve(self, guess, constraints=(), chord=False):
-        self.system.set_state(guess.u, guess.loads)
-        if self.system.monitors()["u_max"] > 0.4:
+        with self.system.at(guess):
+            u_max = self.system.monitors()["u_max"]
+        if u_max > 0.4:
             raise ConvergenceError("SNES ended with DIVERGED_MAX_IT after 25 iterations, residual 1.0e-01")
         return right(self, guess, constraints, chord)
 

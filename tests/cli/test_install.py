@@ -1,10 +1,12 @@
-"""The package without its source tree: a wheel in a separate environment, as ``pip install`` creates it."""
+"""The package without its source tree: a wheel in separate environments, as ``pip install`` creates them."""
 
 import csv
 import os
 import shutil
 import subprocess
 import sys
+import tarfile
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -14,6 +16,14 @@ from weakforms.verification.cases import references
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "fig03a_delta1_1.1"
+LARGEST = 6_000_000
+"""Bytes of a distribution: a tenth of what package indexes accept, and seconds on a slow line."""
+COMPILED = {
+    (3, 12): {"numpy": "1.26.0", "scipy": "1.11.2"},
+    (3, 13): {"numpy": "2.1.0", "scipy": "1.14.1", "pydantic": "2.8.0"},
+    (3, 14): {"numpy": "2.3.2", "scipy": "1.16.1", "pydantic": "2.12.0"},
+}
+"""The first versions with wheels for a release of Python, where these are later than the oldest allowed."""
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
 TESTS = f"""
 import pathlib
@@ -42,22 +52,42 @@ def pip(*words: object) -> None:
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """A wheel built from a copy of the tree, because setuptools writes beside the source."""
-    folder = tmp_path_factory.mktemp("wheel")
+def built(tmp_path_factory):
+    """The source distribution and the wheel made from it; setuptools writes beside a copy of the tree."""
+    folder = tmp_path_factory.mktemp("built")
     skipped = shutil.ignore_patterns("__pycache__", "*.egg-info")
     for name in ("weakforms", "cases", "reference_data"):
         shutil.copytree(ROOT / name, folder / "tree" / name, ignore=skipped)
     for name in ("pyproject.toml", "setup.py", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, folder / "tree")
-    pip("wheel", "--no-deps", "--no-index", "--no-build-isolation", "-w", folder, folder / "tree")
-    (built,) = folder.glob("*.whl")
-    return built
+    code = f"from setuptools.build_meta import build_sdist; build_sdist({str(folder)!r})"
+    done = run(sys.executable, "-c", code, cwd=folder / "tree")
+    assert done.returncode == 0, done.stderr
+    (source,) = folder.glob("*.tar.gz")
+    pip("wheel", "--no-deps", "--no-index", "--no-build-isolation", "-w", folder, source)
+    (wheel,) = folder.glob("*.whl")
+    return source, wheel
 
 
-@pytest.fixture(scope="module", params=["as here", "newest of everything"])
+@pytest.fixture(scope="module")
+def wheel(built):
+    return built[1]
+
+
+def declared() -> list[str]:
+    """What a plain installation needs, as ``pyproject.toml`` says."""
+    return tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["dependencies"]
+
+
+def oldest() -> list[str]:
+    """The oldest version of each of them; of compiled ones, the oldest that is built for this Python."""
+    lowest = dict(text.split(">=") for text in declared())
+    return [f"{name}=={COMPILED.get(sys.version_info[:2], {}).get(name, v)}" for name, v in lowest.items()]
+
+
+@pytest.fixture(scope="module", params=["as here", "newest", "oldest"])
 def installed(request, wheel, tmp_path_factory):
-    """The scripts of an environment in which the wheel is installed."""
+    """The scripts of an environment in which the wheel is installed, without extras unless they are here."""
     folder = tmp_path_factory.mktemp("environment")
     here = request.param == "as here"
     options = ["--system-site-packages"] if here else []
@@ -66,11 +96,15 @@ def installed(request, wheel, tmp_path_factory):
     if here:
         pip(*into, "install", "--no-deps", "--no-index", wheel)
         return folder / "bin"
+    require_index(into)
+    pip(*into, "install", "--no-compile", wheel, "pytest", *(oldest() if request.param == "oldest" else ()))
+    return folder / "bin"
+
+
+def require_index(into: list) -> None:
     asked = run(*PIP, *into, "install", "--dry-run", "--retries", "1", "--timeout", "20", "rich")
     if asked.returncode:
         pytest.skip(f"no package index answers here: {asked.stderr.splitlines()[-1]}")
-    pip(*into, "install", "--no-compile", wheel, "pytest")
-    return folder / "bin"
 
 
 @pytest.fixture
@@ -88,7 +122,9 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_the_wheel_has_everything_under_one_name(wheel):
+def test_the_wheel_has_everything_under_one_name(built):
+    source, wheel = built
+    assert max(source.stat().st_size, wheel.stat().st_size) < LARGEST
     names = set(zipfile.ZipFile(wheel).namelist())
     info = {name for name in names if name.split("/")[0].endswith(".dist-info")}
     assert {name.split("/")[0] for name in names - info} == {"weakforms"}
@@ -102,6 +138,43 @@ def test_the_wheel_has_everything_under_one_name(wheel):
     tables = {f"weakforms/_{name}" for name in files("reference_data", ".csv", ".toml")}
     assert min(len(own), len(cases), len(tables)) > 80
     assert names - info == own | cases | tables | {"weakforms/_reference_data/__init__.py"}
+
+
+def test_the_source_distribution_has_what_builds_it(built):
+    with tarfile.open(built[0]) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert {"pyproject.toml", "setup.py", "README.md", "LICENSE", "cases/paper2/fig03.py"} <= names
+    assert f"reference_data/paper2/{NAME}.toml" in names
+
+
+def test_a_package_index_would_accept_them(built, tmp_path):
+    assert run(sys.executable, "-m", "venv", "--without-pip", tmp_path).returncode == 0
+    into = ["--python", tmp_path / "bin" / "python"]
+    require_index(into)
+    pip(*into, "install", "--no-compile", "twine")
+    done = run(tmp_path / "bin" / "python", "-m", "twine", "check", "--strict", *built)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.count("PASSED") == 2
+
+
+def test_what_an_extra_brings_is_refused_before_anything_is_compared(installed, folder):
+    if run(installed / "python", "-c", "import jinja2").returncode == 0:
+        pytest.skip("the extras are installed here")
+    names = run(installed / "python", "-c", "import matplotlib, markdown_it")
+    assert "ModuleNotFoundError" in names.stderr
+    for words, package, extra in (
+        (["compare", "paper2.fig03", "right.csv", "--curve", NAME, "--out", "v"], "markupsafe", "pictures"),
+        (["report", "out"], "jinja2", "pictures"),
+    ):
+        done = run(installed / "weakforms", *words, cwd=folder)
+        assert done.returncode == 4, done.stdout + done.stderr
+        assert done.stdout == ""
+        assert (
+            f"{package} is not installed here. Get it with: pip install 'weakforms[{extra}]'" in done.stderr
+        )
+    code = "import weakforms; weakforms.Result('tube', {}, {}, {}, {}).plot()"
+    done = run(installed / "python", "-c", code, cwd=folder)
+    assert "EnvironmentLackError: matplotlib is not installed here" in done.stderr, done.stderr
 
 
 def test_statuses_of_the_command_line(installed, folder):

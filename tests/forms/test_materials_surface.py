@@ -147,9 +147,9 @@ def test_the_neo_hookean_law_of_the_catalogue_is_the_papers_tube():
     for material in (None, Chosen("neo_hookean", ())):
         path = FluidPath(MPI.COMM_SELF, TubeData(8.0, 2.0, 0.116, 0.0, 8, 4, material=material), 1)
         state = path.dry()
-        path.model.system.set_state(state.u, state.loads)
-        path.model.system.update_mass()
-        found.append([*path.model.system.monitors().values(), *path.modes.observe().values()])
+        with path.model.system.at(state):
+            path.model.system.update_mass()
+            found.append([*path.model.system.monitors().values(), *path.modes.observe().values()])
     assert found[0] == pytest.approx(found[1], rel=1e-10, abs=1e-10)
 
 
@@ -162,7 +162,8 @@ def test_waves_around_a_tube_of_rivlins_series_are_those_of_the_papers_law(load,
         tube = Membrane(MPI.COMM_SELF, CYLINDER, values, True, (3,), 6, "relaxed", NEAR_FRONTS, material)
         state, _ = tube.by_homotopy(load)
         held = tube.fitted(tube.plain(state), Held("zw", load))[-1]
-        eigenvalues.append([waves_at(held).spectrum(n).eigenvalues[0] for n in (1, 12)])
+        with waves_at(held) as waves:
+            eigenvalues.append([waves.spectrum(n).eigenvalues[0] for n in (1, 12)])
     assert eigenvalues[0] == pytest.approx(eigenvalues[1], rel=1e-7), zw
 
 

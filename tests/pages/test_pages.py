@@ -177,6 +177,21 @@ def test_rows_out_of_bound_are_drawn_filled():
     assert drawn[False] == [[2.0, 3e-8], [4.0, 5e-8]]
 
 
+def test_of_many_rows_the_worst_of_each_group_are_drawn():
+    one = CurveOutcome("one", "", [0.0, 1.0], [0.0, 1.0])
+    one.residual_x = [float(k) for k in range(400)][::-1]
+    one.residual = [2e-9 if k % 10 == 3 else 1e-9 for k in range(400)][::-1]
+    one.residual[-215 - 1] = 5e-8
+    one.residual_bound = [1e-8] * 400
+    axes = Figure().subplots()
+    figures._draw_residuals(axes, panel([one]), [])
+    marked = [line for line in axes.lines if line.get_linestyle() == "None"]
+    drawn = {line.get_markerfacecolor() == "none": line.get_xydata().tolist() for line in marked}
+    assert drawn[False] == [[215.0, 5e-8]]
+    assert drawn[True] == [[10.0 * k + 3, 2e-9] for k in range(40) if k != 21]
+    assert "worst of neighbouring rows" in axes.texts[0].get_text()
+
+
 def test_what_is_unstable_is_drawn_dashed():
     x = [0.0, 1.0, 2.0, 3.0, 4.0]
     one = CurveOutcome("one", "", x, x, unstable=[False, False, False, True, True])

@@ -14,13 +14,17 @@ from weakforms.problems.contact.guesses import stick_guess
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.phases import DiskPhases
 from weakforms.problems.liquid_tube import coincidence
+from weakforms.problems.liquid_tube import problem as liquid_tube
+from weakforms.problems.liquid_tube.bent import problem as bent
+from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import validated
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
 from weakforms.results import validate
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.walk import walk
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 
 def test_a_stiff_balloon_is_inflated_to_its_end():
@@ -128,6 +132,60 @@ def test_a_scheme_that_touches_nothing_says_so_and_stays_free():
     assert result.quantities["contact_length"].value == 0.0
     free = solve("tube", **tube, at={"p": 0.05848}, numerics={"cells": 16, "levels": 2}).states[0]
     assert result.quantities["u_max"].value == pytest.approx(free.quantities["u_max"].value, rel=1e-3)
+
+
+def test_a_scheme_ends_below_first_contact_at_its_last_pressure():
+    """The step in which ``p_end`` is passed leads near a limit point, from where Newton's method diverges."""
+    tube = {"alpha": 0.244, "delta1": 3.336, "lf": 12.77}
+    given = tube | {"k": 1776.0, "s": 9.785, "p_end": 0.3542}
+    result = solve("tube_scheme", **given, numerics={"cells": 32, "steps": 8})
+    assert "p_end = 0.3542 is reached before first contact" in result.absent[0].reason
+    free = solve("tube", **tube, at={"p": 0.3542}, numerics={"cells": 16, "levels": 2}).states[0]
+    assert result.quantities["u_max"].value == pytest.approx(free.quantities["u_max"].value, rel=1e-2)
+    with pytest.raises(InputError, match=r"p_end = 1e-09 is below p = .*raise p_end"):
+        solve("tube_scheme", p_end=1e-9, numerics={"cells": 32, "steps": 8})
+
+
+@pytest.mark.parametrize(("counts", "first"), [((0, 1, 1), 1), ((1, 1, 1), 1), ((1, 0, 0), 1)])
+def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stability_there(
+    counts, first, monkeypatch
+):
+    """At its first point one eigenvalue is zero; it counts as negative if the branch is unstable."""
+    points = [SimpleNamespace(n_negative=count) for count in counts]
+    branch = SecondaryBranch.__new__(SecondaryBranch)
+    branch.continuation, branch.points = None, points[:1]
+
+    def traced(self, *_, **__):
+        self.points = points
+
+    monkeypatch.setattr(EquilibriumBranch, "__init__", traced)
+    branch.follow()
+    assert [point.n_negative for point in branch.points] == [first, *counts[1:]]
+
+
+def no_bifurcation(*_):
+    raise AbsentError("bifurcation point", "the primary branch has 0; choose another delta")
+
+
+def test_a_liquid_tube_that_does_not_bend_keeps_its_primary_branch(monkeypatch):
+    primary = SimpleNamespace(pieces=[SimpleNamespace(family=SimpleNamespace(name="primary", absent=[]))])
+    monkeypatch.setattr(liquid_tube, "primary_family", lambda *_: primary)
+    monkeypatch.setattr(liquid_tube, "secondary_family", no_bifurcation)
+    given = {"parameters": SimpleNamespace(secondary=True), "numerics": None, "comm": None, "progress": None}
+    problem, states = registry.get("fluid_tube"), [SimpleNamespace(branch="secondary")]
+    found = problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=[])))
+    assert list(found) == ["primary"]
+    (absence,) = found["primary"].absent
+    assert (absence.what, "choose another delta" in absence.reason) == ("secondary branch", True)
+    with pytest.raises(AbsentError):
+        problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=states)))
+
+
+def test_a_surface_that_does_not_bend_says_so(monkeypatch):
+    monkeypatch.setattr(bent, "WholeRun", no_bifurcation)
+    result = solve("fluid_tube_surface")
+    assert (result.quantities, result.failures) == ({}, [])
+    assert result.absent[0].reason.startswith("fluid_tube_surface: the primary branch has 0")
 
 
 def test_a_walk_shortens_its_steps_and_says_how_far_it_came():

@@ -6,7 +6,8 @@ import ufl
 from dolfinx import fem, mesh
 from mpi4py import MPI
 
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.system import System
 
 COMM = MPI.COMM_SELF
 

@@ -59,7 +59,7 @@ def test_after_a_failure_nothing_more_is_done():
 def test_newton_names_what_its_forms_raise_and_solves_afterwards(error, part, at, line_search, monkeypatch):
     system = cubic()
     solver = ExtendedNewton(system, line_search=line_search)
-    guess = system.state()
+    guess = system.initial.copy()
     guess.loads["load"] = 10.0
     right = getattr(system, part)
     monkeypatch.setattr(system, part, Raises(right, error, at))
@@ -80,7 +80,7 @@ def test_newton_names_what_a_constraint_raises(error, part, monkeypatch):
     held = Held("u", 2.0)
     monkeypatch.setattr(Held, part, Raises(getattr(held, part), error, 1))
     with pytest.raises(ConvergenceError if error in NOT_SOLVED else type(error)):
-        solver.solve(system.state(), [held])
+        solver.solve(system.initial, [held])
 
 
 @pytest.mark.parametrize("at", TIMES)
@@ -89,7 +89,7 @@ def test_newton_names_what_a_constraint_raises(error, part, monkeypatch):
 def test_a_subspace_names_what_its_forms_raise(error, part, at, monkeypatch):
     system = cubic()
     subspace = Subspace(system, *whole(system))
-    guess = system.state()
+    guess = system.initial.copy()
     monkeypatch.setattr(system, part, Raises(getattr(system, part), error, at))
     with pytest.raises(ConvergenceError if error in NOT_SOLVED else type(error)):
         subspace.solve(guess, {"load": 10.0})
@@ -100,7 +100,8 @@ def test_a_subspace_names_what_its_forms_raise(error, part, at, monkeypatch):
 
 def whole(system):
     """The whole space of a system as a subspace: basis and lift."""
-    basis = system.tangent().duplicate()
+    with system.at(system.initial):
+        basis = system.tangent().duplicate()
     basis.zeroEntries()
     basis.shift(1.0)
     return basis, np.zeros(system.size)
@@ -110,7 +111,7 @@ def whole(system):
 @pytest.mark.parametrize("error", [NOT_SOLVED[0], *OTHERS], ids=lambda e: type(e).__name__)
 def test_a_spectrum_names_what_its_inverse_raises(error, at):
     system = column()
-    stability, state = Stability(system), system.state()
+    stability, state = Stability(system), system.initial
     right = stability.spectrum(state).eigenvalues
     inverse = Raises(stability.factor.solve, error, at)
     with pytest.raises(ConvergenceError if error in NOT_SOLVED else type(error)) as caught:

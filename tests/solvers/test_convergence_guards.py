@@ -1,5 +1,6 @@
 """Each guard refuses what is not an answer, tested on replacements of the solvers' results."""
 
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from small_systems import system_of
 from stand_ins import bare, refused
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.bent import stability as bent
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.triangles import problem as surface
@@ -61,7 +62,7 @@ def test_the_largest_stiffness_is_inside_a_band_that_is_unstable_throughout(band
 
 def test_no_stiffness_makes_it_stable(monkeypatch):
     waves = SimpleNamespace(negative_count=lambda *_: 1)
-    monkeypatch.setattr(wrinkled_bands, "waves_at", lambda _: waves)
+    monkeypatch.setattr(wrinkled_bands, "waves_at", lambda _: nullcontext(waves))
     refused("unstable at any bending stiffness up to 1", Bands(held=None).stiffness, 20.0)
 
 
@@ -90,10 +91,14 @@ def test_a_change_of_stability_that_the_surface_does_not_have():
 
 
 def test_a_bifurcation_that_the_primary_branch_does_not_have():
-    piece = SimpleNamespace(special=lambda: [SimpleNamespace(values={"n": 1.0})], crossings=lambda *_: [])
-    told = bare(PrimaryBranch, path=SimpleNamespace(pieces=[piece]))
-    refused("has 0 bifurcation points of n = 2, not 1", told.bifurcation, [0.0], 2)
+    forks = [SimpleNamespace(values={"n": 1.0})]
+    piece = SimpleNamespace(special=lambda: forks, crossings=lambda *_: [], stalled="steps too small")
+    told = bare(PrimaryBranch, path=SimpleNamespace(pieces=[piece], zw_end=0.7))
+    refused("has 0 bifurcation points of n = 2, not 1, as far as .*too small", told.bifurcation, [0.0], 2)
     refused("has 1 bifurcation points of n = 1, not 2", told.bifurcation, [0.0], 1, 2)
+    piece.stalled = None
+    with pytest.raises(AbsentError, match=r"has 1 bif.* to 0\.7 of the highest.*choose another delta"):
+        told.bifurcation([0.0], 1, 2)
     refused("zw = 5 is not taken 1 times", told.at, "zw", 5.0, [0.0])
 
 
@@ -139,7 +144,7 @@ def test_a_singular_tangent_has_no_inertia():
 
 def test_a_stiffness_to_compare_with_is_positive():
     system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
-    refused("not positive", Stability(system).lowest_against, system.state(), system.mass)
+    refused("not positive", Stability(system).lowest_against, system.initial, system.mass)
 
 
 def test_eigenvalues_below_every_target_are_refused(monkeypatch):
@@ -155,4 +160,4 @@ def test_copies_that_are_never_found_are_missed(monkeypatch):
     right = looked._below
     monkeypatch.setattr(looked, "_below", lambda shift: right(shift) + (shift > 0) * 100)
     with pytest.raises(ConvergenceError, match="finds fewer lowest eigenvalues than the inertia counts"):
-        looked(system.state(), 2)
+        looked(system.initial, 2)

@@ -56,7 +56,7 @@ def test_bifurcations_in_another_order():
 def modal(*eigenvalues):
     spectrum = SimpleNamespace(eigenvalues=eigenvalues)
     return SimpleNamespace(
-        system=SimpleNamespace(set_state=lambda *_: None),
+        system=SimpleNamespace(at=lambda _: nullcontext()),
         modes=SimpleNamespace(variation=lambda _: SimpleNamespace(spectrum=lambda _: spectrum)),
     )
 
@@ -93,7 +93,7 @@ def test_wrinkled_states_that_are_stable_on_some_meshes_only(monkeypatch):
 
     def held(count):
         system = SimpleNamespace(count=count, weighed_here=nullcontext)
-        return SimpleNamespace(put=lambda: None, state=None, model=SimpleNamespace(system=system))
+        return SimpleNamespace(lent=nullcontext, state=None, model=SimpleNamespace(system=system))
 
     monkeypatch.setattr(wrinkled_readings, "Stability", Counted)
     monkeypatch.setattr(Readings, "quantity", lambda *_: Quantity(1.0))

@@ -1,5 +1,6 @@
 """States, fronts and histories that are no answer are refused, problem by problem, on stand-ins."""
 
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import numpy as np
@@ -24,7 +25,7 @@ from weakforms.problems.wrinkled import fitted as wrinkled_fitted
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.waves.stability import Sample, StabilityChanges
 from weakforms.solvers.continuation.branch import Solved
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 STALLED = ConvergenceError("Newton stalled")
 
@@ -85,7 +86,7 @@ def test_a_coincidence_needs_both_points():
 
 def test_a_coincidence_far_from_where_it_was_looked_for(monkeypatch):
     variation = SimpleNamespace(mass_times=always(None), nearest=always(SimpleNamespace(vector=None)))
-    system = SimpleNamespace(set_state=always(None), monitors=lambda: {"V": 1.0})
+    system = SimpleNamespace(at=always(nullcontext()), monitors=lambda: {"V": 1.0})
     path = SimpleNamespace(
         model=SimpleNamespace(system=system),
         modes=SimpleNamespace(variation=always(variation), observe=dict),
@@ -111,7 +112,7 @@ def beside(eigenvalues, counts, overlap):
 
 def test_a_bifurcation_that_the_surface_does_not_have(monkeypatch):
     along = bifurcation_point.chebyshev.chebpts1(bifurcation_point.NODES)
-    system = SimpleNamespace(dot=np.dot, mass_times=lambda u: u)
+    system = SimpleNamespace(dot=np.dot, mass_times=lambda u: u, at=always(nullcontext()))
     model = SimpleNamespace(system=system, interpolated=always(np.array([1.0, 0.0])))
     monkeypatch.setattr(bifurcation_point, "displacement", always(None))
     at = SimpleNamespace(values={"V": 5.0})
@@ -140,7 +141,7 @@ def test_a_bifurcation_point_that_is_no_equilibrium(monkeypatch):
         size=1,
         dot=np.dot,
         mass_times=lambda u: u,
-        set_state=always(None),
+        at=always(nullcontext()),
         residual=lambda: np.array(left),
         monitors=dict,
     )
@@ -157,8 +158,8 @@ def test_a_bifurcation_point_that_is_no_equilibrium(monkeypatch):
 def test_a_bent_state_that_is_not_another_meshs():
     gaps = iter((0.01, 0.2))
     state = State(np.ones(1), {})
-    fitting = SimpleNamespace(shape=always(None), solve=always(state), apart=lambda _: next(gaps))
-    told = bare(bent_branch.SecondaryBranch, system=SimpleNamespace(set_state=always(None)), fitting=fitting)
+    fitting = SimpleNamespace(shape=always(None), solve=always(state), apart=lambda *_: next(gaps))
+    told = bare(bent_branch.SecondaryBranch, fitting=fitting)
     told._values = always({"zw": 1.0})
     assert told.at_guess(state, None).state is state
     refused(r"^converged 0\.2 away from another mesh's state$", told.at_guess, state, None)
@@ -174,12 +175,13 @@ def test_a_bent_branch_of_which_no_point_is_on_all_meshes():
 
 def test_a_mesh_that_never_comes_to_rest_on_the_free_surface():
     moves = []
-    told = bare(fitted.Fitting, system=SimpleNamespace(set_state=always(None)), find_front=always(None))
+    told = bare(fitted.Fitting, on_its_front=lambda state: state)
     told.model = SimpleNamespace(data=SimpleNamespace(length=8.0))
-    told._refitted, told._solved, told._move = always(None), always("state"), moves.append
-    told._length_of = always(0.0)
+    told._refitted, told._solved = always(None), always("state")
+    told._with_front = lambda *of: moves.append(of)
+    told.move = always(0.0)
     assert told.solve(State(np.zeros(1), {}), []) == "state"
-    told._length_of = always(1.0)
+    told.move = always(1.0)
     refused("^the mesh does not come to rest on the free surface$", told.solve, State(np.zeros(1), {}), [])
     assert len(moves) == fitted.FITS
 
@@ -215,7 +217,7 @@ def test_a_ring_periodic_state_that_is_none_of_the_whole_surface(residual, monke
     monkeypatch.setattr(triangles, "residual_limit", always(1e-8))
     told = bare(triangles.SurfaceRun, rings=True, control="zw")
     told._subspace = SimpleNamespace(solve=always((None, None)))
-    told.system = SimpleNamespace(residual=lambda: np.array([residual]), dot=np.dot)
+    told.system = SimpleNamespace(residual=lambda: np.array([residual]), dot=np.dot, at=always(nullcontext()))
     words = (
         "zw = 2: the ring-periodic equilibrium is not one of the whole surface, "
         f"its residual is {residual:.1e}"
@@ -241,7 +243,7 @@ def test_a_limit_load_that_is_not_one(limits, monkeypatch):
     found = SimpleNamespace(special=always([None] * limits))
     monkeypatch.setattr(wrinkled_branch, "FittedBranch", always(found))
     model = SimpleNamespace(system=SimpleNamespace(update_mass=always(None)))
-    held = SimpleNamespace(model=model, put=always(None), scalars=("p",), constraints=(), state=None)
+    held = SimpleNamespace(model=model, lent=nullcontext, scalars=("p",), constraints=(), state=None)
     told = bare(wrinkled_branch.WrinkledBranch, control="p")
     words = f"^{limits} limit loads between V = 4 and 6 on a fitted mesh$"
     refused(words, told._limit_from, held, 4.0, 6.0)
@@ -250,7 +252,7 @@ def test_a_limit_load_that_is_not_one(limits, monkeypatch):
 def unloaded(gw):
     """A membrane whose least ``gw`` without a load is a function of the thickness ratio."""
     membrane = SimpleNamespace(values={"M": 1.0, "Af": 0.7, "delta": 2.0})
-    state = SimpleNamespace(put=lambda: SimpleNamespace(extreme=lambda *_: gw(membrane.values["M"])))
+    state = SimpleNamespace(extreme=lambda *_: gw(membrane.values["M"]))
     membrane.unloaded_from = always(state)
     return membrane
 
@@ -294,18 +296,16 @@ def test_an_equilibrium_that_is_turned_inside_out(radius, inside_out):
         assert wrinkled_fields.zones(*given).fronts == ()
 
 
-def test_a_pattern_of_zones_that_its_solution_never_shows(monkeypatch):
+def test_a_pattern_of_zones_that_its_solution_never_shows():
     """Solved for with a front it shows none, and solved for without one it does."""
     front, none = Zones(1.0, (2.0,)), Zones(1.0, ())
     told = bare(wrinkled_fitted.Membrane, length=4.0, meshes=[8], liquid=False, near_fronts=())
+    shown = iter([front, *[none, front] * wrinkled_fitted.ATTEMPTS])
     told.fit = lambda _level, _start, wanted, _constraints: SimpleNamespace(
-        zones=wanted, put=always(None), state=SimpleNamespace(loads={})
+        zones=wanted, shown_zones=lambda *_: next(shown)
     )
     given = SimpleNamespace(zones=front), None, 1e-3, False
-    monkeypatch.setattr(wrinkled_fitted, "zones", always(front))
     assert told._pattern(*given).zones == front
-    shown = iter([none, front] * wrinkled_fitted.ATTEMPTS)
-    monkeypatch.setattr(wrinkled_fitted, "zones", lambda *_: next(shown))
     refused(r"^no pattern of zones agrees with its own solution \(none tried\)$", told._pattern, *given)
     told.fit = raising(STALLED)
     refused("^Newton stalled$", told._pattern, SimpleNamespace(zones=none), None, 1e-3, False)

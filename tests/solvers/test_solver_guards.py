@@ -16,8 +16,8 @@ from weakforms.solvers.continuation.continuation import Continuation, StepContro
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.subspace import Subspace
-from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.stability.spectra import Stability
@@ -28,7 +28,7 @@ def circle():
     """``u^2 + load^2 = 1``, from ``u = -1``."""
     system = system_of(lambda u, v, p: (u**2 + p**2 - 1) * v)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(0.05, 0.2))
-    state = system.state()
+    state = system.initial.copy()
     state.u[:] = -1.0
     return continuation, continuation.start(state, Held("load", 0.0), towards={"load": 1.0})
 
@@ -42,7 +42,7 @@ def test_a_missed_pair_of_bifurcations_is_named():
     """One long step along ``u = 0`` of an overloaded column, beyond two of its buckling loads."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(60.0, 60.0))
-    first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
+    first = continuation.start(system.initial, Held("load", 0.0), towards={"load": -1.0})
     branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.state.loads["load"] < -50)
     assert [point.n_negative for point in branch.points] == [0, 2]
     with pytest.raises(ConvergenceError, match="several eigenvalues change sign"):
@@ -53,7 +53,7 @@ def test_a_bifurcation_is_where_the_eigenvalue_is_zero():
     """Euler's first buckling load of this column; the primary branch has no limit point there."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + p * u * v, "Lagrange", 2, 40, ends=True)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(3.0, 3.0))
-    first = continuation.start(system.state(), Held("load", 0.0), towards={"load": -1.0})
+    first = continuation.start(system.initial, Held("load", 0.0), towards={"load": -1.0})
     branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.state.loads["load"] < -20)
     (point,) = branch.special()
     assert point.kind == "bifurcation_point"
@@ -123,7 +123,8 @@ def test_a_singular_bordered_system_is_refused():
     """An unsupported string pulled to one side."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4)
     factor = Factorization(system)
-    factor.update()
+    with system.at(system.initial):
+        factor.update()
     with pytest.raises(ConvergenceError, match="singular"):
         BorderedMatrix(factor, [], [], np.zeros((0, 0))).solve(np.ones(system.size), np.zeros(0))
 
@@ -141,13 +142,13 @@ def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
         return found if apart_from or wanted == 1 else found[:1] + found[2:]
 
     monkeypatch.setattr(lowest, "_solve", forgetful)
-    assert [mode.eigenvalue for mode in lowest(system.state(), 4)] == pytest.approx(exact, rel=2e-5)
+    assert [mode.eigenvalue for mode in lowest(system.initial, 4)] == pytest.approx(exact, rel=2e-5)
     assert max(looks) > 0, "it looked again, apart from those found"
 
 
 def test_the_mode_of_a_double_eigenvalue_is_the_same_whichever_copies_are_found(monkeypatch):
     system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
-    first = Lowest(system)(system.state(), 2)[0].vector
+    first = Lowest(system)(system.initial, 2)[0].vector
     lowest = Lowest(system)
     right = lowest._solve
 
@@ -157,13 +158,13 @@ def test_the_mode_of_a_double_eigenvalue_is_the_same_whichever_copies_are_found(
 
     monkeypatch.setattr(lowest, "_solve", turned)
     assert np.abs(first).max() > 0.1
-    assert np.abs(lowest(system.state(), 2)[0].vector - first).max() < 1e-9
+    assert np.abs(lowest(system.initial, 2)[0].vector - first).max() < 1e-9
 
 
 def test_a_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch):
     system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
     stability = Stability(system)
-    assert stability.spectrum(system.state()).n_negative == 1
+    assert stability.spectrum(system.initial).n_negative == 1
     right = stability._eigenvalues
 
     def positive(*given, **named):
@@ -172,17 +173,17 @@ def test_a_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch):
 
     monkeypatch.setattr(stability, "_eigenvalues", positive)
     with pytest.raises(ConvergenceError, match="inertia counts 1 negative eigenvalues, SLEPc finds 0"):
-        stability.spectrum(system.state())
+        stability.spectrum(system.initial)
 
 
 def test_a_factorisation_that_does_not_solve_is_made_again_with_pivoting(monkeypatch):
     system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - 20 * u * v, "Lagrange", 2, 20, ends=True)
     stability = Stability(system)
-    expected = stability.spectrum(system.state())
+    expected = stability.spectrum(system.initial)
     assert stability.factor.package == "petsc"
     right = stability.factor.solve
     wrong = {"petsc": 1 + 1e-6, "mumps": 1.0}
     monkeypatch.setattr(stability.factor, "solve", lambda rhs: wrong[stability.factor.package] * right(rhs))
-    found = stability.spectrum(system.state())
+    found = stability.spectrum(system.initial)
     assert stability.factor.package == "mumps"
     assert found.eigenvalues == pytest.approx(expected.eigenvalues, rel=1e-11)

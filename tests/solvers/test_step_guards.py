@@ -13,7 +13,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability import lowest
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Stability
@@ -26,7 +26,7 @@ def line(**control):
     """Two parallel branches, ``u = -1`` and ``u = 1`` at every load; the first one is followed."""
     system = system_of(lambda u, v, p: (u**2 - 1 + 0 * p) * v)
     continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(0.1, 0.1, **control))
-    state = system.state()
+    state = system.initial.copy()
     state.u[:] = -1.0
     return continuation, continuation.start(state, Held("load", 0.0), towards={"load": 1.0})
 
@@ -37,7 +37,6 @@ def beside(continuation, monkeypatch):
 
     def astray(guess, constraints=(), chord=False):
         state, record = right(guess, constraints, chord)
-        continuation.system.set_state(-state.u, state.loads)
         return State(-state.u, state.loads), record
 
     monkeypatch.setattr(continuation.solver, "solve", astray)
@@ -144,12 +143,12 @@ def test_a_constrained_spectrum_that_misses_an_eigenvalue_is_refused(monkeypatch
     stability = Stability(system := string(60.0))
     border = np.zeros(system.size)
     border[system.size // 3] = 1.0
-    assert stability.spectrum(system.state()).n_negative == 2
-    assert stability.bordered(system.state(), border, 0.0).n_negative == 1
+    assert stability.spectrum(system.initial).n_negative == 2
+    assert stability.bordered(system.initial, border, 0.0).n_negative == 1
     right = stability._eigenvalues
     monkeypatch.setattr(stability, "_eigenvalues", lambda *given: np.abs(right(*given)))
     words = "inertia counts 1 negative eigenvalues under the constraint, SLEPc finds 0"
-    refused(words, stability.bordered, system.state(), border, 0.0)
+    refused(words, stability.bordered, system.initial, border, 0.0)
 
 
 # -- families --------------------------------------------------------------------------------------

@@ -34,7 +34,9 @@ def audit(
         int, typer.Option(min=1, max=10_000, help="Number of parameter sets for each problem.")
     ] = 8,
     seed: Annotated[int | None, typer.Option(min=0, help="Seed of the draws; default: today's date.")] = None,
-    limit: Annotated[float, typer.Option(min=1, help="Seconds after which a solve is ended.")] = 300.0,
+    limit: Annotated[
+        float, typer.Option(min=1, help="Seconds of processor time after which a solve is ended.")
+    ] = 300.0,
     out: Out = Path("out"),
     resume: Resume = False,
     as_json: Json = False,

@@ -18,7 +18,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
-from weakforms.solvers.equilibrium.system import State as Equilibrium
+from weakforms.solvers.equilibrium.state import State as Equilibrium
 from weakforms.solvers.equilibrium.system import System
 
 
@@ -91,13 +91,15 @@ def from_rest(
         along: A column that changes along the whole branch.
         end: Its value at which the branch ends.
         step: Largest step.
-        begin: Guess of the first state; by default the state that the system holds.
+        begin: Guess of the first state; by default the state of rest.
         usual_load: Load above which steps grow in proportion to it.
     """
     steps = StepControl(first=step / 4, largest=step, usual_load=usual_load)
     continuation = Continuation(ExtendedNewton(system, [load]), control=steps)
-    rising = 1.0 if end > system.monitor(along) else -1.0
-    start = continuation.start(begin or system.state(), Held(load, 0.0), towards={along: rising})
+    begin = begin or system.initial
+    with system.at(begin):
+        rising = 1.0 if end > system.monitor(along) else -1.0
+    start = continuation.start(begin, Held(load, 0.0), towards={along: rising})
     return EquilibriumBranch(
         continuation, load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0
     )

@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from weakforms.errors import InputError, not_among
 from weakforms.problems.about import About
 from weakforms.results import Branch, Ended, Result
+from weakforms.solvers.support.memory import release
 from weakforms.solvers.support.provenance import provenance
 
 Needs = Mapping[str, Sequence[Mapping[str, tuple[Any, ...]]]]
@@ -189,6 +190,7 @@ class Problem:
             provenance={},
         )
         self.fill(result, task)
+        release(comm)
         result.provenance = provenance(comm, time.perf_counter() - begun)
         return result
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from weakforms.errors import EnvironmentLackError, InputError, not_among
+from weakforms.errors import InputError, lacking, not_among
 from weakforms.results.io import require_place_for
 from weakforms.results.model import KINDS, Branch, Field
 from weakforms.results.result import Result
@@ -124,9 +124,7 @@ def _axes() -> tuple[Figure, Axes]:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise EnvironmentLackError(
-            "matplotlib is not installed here; pip install matplotlib, or apt install python3-matplotlib"
-        ) from error
+        raise lacking(error) or error from error
     figure = FigureCanvasAgg(Figure(figsize=SIZE, layout="constrained")).figure
     axes = figure.add_subplot()
     axes.grid(color="#e6e6e2", linewidth=0.5)

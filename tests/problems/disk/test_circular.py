@@ -15,6 +15,7 @@ from weakforms.problems.disk.peeling import PeelingBranch
 from weakforms.problems.disk.phases import DiskHistory, DiskPhases
 from weakforms.problems.disk.problem import inflation
 from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.solvers.equilibrium.state import State
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.run.runner import verify
 
@@ -43,10 +44,10 @@ def gap_to_difference(system, state, direction, value, derivative, h=2e-7):
     """Compare a derivative with the central difference of ``value`` along a direction."""
     found = []
     for sign in (1, -1):
-        system.set_state(state.u + sign * h * direction, state.loads)
-        found.append(value())
-    system.set_state(state.u, state.loads)
-    return (found[0] - found[1]) / (2 * h), derivative()
+        with system.at(State(state.u + sign * h * direction, state.loads)):
+            found.append(value())
+    with system.at(state):
+        return (found[0] - found[1]) / (2 * h), derivative()
 
 
 def test_residual_is_the_gradient_of_the_potential_in_contact(run):
@@ -153,13 +154,13 @@ def peeling(run):
 def test_energy_release_three_ways(run, peeling):
     state = peeling.at("front", 0.3).state
     system = peeling.system
-    system.set_state(state.u, state.loads)
-    values = system.monitors()
-    # The potential is stationary in the unknowns, so its derivative in the front is a partial one.
-    rate = system.monitor_gradient("Pi")[1]["front"]
-    by_derivative = rate / (values["rho_contact"] * values["lam1_contact"])
-    assert values["G"] == pytest.approx(by_derivative, rel=1e-4)  # on this mesh
-    assert peeling.difference(state) == pytest.approx(values["G"], rel=1e-4)
+    with system.at(state):
+        values = system.monitors()
+        # The potential is stationary in the unknowns, so its derivative in the front is a partial one.
+        rate = system.monitor_gradient("Pi")[1]["front"]
+        by_derivative = rate / (values["rho_contact"] * values["lam1_contact"])
+        assert values["G"] == pytest.approx(by_derivative, rel=1e-4)  # on this mesh
+        assert peeling.difference(state) == pytest.approx(values["G"], rel=1e-4)
 
 
 def test_differences_of_potentials_converge_to_the_release_rate(peeling):

@@ -12,7 +12,7 @@ from weakforms.problems.homogeneous.body import system_of
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 GENT = Chosen("gent", (("shear", 2.0), ("jm", 97.2)))
 

@@ -16,6 +16,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.problem import Requests, StateRequest
+from weakforms.solvers.equilibrium.state import State
 
 pytestmark = pytest.mark.paper3
 GAMMA = 0.116
@@ -53,14 +54,16 @@ def test_tangent_is_the_residuals_derivative_and_symmetric(short, zw):
     direction[system.bc_dofs] = 0.0
     h, sides = 1e-6, []
     for sign in (1, -1):
-        system.set_state(state.u + sign * h * direction, state.loads)
-        sides.append(system.residual())
-    system.set_state(state.u, state.loads)
-    matrix = system.tangent()
-    product = system.multiply(matrix, direction)
-    assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(product, rel=1e-6, abs=1e-6 * abs(product).max())
-    values = dense(matrix)
-    assert abs(values - values.T).max() < 1e-11 * abs(values).max()
+        with system.at(State(state.u + sign * h * direction, state.loads)):
+            sides.append(system.residual())
+    with system.at(state):
+        matrix = system.tangent()
+        product = system.multiply(matrix, direction)
+        assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(
+            product, rel=1e-6, abs=1e-6 * abs(product).max()
+        )
+        values = dense(matrix)
+        assert abs(values - values.T).max() < 1e-11 * abs(values).max()
 
 
 def test_residual_is_the_potentials_gradient(short, partially_filled):
@@ -75,12 +78,12 @@ def test_residual_is_the_potentials_gradient(short, partially_filled):
     base, direction = state.u + 0.1 * shapes[0], shapes[1]
     h, values = 1e-5, []
     for sign in (1, -1):
-        system.set_state(base + sign * h * direction, state.loads)
-        values.append(system.monitor("Pi"))
-    system.set_state(base, state.loads)
-    slope = 2 * np.pi * system.dot(system.residual(), direction)
-    assert abs(slope) > 0.01
-    assert (values[0] - values[1]) / (2 * h) == pytest.approx(slope, rel=1e-6)
+        with system.at(State(base + sign * h * direction, state.loads)):
+            values.append(system.monitor("Pi"))
+    with system.at(State(base, state.loads)):
+        slope = 2 * np.pi * system.dot(system.residual(), direction)
+        assert abs(slope) > 0.01
+        assert (values[0] - values[1]) / (2 * h) == pytest.approx(slope, rel=1e-6)
 
 
 def typed_form(model, n, u, beta, w):
@@ -113,14 +116,14 @@ def test_automatic_second_variation_is_the_one_derived_by_hand(short, n, where):
     piece = short.pieces[1] if where == "zw" else short.pieces[2]
     state = piece.at("V", 20.0 if where == "zw" else 90.0).state
     model = short.model
-    model.system.set_state(state.u, state.loads)
-    variation = short.modes.variation(n)
-    q = fem.Function(variation.unknown.function_space)
-    q.x.array[:] = np.random.default_rng(n).standard_normal(len(q.x.array))
-    q.x.array[variation.bc_dofs] = 0.0
-    by_hand = fem.assemble_scalar(fem.form(typed_form(model, n, *q)))
-    product = variation.multiply(variation.tangent(), q.x.array)
-    assert variation.dot(q.x.array, product) == pytest.approx(by_hand, rel=1e-10)
+    with model.system.at(state):
+        variation = short.modes.variation(n)
+        q = fem.Function(variation.unknown.function_space)
+        q.x.array[:] = np.random.default_rng(n).standard_normal(len(q.x.array))
+        q.x.array[variation.bc_dofs] = 0.0
+        by_hand = fem.assemble_scalar(fem.form(typed_form(model, n, *q)))
+        product = variation.multiply(variation.tangent(), q.x.array)
+        assert variation.dot(q.x.array, product) == pytest.approx(by_hand, rel=1e-10)
 
 
 def without_rings(variation):
@@ -133,17 +136,17 @@ def without_rings(variation):
 
 def test_rigid_displacements_cost_nothing(short, partially_filled):
     model = short.model
-    model.system.set_state(partially_filled.state.u, partially_filled.state.loads)
-    waves = short.modes.variation(1)
-    sideways = np.tile([1.0, -1.0, 0.0], waves.size // 3)
-    inside = np.setdiff1d(np.arange(waves.size), waves.bc_dofs)
-    stiffness = without_rings(waves)
-    assert abs((stiffness @ sideways)[inside]).max() < 1e-10 * abs(stiffness).max()
-    torsion = model.torsion
-    turned = 1 + model.unknown.x.array[::2]  # beta = r: a rotation about the axis
-    stiffness = without_rings(torsion)
-    inside = np.setdiff1d(np.arange(torsion.size), torsion.bc_dofs)
-    assert abs((stiffness @ turned)[inside]).max() < 1e-10 * abs(stiffness).max()
+    with model.system.at(partially_filled.state):
+        waves = short.modes.variation(1)
+        sideways = np.tile([1.0, -1.0, 0.0], waves.size // 3)
+        inside = np.setdiff1d(np.arange(waves.size), waves.bc_dofs)
+        stiffness = without_rings(waves)
+        assert abs((stiffness @ sideways)[inside]).max() < 1e-10 * abs(stiffness).max()
+        torsion = model.torsion
+        turned = 1 + model.unknown.x.array[::2]  # beta = r: a rotation about the axis
+        stiffness = without_rings(torsion)
+        inside = np.setdiff1d(np.arange(torsion.size), torsion.bc_dofs)
+        assert abs((stiffness @ turned)[inside]).max() < 1e-10 * abs(stiffness).max()
 
 
 # -- eigenvalues -----------------------------------------------------------------------------------
@@ -158,18 +161,18 @@ def lowest(variation, count=1):
 
 @pytest.mark.parametrize("n", [0, 1, 2])
 def test_eigenvalues_are_those_of_the_dense_problem(short, partially_filled, n):
-    short.model.system.set_state(partially_filled.state.u, partially_filled.state.loads)
-    variation = short.modes.variation(n)
-    assert variation.spectrum().eigenvalues[0] == pytest.approx(lowest(variation)[0][0], rel=1e-9)
+    with short.model.system.at(partially_filled.state):
+        variation = short.modes.variation(n)
+        assert variation.spectrum().eigenvalues[0] == pytest.approx(lowest(variation)[0][0], rel=1e-9)
 
 
 def test_zero_waves_are_the_axisymmetric_space_and_torsion(short, partially_filled):
     model = short.model
-    model.system.set_state(partially_filled.state.u, partially_filled.state.loads)
-    model.wave_number.value = 0
-    both = lowest(model.waves, 6)[0]
-    apart = np.sort(np.concatenate([lowest(v, 6)[0] for v in (model.axial, model.torsion)]))[:6]
-    assert both == pytest.approx(apart, rel=1e-9)
+    with model.system.at(partially_filled.state):
+        model.wave_number.value = 0
+        both = lowest(model.waves, 6)[0]
+        apart = np.sort(np.concatenate([lowest(v, 6)[0] for v in (model.axial, model.torsion)]))[:6]
+        assert both == pytest.approx(apart, rel=1e-9)
 
 
 @pytest.mark.parametrize("V", [20.0, 90.0, 125.0])
@@ -177,17 +180,17 @@ def test_volume_control_is_a_term_of_rank_one_or_a_constraint(short, V):
     piece = next(p for p in short.pieces[1:] if p.points[-1].monitors["V"] > V)
     solved = piece.at("V", V)
     system, axial = short.model.system, short.model.axial
-    system.set_state(solved.state.u, solved.state.loads)
-    _, k, m, free = lowest(axial)
-    d = -system.load_derivative("zw")[free] / GAMMA  # per radian
-    if solved.state.loads["high"]:
-        basis = np.linalg.svd(d[None, :])[2][1:].T
-        expected = eigh(basis.T @ k @ basis, basis.T @ m @ basis, eigvals_only=True)[0]
-    else:
-        area = np.pi * system.monitor("r_front") ** 2
-        expected = eigh(k + 2 * np.pi * GAMMA / area * np.outer(d, d), m, eigvals_only=True)[0]
-    assert solved.values["LambdaV_n0"] == pytest.approx(expected, rel=1e-8)
-    assert expected > 0
+    with system.at(solved.state):
+        _, k, m, free = lowest(axial)
+        d = -system.load_derivative("zw")[free] / GAMMA  # per radian
+        if solved.state.loads["high"]:
+            basis = np.linalg.svd(d[None, :])[2][1:].T
+            expected = eigh(basis.T @ k @ basis, basis.T @ m @ basis, eigvals_only=True)[0]
+        else:
+            area = np.pi * system.monitor("r_front") ** 2
+            expected = eigh(k + 2 * np.pi * GAMMA / area * np.outer(d, d), m, eigvals_only=True)[0]
+        assert solved.values["LambdaV_n0"] == pytest.approx(expected, rel=1e-8)
+        assert expected > 0
 
 
 # -- the branch ------------------------------------------------------------------------------------

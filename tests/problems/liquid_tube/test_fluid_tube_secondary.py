@@ -17,7 +17,6 @@ from weakforms.problems.problem import Requests, silent, validated
 from weakforms.results import Field, Result
 from weakforms.shapes import shape_mesh, shown_state, surface, write_shape
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
 from weakforms.solvers.stability.spectra import Mode, Stability
 
 pytestmark = pytest.mark.paper3
@@ -57,9 +56,9 @@ def test_negative_eigenvalues_are_those_of_the_state_itself(family):
     fine = family.fine
     for point in family.levels[0].points[1::4]:
         (*_, last), (counted, *_) = family._on_all(point)
-        fine.system.set_state(last.state.u, last.state.loads)
-        fine.solver.factor.update()
-        assert fine.solver.factor.negative_count() == counted
+        with fine.system.at(last.state):
+            fine.solver.factor.update()
+            assert fine.solver.factor.negative_count() == counted
 
 
 def test_it_starts_at_the_axisymmetric_bifurcation(family):
@@ -135,7 +134,7 @@ def test_an_instability_that_breaks_the_symmetry_is_counted(family):
     level = family.fine
     points = np.linspace(0, LENGTH, 121)
     state = PrimaryBranch(MPI.COMM_SELF, 8.0, 2.0).at("V", 140.0, points)
-    guess = State(level.model.interpolated(position(state)), {"zw": state.values["zw"]})
+    guess = level.model.state_of(position(state), {"zw": state.values["zw"]})
     found, _ = ExtendedNewton(level.model.system).solve(guess)
     _, below = level.stability.breaks.about(found, -1e-4, 3)
     assert below == 1

@@ -19,6 +19,7 @@ from weakforms.forms.fluid import (
 from weakforms.problems.liquid_tube.bent.bifurcation_point import bifurcation_on, position
 from weakforms.problems.liquid_tube.bent.family import free_surface
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
+from weakforms.problems.liquid_tube.bent.front import front_of
 from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
 from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
 from weakforms.problems.liquid_tube.branch import FluidPath
@@ -26,7 +27,7 @@ from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 
 pytestmark = pytest.mark.paper3
@@ -61,11 +62,13 @@ def bulged(z, theta):
     return np.vstack([out * np.cos(theta), out * np.sin(theta), up])
 
 
-def put(model, zw, shape=bulged):
-    values = model.interpolated(shape)
-    loads = {"zw": zw} | ({"phase": 0.0} if model.data.full else {})
-    model.system.set_state(values, loads)
-    return values, loads
+def placed(model, zw, shape=bulged, front=None):
+    """The state with a position, on a mesh that follows a front."""
+    return model.state_of(shape, {"zw": zw} | (model.front.loads(front) if front is not None else {}))
+
+
+def moved(model, by):
+    return model.front.fitted(by(model.front.angles))
 
 
 def assembled(model, form):
@@ -108,10 +111,11 @@ def test_prism_has_the_area_of_the_tube_and_its_angles(uneven):
     area = fem.assemble_scalar(fem.form(fem.Constant(model.mesh, 1.0) * model.dx))
     assert area == pytest.approx(2 * np.pi * L / DELTA, rel=1e-13)
     # The cylinder's tangent vectors, found from its interpolated position.
-    put(model, 0.0, lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), DELTA * z]))
+    state = placed(model, 0.0, lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), DELTA * z]))
     at = model.surface(model.unknown)
     wanted = (ufl.dot(at.a, at.a) - DELTA**2) ** 2 + (ufl.dot(at.b, at.b) - 1) ** 2 + ufl.dot(at.a, at.b) ** 2
-    assert fem.assemble_scalar(fem.form(wanted * model.dx)) < 1e-4
+    with model.system.at(state):
+        assert fem.assemble_scalar(fem.form(wanted * model.dx)) < 1e-4
 
 
 def test_prism_is_closed():
@@ -125,18 +129,21 @@ def test_prism_is_closed():
 
 @pytest.mark.parametrize("zw", [3.37, 6.1, 9.0])
 def test_tangent_is_the_residuals_derivative_and_symmetric(model, zw):
+    check_tangent(model, placed(model, zw))
+
+
+def check_tangent(model, state):
     system = model.system
-    values, loads = put(model, zw)
     direction = np.random.default_rng(0).standard_normal(system.size)
     direction[system.bc_dofs] = 0.0
     h, sides = 1e-6, []
     for sign in (1, -1):
-        system.set_state(values + sign * h * direction, loads)
-        out = system.residual()
+        with system.at(State(state.u + sign * h * direction, state.loads)):
+            out = system.residual()
         out[system.bc_dofs] = 0.0
         sides.append(out)
-    system.set_state(values, loads)
-    matrix = system.tangent()
+    with system.at(state):
+        matrix = system.tangent()
     product = system.multiply(matrix, direction)
     error = abs((sides[0] - sides[1]) / (2 * h) - product).max()
     assert error < 1e-5 * abs(product).max()  # a random direction moves the front across a few points
@@ -150,63 +157,64 @@ def test_tangent_is_the_residuals_derivative_and_symmetric(model, zw):
 def test_potential_has_the_papers_first_variation(zw, full):
     """The vertical flux equals ``w_a.v_Z + w_b.v_Theta - P v.N`` by one rule; the kink's error falls."""
     model = SurfaceModel(ONE, data(full=full, alpha=0.1))
-    put(model, zw)
+    state = placed(model, zw)
     at, v = model.surface(model.unknown), model.surface(ufl.TestFunction(model.space))
     pressure = hydrostatic(at.x[2], zw, GAMMA, ufl.conditional(ufl.lt(at.x[2], zw), 1.0, 0.0))
     energy = strain_energy(at.a, at.b, 0.1) + GAMMA * submerged_flux(at, model.zw, 2)
     errors = []
     for degree in (20, 80):
         rule = ufl.Measure("dx", model.mesh, metadata={"quadrature_degree": degree})
-        typed = assembled(model, (membrane_work(at, v, 0.1) + pressure_work(at, v, pressure)) * rule)
-        derived = assembled(model, ufl.derivative(energy * rule, model.unknown))
-        load = assembled(model, pressure_work(at, v, pressure) * rule)
+        with model.system.at(state):
+            typed = assembled(model, (membrane_work(at, v, 0.1) + pressure_work(at, v, pressure)) * rule)
+            derived = assembled(model, ufl.derivative(energy * rule, model.unknown))
+            load = assembled(model, pressure_work(at, v, pressure) * rule)
         errors.append(abs(derived - typed).max() / abs(load).max())
     assert errors[1] < max(errors[0] / 5, 1e-12)
     assert errors[1] < 1e-3
-    own = model.system.residual()
+    with model.system.at(state):
+        own = model.system.residual()
     own[model.system.bc_dofs] = 0.0
     assert own == pytest.approx(model.copies * typed, abs=1e-2 * model.copies * abs(load).max())
 
 
 def test_volume_is_the_one_between_membrane_and_surface(model):
     for zw in (3.3, 7.1, 11.0):
-        put(model, zw, lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), DELTA * z]))
-        assert model.system.monitor("V") == pytest.approx(np.pi * min(zw, L), abs=1e-5)
-        area = model.system.monitor_gradient("V")[1]["zw"]
+        state = placed(model, zw, lambda z, theta: np.vstack([np.cos(theta), np.sin(theta), DELTA * z]))
+        with model.system.at(state):
+            assert model.system.monitor("V") == pytest.approx(np.pi * min(zw, L), abs=1e-5)
+            area = model.system.monitor_gradient("V")[1]["zw"]
         assert area == pytest.approx(np.pi if zw < L else 0.0, abs=1e-3)
 
 
 @pytest.mark.parametrize("zw", [3.37, 6.1, 9.0])
 def test_level_and_volume_are_work_conjugate(model, zw):
-    values, _ = put(model, zw)
+    values = placed(model, zw).u
     h, sides = 1e-4, []
     for sign in (1, -1):
-        model.system.set_state(values, {"zw": zw + sign * h})
-        sides.append(model.system.monitor("Pi"))
-    model.system.set_state(values, {"zw": zw})
-    # V has a finer rule than Pi: what is left is the kink's quadrature error.
-    assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(-GAMMA * model.system.monitor("V"), rel=5e-4)
+        with model.system.at(State(values, {"zw": zw + sign * h})):
+            sides.append(model.system.monitor("Pi"))
+    with model.system.at(State(values, {"zw": zw})):
+        # V has a finer rule than Pi: what is left is the kink's quadrature error.
+        assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(-GAMMA * model.system.monitor("V"), rel=5e-4)
 
 
 def test_points_read_the_position_they_name(model):
-    put(model, 5.0)
-    values = model.system.monitors()
+    state = placed(model, 5.0)
+    with model.system.at(state):
+        values = model.system.monitors()
+        row, _ = model.system.monitor_gradient("r_mid")
     half, quarter = (bulged(np.array([f * L / DELTA] * 2), np.array([0.0, np.pi])) for f in (0.5, 0.25))
     assert [values["r_mid"], -values["r_mid_pi"]] == pytest.approx(half[0], abs=2e-4)
     assert [values["x_quarter_0"], values["x_quarter_pi"]] == pytest.approx(quarter[0], abs=2e-4)
     assert [values["z_quarter_0"], values["z_quarter_pi"]] == pytest.approx(quarter[2], abs=2e-4)
-    row, _ = model.system.monitor_gradient("r_mid")
-    free = model.system.owned().copy()
-    assert row @ free == pytest.approx(values["r_mid"], rel=1e-12), "linear in the position"
+    assert row @ state.u == pytest.approx(values["r_mid"], rel=1e-12), "linear in the position"
 
 
 def test_a_spline_of_the_position_is_a_guess_for_another_mesh(model):
-    put(model, 5.0)
     other = SurfaceModel(ONE, data(cells=16, around=8, degree=4))
-    put(other, 5.0)
-    exact = other.system.owned().copy()
+    exact = placed(other, 5.0).u
     fitting = Fitting(model, KeptNewton(model.system, ["zw"]))
-    assert other.interpolated(fitting.shape()) == pytest.approx(exact, abs=2e-3)
+    assert other.interpolated(fitting.shape(placed(model, 5.0))) == pytest.approx(exact, abs=2e-3)
 
 
 # -- the mesh that follows the free surface ------------------------------------------------------
@@ -243,29 +251,26 @@ def test_the_map_moves_the_row_and_is_inverted():
 def test_a_surface_is_the_same_on_a_mesh_that_has_moved():
     """Position, tangent vectors and integrals do not depend on where the mesh has its rows."""
     (one, first), (two, _) = fitted(12, 6, 5), fitted(12, 6, 5)
-    two.front.put(two.front.fitted(3.55 + 0.02 * np.cos(two.front.angles)))
-    for model in (one, two):
-        put(model, 9.0)
-    a, b = one.system.monitors(), two.system.monitors()
+    state, like = placed(one, 9.0), placed(two, 9.0, front=moved(two, lambda t: 3.55 + 0.02 * np.cos(t)))
+    with one.system.at(state), two.system.at(like):
+        a, b = one.system.monitors(), two.system.monitors()
     assert {k: b[k] for k in a} == pytest.approx(a, rel=1e-11)
-    like = State(two.system.owned().copy(), two.system.state().loads)
-    moved = first.moved(one.system.state(), like)
-    assert moved.u == pytest.approx(like.u, abs=1e-4)
+    assert first.moved(state, like).u == pytest.approx(like.u, abs=1e-4)
 
 
 def test_tangent_on_a_moved_mesh_is_the_residuals_derivative_and_symmetric():
     model, _ = fitted()
-    model.front.put(model.front.fitted(3.4 + 0.1 * np.cos(model.front.angles)))
-    test_tangent_is_the_residuals_derivative_and_symmetric(model, 6.1)
+    front = moved(model, lambda t: 3.4 + 0.1 * np.cos(t))
+    check_tangent(model, placed(model, 6.1, front=front))
 
 
 def test_resultants_are_read_more_accurately_than_the_elements_have_them():
     errors = []
     for cells, around in ((6, 4), (12, 8)):
         model, _ = fitted(cells, around)
-        put(model, 9.0)
         h = 1e-5
-        got = model.system.monitors()
+        with model.system.at(placed(model, 9.0)):
+            got = model.system.monitors()
         for side, theta in (("0", 0.0), ("pi", np.pi)):
             z, t = np.array([1.0 - h, 1.0 + h, 1.0, 1.0]), theta + np.array([0, 0, -h, h])
             x = bulged(z, t)
@@ -280,11 +285,11 @@ def test_the_mesh_comes_to_rest_on_the_free_surface_and_keeps_the_order(primary)
     state, volumes = primary.at("zw", 7.0, np.linspace(0, L / DELTA, 121)), []
     for cells, around in ((6, 4), (12, 8), (24, 16)):
         model, fitting = fitted(cells, around)
-        guess = State(model.interpolated(position(state)), {"zw": 7.0})
+        guess = model.state_of(position(state), {"zw": 7.0})
         found = fitting.solve(guess, [Held("zw", 7.0)])
-        assert fitting.refit() < 1e-9
-        model.system.set_state(found.u, found.loads)
-        volumes.append(model.system.monitor("V"))
+        assert np.abs(fitting.refitted(found).u - found.u).max() < 1e-8
+        with model.system.at(found):
+            volumes.append(model.system.monitor("V"))
     errors = abs(np.array(volumes) / state.values["V"] - 1)
     assert errors[1] < errors[0] / 32
     assert errors[2] < 1e-9
@@ -293,9 +298,9 @@ def test_the_mesh_comes_to_rest_on_the_free_surface_and_keeps_the_order(primary)
 def test_a_full_tube_has_no_free_surface_to_follow(primary):
     model, fitting = fitted()
     state = primary.at("zw", 8.1, np.linspace(0, L / DELTA, 121))
-    model.front.put(model.front.fitted(np.full(9, 3.7)))
-    fitting.solve(State(model.interpolated(position(state)), {"zw": 8.1}), [Held("zw", 8.1)])
-    assert model.front.at(np.array([0.0])) == pytest.approx(model.front.row)
+    loads = {"zw": 8.1} | model.front.loads(model.front.fitted(np.full(9, 3.7)))
+    found = fitting.solve(model.state_of(position(state), loads), [Held("zw", 8.1)])
+    assert front_of(found.loads) == pytest.approx([model.front.row] + [0.0] * 8)
 
 
 # -- against the axisymmetric side ---------------------------------------------------------------
@@ -309,8 +314,7 @@ def test_spectrum_about_an_axisymmetric_state_is_that_of_the_waves(primary):
     points = np.linspace(0, L / DELTA, 121)
     model = SurfaceModel(ONE, data(cells=12, around=6, degree=4))
     state = primary.at("zw", 7.0, points)
-    model.system.set_state(model.interpolated(position(state)), {"zw": 7.0})
-    found, _ = ExtendedNewton(model.system).solve(model.system.state())
+    found, _ = ExtendedNewton(model.system).solve(model.state_of(position(state), {"zw": 7.0}))
     keeps = Stability(model.system).spectrum(found, 16).eigenvalues
     breaks = Stability(model.breaking).spectrum(found, 16).eigenvalues
     for n in range(4):
@@ -323,7 +327,7 @@ def test_spectrum_about_an_axisymmetric_state_is_that_of_the_waves(primary):
 def test_eigenvalues_about_a_target_are_those_of_the_spectrum(primary):
     model = SurfaceModel(ONE, data(cells=12, around=6, degree=3))
     state = primary.at("V", 140.0, np.linspace(0, L / DELTA, 121))
-    guess = State(model.interpolated(position(state)), {"zw": state.values["zw"]})
+    guess = model.state_of(position(state), {"zw": state.values["zw"]})
     found, _ = ExtendedNewton(model.system).solve(guess)
     stability = Stability(model.system)
     lowest = stability.spectrum(found, 4)

@@ -12,7 +12,9 @@ from weakforms.forms.relaxed_surface import Patch, full_energy, relaxed_energy, 
 from weakforms.problems.triangles.branch import SurfaceRun
 from weakforms.problems.triangles.meshes import Triangulation, hemisphere, tube
 from weakforms.problems.triangles.model import Body, SurfaceModel
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.lowest import Lowest
 
 pytestmark = pytest.mark.paper5
@@ -91,9 +93,9 @@ class Sheet:
         )
         self.state = fem.form(state(c) * ufl.dx(mesh))
 
-    def put(self, positions):
-        """The model with its nodes at given positions."""
-        self.system.set_state(positions[self.node].ravel(), {})
+    def at(self, positions):
+        """The model lent to a state with its nodes at given positions."""
+        return self.system.at(State(positions[self.node].ravel(), {}))
 
     def stretched(self, a, b):
         """Homogeneous principal stretches in directions oblique to the mesh, rotated in space."""
@@ -120,10 +122,10 @@ def slopes(function, u, steps=1e-6):
 def test_patch_of_each_state(patch, name):
     """The energy follows the table of states; a patch stretched uniformly has no force inside."""
     a, b, expected = STRETCHES[name]
-    patch.put(patch.stretched(a, b))
-    assert patch.system.monitor("W") == pytest.approx(9 * energy_by_stretches(a, b), rel=1e-12, abs=1e-12)
-    assert fem.assemble_scalar(patch.state) == pytest.approx(9 * expected, rel=1e-12)
-    force = patch.system.residual().reshape(-1, 3)
+    with patch.at(patch.stretched(a, b)):
+        assert patch.system.monitor("W") == pytest.approx(9 * energy_by_stretches(a, b), rel=1e-12, abs=1e-12)
+        assert fem.assemble_scalar(patch.state) == pytest.approx(9 * expected, rel=1e-12)
+        force = patch.system.residual().reshape(-1, 3)
     inner = patch.inner[patch.node]
     assert np.isfinite(force).all()
     assert np.abs(force[inner]).max() < 1e-12
@@ -135,20 +137,19 @@ def test_patch_of_each_state(patch, name):
 def test_force_and_tangent_by_differences(patch, name):
     a, b, _ = STRETCHES[name]
     start = patch.stretched(a, b) + 1e-3 * np.random.default_rng(5).normal(size=(16, 3))
-    patch.put(start)
-    u = patch.system.owned().copy()
+    u = start[patch.node].ravel()
 
     def energy(v):
-        patch.system.set_state(v, {})
-        return patch.system.monitor("W")
+        with patch.system.at(State(v, {})):
+            return patch.system.monitor("W")
 
     def force(v):
-        patch.system.set_state(v, {})
-        return patch.system.residual()
+        with patch.system.at(State(v, {})):
+            return patch.system.residual()
 
     assert slopes(energy, u) == pytest.approx(force(u), abs=1e-8)
-    patch.system.set_state(u, {})
-    tangent = patch.system.tangent()[:, :]
+    with patch.system.at(State(u, {})):
+        tangent = patch.system.tangent()[:, :]
     assert np.isfinite(tangent).all()
     assert np.abs(tangent - tangent.T).max() < 1e-12
     assert slopes(force, u) == pytest.approx(tangent, abs=3e-7)
@@ -164,8 +165,8 @@ def test_the_energy_is_smooth_where_the_state_changes(patch):
     ):
         values, h = [], 1e-4
         for k in (-2, -1, 0, 1, 2):
-            patch.put(patch.stretched(a + k * h * along[0], b + k * h * along[1]))
-            values.append(patch.system.monitor("W"))
+            with patch.at(patch.stretched(a + k * h * along[0], b + k * h * along[1])):
+                values.append(patch.system.monitor("W"))
         left, right = values[2] - values[1], values[3] - values[2]
         second = [(values[i - 1] - 2 * values[i] + values[i + 1]) / h**2 for i in (1, 3)]
         assert abs(right - left) / h < 0.02
@@ -174,8 +175,8 @@ def test_the_energy_is_smooth_where_the_state_changes(patch):
 
 def test_without_relaxation_compression_is_borne():
     full = Sheet(full_energy)
-    full.put(full.stretched(1.7, 0.5))
-    assert full.system.monitor("W") > 9 * energy_by_stretches(1.7, 0.5) + 1
+    with full.at(full.stretched(1.7, 0.5)):
+        assert full.system.monitor("W") > 9 * energy_by_stretches(1.7, 0.5) + 1
 
 
 # -- loads ---------------------------------------------------------------------------------------
@@ -191,9 +192,9 @@ def model():
 
 
 def test_volume_of_the_polyhedron(model):
-    model.system.set_state(model.owned_of(model.body.triangles.points), {"p": 0.0, "zw": 0.0})
-    octagon = 8 * np.sin(np.pi / 8) * np.cos(np.pi / 8)
-    assert model.system.monitor("V") == pytest.approx(8 * octagon, rel=1e-13)
+    with model.system.at(State(model.owned_of(model.body.triangles.points), {"p": 0.0, "zw": 0.0})):
+        octagon = 8 * np.sin(np.pi / 8) * np.cos(np.pi / 8)
+        assert model.system.monitor("V") == pytest.approx(8 * octagon, rel=1e-13)
 
 
 @pytest.mark.parametrize("given", [{}, {"rule": 2}, {"rule": 3}, {"rule": 4}])
@@ -202,33 +203,33 @@ def test_the_load_has_this_derivative(given, loads):
     """Tangent and force of gas and of a liquid whose level cuts triangles agree with differences."""
     model = SurfaceModel(MPI.COMM_SELF, body(**given))
     system, rng = model.system, np.random.default_rng(7)
-    u = system.state().u + 0.02 * rng.normal(size=system.size)
-    u[system.bc_dofs] = system.state().u[system.bc_dofs]
+    u = system.initial.u + 0.02 * rng.normal(size=system.size)
+    u[system.bc_dofs] = system.initial.u[system.bc_dofs]
     v = rng.normal(size=system.size)
     v[system.bc_dofs] = 0
     forces = []
     for e in (-1e-6, 1e-6):
-        system.set_state(u + e * v, loads)
-        forces.append(system.residual())
-    system.set_state(u, loads)
-    tangent = system.tangent()[:, :]
-    assert np.abs(tangent - tangent.T).max() < 1e-11
-    assert (forces[1] - forces[0]) / 2e-6 == pytest.approx(tangent @ v, abs=2e-6)
+        with system.at(State(u + e * v, loads)):
+            forces.append(system.residual())
+    with system.at(State(u, loads)):
+        tangent = system.tangent()[:, :]
+        assert np.abs(tangent - tangent.T).max() < 1e-11
+        assert (forces[1] - forces[0]) / 2e-6 == pytest.approx(tangent @ v, abs=2e-6)
 
 
 def test_gas_presses_along_the_normal():
     """The virtual work of a gas is the difference of the volume, exactly for a polyhedron."""
     model = SurfaceModel(MPI.COMM_SELF, body(gamma=0.0))
     system, rng = model.system, np.random.default_rng(9)
-    u, v = system.state().u, rng.normal(size=system.size)
+    u, v = system.initial.u, rng.normal(size=system.size)
     v[system.bc_dofs] = 0
     work, volume = [], []
     for p in (0.0, 1.0):
-        system.set_state(u, {"p": p, "zw": 0.0})
-        work.append(system.residual() @ v)
+        with system.at(State(u, {"p": p, "zw": 0.0})):
+            work.append(system.residual() @ v)
     for e in (-1e-5, 1e-5):
-        system.set_state(u + e * v, {})
-        volume.append(system.monitor("V"))
+        with system.at(State(u + e * v, system.initial.loads)):
+            volume.append(system.monitor("V"))
     assert work[1] - work[0] == pytest.approx(-(volume[1] - volume[0]) / 2e-5, rel=1e-8)
 
 
@@ -236,10 +237,10 @@ def test_liquid_presses_below_its_level_only(model):
     system, level = model.system, 10.0
     forces = []
     for zw in (0.0, level):
-        system.set_state(system.state().u, {"p": 0.0, "zw": zw})
-        forces.append(model.nodal(system.residual()))
+        with system.at(State(system.initial.u, {"p": 0.0, "zw": zw})):
+            forces.append(model.nodal(system.residual()))
     size = np.linalg.norm(forces[1] - forces[0], axis=1)
-    z, held = model.nodal(system.state().u)[:, 2], model.body.triangles.held
+    z, held = model.nodal(system.initial.u)[:, 2], model.body.triangles.held
     ring = 1.1 * np.ptp(z) / 6  # a node feels the triangles around it
     assert np.all(size[z > level + ring] == 0)
     assert np.all(size[(z < level - ring) & ~held] > 1e-3)
@@ -257,8 +258,8 @@ def test_wrinkled_cylinder_of_uniform_thickness_is_exact(model):
     """Without load ``r = Af`` and ``z = delta S`` on any mesh: the patch test of the wrinkled tube."""
     even = SurfaceModel(MPI.COMM_SELF, body(M=1.0))
     x = even.body.triangles.points * [0.4362, 0.4362, 3.0]
-    even.system.set_state(even.owned_of(x), {"p": 0.0, "zw": 0.0})
-    assert np.abs(even.system.residual()).max() < 1e-12
+    with even.system.at(State(even.owned_of(x), {"p": 0.0, "zw": 0.0})):
+        assert np.abs(even.system.residual()).max() < 1e-12
 
 
 @pytest.fixture(scope="module")
@@ -297,10 +298,11 @@ def test_inertia_counts_what_waves_count(unstable):
     run = unstable[0]
     point = run.at(6.0)
     assert point.n_negative > 0
-    run.system.set_state(point.state.u, point.state.loads)
     given, around = run.model.body.triangles, 48
     order = np.argsort(run.model.node)
-    tangent = run.system.tangent()[:, :].reshape(len(order), 3, -1, 3)[order][:, :, order]
+    with run.system.at(point.state):
+        tangent = run.system.tangent()[:, :]
+    tangent = tangent.reshape(len(order), 3, -1, 3)[order][:, :, order]
     c, s = np.cos(given.angle), np.sin(given.angle)
     zero, one = np.zeros_like(c), np.ones_like(c)
     frame = np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]).transpose(2, 0, 1)
@@ -324,13 +326,13 @@ def test_lowest_eigenvalues_with_all_their_copies(unstable):
     """Comparison with a dense solver: a Krylov method may find only one of two equal eigenvalues."""
     run = unstable[0]
     point = run.at(6.0)
-    run.system.set_state(point.state.u, point.state.loads)
-    free = np.setdiff1d(np.arange(run.system.size), run.system.bc_dofs)
-    dense = [m[:, :][np.ix_(free, free)] for m in (run.system.tangent(), run.system.mass)]
-    expected = eigh(*dense, eigvals_only=True, subset_by_index=[0, 5])
-    found = [mode.eigenvalue for mode in Lowest(run.system)(point.state, 6)]
-    assert found == pytest.approx(expected, rel=1e-9)
-    assert found[0] == pytest.approx(found[1], rel=1e-9)
+    with run.system.at(point.state):
+        free = np.setdiff1d(np.arange(run.system.size), run.system.bc_dofs)
+        dense = [m[:, :][np.ix_(free, free)] for m in (run.system.tangent(), run.system.mass)]
+        expected = eigh(*dense, eigvals_only=True, subset_by_index=[0, 5])
+        found = [mode.eigenvalue for mode in Lowest(run.system)(point.state, 6)]
+        assert found == pytest.approx(expected, rel=1e-9)
+        assert found[0] == pytest.approx(found[1], rel=1e-9)
 
 
 # -- meshes --------------------------------------------------------------------------------------

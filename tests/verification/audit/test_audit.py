@@ -1,6 +1,7 @@
 """The audit draws allowed parameters, reports each outcome, and survives a solve that hangs."""
 
 import json
+import sys
 from io import StringIO
 from pathlib import Path
 from typing import Literal
@@ -144,8 +145,20 @@ def test_a_real_draw_is_solved_stored_and_taken_over(tmp_path, monkeypatch):
 
 def test_a_solve_that_hangs_is_ended():
     status, messages, seconds = solved(["solve", "tube"], 0.2)
-    assert (status, messages) == ("too slow", ("it did not end within 0.2 s",))
-    assert seconds < 10
+    assert (status, messages) == ("too slow", ("it did not end within 0.2 s of processor time",))
+    assert 0.2 <= seconds < 10
+
+
+def test_time_spent_waiting_for_the_processor_does_not_count(monkeypatch):
+    """A process that only waits is ended late, one that computes at the limit."""
+    monkeypatch.setattr(runner, "WAITING", 4.0)
+    for work, ended in (
+        ("time.sleep(2.5)", False),
+        ("time.sleep(9)", True),
+        ("[0 for _ in iter(int, 1)]", True),
+    ):
+        code, _ = runner._process([sys.executable, "-c", f"import time; {work}"], 1.0)
+        assert code == (None if ended else 0), work
 
 
 def test_a_refusal_is_kept_word_for_word():

@@ -161,7 +161,9 @@ def test_lines_are_noted_once_and_kept(tmp_path, monkeypatch):
     assert 0 < found.seconds[test] < 60
     monkeypatch.setattr(Children, "run", lambda *_: pytest.fail("it was run again"))
     assert measure([BOUNDS], tmp_path, True, lambda *_: None) == 0
-    monkeypatch.setattr(lines, "Imports", lambda _: SimpleNamespace(watching=lambda *_: iter([])))
+    monkeypatch.setattr(
+        lines, "Imports", lambda _: SimpleNamespace(watching=lambda *_: iter([]), reach=lambda _: {})
+    )
     first = Watchers(tmp_path).of("weakforms/verification/judging/bounds.py", line)
     assert test in [text for text, _ in first[:4]]
 
@@ -177,7 +179,7 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
     here = known("tests/a.py", slow=[3], quick=[4], other=[3])
     there = known("tests/b.py", elsewhere=[9])
     monkeypatch.setattr(lines, "measured", lambda _: [there, here])
-    near = SimpleNamespace(watching=lambda *_: iter(["tests/c.py::guessed"]))
+    near = SimpleNamespace(watching=lambda *_: iter(["tests/c.py::guessed"]), reach=lambda _: {})
     monkeypatch.setattr(lines, "Imports", lambda _: near)
     watchers = Watchers(tmp_path)
     here.seconds["tests/a.py::elsewhere"] = 0.1  # the fastest, and it runs nothing of the file
@@ -251,7 +253,7 @@ def run_one(tmp_path, monkeypatch):
     """Run one mutant with prepared failures on a tree of one file."""
     calls = []
 
-    def run(failing=(), mutant=MUTANT, anyhow=(), **options):
+    def run(failing=(), mutant=MUTANT, anyhow=(), crashing=(), **options):
         def answers(_self, root, texts, _limit, go_on=False, lines=None):
             calls.append((root.name, tuple(texts)))
             out = []
@@ -259,6 +261,7 @@ def run_one(tmp_path, monkeypatch):
                 bad = text in (anyhow if root.name == "unchanged" else {*failing, *anyhow})
                 kind = "test" if text.startswith("tests/") else "curve"
                 verdict = {"check": text, "kind": kind, "passed": not bad, "detail": "off"}
+                verdict |= {"raised": "stopped"} if text in crashing else {}
                 verdict |= {"where": "", "error": None, "bound": None, "asked": None}
                 out.append(Answer(text, "failed" if bad else "passed", 1.0, [verdict], []))
                 if bad and not go_on:
@@ -293,6 +296,17 @@ def test_a_survivor_says_what_it_met_and_time_may_be_short(run_one):
     assert "1 SURVIVED" in run.headline
     short = run_one(budget=1e-9)
     assert (short.faults[0].status, short.faults[0].searched) == ("survived", ())
+
+
+def test_after_a_crash_a_verdict_is_looked_for(run_one):
+    """A mutant that breaks its fastest test is killed by the test that says what is wrong, if one does."""
+    run = run_one({"tests/a.py::one", "tests/a.py::two"}, crashing={"tests/a.py::one"})
+    assert (run.faults[0].caught_by.kind, run.faults[0].caught_by.check) == ("test", "tests/a.py::two")
+    case = run_one({"tests/a.py::one", "paper2.fig03"}, crashing={"tests/a.py::one"})
+    assert (case.faults[0].caught_by.kind, case.faults[0].searched) == ("comparison", tuple(dict(SEEING)))
+    only = run_one({"tests/a.py::one", "tests/a.py::two"}, crashing={"tests/a.py::one", "tests/a.py::two"})
+    assert (only.faults[0].caught_by.kind, only.faults[0].caught_by.check) == ("stopped", "tests/a.py::one")
+    assert only.faults[0].searched == tuple(dict(SEEING))
 
 
 def test_what_fails_without_the_mutant_kills_nothing(run_one):

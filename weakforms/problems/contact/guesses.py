@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from weakforms.solvers.continuation.branch import Solved
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 
 def moved(model: Any, state: State, front: float) -> State:

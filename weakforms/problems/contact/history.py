@@ -16,7 +16,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation.branch import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 ITERATIONS = 20
 """Largest number of Newton iterations; about 5 are needed."""
@@ -101,7 +101,8 @@ class History:
         out = np.empty((len(self.conditions), len(self.fronts)))
         for j, front in enumerate(self.fronts):
             self._states[j], _ = self._solver.solve(self._states[j], self._held(front))
-            out[:, j] = [self.model.system.monitor(name) for name in self.conditions]
+            with self.model.system.at(self._states[j]):
+                out[:, j] = [self.model.system.monitor(name) for name in self.conditions]
         return out.ravel()
 
     def _sensitivity(self, x: np.ndarray) -> np.ndarray:
@@ -112,17 +113,17 @@ class History:
             self.write(x)
             out = []
             for state in self._states:
-                system.set_state(state.u, state.loads)
-                out.append((system.residual(), np.array([system.monitor(name) for name in names])))
+                with system.at(state):
+                    out.append((system.residual(), np.array([system.monitor(name) for name in names])))
             return out
 
         moved = [observed(x + DIFFERENCE * unit) for unit in np.eye(len(x))]
         here, out = observed(x), -self._frozen
         for j, front in enumerate(self.fronts):
-            system.set_state(self._states[j].u, self._states[j].loads)
-            self._solver.factor.update()
-            bordered = self._solver.border(self._held(front))
-            rows = [system.monitor_gradient(name, self._solver.scalars) for name in self.conditions]
+            with system.at(self._states[j]):
+                self._solver.factor.update()
+                bordered = self._solver.border(self._held(front))
+                rows = [system.monitor_gradient(name, self._solver.scalars) for name in self.conditions]
             for m, there in enumerate(moved):
                 force, direct = ((b - a) / DIFFERENCE for a, b in zip(here[j], there[j], strict=True))
                 u, loads = bordered.solve(-force, [-direct[-1], 0.0])

@@ -13,7 +13,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranc
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 PASSED = 0.1
 """By how much of ``p_end`` a step of deflation may pass its last pressure."""
@@ -189,9 +189,10 @@ class Inflation:
         reached = end.state.loads["p"]
         if reached < self.p_end:
             followed = f"contact was followed up to p = {reached:.6g}, not p_end = {self.p_end:g}"
-            if branch.stalled:
+            if branch.stalled and not ends(end):
                 branch.stalled = f"{followed}: {branch.stalled}"
             else:
+                branch.stalled = None
                 branch.ended = f"{self.name}: {followed}: {ends(end)}; lower p_end"
         return branch
 

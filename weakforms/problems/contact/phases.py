@@ -10,12 +10,12 @@ from functools import cached_property
 from math import inf
 from typing import Any
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.contact.guesses import moved, stick_guess
 from weakforms.problems.contact.history import History
 from weakforms.problems.contact.inflation import Inflation
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 SPANS, WIDER = 6, 1.02
 """Spans tried for a history that the patch outgrows, or that is not found, and by how much they change."""
@@ -103,13 +103,14 @@ class ContactPhases(Inflation):
         """The largest front without friction up to ``p_end``.
 
         Raises:
-            InputError: If the law gives way before, or contact does not raise the pressure.
+            AbsentError: If the law gives way before.
+            InputError: If contact does not raise the pressure.
         """
         trace = self.frictionless
         crossed = trace.crossings("p", self.p_end)
         if not len(crossed):
             if self.gives_way(trace.points[-1]):
-                raise InputError(trace.ended)
+                raise AbsentError("contact up to p_end", trace.ended)
             if max(point.state.loads["p"] for point in trace.points[1:]) <= self.onset.values["p"]:
                 trace.at("p", self.p_end)  # contact does not raise the pressure: says what is reached
             return max(point.state.loads["front"] for point in trace.points)
@@ -143,13 +144,13 @@ class ContactPhases(Inflation):
         """The adhesive state at ``p_end``.
 
         Raises:
-            InputError: If contact ends before.
+            AbsentError: If contact ends before.
             ConvergenceError: If its trace does.
         """
         if len(self.adhesive.crossings("p", self.p_end)):
             return self.adhesive.at("p", self.p_end).state
         if self.adhesive.ended:
-            raise InputError(self.adhesive.ended)
+            raise AbsentError("contact up to p_end", self.adhesive.ended)
         raise ConvergenceError(f"{self.name}: {self.adhesive.stalled}; lower p_end")
 
     # -- deflation -----------------------------------------------------------------------------

@@ -29,7 +29,7 @@ from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import Solved
-from weakforms.solvers.equilibrium.system import Formulation
+from weakforms.solvers.equilibrium.formulation import Formulation
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -12,10 +12,10 @@ from weakforms.problems.disk.phases import DiskPhases
 from weakforms.results import Quantity
 from weakforms.results import State as StateRecord
 from weakforms.solvers.continuation.branch import FittedBranch, Solved
-from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 SMALLEST_FRONT = 0.04
@@ -63,8 +63,7 @@ class PeelingBranch(FittedBranch):
     def peels(self, state: State) -> bool:
         """Whether ``G`` decreases as the patch grows; then the front adds a negative eigenvalue."""
         near = min(self.points, key=lambda p: abs(p.state.loads["front"] - state.loads["front"]))
-        self.system.set_state(state.u, state.loads)
-        return -self.continuation.rate("G", self.continuation.direction_here(near.tangent)) < 0
+        return -self._growth(state, near.tangent) < 0
 
     @property
     def shown(self) -> list[str]:
@@ -88,8 +87,8 @@ class PeelingBranch(FittedBranch):
         """
         distance = step * self._edge / 2
         slopes = [self._slope(state, distance * factor) for factor in (1, 2)]
-        self.system.set_state(state.u, state.loads)
-        monitors = self.system.monitors()
+        with self.system.at(state):
+            monitors = self.system.monitors()
         return (4 * slopes[0] - slopes[1]) / 3 / (monitors["rho_contact"] * monitors["lam1_contact"])
 
     def _slope(self, state: State, distance: float) -> float:
@@ -97,8 +96,8 @@ class PeelingBranch(FittedBranch):
         for sign in (-1, 1):
             front = state.loads["front"] + sign * distance
             new, _ = self.solver.solve(state, [Held("front", front)])
-            self.system.set_state(new.u, new.loads)
-            potentials.append(self.system.monitor("Pi"))
+            with self.system.at(new):
+                potentials.append(self.system.monitor("Pi"))
         return (potentials[1] - potentials[0]) / (2 * distance)
 
     # -- pull-off ------------------------------------------------------------------------------
@@ -113,20 +112,21 @@ class PeelingBranch(FittedBranch):
             return []
         rates = np.array([self._release_rate(p) for p in self.points])
         turns = np.flatnonzero(rates[:-1] * rates[1:] < 0)
-        return [self._root(int(i), self._rate_along(int(i)), "pull_off") for i in turns]
+        return [self._pull_off(int(i)) for i in turns]
+
+    def _pull_off(self, i: int) -> Solved:
+        along = self.points[i].tangent
+        return self._root(i, lambda solved: self._growth(solved.state, along), "pull_off")
 
     def _release_rate(self, point: CurvePoint) -> float:
         """``dG/dx_f`` up to a positive factor; the curve is followed towards smaller fronts."""
-        self.system.set_state(point.state.u, point.state.loads)
-        return -self.continuation.rate("G", point.tangent)
+        return -self.direction(point, ("G",))["G"]
 
-    def _rate_along(self, i: int) -> Callable[[Solved], float]:
-        along = self.points[i].tangent
-
-        def rate(_solved: Solved) -> float:
-            return self.continuation.rate("G", self.continuation.direction_here(along))
-
-        return rate
+    def _growth(self, state: State, along: Tangent) -> float:
+        """Rate of ``G`` along the curve, oriented like another direction."""
+        direction = self.continuation.direction(state, along)
+        with self.system.at(state):
+            return self.continuation.rate("G", direction)
 
 
 def _steps(run: DiskPhases) -> StepControl:

@@ -24,11 +24,12 @@ from weakforms.problems.contact.phases import Bond, ContactPhases
 from weakforms.problems.disk.model import DiskData, DiskModel
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
+from weakforms.problems.meridian.limits import limit_of
 from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
-from weakforms.solvers.continuation.continuation import Continuation
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 HIGHEST_P = 50.0
 """Largest pressure at which inflation may end."""
@@ -131,14 +132,13 @@ class DiskPhases(ContactPhases):
     ) -> None:
         super().__init__(DiskModel(comm, data), p_end, step, terms)
         self._rigid = adhesion == "locked"
-        self._flat = self.slip.system.state()
-        """Start of every branch; it is kept, because each branch changes the state of its system."""
 
     def inflate(self, depth: float) -> EquilibriumBranch:
         """Free inflation up to a pole height."""
         solver = ExtendedNewton(self.slip.system, ["p"])
         front = FREE_FRONT * self.data.length
-        state = State(self._flat.u.copy(), self._flat.loads | {"front": front})
+        flat = self.slip.system.initial
+        state = State(flat.u.copy(), flat.loads | {"front": front})
         held = Held("p", 0.0)
         if self.data.beta < TAUT:
             x = np.repeat(self.slip.material(self.slip.nodes(), state.loads), 2)
@@ -146,7 +146,24 @@ class DiskPhases(ContactPhases):
             state, held = State(u, state.loads | {"p": p}), Held("t0", FIRST_T0)
         continuation = Continuation(solver, control=self.steps(8))
         start = continuation.start(state, held, towards={"t0": 1.0})
-        return EquilibriumBranch(continuation, "p", start, stop=lambda q: q.monitors["t0"] > depth)
+        branch = EquilibriumBranch(
+            continuation, "p", start, lambda q: q.monitors["t0"] > depth or bool(self.gives_way(q))
+        )
+        last = branch.points[-1]
+        if last.monitors["t0"] < depth:
+            at = f"t0 = {last.monitors['t0']:.6g}, p = {last.state.loads['p']:.6g}"
+            followed, why = f"free inflation was followed up to {at}", self.gives_way(last)
+            branch.ended = f"{followed}: {why}" if why else None
+            branch.stalled = None if why else f"{followed}: {branch.stalled}"
+        return branch
+
+    def gives_way(self, point: CurvePoint) -> str:
+        """The law may take no more stretch at the pole, beside the front, or at the clamp."""
+        at, x = point.monitors, point.state.loads["front"]
+        beside = [(at[name], at["rho_contact"] / x) for name in ("lam1_contact", "lam1_contact_outer")]
+        return limit_of(
+            self.data.law, [(at["lam_pole"], at["lam_pole"]), *beside, (at["lam1_rim"], self.data.beta)]
+        )
 
     def small_patch(self) -> State:
         """The membrane at first touch, on the mesh of a small patch, with springs."""

@@ -18,9 +18,10 @@ from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.peeling import SMALLEST_FRONT, PeelingBranch, PeelingFamily
 from weakforms.problems.disk.phases import FIRST_T0, HIGHEST_P, DiskPhases
 from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.meridian.limits import require_taut
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.results import SpecialPoint
-from weakforms.solvers.continuation.branch import SolutionCurve
+from weakforms.solvers.continuation.branch import EquilibriumBranch, SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 from weakforms.solvers.uncertainty.refinement import Slow
@@ -109,10 +110,11 @@ class Circular(BranchProblem):
         """Refuse what the ranges of single parameters cannot.
 
         Raises:
-            InputError: For a phase without its history, a peeling request without pressure or beyond it, or a
-                state that cannot exist.
+            InputError: For a phase without its history, a peeling request without pressure or beyond it, a
+                pre-stretch that the law does not take, or a state that cannot exist.
         """
         super().check(parameters, requests)
+        require_taut(self.name, parameters.material, parameters.beta, "beta")
         if parameters.phase == "deflation" and parameters.contact != "adhesive":
             raise InputError(
                 "circular: phase = 'deflation' needs a patch that sticks; allowed with contact = 'adhesive'"
@@ -195,7 +197,7 @@ class Circular(BranchProblem):
                 raise InputError(f"circular: phase = 'peeling' needs a patch, and {runs[-1].untouched}")
             return {"primary": family(lambda run: PeelingBranch(run, p), SERIES, PeelingFamily)}
         if parameters.contact == "none":
-            free = family(lambda run: run.inflate(parameters.t_end))
+            free = family(lambda run: _free(run, parameters.t_end))
             return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)])}
         branch = contact_branch(
             runs,
@@ -227,6 +229,14 @@ def peeling_pressure(parameters: CircularParameters, requests: Requests) -> floa
             f"circular: phase = 'peeling' is at one pressure, --set p=... or --at p=..., not at {found}"
         )
     return given.pop()
+
+
+def _free(run: DiskPhases, t_end: float) -> EquilibriumBranch:
+    """Free inflation up to a height, or to where the law takes no more."""
+    branch = run.inflate(t_end)
+    if branch.ended:
+        branch.ended = f"circular: {branch.ended}; lower t_end"
+    return branch
 
 
 def _onset(runs: list[DiskPhases], degree: int) -> SpecialPoint:

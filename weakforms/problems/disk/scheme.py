@@ -32,8 +32,9 @@ from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.results import Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State
+from weakforms.solvers.equilibrium.state import State
 
 DEEPEST = 3.0
 """Height of the pole, over that of the substrate, up to which the scheme is followed."""
@@ -123,11 +124,10 @@ class FixedDisk(FreeDisk):
 
     def _touch(self, solver: ExtendedNewton, given: CircularSchemeParameters) -> State:
         """State of first contact, by free inflation to ``t0 = l``."""
-        state = self.system.state()
-        x = np.empty(len(state.u))
+        x, loads = np.empty(self.system.size), self.system.initial.loads
         x[self.order], x[self.order + 1] = self.x, self.x
         u, p = parabola(x, mooney_rivlin_of(given.alpha), given.beta)
-        state, _ = solver.solve(State(u, {"p": p}), [Held("t0", FIRST_T0)])
+        state, _ = solver.solve(State(u, loads | {"p": p}), [Held("t0", FIRST_T0)])
 
         def solve(before: State, t0: float) -> State:
             return solver.solve(before, [Held("t0", t0)])[0]

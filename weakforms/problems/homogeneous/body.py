@@ -17,7 +17,8 @@ from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.problems.material_choice import Chosen
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.system import System
 
 Law = Callable[[Expr, Expr], Expr]
 

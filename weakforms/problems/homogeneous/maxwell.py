@@ -16,7 +16,7 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.results import Quantity
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.roots import root
 from weakforms.solvers.uncertainty.refinement import ALGEBRAIC
 
@@ -38,9 +38,11 @@ def maxwell_states(body: Body, chosen: Chosen, traced: Mapping[str, np.ndarray])
     p, stretches = guess
     system = system_of(body, chosen, copies=2)
     solver = ExtendedNewton(system, [body.load])
-    solver.solve(State(np.array(stretches), {body.load: p}), [Held("Pi_difference", 0.0)])
-    values = system.monitors()
-    found = {"p_maxwell": system.load(body.load), "Pi_maxwell": values["Pi"]}
+    begin = State(np.array(stretches), system.initial.loads | {body.load: p})
+    both, _ = solver.solve(begin, [Held("Pi_difference", 0.0)])
+    with system.at(both):
+        values = system.monitors()
+    found = {"p_maxwell": both.loads[body.load], "Pi_maxwell": values["Pi"]}
     for state, ending in NAMES.items():
         found |= {f"{name}_{state}": values[name + ending] for name in body.unknowns}
     return {name: Quantity(v, ALGEBRAIC * max(1.0, abs(v))) for name, v in found.items()}

@@ -21,7 +21,8 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.equilibrium.constraints import Fold, Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 USUAL = 10.0
@@ -66,7 +67,7 @@ def _start_under_force(system: System, body: Body, step: float) -> State:
     control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
     continuation = Continuation(ExtendedNewton(system, ["force"]), control=control)
     sign = 1.0 if body.force > 0 else -1.0
-    start = continuation.start(system.state(), Held("force", 0.0), towards={body.unknowns[0]: sign})
+    start = continuation.start(system.initial, Held("force", 0.0), towards={body.unknowns[0]: sign})
     pulled = EquilibriumBranch(
         continuation, "force", start, lambda point: sign * (point.state.loads["force"] - body.force) > 0
     )

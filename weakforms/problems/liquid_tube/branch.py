@@ -14,7 +14,7 @@ from weakforms.problems.liquid_tube.model import DRY, FULL, PART, TubeData, Tube
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch, SinglePoint
 from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.support.sampling import Peak, Probe, Sampler
@@ -262,9 +262,10 @@ class FluidPath:
     def sampled(self, state: State, points: np.ndarray, names: tuple[str, ...]) -> list[np.ndarray]:
         """Columns of a state's profile at material points, the same on every rank."""
         system = self.model.system
-        system.set_state(state.u, state.loads)
         profile = {name: system.formulation.profile[name] for name in names}
-        found = Sampler(self.model.unknown, profile, self.model.position(points, state.loads))()
+        sampler = Sampler(self.model.unknown, profile, self.model.position(points, state.loads))
+        with system.at(state):
+            found = sampler()
         return [found[name] for name in names]
 
 

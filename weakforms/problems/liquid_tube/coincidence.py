@@ -158,11 +158,11 @@ class _Finder:
         path = self._path(level, delta)
         (piece, limit), _ = self._points(path)
         modes, system = path.modes, path.model.system
-        system.set_state(limit.state.u, limit.state.loads)
         conditions = []
         for n in (0, 1):
-            variation = modes.variation(n)
-            border = variation.mass_times(variation.nearest().vector)
+            with system.at(limit.state):
+                variation = modes.variation(n)
+                border = variation.mass_times(variation.nearest().vector)
             conditions.append(Singular(lambda n=n: modes.variation(n), border))
         fitted = "front" in piece.loads
         scalars = ["zw", "delta", *(["front"] if fitted else [])]
@@ -172,5 +172,5 @@ class _Finder:
             raise ConvergenceError(
                 f"fluid_tube_coincidence: converged to delta = {state.loads['delta']:g}, far from {delta:g}"
             )
-        system.set_state(state.u, state.loads)
-        return {**system.monitors(), **modes.observe(), **state.loads}
+        with system.at(state):
+            return {**system.monitors(), **modes.observe(), **state.loads}

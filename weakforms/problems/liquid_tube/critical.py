@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from mpi4py import MPI
 
-from weakforms.errors import ConvergenceError
-from weakforms.problems.liquid_tube.branch import FluidPath
+from weakforms.errors import AbsentError, ConvergenceError
+from weakforms.problems.liquid_tube.branch import WIDEST, FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.support.sampling import Sampler
 
@@ -69,7 +70,8 @@ class PrimaryBranch:
         """The ``order``-th zero of a wave number's eigenvalue along the branch, with its mode.
 
         Raises:
-            ConvergenceError: If the branch has no such point, or the solve does not converge.
+            AbsentError: If the branch, followed to its end, has no such point.
+            ConvergenceError: If it is not followed to its end, or the solve does not converge.
         """
         found = 0
         for piece in self.path.pieces:
@@ -77,7 +79,15 @@ class PrimaryBranch:
                 found += solved.values.get("n") == n
                 if solved.values.get("n") == n and found == order:
                     return self._bifurcated(piece, solved, np.asarray(points, dtype=float), n)
-        raise ConvergenceError(f"the primary branch has {found} bifurcation points of n = {n}, not {order}")
+        has = f"the primary branch has {found} bifurcation points of n = {n}, not {order}"
+        stalled = [piece.stalled for piece in self.path.pieces if piece.stalled]
+        if stalled:
+            raise ConvergenceError(f"{has}, as far as it was followed: {stalled[0]}")
+        raise AbsentError(
+            "bifurcation point",
+            f"{has}, up to where its level has fallen to {self.path.zw_end:g} of the highest, or the tube is "
+            f"{WIDEST:g} radii wide; choose another delta or L, or a smaller alpha",
+        )
 
     def at(self, name: str, value: float, points: np.ndarray, crossing: int = 1) -> AxisymmetricState:
         """The state at which a column takes a value for the ``crossing``-th time along the branch.
@@ -103,11 +113,11 @@ class PrimaryBranch:
     ) -> AxisymmetricState:
         base = self._read(solved, points)
         waves = self.path.model.waves
-        waves.set_state(piece.null_vector(solved), {})
         columns = {name: waves.unknown[i] for i, name in enumerate(("u", "beta", "w"))}
         where = self.path.model.position(points, solved.state.loads)
-        found = Sampler(waves.unknown, columns, where)()
-        waves.set_state(np.zeros(waves.size), {})
+        sampler = Sampler(waves.unknown, columns, where)
+        with self.path.model.system.at(solved.state), waves.at(State(piece.null_vector(solved), {})):
+            found = sampler()
         mode = np.array([found[name] for name in columns])
         sign = np.sign(mode[0][np.argmax(np.abs(mode[0]))])
         return AxisymmetricState(base.values, points, base.r, base.z, n, sign * mode)
@@ -134,6 +144,7 @@ def first_bifurcation(
         cells: Cells on each of the two parts of the mesh; 48 of degree 5 give ten digits.
 
     Raises:
+        AbsentError: If there is none.
         ConvergenceError: If it is not found.
     """
     return PrimaryBranch(comm, L, delta, gamma, alpha, cells).bifurcation(points)

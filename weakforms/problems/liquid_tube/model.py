@@ -37,7 +37,8 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks, both_ends
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.solvers.equilibrium.system import Formulation, State
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
 
 FULL, PART, DRY = {"low": 1.0, "high": 1.0}, {"low": 1.0, "high": 0.0}, {"low": 0.0, "high": 0.0}

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from mpi4py import MPI
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family, asked_crossings
 from weakforms.problems.liquid_tube.about import FLUID_TUBE
@@ -17,7 +17,7 @@ from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.material_choice import MOONEY_RIVLIN, require_model
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
-from weakforms.results import Failure, Result
+from weakforms.results import Absence, Failure, Result
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
 
@@ -71,12 +71,18 @@ class FluidTube(BranchProblem):
         ]
 
     def families(self, task: Task) -> dict[str, Family]:
-        """The primary branch on all meshes, and the secondary one if it is requested."""
+        """The primary branch on all meshes, and the secondary one if it is requested and there is one."""
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
-        found: dict[str, Family] = {"primary": primary_family(parameters, numerics, comm, progress)}
-        if parameters.secondary:
-            found["secondary"] = secondary_family(parameters, numerics, comm, progress)
-        return found
+        primary = primary_family(parameters, numerics, comm, progress)
+        if not parameters.secondary:
+            return {"primary": primary}
+        try:
+            return {"primary": primary, "secondary": secondary_family(parameters, numerics, comm, progress)}
+        except AbsentError as error:
+            if any(wanted.branch == "secondary" for wanted in task.requests.states):
+                raise
+            absence = Absence("secondary branch", f"fluid_tube: {error}")
+            return {"primary": PiecewiseFamily(primary.pieces, absent=[absence])}
 
     def points(self, parameters: FluidTubeParameters) -> np.ndarray:
         """61 points from the lower ring to the upper one."""

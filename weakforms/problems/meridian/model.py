@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import NamedTuple
 
 import basix.ufl
 import numpy as np
@@ -29,7 +30,8 @@ from weakforms.forms.wrinkling import natural_width, relaxed, wrinkling_function
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, tags_of
 from weakforms.problems.meridian.body import Body
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.system import System
 
 TAUT_TOLERANCE = 1e-9
 """In unmarked blocks ``gw`` below 1 by up to this counts as taut. A uniform membrane has ``gw = 1`` without
@@ -39,6 +41,13 @@ effect."""
 BY_STATE = 0.0
 TAUT = WET = 1.0
 WRINKLED = DRY = -1.0
+
+
+class Marks(NamedTuple):
+    """What every block is marked as: :data:`TAUT`, :data:`WRINKLED` or by its state; wet, dry or by it."""
+
+    taut: np.ndarray
+    wet: np.ndarray
 
 
 class _Front:
@@ -113,10 +122,10 @@ class MeridianModel:
 
     # -- blocks --------------------------------------------------------------------------------
 
-    def mark(self, taut: np.ndarray, wet: np.ndarray) -> None:
-        """Mark every block as :data:`TAUT`, :data:`WRINKLED` or :data:`BY_STATE`, and as wet or dry."""
-        self._by_cell["taut"].x.array[:] = np.asarray(taut, dtype=float)[self._block_of]
-        self._by_cell["wet"].x.array[:] = np.asarray(wet, dtype=float)[self._block_of]
+    def mark(self, marks: Marks) -> None:
+        """Write the marks of a state into the form."""
+        self._by_cell["taut"].x.array[:] = np.asarray(marks.taut, dtype=float)[self._block_of]
+        self._by_cell["wet"].x.array[:] = np.asarray(marks.wet, dtype=float)[self._block_of]
 
     def move(self) -> None:
         """Write the break points into the form, with the last one at the end of the body."""

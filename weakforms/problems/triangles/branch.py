@@ -12,7 +12,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.triangles.model import SurfaceModel
 from weakforms.results import SpecialPoint
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord, residual_limit
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Mode, Stability
 
@@ -69,7 +69,7 @@ class SurfaceRun:
         self._lowest = Lowest(model.system)
         self._subspace = model.symmetric()
         self._newton: ExtendedNewton | None = None
-        self._begin = State(self.system.owned().copy(), dict(loads))
+        self._begin = State(self.system.initial.u, dict(loads))
         self._known: list[Point] = []
 
     # -- equilibria ------------------------------------------------------------------------------
@@ -84,7 +84,6 @@ class SurfaceRun:
             return self._keep(self._point(load, self._begin))
         nearest = min(self._known, key=lambda point: abs(point.load - load))
         if nearest.load == load:
-            self.system.set_state(nearest.state.u, nearest.state.loads)
             return nearest
         return self._keep(self._towards(load, nearest, HALVINGS))
 
@@ -103,9 +102,11 @@ class SurfaceRun:
         if not self.rings:
             self._newton = self._newton or self._solver()
             state, record = self._newton.solve(symmetric)
-        r = self.system.residual()
+        with self.system.at(state):
+            r = self.system.residual()
+            limit = residual_limit(self.system)
         residual = float(np.sqrt(self.system.dot(r, r)))
-        if not residual <= residual_limit(self.system):
+        if not residual <= limit:
             raise ConvergenceError(
                 f"{self.control} = {load:g}: the ring-periodic equilibrium is not one of the whole surface, "
                 f"its residual is {residual:.1e}"
@@ -120,7 +121,8 @@ class SurfaceRun:
 
     def _keep(self, point: Point) -> Point:
         if point.n_negative < 0:
-            self.stability.factor.update()
+            with self.system.at(point.state):
+                self.stability.factor.update()
             point.n_negative = self.stability.factor.negative_count()
         self._known.append(point)
         return point
@@ -134,11 +136,12 @@ class SurfaceRun:
             ConvergenceError: If SLEPc does not find as many as the inertia counts.
         """
         if not point.values:
-            self.system.set_state(point.state.u, point.state.loads)
             radius = np.hypot(*self.model.nodal(point.state.u)[:, :2].T)
+            with self.system.at(point.state):
+                monitors = self.system.monitors()
             point.values = {
                 self.control: point.load,
-                **self.system.monitors(),
+                **monitors,
                 "r_max": float(radius.max()),
                 "departure": point.departure,
                 "n_negative": point.n_negative,

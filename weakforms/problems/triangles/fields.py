@@ -17,9 +17,9 @@ def fields(run: SurfaceRun, point: Point) -> tuple[Field, Field]:
     counted from 0 and counterclockwise as seen from outside, ``lam1 >= lam2``, and ``state`` (1 taut, 0
     wrinkled, -1 slack).
     """
-    run.system.set_state(point.state.u, point.state.loads)
     given = run.model.body.triangles
-    cells = run.model.by_triangle()
+    with run.system.at(point.state):
+        cells = run.model.by_triangle()
     columns = {"Z": given.points[:, 2], "Theta": np.mod(given.angle + 1e-12, 2 * np.pi)}
     columns |= dict(zip("xyz", run.model.nodal(point.state.u).T, strict=True))
     mode = run.model.nodal(run.lowest_mode(point).vector)

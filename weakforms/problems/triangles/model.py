@@ -30,8 +30,9 @@ from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.triangles.meshes import Triangulation
 from weakforms.problems.triangles.symmetry import Meridian, subspace_of
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.subspace import Subspace
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.system import System
 
 RULES = {
     1: MIDPOINTS,

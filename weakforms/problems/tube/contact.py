@@ -22,7 +22,7 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, one_end
 from weakforms.problems.tube.model import TubeModel
 from weakforms.solvers.continuation.branch import Solved
-from weakforms.solvers.equilibrium.system import Formulation
+from weakforms.solvers.equilibrium.formulation import Formulation
 
 UNILATERAL_QUADRATURE = 160
 """Degree of quadrature where a unilateral spring's force has a kink inside a cell. The quadrature error at

@@ -26,12 +26,15 @@ from weakforms.forms.wrinkling import Law
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, one_end
 from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.limits import LEAST_RESISTANCE
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 START_STRETCH = 1.3
 """Pre-stretch at which the steps to a first state start. At ``delta1 = 1`` and ``p = 0`` the tube is slack
@@ -46,10 +49,6 @@ TAUT = 1.02
 STEEPEST = 1 - 1e-6
 """If the pressure's share in the direction of the branch exceeds this, the membrane is nearly inextensible: a
 law of limited stretch is nearly at its limit, and the branch continues to any pressure."""
-
-LEAST_RESISTANCE = 0.02
-"""Lower limit of ``lam1 w,11 / w,1`` at the mid-plane; below it no mesh resolves the meridional stretch
-there."""
 
 
 @dataclass(frozen=True)
@@ -184,9 +183,10 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
         InputError: If the pre-stretch is beyond the largest stretch of the law.
     """
     system = solver.system
-    state = system.state()
+    state = system.initial.copy()
     if delta1 >= TAUT:
-        forces = system.residual()
+        with system.at(state):
+            forces = system.residual()
         if not np.isfinite(system.dot(forces, forces)):
             raise InputError(
                 f"delta1 = {delta1:g} alone stretches the membrane beyond what its law allows; lower delta1 "

@@ -15,7 +15,7 @@ from weakforms.problems.tube.contact import FIRST_FRONT, ContactData, ContactMod
 from weakforms.problems.tube.model import FIRST_U, TAUT, free_branch, yielding, yields
 from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
 from weakforms.solvers.continuation.continuation import CurvePoint
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 
 class TubeHistory(History):

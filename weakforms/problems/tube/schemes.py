@@ -21,6 +21,7 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
+from weakforms.errors import InputError
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.meridian.blocks import Blocks
 from weakforms.problems.problem import Numerics, Parameters, Problem, Task
@@ -31,7 +32,8 @@ from weakforms.results import Absence, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.support.roots import root
 
 
 class SchemeParameters(Parameters):
@@ -76,18 +78,26 @@ class FixedMesh(TubeModel):
         """Free inflation to first touch or, where it is below that, to the last pressure; which of both."""
         solver, given = ExtendedNewton(self.system, ["p"]), self.parameters
         state, _ = first_state(solver, given.delta1)
-        passed: list[State] = []
+        first = state.loads["p"]
+        if first >= given.p_end:
+            raise InputError(
+                f"tube_scheme: p_end = {given.p_end:g} is below p = {first:.6g}, where the membrane is first "
+                "taut enough at this pre-stretch; raise p_end"
+            )
+        reached = [(float(state.u[self.radial[0]] - 1), state)]
 
         def solve(before: State, u: float) -> State:
             found, _ = solver.solve(before, [Held("u_max", u)])
-            if found.loads["p"] >= given.p_end:
-                passed.append(found)
+            reached.append((u, found))
             return found
 
         state = solve(state, 0.02)
         state = walk(solve, state, 0.02, given.s - 1, abs(given.s - 1.02) / 7)
         if state.loads["p"] >= given.p_end:
-            return solver.solve(passed[0], [Held("p", given.p_end)])[0], False
+            passed = next(i for i, (_, found) in enumerate(reached) if found.loads["p"] >= given.p_end)
+            (low, begin), (high, _) = reached[passed - 1 : passed + 1]
+            near = root(lambda u: solve(begin, u).loads["p"] - given.p_end, low, high, "p = p_end", xtol=1e-6)
+            return solver.solve(solve(begin, near), [Held("p", given.p_end)])[0], False
         state.loads["k"] = given.k
         return state, True
 

@@ -250,8 +250,8 @@ class WrinkledBranch:
     def _limit_from(self, held: Held, low: float, high: float) -> Held:
         """The limit load between two volumes by arc length, with fronts and load as unknowns."""
         model = held.model
-        held.put()
-        model.system.update_mass()
+        with held.lent():
+            model.system.update_mass()
         continuation = Continuation(
             solver_of(model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
         )

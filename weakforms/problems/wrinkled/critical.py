@@ -134,7 +134,7 @@ def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate
 
 
 def _least(held: Held) -> float:
-    return held.put().extreme("gw", -1)
+    return held.extreme("gw", -1)
 
 
 def _first_wrinkled(membrane: Membrane, level: int, towards: int) -> tuple[Held, float]:

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.meridian.model import BY_STATE
-from weakforms.problems.wrinkled.fields import Zones, zones
+from weakforms.problems.meridian.model import BY_STATE, Marks
+from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.start import VERGE, VERGE_FITTED, PlainMembrane
 from weakforms.problems.wrinkled.state import (
@@ -21,7 +21,7 @@ from weakforms.problems.wrinkled.state import (
     solver_of,
 )
 from weakforms.solvers.equilibrium.newton import Constraint
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 THINNEST, SLIVER = 1e-8, 1e-6
 """Zones thinner than this fraction of the length are left out; the second value applies if round-off in a
@@ -67,7 +67,7 @@ class Membrane(PlainMembrane):
         coarser = range(len(self.meshes) - 1)
         out = [self.fit(k, fine, fine.zones, (constraint,), same=True) for k in coarser]
         for held in out if fine.slivers else ():
-            shown = zones(held.put(), held.state.loads, VERGE_FITTED, self.liquid)
+            shown = held.shown_zones(VERGE_FITTED, self.liquid)
             own = fine.zones.left_out_of(shown)
             nothing = tuple(0.0 if z < self.length / 2 else self.length for z in fine.slivers)
             held.slivers = own if len(own) == len(fine.slivers) else nothing
@@ -85,7 +85,7 @@ class Membrane(PlainMembrane):
                     raise
                 last, wanted = str(error), wanted.without_thinnest(self.length)
                 continue
-            shown = zones(held.put(), held.state.loads, VERGE_FITTED, self.liquid)
+            shown = held.shown_zones(VERGE_FITTED, self.liquid)
             found = self._thick(shown, thinnest)
             if found.kind == held.zones.kind:
                 if self.near_fronts and found.fronts:
@@ -104,13 +104,12 @@ class Membrane(PlainMembrane):
         for _ in range(PASSES):
             layout = Layout.of(self._thick(held.zones, COARSE), self.length)
             model = model_on(self.meshes[-1], len(layout.breaks) - 1)
-            guess = self._moved(held, model, layout.breaks)
             unmarked = np.full(model.blocks, BY_STATE)
-            wet = unmarked if self.liquid else layout.wet
-            model.mark(unmarked, wet)
+            marks = Marks(unmarked, unmarked if self.liquid else layout.marks.wet)
+            guess = self._moved(held, model, layout.breaks, marks)
             state, record = solver_of(model, (self.control,)).solve(guess, [constraint])
-            held = Held(model, state, held.zones, record, unmarked, wet, (self.control,))
-            held.zones = zones(held.put(), state.loads, VERGE, self.liquid)
+            held = Held(model, state, held.zones, record, (self.control,))
+            held.zones = held.shown_zones(VERGE, self.liquid)
         return held
 
     def _thick(self, found: Zones, share: float) -> Zones:
@@ -149,9 +148,8 @@ class Membrane(PlainMembrane):
         if same:
             layout = replace(start.layout, breaks=start.model.breaks_of(start.state.loads))
         model = model_on(self.meshes[level], len(layout.breaks) - 1)
-        guess = self._moved(start, model, layout.breaks)
+        guess = self._moved(start, model, layout.breaks, layout.marks)
         guess.loads |= self.on_meshes[level]
-        model.mark(layout.taut, layout.wet)
         nodes = [*layout.fronts, *([] if layout.surface is None else [layout.surface])]
         own = [AtBreak(model, "gw", k) for k in layout.fronts]
         if layout.surface is not None:
@@ -179,12 +177,10 @@ class Membrane(PlainMembrane):
         surface = None if layout.surface is None else float(breaks[layout.surface])
         found = Zones(wanted.first, fronts, surface, wanted.wet)
         touched = None if touch is None else float(breaks[node])
-        return Held(
-            model, state, found, record, layout.taut, layout.wet, scalars, tuple(own), touched, layout
-        )
+        return Held(model, state, found, record, scalars, tuple(own), touched, layout)
 
-    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray) -> State:
-        """A state interpolated to another mesh."""
+    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
+        """A state interpolated to another mesh with its marks."""
         loads = {k: v for k, v in start.state.loads.items() if not (k[0] == "b" and k[1:].isdigit())}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, model.blocks)}
         loads["residual_stiffness"] = 0.0
@@ -192,9 +188,9 @@ class Membrane(PlainMembrane):
         comm = model.mesh.comm
         everywhere = comm.allgather(own)
         s = model.material(np.concatenate(everywhere), loads)
-        found = start.put().sampled(s, start.state.loads)
+        found = start.sampled(s)
         first = sum(len(part) for part in everywhere[: comm.rank])
         mine = slice(first, first + len(own))
         u = np.column_stack([found["u"][mine], found["w"][mine]]).ravel()
         u[model.system.bc_dofs] = 0.0
-        return State(u, loads)
+        return State(u, loads, marks)

@@ -10,9 +10,10 @@ every parameter is a constant of the form.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache, partial, wraps
+from typing import Any
 
 import numpy as np
 import ufl
@@ -26,7 +27,10 @@ from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.problems.wrinkled.body import SHARED
-from weakforms.solvers.equilibrium.system import Formulation
+from weakforms.solvers.equilibrium.formulation import Formulation
+
+KEPT = 8
+"""Number of things of one kind that are kept with a model."""
 
 
 class WrinkledModel(MeridianModel):
@@ -60,6 +64,7 @@ class WrinkledModel(MeridianModel):
         energy: str = "relaxed",
         material: Chosen | None = None,
     ) -> None:
+        self.kept: dict[Callable, Callable] = {}
         super().__init__(
             comm,
             body,
@@ -129,6 +134,7 @@ class WrinkledModel(MeridianModel):
                 "z": self.point(e["z"]),
             },
             internal=("gw", "gw_slope", "z"),
+            mark=self.mark,
             profile={
                 **{name: e[name] for name in ("r", "z", "lam1", "lam2", "gw")},
                 "tension": tension,
@@ -136,3 +142,15 @@ class WrinkledModel(MeridianModel):
                 **slope,
             },
         )
+
+
+def kept_with_model(make: Callable) -> Callable:
+    """Wrap a function of a model and other arguments: what it makes is kept, at most as long as the model."""
+
+    @wraps(make)
+    def kept(model: WrinkledModel, *others: Any) -> Any:
+        if make not in model.kept:
+            model.kept[make] = lru_cache(KEPT)(partial(make, model))
+        return model.kept[make](*others)
+
+    return kept

@@ -54,8 +54,13 @@ class Readings:
 
     def columns(self, held: Held) -> dict[str, float]:
         """Columns of a state, including its fronts."""
-        meridian = held.put()
-        monitors = held.model.system.monitors()
+        with held.lent() as meridian:
+            monitors = held.model.system.monitors()
+            extremes = {
+                "r_max": meridian.extreme("r", 1),
+                "gw_max": meridian.extreme("gw", 1),
+                "gw_min": meridian.extreme("gw", -1),
+            }
         zones = held.all_zones(self.membrane.length)
         fronts = {f"{self.abscissa}_front_{i}": z for i, z in enumerate(zones.fronts, 1)}
         of_pole = {name: monitors[name] for name in ("z_pole", "lam_pole") if name in monitors}
@@ -66,9 +71,7 @@ class Readings:
             self.membrane.control: held.state.loads[self.membrane.control],
             **{name: monitors[name] for name in VALUES},
             "wrinkled_fraction": zones.share(WRINKLED, self.membrane.length),
-            "r_max": meridian.extreme("r", 1),
-            "gw_max": meridian.extreme("gw", 1),
-            "gw_min": meridian.extreme("gw", -1),
+            **extremes,
             **of_pole,
             **fronts,
         }
@@ -85,15 +88,16 @@ class Readings:
         """The lowest eigenvalues of every wave number."""
         out: dict[str, float] = {}
         for n in self.waves:
-            found = waves_at(held).spectrum(n, LOWEST, self.beta).eigenvalues
+            with waves_at(held) as waves:
+                found = waves.spectrum(n, LOWEST, self.beta).eigenvalues
             out |= {f"Lambda_n{n}_{k}": value for k, value in enumerate(found[:LOWEST], 1)}
         return out
 
     def diagnostics(self, held: Held) -> dict[str, float]:
         """Number of negative eigenvalues in the symmetric space, and the record of the solve."""
-        held.put()
         factor = solver_of(held.model, held.scalars).factor
-        factor.update()
+        with held.lent():
+            factor.update()
         return {
             "n_negative": factor.negative_count(),
             "residual": held.record.norms[-1],
@@ -175,8 +179,7 @@ class Readings:
         """
         spectra = []
         for held in levels:
-            held.put()
-            with held.model.system.weighed_here():
+            with held.lent(), held.model.system.weighed_here():
                 spectra.append(Stability(held.model.system).spectrum(held.state, shift=critical))
         counts = {spectrum.n_negative for spectrum in spectra}
         if len(counts) != 1:
@@ -224,8 +227,8 @@ class Readings:
     def _modes(self, n: int, levels: Sequence[Held], points: np.ndarray) -> Field:
         samples = []
         for held in levels:
-            waves = waves_at(held)
-            samples.append(waves.sampled(waves.lowest_mode(n, self.beta), points, held.state.loads))
+            with waves_at(held) as waves:
+                samples.append(waves.sampled(waves.lowest_mode(n, self.beta), points, held.state.loads))
         return self._field(f"mode_n{n}", samples, MODE, points)
 
     def _field(

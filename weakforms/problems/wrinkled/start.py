@@ -12,13 +12,13 @@ from mpi4py import MPI
 from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.body import Body
-from weakforms.problems.meridian.model import BY_STATE, DRY, TAUT, WRINKLED
-from weakforms.problems.wrinkled.fields import Zones, zones
+from weakforms.problems.meridian.model import BY_STATE, DRY, TAUT, WRINKLED, Marks
+from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.state import BLOCKS, Held, Mesh, Touch, model_on, solver_of
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)
 """Residual hoop stiffness of wrinkled zones, in steps to zero."""
@@ -79,19 +79,20 @@ class PlainMembrane:
 
     @property
     def plain_model(self) -> WrinkledModel:
-        """The finest mesh with equal blocks; every use first writes a state into it."""
+        """The finest mesh with equal blocks."""
         return model_on(self.meshes[-1], BLOCKS)
 
     def prepare(self) -> State:
-        """Undisplaced state of the plain mesh; the shared model is set up for solves on it."""
+        """Undisplaced state of the plain mesh; its mass matrix then measures arc length."""
         model = self.plain_model
         breaks = np.linspace(0.0, self.length, BLOCKS + 1)
-        model.mark(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
+        marks = Marks(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
         loads = {name: float(self.values[name]) for name in model.loads if name in self.values}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, BLOCKS)}
-        model.system.set_loads(loads)
-        model.system.update_mass()
-        return State(np.zeros(model.system.size), loads)
+        undisplaced = State(np.zeros(model.system.size), loads, marks)
+        with model.system.at(undisplaced):
+            model.system.update_mass()
+        return undisplaced
 
     def by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         """State of the plain mesh at a load, from the completely wrinkled unloaded membrane.
@@ -125,15 +126,15 @@ class PlainMembrane:
         solver = solver_of(self.plain_model, ())
 
         def widened(before: tuple[State, SolveRecord], radius: float) -> tuple[State, SolveRecord]:
-            return solver.solve(State(before[0].u, before[0].loads | {"Af": radius}))
+            return solver.solve(replace(before[0], loads=before[0].loads | {"Af": radius}))
 
         return walk(widened, (state, record), at, goal, WALK)
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
         undisplaced = self.prepare()
-        state = self._moved(folded, self.plain_model, self.plain_model.breaks_of(undisplaced.loads))
-        self.prepare()
+        breaks = self.plain_model.breaks_of(undisplaced.loads)
+        state = self._moved(folded, self.plain_model, breaks, undisplaced.marks)
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
         if self.energy == "standard":
@@ -164,10 +165,8 @@ class PlainMembrane:
 
     def plain(self, state: State) -> Held:
         """A state of the plain mesh with its zones."""
-        model = self.plain_model
-        wet = np.full(BLOCKS, BY_STATE if self.liquid else DRY)
-        held = Held(model, state, Zones(TAUT, ()), None, np.full(BLOCKS, BY_STATE), wet)
-        held.zones = zones(held.put(), state.loads, VERGE, self.liquid)
+        held = Held(self.plain_model, state, Zones(TAUT, ()), None)
+        held.zones = held.shown_zones(VERGE, self.liquid)
         return held
 
     def unloaded(self, level: int, state: float) -> Held:
@@ -200,7 +199,8 @@ class PlainMembrane:
         undisplaced = self.prepare()
         begin = self.plain(undisplaced)
         if start is not None:
-            begin = replace(start, state=State(start.state.u, start.state.loads | self._own(undisplaced)))
+            loads = start.state.loads | self._own(undisplaced)
+            begin = replace(start, state=replace(start.state, loads=loads))
         return self.fit(level, begin, Zones(state, ()), (), free=())
 
     def _own(self, state: State) -> dict[str, float]:
@@ -222,6 +222,6 @@ class PlainMembrane:
         """Solve on one mesh with its break points at the fronts and at the surface."""
         raise NotImplementedError
 
-    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray) -> State:
+    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
         """A state interpolated to another mesh."""
         raise NotImplementedError

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -11,11 +12,11 @@ from mpi4py import MPI
 
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.body import Body
-from weakforms.problems.meridian.model import DRY, WET
-from weakforms.problems.wrinkled.fields import Meridian, Zones
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.meridian.model import DRY, WET, Marks
+from weakforms.problems.wrinkled.fields import Meridian, Zones, zones
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 BLOCKS = 10
 """Smallest number of blocks of a mesh; more break points need more."""
@@ -80,28 +81,26 @@ def model_on(mesh: Mesh, blocks: int) -> WrinkledModel:
     return WrinkledModel(mesh.comm, mesh.body, values, blocks, mesh.cells, mesh.degree, *kind)
 
 
-@lru_cache(maxsize=64)
+@kept_with_model
 def meridian_of(model: WrinkledModel) -> Meridian:
-    """The fields of a model, kept for later calls."""
+    """The fields of a model."""
     return Meridian(model)
 
 
-@lru_cache(maxsize=256)
+@kept_with_model
 def solver_of(model: WrinkledModel, scalars: tuple[str, ...], stol: float = 1e-10) -> ExtendedNewton:
-    """The Newton solver of a model for some unknown loads; kept."""
+    """The Newton solver of a model for some unknown loads."""
     return ExtendedNewton(model.system, scalars, stol=stol, max_iterations=30)
 
 
 @dataclass
 class Held:
-    """A state of a model, which is written into the model before each evaluation."""
+    """A state with its model, which many states share: it is read inside of :meth:`lent`."""
 
     model: WrinkledModel
     state: State
     zones: Zones
     record: SolveRecord | None
-    taut: np.ndarray
-    wet: np.ndarray
     scalars: tuple[str, ...] = ()
     constraints: tuple[AtBreak, ...] = ()
     touched: float | None = None
@@ -111,11 +110,21 @@ class Held:
     slivers: tuple[float, ...] = ()
     """Fronts of zones that are too thin for a block, from the solution without these zones."""
 
-    def put(self) -> Meridian:
-        """Write the state into its model and return its fields."""
-        self.model.mark(self.taut, self.wet)
-        self.model.system.set_state(self.state.u, self.state.loads)
-        return meridian_of(self.model)
+    @contextmanager
+    def lent(self) -> Iterator[Meridian]:
+        """Context in which the model belongs to the state; gives the fields of the state."""
+        with self.model.system.at(self.state):
+            yield meridian_of(self.model)
+
+    def shown_zones(self, flat: float, liquid: bool) -> Zones:
+        """Zones that the fields show: see :func:`zones`."""
+        with self.lent() as meridian:
+            return zones(meridian, self.state.loads, flat, liquid)
+
+    def extreme(self, name: str, sign: int) -> float:
+        """Largest (``sign`` 1) or smallest (-1) value of a field."""
+        with self.lent() as meridian:
+            return meridian.extreme(name, sign)
 
     def all_zones(self, length: float) -> Zones:
         """All zones, including the thin ones without a block (which lie at the ends)."""
@@ -124,7 +133,8 @@ class Held:
 
     def sampled(self, s: np.ndarray) -> dict[str, np.ndarray]:
         """Fields at material points."""
-        return self.put().sampled(s, self.state.loads)
+        with self.lent() as meridian:
+            return meridian.sampled(s, self.state.loads)
 
 
 @dataclass(frozen=True)
@@ -162,8 +172,7 @@ class Layout:
     breaks: np.ndarray
     fronts: tuple[int, ...]
     surface: int | None
-    taut: np.ndarray
-    wet: np.ndarray
+    marks: Marks
 
     @classmethod
     def of(
@@ -201,4 +210,5 @@ class Layout:
         wet = np.full(len(middles), WET if found.wet else DRY)
         if surface is not None:
             wet[surface:] *= -1
-        return cls(points, tuple(breaks.index(f) for f in found.fronts), surface, found.states(middles), wet)
+        fronts = tuple(breaks.index(f) for f in found.fronts)
+        return cls(points, fronts, surface, Marks(found.states(middles), wet))

@@ -13,7 +13,7 @@ from weakforms.results.model import ROUND_OFF, crossings
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, hermite
 from weakforms.solvers.equilibrium.constraints import Fold, Held, MonitorPlane
 from weakforms.solvers.equilibrium.newton import Constraint
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.roots import root
 
@@ -94,8 +94,9 @@ class SolutionCurve:
         return [name for name in names if name not in self.system.formulation.internal]
 
     def _values(self, state: State) -> dict[str, float]:
-        """Columns of the state that the system holds."""
-        return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
+        """Columns of a state."""
+        with self.system.at(state):
+            return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
 
     # -- states on demand --------------------------------------------------------------------
 
@@ -184,7 +185,7 @@ class SolutionCurve:
             + h * (s0 * a.tangent.loads[name] + s1 * b.tangent.loads[name])
             for name in self.loads
         }
-        return State(u, {**a.state.loads, **loads})
+        return State(u, {**a.state.loads, **loads}, a.state.marks)
 
     def _require_within(self, i: int, solved: Solved, what: str) -> None:
         """Refuse a solution outside of the interval in which Newton's method should find it."""
@@ -211,8 +212,8 @@ class SolutionCurve:
 
     def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
         """Rates of some columns along the branch at a point of the trace."""
-        self.system.set_state(point.state.u, point.state.loads)
-        return {name: self.continuation.rate(name, point.tangent) for name in names}
+        with self.system.at(point.state):
+            return {name: self.continuation.rate(name, point.tangent) for name in names}
 
     def end_at(self, name: str, value: float) -> None:
         """Replace the last point by the point at which a column has a value, which lies just before it.
@@ -286,8 +287,8 @@ class FittedBranch(SolutionCurve):
     def _control_rate(self, i: int) -> Callable[[Solved], float]:
         along = self.points[i].tangent
 
-        def rate(_solved: Solved) -> float:
-            return self.continuation.direction_here(along).loads[self.control]
+        def rate(solved: Solved) -> float:
+            return self.continuation.direction(solved.state, along).loads[self.control]
 
         return rate
 
@@ -327,8 +328,8 @@ class EquilibriumBranch(SolutionCurve):
         factor = self.solver.factor
 
         def count(state: State) -> int:
-            self.system.set_state(state.u, state.loads)
-            factor.update()
+            with self.system.at(state):
+                factor.update()
             return factor.negative_count()
 
         self._require_same_between(np.array([p.n_negative for p in self.points]), count, "eigenvalues")
@@ -365,7 +366,7 @@ class EquilibriumBranch(SolutionCurve):
         loads = {k: float(at_root([s.state.loads[k] for s in solved])) for k in solved[0].state.loads}
         return Solved(
             {name: float(at_root([s.values[name] for s in solved])) for name in names},
-            State(at_root([s.state.u for s in solved]), loads),
+            State(at_root([s.state.u for s in solved]), loads, solved[0].state.marks),
             "bifurcation_point",
         )
 
@@ -385,4 +386,9 @@ class FoldLine(SolutionCurve):
 
     def _cusp(self, i: int) -> Solved:
         (fold,) = self.continuation.fixed
-        return self._root(i, lambda _: fold.curvature(self.solver), "cusp_point")
+
+        def curvature(solved: Solved) -> float:
+            with self.system.at(solved.state):
+                return fold.curvature(self.solver)
+
+        return self._root(i, curvature, "cusp_point")

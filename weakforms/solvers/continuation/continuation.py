@@ -12,7 +12,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.constraints import Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton, SolveRecord
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class Continuation:
         return Plane(row, weights, target)
 
     def _tangent(self, along: Tangent) -> Tangent:
-        """Direction of the curve at the state that the system holds (factorised), oriented like ``along``."""
+        """Direction of the curve at the lent state, whose ``K`` is factorised, oriented like ``along``."""
         plane = Plane(self._dual(along), along.loads, 0.0)
         bordered = self.solver.border([*self.fixed, plane])
         return self._unit(*self._along(bordered))
@@ -145,19 +145,20 @@ class Continuation:
         factor = sign / self._norm(u, dual, loads)
         return Tangent(u * factor, {name: v * factor for name, v in loads.items()}, dual * factor)
 
-    def direction_here(self, along: Tangent) -> Tangent:
-        """Direction of the curve at the state that the system holds, oriented like another direction."""
-        self.solver.factor.update()
-        return self._tangent(along)
+    def direction(self, state: State, along: Tangent) -> Tangent:
+        """Direction of the curve at a state, oriented like another direction."""
+        with self.system.at(state):
+            self.solver.factor.update()
+            return self._tangent(along)
 
     # -- stepping ----------------------------------------------------------------------------
 
     def point(self, state: State, record: SolveRecord, along: Tangent, s: float) -> CurvePoint:
         """Complete a converged state: tangent, inertia, functionals."""
-        self.system.set_state(state.u, state.loads)
-        negative = self._factorised()
-        tangent = self._tangent(along)
-        return CurvePoint(state, tangent, s, negative, record, self.system.monitors())
+        with self.system.at(state):
+            negative = self._factorised()
+            tangent = self._tangent(along)
+            return CurvePoint(state, tangent, s, negative, record, self.system.monitors())
 
     def _factorised(self) -> int:
         """Factorise ``K``, and count the negative eigenvalues of ``K + shift M``."""
@@ -179,17 +180,17 @@ class Continuation:
             towards: Requested sign for the change of one functional or load along the curve.
         """
         state, record = self.solver.solve(guess, [*self.fixed, constraint])
-        self.system.set_state(state.u, state.loads)
-        self.solver.factor.update()
-        bordered = self.solver.border([*self.fixed, constraint])
-        u, loads = self._along(bordered)
         (name, sign), *_ = towards.items()
-        rate = self.rate(name, Tangent(u, loads))
+        with self.system.at(state):
+            self.solver.factor.update()
+            bordered = self.solver.border([*self.fixed, constraint])
+            u, loads = self._along(bordered)
+            rate = self.rate(name, Tangent(u, loads))
         along = self._unit(u, loads, float(np.sign(rate) * np.sign(sign)))
         return self.point(state, record, along, 0.0)
 
     def rate(self, name: str, tangent: Tangent) -> float:
-        """Derivative of a functional or load along a direction at the state that the system holds."""
+        """Derivative of a functional or load along a direction at the state that the system is lent to."""
         if name in tangent.loads:
             return tangent.loads[name]
         row, rates = self.system.monitor_gradient(name)
@@ -287,4 +288,4 @@ def _combine(scalars: Sequence[str], terms: list[tuple[float, State | Tangent]])
         u += weight * part.u
     loads = {name: sum(w * part.loads[name] for w, part in terms) for name in scalars}
     first = next(part for _, part in terms if isinstance(part, State))
-    return State(u, {**first.loads, **loads})
+    return State(u, {**first.loads, **loads}, first.marks)

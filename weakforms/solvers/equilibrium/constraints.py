@@ -95,7 +95,7 @@ class Fold:
     border: np.ndarray
 
     def vectors(self, solver: ExtendedNewton) -> tuple[np.ndarray, np.ndarray, float]:
-        """``(φ, ψ, q)``; ``K`` must be factorised at the state that the system holds."""
+        """``(φ, ψ, q)``; ``K`` must be factorised at the state that the system is lent to."""
         rate = solver.system.load_derivative(self.load)
         phi, q = self._solution(solver, rate, self.border)
         psi, _ = self._solution(solver, self.border, rate)
@@ -119,7 +119,7 @@ class Fold:
         return -row, {name: -value for name, value in loads.items()}
 
     def curvature(self, solver: ExtendedNewton) -> float:
-        """``d²λ/d(cᵀU)²`` at the fold that the system holds; it is zero at a cusp."""
+        """``d²λ/d(cᵀU)²`` at the fold that the system is lent to; it is zero at a cusp."""
         solver.factor.update()
         phi, _, q = self.vectors(solver)
         row, loads = self.gradient(solver)

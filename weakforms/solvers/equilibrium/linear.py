@@ -72,7 +72,7 @@ class Factorization:
         return True
 
     def update(self) -> None:
-        """Factorise the tangent at the state that the system holds."""
+        """Factorise the tangent at the state that the system is lent to."""
         self.system.tangent()
         self.stiffened = None
         self.refactor()

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
+from weakref import proxy
 
 import numpy as np
 from petsc4py import PETSc
@@ -18,7 +19,8 @@ from petsc4py import PETSc
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
-from weakforms.solvers.equilibrium.system import State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 _REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
 
@@ -31,6 +33,11 @@ OF_FORCES = 1e-15, 1e-10
 """Smallest and largest value of this limit, relative to the size of the forces (:meth:`System.force_size`).
 The smallest is about 25 times round-off; the largest is the residual of a Newton step at the tolerance."""
 
+KEPT = 1e-3
+"""If an iteration reduces the residual norm to less than this fraction, the next one keeps its Jacobian. It
+then converges about as fast again, at a small part of the price; the error that is left is this fraction of
+the last step."""
+
 STOPPING = (
     "relative Newton step 1e-10; residual norm below 1e-8, but not below 1e-15 nor above 1e-10 of the nodal "
     "forces before they balance, |K| |U|"
@@ -42,10 +49,10 @@ class Constraint(Protocol):
     """One scalar equation ``g(U; λ) = 0``."""
 
     def value(self, solver: ExtendedNewton) -> float:
-        """``g`` at the state that the system holds."""
+        """``g`` at the state that the system is lent to."""
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system holds."""
+        """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system is lent to."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +103,10 @@ class ExtendedNewton:
         self.bordered: BorderedMatrix | None = None
         self.left = np.inf
         """Norm of the residual at the end of the last solve."""
+        self.last: State | None = None
+        """The state at which the last solve ended, converged or not."""
         self._callbacks = Deferred()
+        self._made_at = -1
         self._size = system.size
         self._root = system.comm.size - 1
         self._rooted = system.comm.rank == self._root
@@ -123,15 +133,17 @@ class ExtendedNewton:
         snes = PETSc.SNES().create(self.system.comm)
         snes.setOptionsPrefix(self._prefix)
         snes.setFunction(self._residual, self._x.duplicate())
+        # PETSc owns these contexts, which Python's collector does not see: they may not own this object.
+        this = proxy(self)
         sizes = (self._x.getSizes(), self._x.getSizes())
         shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
-        shell.setPythonContext(_BorderedOperator(self))
+        shell.setPythonContext(_BorderedOperator(this))
         shell.setUp()
         snes.setJacobian(self._jacobian, shell)
         ksp = snes.getKSP()
         ksp.setType("preonly")
         ksp.getPC().setType("python")
-        ksp.getPC().setPythonContext(_BorderedSolve(self))
+        ksp.getPC().setPythonContext(_BorderedSolve(this))
         snes.setTolerances(rtol=0.0, atol=0.0, **self._tolerances)
         snes.setConvergenceHistory(self._tolerances["max_it"] + 1, reset=True)
         options = PETSc.Options()
@@ -164,7 +176,7 @@ class ExtendedNewton:
 
     def _put(self, x: PETSc.Vec) -> None:
         u, scalars = self._split(x)
-        self.system.set_state(u, dict(zip(self.scalars, scalars, strict=True)))
+        self.system.rewrite(u, dict(zip(self.scalars, scalars, strict=True)))
 
     def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
         def work() -> None:
@@ -174,18 +186,31 @@ class ExtendedNewton:
 
         self._callbacks.run(work, lambda: out.set(np.nan))
 
-    def _jacobian(self, _snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
+    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
         def work() -> None:
+            if self._is_good_still(snes):
+                return
             self.bordered = None
             self._put(x)
             self.factor.update()
             self.bordered = self.border(self.constraints)
+            self._made_at = self.factor.count
 
         self._callbacks.run(work, lambda: None)  # the linear solve that follows fails
         mat.assemble()
 
+    def _is_good_still(self, snes: PETSc.SNES) -> bool:
+        """Whether the last iteration converged so fast that the next one keeps its Jacobian.
+
+        Some constraints factorise the tangent themselves; then there is nothing to keep.
+        """
+        if not snes.getIterationNumber() or self.bordered is None or self._made_at != self.factor.count:
+            return False
+        norms, _ = snes.getConvergenceHistory()
+        return bool(norms[-1] < KEPT * norms[-2])
+
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
-        """Bordered tangent at the state that the system holds, with ``K`` factorised already."""
+        """Bordered tangent at the state that the system is lent to, with ``K`` factorised already."""
         columns = [self.system.load_derivative(name) for name in self.scalars]
         gradients = [c.gradient(self) for c in constraints]
         corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
@@ -202,7 +227,7 @@ class ExtendedNewton:
     def solve(
         self, guess: State, constraints: Sequence[Constraint] = (), chord: bool = False
     ) -> tuple[State, SolveRecord]:
-        """Solve from a guess; the system holds the converged state afterwards.
+        """Solve from a guess.
 
         Args:
             guess: First guess; its loads that are not unknowns are kept.
@@ -216,9 +241,12 @@ class ExtendedNewton:
         """
         if len(constraints) != len(self.scalars):
             raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
-        system, before = self.system, self.factor.count
         self.constraints = constraints
-        system.set_state(guess.u, guess.loads)
+        with self.system.at(guess):
+            return self._solve(guess, chord)
+
+    def _solve(self, guess: State, chord: bool) -> tuple[State, SolveRecord]:
+        system, before = self.system, self.factor.count
         self._join(self._x, guess.u, [guess.loads[name] for name in self.scalars])
         snes = self._snes(chord)
         snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
@@ -229,7 +257,7 @@ class ExtendedNewton:
             raise
         finally:
             record = solve_record(snes, self.factor.count - before)
-            self.left = record.norms[-1] if record.norms else np.inf
+            self.left, self.last = record.norms[-1] if record.norms else np.inf, system.state()
         if snes.getConvergedReason() <= 0 or not self._is_balanced(snes):
             raise ConvergenceError(
                 f"SNES ended with {record.reason} after {record.iterations} iterations, "

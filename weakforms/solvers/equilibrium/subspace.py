@@ -14,7 +14,8 @@ from petsc4py import PETSc
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.newton import SolveRecord, run_snes, solve_record
-from weakforms.solvers.equilibrium.system import State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 
 class Subspace:
@@ -43,7 +44,8 @@ class Subspace:
         self.system, self.basis, self.lift = system, basis, lift
         self._q, self._u = basis.createVecs()
         self._callbacks = Deferred()
-        self._reduced = system.tangent().ptap(basis)
+        with system.at(system.initial):
+            self._reduced = system.tangent().ptap(basis)
         snes = PETSc.SNES().create(system.comm)
         snes.setOptionsPrefix(prefix)
         snes.setFunction(self._residual, self._q.duplicate())
@@ -69,7 +71,7 @@ class Subspace:
 
     def _put(self, q: PETSc.Vec) -> None:
         self.basis.mult(q, self._u)
-        self.system.set_state(self.lift + self._u.array_r, {})
+        self.system.rewrite(self.lift + self._u.array_r, {})
 
     def _residual(self, _snes: PETSc.SNES, q: PETSc.Vec, out: PETSc.Vec) -> None:
         def work() -> None:
@@ -100,7 +102,7 @@ class Subspace:
         return self.lift + self._u.array_r
 
     def solve(self, guess: State, loads: Mapping[str, float] | None = None) -> tuple[State, SolveRecord]:
-        """Equilibrium in the subspace from a guess; the system holds it afterwards.
+        """Equilibrium in the subspace from a guess.
 
         Args:
             guess: First guess; its part outside the subspace is dropped.
@@ -109,7 +111,10 @@ class Subspace:
         Raises:
             ConvergenceError: If the solve diverges or needs too many iterations.
         """
-        self.system.set_loads(guess.loads | dict(loads or {}))
+        with self.system.at(State(guess.u, guess.loads | dict(loads or {}))):
+            return self._solve(guess)
+
+    def _solve(self, guess: State) -> tuple[State, SolveRecord]:
         self.nearest(guess.u)
         q = self._q.copy()
         run_snes(self._snes, q, self._callbacks)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
@@ -12,9 +11,10 @@ import ufl
 from dolfinx import fem, la
 from mpi4py import MPI
 from petsc4py import PETSc
-from ufl.core.expr import Expr
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import Lendable
 from weakforms.solvers.support.jit_cache import compile_together
 from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
 
@@ -23,71 +23,15 @@ SMALL_DISPLACEMENT = 1e-3
 strains, which are their differences, contain their round-off."""
 
 
-@dataclass
-class State:
-    """Owned degrees of freedom of this rank and the scalar loads, the same on every rank."""
-
-    u: np.ndarray
-    loads: dict[str, float]
-
-    def copy(self) -> State:
-        """An independent copy."""
-        return State(self.u.copy(), dict(self.loads))
-
-
-@dataclass
-class Formulation:
-    """Weak form of an equilibrium problem, as a problem provides it to the solvers.
-
-    The second variation must be symmetric (the loads have a potential).
-    """
-
-    unknown: fem.Function
-    residual: ufl.Form
-    """First variation; linear in the test function."""
-    loads: Mapping[str, tuple[fem.Constant, Expr]]
-    """Scalars that may become unknowns: the constant, and the ``ufl.variable`` by which it enters the
-    forms."""
-    bcs: list[fem.DirichletBC]
-    mass: ufl.Form
-    """Bilinear form; gives the norm of the continuation and the right-hand side of the eigenproblem."""
-    monitors: Mapping[str, ufl.Form]
-    """Scalar functionals, the columns of a branch."""
-    profile: Mapping[str, Expr] = field(default_factory=dict)
-    """Expressions that are sampled along the body for fields."""
-    abscissa: str = "Z"
-    """Name of the material coordinate of the samples."""
-    derived: Mapping[str, Callable[[Mapping[str, float]], float]] = field(default_factory=dict)
-    """Columns computed from the functionals' values; they cannot be prescribed."""
-    maxima: Mapping[str, Expr] = field(default_factory=dict)
-    """Columns that are the largest value of an expression anywhere on the body."""
-    levels: Mapping[str, tuple[Expr, float]] = field(default_factory=dict)
-    """Columns that are the smallest ``coordinate`` at which an expression's magnitude reaches a level (the
-    largest one where it never does)."""
-    coordinate: Expr | None = None
-    """Material coordinate that ``levels`` are given in."""
-    internal: tuple[str, ...] = ()
-    """Functionals that the solvers need and results do not show."""
-    locate: Callable[[np.ndarray, Mapping[str, float]], np.ndarray] | None = None
-    """Mesh coordinates of material points at given loads, if the mesh moves with the loads."""
-    tangent: ufl.Form | None = None
-    """Second variation; by default the derivative of ``residual``."""
-    aim: Callable[[str], None] | None = None
-    """Called with a load's name before a derivative with respect to it is assembled. Loads that enter by the
-    same ``ufl.variable`` (points of a moving mesh) share compiled derivatives; this call selects one of
-    them."""
-
-
-class System:
-    r"""``R(U; λ) = 0`` with symmetric tangent ``K``, assembled at the state that the system holds.
+class System(Lendable):
+    r"""``R(U; λ) = 0`` with symmetric tangent ``K``, assembled at the state that it is lent to.
 
     Vectors are numpy arrays of the degrees of freedom that this rank owns; :meth:`dot` sums over ranks. Rows
     of Dirichlet conditions are the identity in ``K`` and zero in every derivative.
     """
 
     def __init__(self, formulation: Formulation) -> None:
-        self.formulation = formulation
-        self.unknown = formulation.unknown
+        super().__init__(formulation)
         space = self.unknown.function_space
         self.comm: MPI.Intracomm = space.mesh.comm
         self._alone = self.comm.size == 1
@@ -101,12 +45,7 @@ class System:
         self._ufl = self._ufl_forms()
         compile_together(self.comm, self._ufl.values())
 
-        self.size = self.unknown.x.petsc_vec.getLocalSize()
-        # Views of the arrays that forms read and assembly writes: dolfinx needs 2 to 4 µs for each,
-        # and a point of a branch would need about thirty.
-        self._owned = self.unknown.x.array[: self.size]
-        constants = {k: load for k, (load, _) in formulation.loads.items() if isinstance(load, fem.Constant)}
-        self._constants = {name: constant.value for name, constant in constants.items()}
+        self.size = len(self._owned)
         self._sums = fem.Function(space).x
         self._assembled = self._sums.array
         arrays = np.zeros((2, self.size))
@@ -122,6 +61,7 @@ class System:
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
         self._mass_entries: PETSc.Mat | None = None
         self.update_mass()
+        self._give_up()
 
     def _ufl_forms(self) -> dict[str, ufl.Form]:
         given = self.formulation
@@ -162,7 +102,7 @@ class System:
 
     @contextmanager
     def weighed_here(self) -> Iterator[None]:
-        """Context in which the mass matrix is that at the current loads, which may move the mesh.
+        """Context in which the mass matrix is that at the lent state's loads, which may move the mesh.
 
         Afterwards the old matrix defines arc length again, so that a branch does not depend on earlier
         evaluations.
@@ -187,43 +127,10 @@ class System:
         self._bc_values = np.concatenate([self._bc_values[: self._fixed], values])
         self.matrix.setOption(PETSc.Mat.Option.KEEP_NONZERO_PATTERN, True)
 
-    # -- the state ---------------------------------------------------------------------------
-
-    @property
-    def load_names(self) -> tuple[str, ...]:
-        """Names of the scalars that may become unknowns."""
-        return tuple(self.formulation.loads)
-
-    def set_state(self, u: np.ndarray, loads: Mapping[str, float]) -> None:
-        """Write a state into the forms."""
-        self._owned[:] = u
-        self.unknown.x.scatter_forward()
-        self.set_loads(loads)
-
-    def set_loads(self, loads: Mapping[str, float]) -> None:
-        """Write scalars into the forms."""
-        for name, value in loads.items():
-            if name in self._constants:
-                self._constants[name].fill(value)
-            else:  # a point of a moving mesh
-                self.formulation.loads[name][0].value = value
-
-    def state(self) -> State:
-        """Copy of the state that the forms hold."""
-        return State(self._owned.copy(), {name: self.load(name) for name in self.formulation.loads})
-
-    def owned(self) -> np.ndarray:
-        """View of the current state's degrees of freedom that this rank owns."""
-        return self._owned
-
-    def load(self, name: str) -> float:
-        """One scalar of the current state."""
-        known = self._constants.get(name)
-        return float(self.formulation.loads[name][0].value) if known is None else known.item()
-
     # -- assembly ----------------------------------------------------------------------------
 
     def _vector(self, name: str) -> np.ndarray:
+        self.require_lent()
         self._assembled.fill(0.0)
         fem.assemble_vector(self._assembled, self._form(name))
         self._sums.scatter_reverse(la.InsertMode.add)
@@ -251,6 +158,7 @@ class System:
 
     def tangent(self) -> PETSc.Mat:
         """``K = ∂R/∂U``, always the same matrix object."""
+        self.require_lent()
         self.matrix.zeroEntries()
         fem_petsc.assemble_matrix(self.matrix, self._form("tangent"), self.formulation.bcs)
         self.matrix.assemble()
@@ -260,7 +168,8 @@ class System:
         return self.matrix
 
     def monitors(self) -> dict[str, float]:
-        """All scalar functionals at the current state, with one reduction for all."""
+        """All scalar functionals of the lent state, with one reduction for all."""
+        self.require_lent()
         names = list(self.formulation.monitors)
         local = np.array([fem.assemble_scalar(self._form(f"monitor_{n}")) for n in names])
         values = (
@@ -277,7 +186,10 @@ class System:
             function = self._interpolant.function
             self._peaks = {name: Peak(function, i) for i, name in enumerate(self.formulation.maxima)}
         self._interpolant.update()
-        return {name: peak() for name, peak in self._peaks.items()}
+        found = {name: peak() for name, peak in self._peaks.items()}
+        if not np.isfinite(list(found.values())).all():
+            raise ConvergenceError("the state has stretches at which the law is not defined")
+        return found
 
     def _first_levels(self) -> dict[str, float]:
         """Positions where expressions first reach their levels, by their polynomials on each cell."""
@@ -290,6 +202,7 @@ class System:
 
     def monitor(self, name: str) -> float:
         """One scalar functional."""
+        self.require_lent()
         self._require_monitor(name)
         return float(self.sum(fem.assemble_scalar(self._form(f"monitor_{name}"))))
 
@@ -345,6 +258,7 @@ class System:
         It uses the tangent as last assembled. A residual of pure round-off is about ``4e-17`` of this size,
         on any mesh and under any load. Each rank needs only its own rows.
         """
+        self.require_lent()
         starts, _columns, values = self.matrix.getValuesCSR()
         rows = np.add.reduceat(np.append(np.abs(values), 0.0), starts[:-1]) * (np.diff(starts) > 0)
         rows[self.bc_dofs] = 0.0

@@ -13,7 +13,8 @@ from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.linear import Factorization
-from weakforms.solvers.equilibrium.system import State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import LOWEST, Mode, give_back
 
 ROUGH, SHARP = 1e-3, 1e-11
@@ -53,22 +54,22 @@ class Lowest:
         Raises:
             ConvergenceError: If SLEPc finds fewer than the inertia counts.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        target = self._target()
-        (first,) = self._solve(1, target, ROUGH, [])[:1]
-        near = first[0] - BELOW * max(abs(first[0]), 1e-3)
-        if near > target and not self._below(near):
-            target = near
-        found = self._solve(count, target, SHARP, [])
-        for _ in range(ATTEMPTS):
-            found = sorted(found, key=lambda pair: pair[0])
-            last = found[count - 1][0]
-            edge = last + APART * max(1.0, abs(last))
-            if self._below(edge) <= sum(value < edge for value, _ in found):
-                return self._directed([self._mode(*pair) for pair in found])[:count]
-            found += self._solve(count, target, SHARP, [vector for _, vector in found])
-        raise ConvergenceError("stability: SLEPc finds fewer lowest eigenvalues than the inertia counts")
+        with self.system.at(state):
+            self.system.tangent()
+            target = self._target()
+            (first,) = self._solve(1, target, ROUGH, [])[:1]
+            near = first[0] - BELOW * max(abs(first[0]), 1e-3)
+            if near > target and not self._below(near):
+                target = near
+            found = self._solve(count, target, SHARP, [])
+            for _ in range(ATTEMPTS):
+                found = sorted(found, key=lambda pair: pair[0])
+                last = found[count - 1][0]
+                edge = last + APART * max(1.0, abs(last))
+                if self._below(edge) <= sum(value < edge for value, _ in found):
+                    return self._directed([self._mode(*pair) for pair in found])[:count]
+                found += self._solve(count, target, SHARP, [vector for _, vector in found])
+            raise ConvergenceError("stability: SLEPc finds fewer lowest eigenvalues than the inertia counts")
 
     def _below(self, shift: float) -> int:
         """Number of eigenvalues below a shift."""

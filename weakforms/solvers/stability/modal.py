@@ -14,7 +14,7 @@ from weakforms.results import Quantity, SpecialPoint
 from weakforms.results.model import crossings
 from weakforms.solvers.continuation.branch import FittedBranch, Solved
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
@@ -23,7 +23,7 @@ BISECTIONS = 6
 
 
 class Modes(Protocol):
-    """Quantities computed along a branch, at the state that the system holds."""
+    """Quantities computed along a branch, at the state that the system is lent to."""
 
     wave_numbers: Sequence[int]
     """Families whose zeros are bifurcation points."""
@@ -76,8 +76,9 @@ class ModalBranch(FittedBranch):
             limit = self._root(i, self._control_rate(i), "limit_point")
             plane = self.continuation.plane(limit.state, before.tangent)
             state, record = self.solver.solve(limit.state, [*self.continuation.fixed, plane])
-            monitors = self.system.monitors()
-            tangent = self.continuation.direction_here(before.tangent)
+            with self.system.at(state):
+                monitors = self.system.monitors()
+            tangent = self.continuation.direction(state, before.tangent)
             s = before.arclength + self.continuation.distance(state, before.state)
             # Its zero eigenvalue makes the inertia depend on round-off: use the count of the point before it.
             point = CurvePoint(state, tangent, s, before.n_negative, record, monitors)
@@ -92,8 +93,8 @@ class ModalBranch(FittedBranch):
     def observed(self, point: CurvePoint) -> dict[str, float]:
         """Additional columns at a point of the trace, computed once."""
         if id(point) not in self._observed:
-            self.system.set_state(point.state.u, point.state.loads)
-            self._observed[id(point)] = point, self.modes.observe()
+            with self.system.at(point.state):
+                self._observed[id(point)] = point, self.modes.observe()
         return self._observed[id(point)][1]
 
     def columns(self) -> dict[str, np.ndarray]:
@@ -109,8 +110,8 @@ class ModalBranch(FittedBranch):
 
     def complete(self, solved: Solved) -> Solved:
         """The state with the additional columns."""
-        self.system.set_state(solved.state.u, solved.state.loads)
-        return replace(solved, values=solved.values | self.modes.observe())
+        with self.system.at(solved.state):
+            return replace(solved, values=solved.values | self.modes.observe())
 
     # -- states --------------------------------------------------------------------------------
 
@@ -196,21 +197,21 @@ class ModalBranch(FittedBranch):
             else:
                 high = middle
         guess = self._between(i, high if after > before else low)
-        self.system.set_state(guess.u, guess.loads)
-        variation = self.modes.variation(n)
-        border = variation.mass_times(variation.highest_negative().vector)
+        with self.system.at(guess):
+            variation = self.modes.variation(n)
+            border = variation.mass_times(variation.highest_negative().vector)
         solved = self._solve(guess, Singular(lambda: self.modes.variation(n), border), "bifurcation_point")
         self._require_within(i, solved, f"bifurcation of n = {n}")
         return replace(solved, values=solved.values | {"n": float(n)})
 
     def null_vector(self, solved: Solved) -> np.ndarray:
         """Mode of a bifurcation point, of unit length in the mass norm."""
-        self.system.set_state(solved.state.u, solved.state.loads)
-        return self.modes.variation(round(solved.values["n"])).nearest().vector
+        with self.system.at(solved.state):
+            return self.modes.variation(round(solved.values["n"])).nearest().vector
 
     def _count_at(self, state: State, n: int) -> int:
-        self.system.set_state(state.u, state.loads)
-        return self.modes.variation(n).negative_count()
+        with self.system.at(state):
+            return self.modes.variation(n).negative_count()
 
 
 class ModalFamily(BranchFamily):
@@ -239,8 +240,8 @@ class ModalFamily(BranchFamily):
         """Number of negative eigenvalues in the symmetric space, without the zero of a special point."""
         counts = set()
         for level, s in zip(self.levels, solved, strict=True):
-            level.system.set_state(s.state.u, s.state.loads)
-            spectrum = level.modes.variation(0).spectrum(2)
+            with level.system.at(s.state):
+                spectrum = level.modes.variation(0).spectrum(2)
             counts.add(sum(value < -critical for value in spectrum.eigenvalues))
         if len(counts) != 1:
             raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
@@ -278,5 +279,4 @@ class SinglePoint(ModalBranch):
 
     def _itself(self) -> Solved:
         point = self.points[0]
-        self.system.set_state(point.state.u, point.state.loads)
         return self.complete(Solved(self._values(point.state), point.state))

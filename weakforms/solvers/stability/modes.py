@@ -8,7 +8,8 @@ is the condition that this operator has a null vector.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,9 +18,11 @@ from dolfinx import fem
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
 
 CRITICAL = 1e-6
@@ -27,7 +30,7 @@ CRITICAL = 1e-6
 
 
 class SecondVariation(System):
-    """Operator ``K(U, λ)`` of a perturbation ``q``, at the state that the base system holds.
+    """Operator ``K(U, λ)`` of a perturbation ``q``, at the state that the base system is lent to.
 
     Args:
         formulation: Its ``unknown`` is ``q``, which stays zero; its ``residual`` is the first variation at
@@ -44,6 +47,28 @@ class SecondVariation(System):
         self.stability = Stability(self)
         self.mode = fem.Function(self.unknown.function_space)
         self._quadratic: ufl.Form | None = None
+
+    @property
+    def is_lent(self) -> bool:
+        """Whether the base belongs to a state; the perturbation itself is zero."""
+        return self.base.is_lent
+
+    @contextmanager
+    def at(self, state: State) -> Iterator[None]:
+        """Set the perturbation, which is zero again afterwards; the loads are those of the base's state.
+
+        Raises:
+            NoStateError: If the base is not lent to a state.
+        """
+        self.require_lent()
+        self._write(state.u, {})
+        try:
+            yield
+        finally:
+            self._give_up()
+
+    def _give_up(self) -> None:
+        self._everywhere[:] = 0.0
 
     @property
     def mass(self) -> PETSc.Mat:

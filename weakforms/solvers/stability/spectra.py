@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -14,7 +14,8 @@ from slepc4py import SLEPc
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
-from weakforms.solvers.equilibrium.system import State, System
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 LOWEST = -1e6
 """Lower limit of the search for eigenvalues."""
@@ -61,28 +62,52 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
         self._callbacks = Deferred()
+        self._inverse = _Preconditioner(self._callbacks)
+        self._kept: SLEPc.EPS | None = None
+
+    @contextmanager
+    def _tangent_at(self, state: State, shift: float = 0.0) -> Iterator[None]:
+        """Context of a state, with ``K + shift M`` assembled."""
+        with self.system.at(state):
+            self.system.tangent()
+            if shift:
+                self.system.shift(shift)
+            yield
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
-        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS."""
+        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS.
+
+        With a given inverse it is the same object each time: to make one costs as much as a small spectrum.
+        """
+        if inverse is None:
+            eps = self._new_solver()
+            pc = eps.getST().getKSP().getPC()
+            pc.setType("cholesky")
+            pc.setFactorSolverType("mumps")
+            eps.setFromOptions()
+        else:
+            if self._kept is None:
+                self._kept = self._new_solver()
+                pc = self._kept.getST().getKSP().getPC()
+                pc.setType("python")
+                pc.setPythonContext(self._inverse)
+                self._kept.setFromOptions()
+            eps, self._inverse.solve = self._kept, inverse
+        eps.setOperators(self.system.matrix, self.system.mass)
+        eps.setTarget(target)
+        basis = min(max(2 * wanted, wanted + 15), self.system.matrix.getSize()[0])  # SLEPc's rule
+        eps.setDimensions(nev=wanted, ncv=basis)
+        return eps
+
+    def _new_solver(self) -> SLEPc.EPS:
         eps = SLEPc.EPS().create(self.system.comm)
         eps.setOptionsPrefix(self._prefix)
-        eps.setOperators(self.system.matrix, self.system.mass)
         eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
         eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(target)
-        eps.setDimensions(nev=wanted)
         eps.setTolerances(tol=1e-12, max_it=200)
         st = eps.getST()
         st.setType("sinvert")
         st.getKSP().setType("preonly")
-        pc = st.getKSP().getPC()
-        if inverse is None:
-            pc.setType("cholesky")
-            pc.setFactorSolverType("mumps")
-        else:
-            pc.setType("python")
-            pc.setPythonContext(_Preconditioner(inverse, self._callbacks))
-        eps.setFromOptions()
         return eps
 
     def spectrum(self, state: State, count: int = 2, shift: float = 0.0) -> Spectrum:
@@ -97,29 +122,26 @@ class Stability:
             ConvergenceError: If SLEPc and the inertia disagree on the number of negative eigenvalues, or an
                 eigenvalue is so close to zero that its sign is uncertain.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        if shift:
-            self.system.shift(shift)
-        self._factorise()
-        negative = self.factor.negative_count()
-        # A system with one degree of freedom has one eigenvalue.
-        wanted = min(max(count, negative + 1), self.system.matrix.getSize()[0])
-        for extra in (0, wanted):
-            values = self._eigenvalues(wanted + extra, self.factor.solve)
-            if int(np.sum(values < 0)) == negative:
-                return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
-        found = int(np.sum(values < 0))
-        if found < negative:  # more than the inertia's count: a zero with round-off, nothing is missing
-            below = self._from_below(negative)
-            found = int(np.sum(below < 0))
-            if found == negative:
-                values = np.concatenate([below[:negative], values[values >= 0]])
-                return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
-        raise ConvergenceError(
-            f"stability: inertia counts {negative} negative eigenvalues, SLEPc finds {found} "
-            f"(nearest to zero: {values[np.argmin(np.abs(values))]:.1e})"
-        )
+        with self._tangent_at(state, shift):
+            self._factorise()
+            negative = self.factor.negative_count()
+            # A system with one degree of freedom has one eigenvalue.
+            wanted = min(max(count, negative + 1), self.system.matrix.getSize()[0])
+            for extra in (0, wanted):
+                values = self._eigenvalues(wanted + extra, self.factor.solve)
+                if int(np.sum(values < 0)) == negative:
+                    return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
+            found = int(np.sum(values < 0))
+            if found < negative:  # more than the inertia's count: a zero with round-off, nothing is missing
+                below = self._from_below(negative)
+                found = int(np.sum(below < 0))
+                if found == negative:
+                    values = np.concatenate([below[:negative], values[values >= 0]])
+                    return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
+            raise ConvergenceError(
+                f"stability: inertia counts {negative} negative eigenvalues, SLEPc finds {found} "
+                f"(nearest to zero: {values[np.argmin(np.abs(values))]:.1e})"
+            )
 
     def _from_below(self, count: int) -> np.ndarray:
         """The lowest eigenvalues of the current matrix, with a target below all of them by inertia.
@@ -142,15 +164,14 @@ class Stability:
         This is for root finding: if the inertia is ``index`` or ``index + 1``, this eigenvalue is the one
         nearest to zero on its side, even if round-off changes its sign.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        self._factorise()
-        negative = self.factor.negative_count()
-        values = self._eigenvalues(index + 3, self.factor.solve)
-        below, above = values[values < 0], values[values >= 0]
-        if negative > index:
-            return float(below[-1]) if len(below) else float(values[0])
-        return float(above[0]) if len(above) else float(values[-1])
+        with self._tangent_at(state):
+            self._factorise()
+            negative = self.factor.negative_count()
+            values = self._eigenvalues(index + 3, self.factor.solve)
+            below, above = values[values < 0], values[values >= 0]
+            if negative > index:
+                return float(below[-1]) if len(below) else float(values[0])
+            return float(above[0]) if len(above) else float(values[-1])
 
     def bordered(self, state: State, border: np.ndarray, compliance: float, shift: float = 0.0) -> Spectrum:
         r"""Lowest eigenvalue of :math:`K + b b^T/c`, or for ``c = 0`` of ``K`` on :math:`b^T x = 0`.
@@ -167,23 +188,20 @@ class Stability:
         Raises:
             ConvergenceError: If SLEPc and the inertia disagree on the number of negative eigenvalues.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        if shift:
-            self.system.shift(shift)
-        self._factorise()
-        negative = self.factor.negative_count()
-        bordered = BorderedMatrix(self.factor, [border], [border], np.array([[-compliance]]))
-        schur = -compliance - self.system.dot(border, self.factor.solve(border))
-        negative += int(schur < 0) - 1
-        for wanted in (negative + 1, 2 * negative + 4):
-            values = self._eigenvalues(wanted, lambda rhs: bordered.solve(rhs, np.zeros(1))[0])
-            if int(np.sum(values < 0)) == negative:
-                return Spectrum(tuple((values - shift).tolist()), negative)
-        raise ConvergenceError(
-            f"stability: inertia counts {negative} negative eigenvalues under the constraint, SLEPc finds "
-            f"{int(np.sum(values < 0))}"
-        )
+        with self._tangent_at(state, shift):
+            self._factorise()
+            negative = self.factor.negative_count()
+            bordered = BorderedMatrix(self.factor, [border], [border], np.array([[-compliance]]))
+            schur = -compliance - self.system.dot(border, self.factor.solve(border))
+            negative += int(schur < 0) - 1
+            for wanted in (negative + 1, 2 * negative + 4):
+                values = self._eigenvalues(wanted, lambda rhs: bordered.solve(rhs, np.zeros(1))[0])
+                if int(np.sum(values < 0)) == negative:
+                    return Spectrum(tuple((values - shift).tolist()), negative)
+            raise ConvergenceError(
+                f"stability: inertia counts {negative} negative eigenvalues under the constraint, SLEPc "
+                f"finds {int(np.sum(values < 0))}"
+            )
 
     def modes(self, state: State, count: int) -> list[Mode]:
         """The eigenvalues nearest to zero with their modes, at least ``count`` of them, nearest first.
@@ -191,10 +209,9 @@ class Stability:
         Raises:
             ConvergenceError: If fewer converge.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        found = self._near(self._solver(count), count, self._pairs)
-        return sorted(found, key=lambda mode: abs(mode.eigenvalue))
+        with self._tangent_at(state):
+            found = self._near(self._solver(count), count, self._pairs)
+            return sorted(found, key=lambda mode: abs(mode.eigenvalue))
 
     def mode_at(self, state: State, eigenvalue: float) -> Mode:
         """The mode of a known eigenvalue, such as the lowest.
@@ -204,9 +221,9 @@ class Stability:
         Raises:
             ConvergenceError: If none converges.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        return self._near(self._solver(1, eigenvalue - BESIDE * max(1.0, abs(eigenvalue))), 1, self._pairs)[0]
+        target = eigenvalue - BESIDE * max(1.0, abs(eigenvalue))
+        with self._tangent_at(state):
+            return self._near(self._solver(1, target), 1, self._pairs)[0]
 
     def about(self, state: State, target: float, count: int) -> tuple[list[Mode], int]:
         r"""Eigenvalues near a target, and the number below it, from one factorisation of ``K - target M``.
@@ -223,15 +240,12 @@ class Stability:
         Raises:
             ConvergenceError: If fewer converge, or the factorisation fails.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        if target:
-            self.system.shift(-target)
-        self._factorise()
-        below = self.factor.negative_count()
-        pairs = self._near(self._solver(count, inverse=self.factor.solve), count, self._pairs)
-        found = [self._improved(mode, target) for mode in pairs]
-        return sorted(found, key=lambda mode: abs(mode.eigenvalue - target)), below
+        with self._tangent_at(state, -target):
+            self._factorise()
+            below = self.factor.negative_count()
+            pairs = self._near(self._solver(count, inverse=self.factor.solve), count, self._pairs)
+            found = [self._improved(mode, target) for mode in pairs]
+            return sorted(found, key=lambda mode: abs(mode.eigenvalue - target)), below
 
     def _factorise(self) -> None:
         """Factorise the current matrix, with pivoting if round-off would be large otherwise."""
@@ -270,14 +284,13 @@ class Stability:
         Raises:
             ConvergenceError: If ``K`` has negative eigenvalues, or none is found.
         """
-        self.system.set_state(state.u, state.loads)
-        self.system.tangent()
-        self._factorise()
-        if self.factor.negative_count():
-            raise ConvergenceError("stability: the stiffness to compare with is not positive")
-        eps = self._solver(1, inverse=self.factor.solve)
-        eps.setOperators(self.system.matrix, other)
-        return float(min(self._near(eps, 1, _values)))
+        with self._tangent_at(state):
+            self._factorise()
+            if self.factor.negative_count():
+                raise ConvergenceError("stability: the stiffness to compare with is not positive")
+            eps = self._solver(1, inverse=self.factor.solve)
+            eps.setOperators(self.system.matrix, other)
+            return float(min(self._near(eps, 1, _values)))
 
     def _near(self, eps: SLEPc.EPS, wanted: int, read: Callable[[SLEPc.EPS], list[Found]]) -> list[Found]:
         """The eigenpairs that SLEPc finds near its target.
@@ -285,13 +298,19 @@ class Stability:
         Raises:
             ConvergenceError: If fewer than ``wanted`` converge, SLEPc raises an error, or an inverse fails.
         """
+        found = None
         try:
             self._run(eps)
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
-            return read(eps)
+            found = read(eps)
         finally:
-            give_back(eps)
+            self._inverse.solve = None
+            if found is None:  # after an error its parts may be in use
+                self._kept = None
+            if eps is not self._kept:
+                give_back(eps)
+        return found
 
     def _run(self, eps: SLEPc.EPS) -> None:
         try:
@@ -314,15 +333,17 @@ def give_back(eps: SLEPc.EPS) -> None:
 
 
 class _Preconditioner:
-    """A preconditioner that solves exactly."""
+    """A preconditioner that solves exactly; it has its inverse only in use, and owns no system."""
 
-    def __init__(self, solve: Inverse, callbacks: Deferred) -> None:
-        self._solve, self._callbacks = solve, callbacks
+    solve: Inverse | None = None
+
+    def __init__(self, callbacks: Deferred) -> None:
+        self._callbacks = callbacks
 
     def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
         """``out`` is the solution for ``rhs``."""
 
         def work() -> None:
-            out.array_w[:] = self._solve(rhs.array_r.copy())
+            out.array_w[:] = self.solve(rhs.array_r.copy())
 
         self._callbacks.run(work, lambda: out.set(0.0))  # every vector is an eigenvector of it

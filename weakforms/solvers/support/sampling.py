@@ -210,8 +210,10 @@ class Peak:
         self._to_coefficients = np.linalg.inv(((nodes - middle) / half)[:, :, None] ** powers)
 
     def __call__(self) -> float:
-        """The largest value, found in the cells with the largest nodal values."""
+        """The largest value, from the cells with the largest nodal values; infinite if one is no number."""
         values = self._function.x.array[self._block * self._cells + self._component]
+        if self._comm.allreduce(not np.isfinite(values).all(), op=MPI.LOR):
+            return np.inf
         largest = float(values.max(initial=-np.inf))
         searched = np.argsort(values.max(axis=1, initial=-np.inf))[-SEARCHED:]
         polynomials = np.einsum("cij,cj->ci", self._to_coefficients[searched], values[searched])

@@ -265,8 +265,8 @@ class BranchFamily:
     def _sample(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
         """Columns of the profile at given positions on one mesh."""
         system = self.levels[k].system
-        system.set_state(solved.state.u, solved.state.loads)
-        return self._sampler(k, places)()
+        with system.at(solved.state):
+            return self._sampler(k, places)()
 
     def _sampler(self, k: int, points: np.ndarray) -> Sampler:
         """Sampler on one mesh; it is kept, because locating points costs more than evaluation."""
@@ -327,8 +327,7 @@ def _orders(values: dict[str, Estimate]) -> dict[str, float]:
 
 def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:
     """The lowest eigenvalues of a state, with the mass matrix of its own mesh (which fronts move)."""
-    level.system.set_state(solved.state.u, solved.state.loads)
-    with level.system.weighed_here():
+    with level.system.at(solved.state), level.system.weighed_here():
         return Stability(level.system).spectrum(solved.state, shift=max(critical, level.continuation.shift))
 
 

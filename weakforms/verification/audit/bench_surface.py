@@ -60,7 +60,8 @@ def run_surface_bench(
             run.at(level)
         lap("states_s")
         point = run.at(LEVELS[-1])
-        run.stability.factor.update()
+        with run.system.at(point.state):
+            run.stability.factor.update()
         point.n_negative = run.stability.factor.negative_count()
         lap("inertia_s")
         values = run.columns(point, 1)

@@ -9,9 +9,9 @@ from __future__ import annotations
 import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
-from functools import wraps
+from functools import partial, wraps
 from importlib.util import find_spec
 from typing import Any, Protocol
 
@@ -24,6 +24,7 @@ from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.stability.spectra import Stability
 
 PRIMITIVES = {
@@ -44,12 +45,17 @@ class Meter:
     seconds: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     calls: Counter[str] = field(default_factory=Counter)
     again: dict[Any, tuple[int, Callable[[], Any]]] = field(default_factory=dict)
+    at: dict[Any, Callable[[], AbstractContextManager]] = field(default_factory=dict)
+    """Context of the state that each call belongs to."""
     _inside: bool = False
 
     def note(self, stage: str, right: Callable, given: tuple, options: dict) -> Any:
         """Make a call and record it, unless it is part of a recorded call."""
         if self._inside:
             return right(*given, **options)
+        key = right, id(given[0]), *(a for a in given[1:] if isinstance(a, str))
+        if key not in self.at:
+            self.at[key] = _lent_again(given[0])
         self._inside, begun = True, time.perf_counter()
         try:
             return right(*given, **options)
@@ -57,7 +63,6 @@ class Meter:
             self.seconds[stage] += time.perf_counter() - begun
             self.calls[stage] += 1
             self._inside = False
-            key = right, id(given[0]), *(a for a in given[1:] if isinstance(a, str))
             count, _ = self.again.get(key, (0, None))
             self.again[key] = (count + 1, self._repeated(stage, right, given, options))
 
@@ -72,9 +77,19 @@ class Meter:
 
     def floor(self) -> None:
         """Repeat the same calls without other work between them."""
-        for count, call in self.again.values():
-            for _ in range(count):
-                call()
+        for key, (count, call) in self.again.items():
+            with self.at[key]():
+                for _ in range(count):
+                    call()
+
+
+def _lent_again(of: System | Factorization) -> Callable[[], AbstractContextManager]:
+    """Makes contexts of the state that some forms belong to now."""
+    system = of.system if isinstance(of, Factorization) else of
+    base = system.base if isinstance(system, SecondVariation) else system
+    if not base.is_lent:
+        return nullcontext
+    return partial(base.at, base.state())
 
 
 @contextmanager
@@ -129,11 +144,9 @@ class Tube:
         """The half tube."""
         mesh = TubeMesh(self.cells, self.degree, 0.6)
         self.system = TubeModel.free(comm, mooney_rivlin_of(0.1), 1.0, 6.0, mesh).system
-        self._begin = self.system.state()
 
     def run(self) -> int:
         """The branch by arc-length."""
-        self.system.set_state(self._begin.u, self._begin.loads)
         self.branch = free_branch(self.system, 1.0, self.end, self.step)
         return len(self.branch.points)
 

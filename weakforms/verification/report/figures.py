@@ -38,6 +38,8 @@ NARROW, FOOT = 4.2, 0.5
 """Width of a narrower figure, and room below axes, in inches."""
 SHOWN = 22
 """Largest number of reference markers on a curve, which is compared at every row of its table."""
+ERRORS = 40
+"""Largest number of errors drawn for a curve: of several rows beside each other the worst one."""
 SIDES = ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
 DASHED, ASKED = (0, (4, 2)), (0, (6, 2, 1, 2))
 
@@ -270,12 +272,13 @@ def _draw_residuals(axes: Axes, panel: PanelOutcome, verdicts: Sequence[Verdict]
         colour, marker = KINDS[index % len(KINDS)]
         x, error = _columns(curve.residual_x, curve.residual)
         limit = np.resize(np.asarray(curve.residual_bound or [np.nan], float), len(x))
+        shown = _worst(x, error, limit)
+        x, error, limit = x[shown], error[shown], limit[shown]
         out = error > limit
         drawn = np.where(error > 0, error, np.where(error == 0, floor, np.nan))
         axes.plot(x[~out], drawn[~out], marker, color=colour, mew=0.7, ms=3.2, mfc="none")
         axes.plot(x[out], drawn[out], marker, color=colour, mew=0.7, ms=4.2)
-        rows, steps = np.argsort(x), np.maximum(limit, floor)
-        axes.plot(x[rows], steps[rows], drawstyle="steps-mid", color=colour, lw=0.8)
+        axes.plot(x, np.maximum(limit, floor), drawstyle="steps-mid", color=colour, lw=0.8)
     judged = [verdict.asked for c in curves for verdict in of_curve(c, verdicts) if verdict.asked]
     for asked in sorted(set(judged))[:3]:
         axes.axhline(asked, color=INK, lw=0.8, ls=ASKED)
@@ -290,7 +293,19 @@ def _draw_residuals(axes: Axes, panel: PanelOutcome, verdicts: Sequence[Verdict]
     axes.set_ylabel("relative error", fontsize=10)
     note = "open: error; filled: out of bound; line: bound"
     note += "; dash-dotted: asked" * bool(judged) + "; at the foot: zero" * zeros
+    note += "; worst of neighbouring rows" * any(len(c.residual) > ERRORS for c in curves)
     axes.text(0, 1.05, note, transform=axes.transAxes, fontsize=8.5, color=MUTED)
+
+
+def _worst(x: np.ndarray, error: np.ndarray, limit: np.ndarray) -> np.ndarray:
+    """Rows in the order of x: all, or of each group of neighbours the one that is nearest to its bound.
+
+    Rows that are not finite are left out of a group that has others.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        badness = np.nan_to_num(error / limit, nan=-1.0, posinf=np.inf)
+    groups = np.array_split(np.argsort(x, kind="stable"), min(ERRORS, max(len(x), 1)))
+    return np.array([group[np.argmax(badness[group])] for group in groups if len(group)], int)
 
 
 def _draw_history(axes: Axes, record: Convergence, index: int, floor: float) -> None:

@@ -6,7 +6,6 @@ report can be rebuilt later with the same bytes.
 
 from __future__ import annotations
 
-import copy
 import json
 import math
 import os
@@ -43,7 +42,7 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
     Args:
         run: Outcome of ``verify``.
         folder: Folder of the report; created if missing. Pages and shapes of an earlier report are deleted.
-        stored: Whether the run was read from a file; then nothing is written before everything is drawn.
+        stored: Whether it was read by :func:`load_run`; then nothing is written before everything is drawn.
         jobs: Number of parallel processes for drawing.
 
     Returns:
@@ -53,11 +52,9 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
         InputError: If the folder cannot be written, or the stored run cannot be drawn.
     """
     data = _plain(run.to_json())
-    run = _decoded(data)
-    numbers = {
-        "report.json": json.dumps(data, indent=1, allow_nan=False) + "\n",
-        "junit.xml": junit_xml(run),
-    }
+    text = json.dumps(data, indent=1, allow_nan=False) + "\n"
+    run = run if stored else _decoded(data)  # drawn as it would be from its file
+    numbers = {"report.json": text, "junit.xml": junit_xml(run)}
     folder = Path(folder)
     others = load_elsewhere(folder) if stored else ()
     beside = Seeded.beside(folder), others, Audited.beside(folder), Covered.beside(folder)
@@ -152,8 +149,7 @@ def load_run(folder: Path) -> RunOutcome:
 
 
 def _decoded(data: dict[str, Any]) -> RunOutcome:
-    """The run of a JSON object, with every type checked and ``null`` in a column read as NaN."""
-    data = copy.deepcopy(data)
+    """The run of a JSON object, with every type checked; each ``null`` in a column of it becomes NaN."""
     for case in data["cases"]:
         columns = [(curve, key) for p in case["panels"] for curve in p["curves"] for key in _LISTS]
         columns += [(record, "errors") for record in case["convergence"]]

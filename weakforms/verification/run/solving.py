@@ -42,6 +42,16 @@ def _task(spec: Spec, states: list[At]) -> str:
     return dumps(solve_spec(spec, states).to_json())
 
 
+def _ready() -> None:
+    """Load everything that solves, and leave it out of later garbage collections."""
+    from weakforms import api
+
+    api.require_environment()
+    from weakforms.solvers.support.memory import set_aside
+
+    set_aside()
+
+
 PACKAGE = Path(__file__).resolve().parents[2]
 
 ASIDE = (
@@ -176,7 +186,7 @@ class Solver:
                 except WeakformsError as error:
                     yield spec, error
             return
-        with workers(self.jobs) as pool:
+        with workers(self.jobs, _ready) as pool:
             futures = {pool.submit(self.task, spec, states): spec for spec, states, _ in todo}
             for future in as_completed(futures):
                 error = future.exception()

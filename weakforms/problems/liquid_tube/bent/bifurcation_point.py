@@ -19,7 +19,7 @@ from weakforms.problems.liquid_tube.bent.model import Shape, SurfaceModel
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.solvers.continuation.branch import Solved
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.roots import root
 
@@ -128,9 +128,11 @@ def bifurcation_on(
     u, mode = (
         BarycentricInterpolator(along, np.array(v))(zero) for v in ([s.state.u for s in solved], modes)
     )
-    like = model.interpolated(displacement(at))
-    across = system.mass_times(mode)
-    if system.dot(like, across) < LIKENESS * np.sqrt(system.dot(like, system.mass_times(like))):
+    last = solved[-1].state
+    like = model.interpolated(displacement(at), last.loads)
+    with system.at(last):
+        across, weighed = system.mass_times(mode), system.mass_times(like)
+    if system.dot(like, across) < LIKENESS * np.sqrt(system.dot(like, weighed)):
         raise ConvergenceError("the null vector on the surface is not the axisymmetric branch's mode")
     names = solved[0].values
     state = State(u, dict(zip(solved[0].state.loads, found[len(names) :], strict=True)))
@@ -144,16 +146,18 @@ def _neighbouring_states(
     """States near a bifurcation, their critical eigenvalues and modes, and the others below zero."""
     system, stability = model.system, Stability(model.system)
     fitting = Fitting(model, KeptNewton(system, ["zw"], CLOSE))
-    like = model.interpolated(displacement(at))
+    like, loads = model.interpolated(displacement(at)), system.initial.loads
     states, eigenvalues, vectors, counts = [], [], [], []
     for i, s in enumerate(along):
         begin = primary.at("V", at.values["V"] * (1 + SPAN * s), at.Z)
-        guess = State(model.interpolated(position(begin)), {"zw": begin.values["zw"]})
+        guess = model.state_of(position(begin), loads | {"zw": begin.values["zw"]})
         kept = i > 0 and min(along) > 0
         state = fitting.solve(guess, [Held("V", begin.values["V"])], chord=True, kept=kept)
-        states.append(Solved({"zw": state.loads["zw"], **system.monitors()}, state))
-        modes, negative = stability.about(state, 0.0, LOOKED_AT)
-        row = system.mass_times(like)
+        with system.at(state):
+            states.append(Solved({"zw": state.loads["zw"], **system.monitors()}, state))
+            modes, negative = stability.about(state, 0.0, LOOKED_AT)
+            row = system.mass_times(like)
+        loads = state.loads
         overlaps = [system.dot(row, mode.vector) for mode in modes]
         k = int(np.argmax(np.abs(overlaps)))
         eigenvalues.append(modes[k].eigenvalue)

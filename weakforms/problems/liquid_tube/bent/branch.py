@@ -22,7 +22,7 @@ from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.equilibrium.constraints import MonitorPlane, Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord, residual_limit
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 
 AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
 """Root mean square displacements along the mode, from which initial slopes are extrapolated."""
@@ -76,7 +76,7 @@ class SecondaryBranch(EquilibriumBranch):
         model: The surface.
         bifurcation: State at which it starts.
         mode: Approximate null vector there, outward at ``Theta = 0``.
-        n_negative: Number of negative eigenvalues there, without the zero one.
+        n_negative: Number of negative eigenvalues there, without the zero one (see :meth:`follow`).
         step: Largest arc-length step, as a root mean square displacement.
         end: The branch ends at this fraction of ``zw`` at the bifurcation.
         followed: False if another mesh's states give the guesses for its states; then its only point is the
@@ -119,13 +119,16 @@ class SecondaryBranch(EquilibriumBranch):
             self.follow()
 
     def follow(self) -> None:
-        """Trace the branch to its end."""
+        """Trace the branch to its end; if it is unstable from its start, the zero counts as negative."""
         super().__init__(
             self.continuation,
             "zw",
             self.points[0],
             stop=lambda point: point.state.loads["zw"] < self._lowest,
         )
+        first, *more = self.points
+        if more and more[0].n_negative == first.n_negative + 1:
+            first.n_negative += 1
 
     def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
         """The bifurcation point with the mode as direction, both corrected.
@@ -135,27 +138,28 @@ class SecondaryBranch(EquilibriumBranch):
         """
         state, system = self.bifurcation.state.copy(), self.model.system
         norms: list[float] = []
-        system.set_state(state.u, state.loads)
-        across, nothing = system.mass_times(self.mode), np.zeros(system.size)
-        factor.update()
-        bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
+        with system.at(state):
+            across, nothing = system.mass_times(self.mode), np.zeros(system.size)
+            factor.update()
+            bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
         for step in range(CORRECTIONS + 1):
-            system.set_state(state.u, state.loads)
-            residual = system.residual()
+            with system.at(state):
+                residual, limit = system.residual(), residual_limit(system)
             norms.append(float(np.sqrt(system.dot(residual, residual))))
             if step == CORRECTIONS or norms[-1] < EQUILIBRIUM:
                 break
             state.u += bordered.solve(-residual, np.zeros(1))[0]
         null = bordered.solve(nothing, np.ones(1))[0]
-        self.mode = null / np.sqrt(system.dot(null, system.mass_times(null)))
-        self._across = system.mass_times(self.mode)
-        if not norms[-1] <= residual_limit(system):
+        with system.at(state):
+            self.mode = null / np.sqrt(system.dot(null, system.mass_times(null)))
+            self._across = system.mass_times(self.mode)
+            monitors = system.monitors()
+        if not norms[-1] <= limit:
             raise ConvergenceError(f"the bifurcation point has a residual of {norms[-1]:.1e}")
-        values = self.bifurcation.values | system.monitors()
-        self.bifurcation = Solved(values, state, self.bifurcation.kind)
+        self.bifurcation = Solved(self.bifurcation.values | monitors, state, self.bifurcation.kind)
         record = SolveRecord("corrected", len(norms) - 1, 1, tuple(norms))
         direction = Tangent(self.mode, {"zw": 0.0})
-        return CurvePoint(state, direction, 0.0, n_negative, record, system.monitors())
+        return CurvePoint(state, direction, 0.0, n_negative, record, monitors)
 
     def at_guess(self, guess: State, constraint: Constraint) -> Solved:
         """Solve for the state that satisfies a condition, from a state of another mesh.
@@ -163,11 +167,10 @@ class SecondaryBranch(EquilibriumBranch):
         Raises:
             ConvergenceError: If it does not converge, or converges to a different state.
         """
-        self.system.set_state(guess.u, guess.loads)
-        shape = self.fitting.shape()
+        shape = self.fitting.shape(guess)
         state = self.fitting.solve(guess, [constraint], near=True, chord=True)
         values = self._values(state)
-        gap = self.fitting.apart(shape)
+        gap = self.fitting.apart(state, shape)
         if gap > OTHER_STATE:
             raise ConvergenceError(f"converged {gap:.2g} away from another mesh's state")
         return Solved(values, state)
@@ -187,9 +190,10 @@ class SecondaryBranch(EquilibriumBranch):
 
     def _require_within(self, i: int, solved: Solved, what: str) -> None:
         """As for any curve, on the mesh of the trace."""
-        state = self.fitting.moved(solved.state, self.points[i].state)
-        super()._require_within(i, Solved(solved.values, state), what)
-        self.system.set_state(solved.state.u, solved.state.loads)
+        on_trace = self.points[i].state
+        state = self.fitting.moved(solved.state, on_trace)
+        with self.system.at(on_trace):
+            super()._require_within(i, Solved(solved.values, state), what)
 
     def special(self) -> list[Solved]:
         """The bifurcation point at its start, then special points as of any branch."""

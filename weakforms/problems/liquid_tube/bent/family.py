@@ -32,7 +32,7 @@ from weakforms.solvers.continuation.branch import DIAGNOSTICS, Solved
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.sampling import Sampler
 from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.refinement import estimate, estimate_in_norm
@@ -60,8 +60,8 @@ def secondary_family(
     It uses the numerics whose names begin with ``secondary``.
 
     Raises:
-        ConvergenceError: If the primary branch has no ``n = 1`` bifurcation point, or no branch is found
-            there.
+        AbsentError: If the primary branch has no ``n = 1`` bifurcation point.
+        ConvergenceError: If no branch is found there.
     """
     primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
     begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
@@ -147,18 +147,17 @@ class SecondaryFamily(BranchFamily):
         """A point of the trace on all meshes, with the number of negative eigenvalues on the finest."""
         fine, first = self.fine, self.levels[0].points[0]
         if point is first:
-            point = fine.points[0]
-            record, negative = point.record, point.n_negative
+            record, negative = fine.points[0].record, first.n_negative
             solved = [level.bifurcation for level in self.levels]
         else:
             begin, plane = self.levels[0].across(point, self.across)
             near = point.arclength / self.levels[0].points[-1].arclength
             solved = self._raised(begin, plane, lambda level: level.at_position(point, plane.weights, near))
-            record, negative = fine.fitting.record, self._negative_count(point)
+            record, negative = fine.fitting.record, self._negative_count(point, solved[-1].state)
         return solved, [negative, record.norms[-1], record.iterations]
 
-    def _negative_count(self, point: CurvePoint) -> int:
-        """Number of negative eigenvalues on the finest mesh, whose system holds a point of the trace.
+    def _negative_count(self, point: CurvePoint, state: State) -> int:
+        """Number of negative eigenvalues of a point of the trace on the finest mesh, at its state there.
 
         The last factorised tangent is from an iterate that is at most as far off as the coarser mesh's state.
         If it has as many negative eigenvalues as the coarsest mesh, none is near zero, and the count holds
@@ -166,13 +165,14 @@ class SecondaryFamily(BranchFamily):
         """
         factor = self.fine.solver.factor
         if factor.stiffened is not None or factor.negative_count() != point.n_negative:
-            factor.update()
+            with self.fine.system.at(state):
+                factor.update()
         return factor.negative_count()
 
     def _raised(
         self, begin: Solved, constraint: Constraint, own: Callable[[SecondaryBranch], Solved]
     ) -> list[Solved]:
-        """A state of the coarsest mesh on all meshes; the system of the last mesh holds it.
+        """A state of the coarsest mesh on all meshes.
 
         Args:
             begin: The state.
@@ -182,10 +182,9 @@ class SecondaryFamily(BranchFamily):
         """
         solved = [begin]
         for below, level in pairwise(self.levels):
-            state = solved[-1].state
-            below.system.set_state(state.u, state.loads)
+            guess = level.fitting.taken(below.fitting, solved[-1].state)
             try:
-                solved.append(level.at_guess(level.fitting.taken(below.fitting), constraint))
+                solved.append(level.at_guess(guess, constraint))
             except ConvergenceError:
                 if len(level.points) == 1:
                     level.follow()
@@ -221,9 +220,7 @@ class SecondaryFamily(BranchFamily):
         def guess() -> State:
             if amplitude not in below.small:
                 below.small[amplitude] = below.at_amplitude(amplitude)
-            state = below.small[amplitude].state
-            below.system.set_state(state.u, state.loads)
-            return level.fitting.taken(below.fitting)
+            return level.fitting.taken(below.fitting, below.small[amplitude].state)
 
         return level.at_amplitude(amplitude, guess)
 
@@ -304,16 +301,15 @@ class SecondaryFamily(BranchFamily):
     def _sampled(self, k: int, solved: Solved, places: np.ndarray) -> dict[str, np.ndarray]:
         """Columns of a profile of one mesh's state at points of the original mesh."""
         level = self.levels[k]
-        level.system.set_state(solved.state.u, solved.state.loads)
-        return level.model.readings(self._sampler(k, places)())
+        with level.system.at(solved.state):
+            return level.model.readings(self._sampler(k, places)())
 
     def _sampled_at(self, k: int, solved: Solved, z: np.ndarray, theta: np.ndarray) -> dict[str, np.ndarray]:
         """The same at material points, whose position in the mesh depends on the state."""
         model = self.levels[k].model
-        model.system.set_state(solved.state.u, solved.state.loads)
-        x = model.front.mesh(z, theta)
-        formulation = model.formulation
-        return model.readings(Sampler(model.unknown, formulation.profile, np.column_stack([x, theta]))())
+        with model.system.at(solved.state):
+            places = np.column_stack([model.front.mesh(z, theta), theta])
+            return model.readings(Sampler(model.unknown, model.formulation.profile, places)())
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         """Profile over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""

@@ -13,10 +13,10 @@ from scipy.interpolate import RectBivariateSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.edge_tangents import lobatto
-from weakforms.problems.liquid_tube.bent.front import NAME
+from weakforms.problems.liquid_tube.bent.front import front_of
 from weakforms.problems.liquid_tube.bent.model import Shape, SurfaceModel
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton, SolveRecord
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.sampling import Sampler
 
 SPLINE = 5
@@ -75,7 +75,7 @@ class Fitting:
         chord: bool = False,
         kept: bool = False,
     ) -> State:
-        """Solve on the mesh fitted to the solution; the system holds it afterwards.
+        """Solve on the mesh fitted to the solution.
 
         Args:
             guess: First guess.
@@ -87,22 +87,18 @@ class Fitting:
         Raises:
             ConvergenceError: If it does not converge, or the mesh continues to move.
         """
-        self.system.set_state(guess.u, guess.loads)
-        if not near:
-            self.find_front()
-        state = self._solved(constraints, chord, kept)
+        state = self._solved(guess if near else self.on_its_front(guess), constraints, chord, kept)
         for _ in range(FITS):
-            wanted = self._refitted()
-            move = self._length_of(wanted)
+            wanted = self._refitted(state)
+            move = self.move(state, wanted)
             if move < FITTED * self.model.data.length:
                 return state
-            self._move(wanted)
-            state = self._solved(constraints, True, move < SMALL * self.model.data.length)
+            near_enough = move < SMALL * self.model.data.length
+            state = self._solved(self._with_front(state, wanted), constraints, True, near_enough)
         raise ConvergenceError("the mesh does not come to rest on the free surface")
 
-    def _solved(self, constraints: Sequence[Constraint], chord: bool, kept: bool) -> State:
-        """Solve from the current state, with the factorised tangent if that converges, else by Newton."""
-        guess = self.system.state()
+    def _solved(self, guess: State, constraints: Sequence[Constraint], chord: bool, kept: bool) -> State:
+        """Solve on the guess's mesh, with the factorised tangent if that converges, else by Newton."""
         if chord or kept:
             self.solver.keep = kept
             try:
@@ -110,7 +106,7 @@ class Fitting:
                 return state
             except ConvergenceError:
                 if self.solver.left < ALMOST_CONVERGED:
-                    guess = self.system.state()
+                    guess = self.solver.last
             finally:
                 self.solver.keep = False
         state, self.record = self.solver.solve(guess, constraints)
@@ -118,18 +114,15 @@ class Fitting:
 
     # -- moves of the mesh -----------------------------------------------------------------------
 
-    def refit(self) -> float:
-        """Move the mesh to the free surface of the state, by one step of Newton's method.
+    def refitted(self, state: State) -> State:
+        """The state on the mesh moved to its free surface, by one step of Newton's method."""
+        return self._with_front(state, self._refitted(state))
 
-        Returns the size of the move.
-        """
-        return self._move(self._refitted())
-
-    def _refitted(self) -> np.ndarray:
+    def _refitted(self, state: State) -> np.ndarray:
         """The coefficients of the front after that step."""
         if self.front is None:
             return np.zeros(0)
-        zw = self.system.load("zw")
+        zw = state.loads["zw"]
         if zw >= self.model.data.L:
             return np.array([self.front.row])
         angles = self.front.angles
@@ -137,56 +130,57 @@ class Fitting:
             at = self.model.surface(self.model.unknown)
             places = np.column_stack([np.full_like(angles, self.front.row), angles])
             self._row = Sampler(self.model.unknown, {"z": at.x[2], "rate": at.a[2]}, places)
-        found = self._row()
-        return self.front.fitted(self.front.at(angles) + (zw - found["z"]) / found["rate"])
+        with self.system.at(state):
+            found = self._row()
+            return self.front.fitted(self.front.at(angles) + (zw - found["z"]) / found["rate"])
 
-    def find_front(self) -> float:
-        """Search the front anywhere: the points where meridians, from the upper ring down, meet the level."""
-        zw = self.system.load("zw")
+    def on_its_front(self, state: State) -> State:
+        """A state on the mesh of its front, which may be anywhere.
+
+        The front is where meridians, from the upper ring down, meet the level.
+        """
+        zw = state.loads["zw"]
         if self.front is None or zw >= self.model.data.L:
-            return self.refit()
-        shape, z = self.shape(), np.linspace(0, self.model.data.length, LOOKED_AT)
+            return self.refitted(state)
+        shape, z = self.shape(state), np.linspace(0, self.model.data.length, LOOKED_AT)
         wanted = []
         for theta in self.front.angles:
             height = shape(z, np.full_like(z, theta))[2] - zw
             i = int(np.flatnonzero(height[:-1] <= 0)[-1])
             wanted.append(z[i] - height[i] * (z[i + 1] - z[i]) / (height[i + 1] - height[i]))
-        return self._move(self.front.fitted(np.array(wanted)))
+        return self._with_front(state, self.front.fitted(np.array(wanted)))
 
     def moved(self, state: State, like: State) -> State:
         """A state interpolated to the mesh of another one."""
-        self.system.set_state(state.u, state.loads)
-        if self.front is not None:
-            self._move(np.array([v for k, v in like.loads.items() if k.startswith(NAME)]))
-        return State(self.system.owned().copy(), dict(like.loads) | {"zw": state.loads["zw"]})
+        found = self._with_front(state, front_of(like.loads))
+        return State(found.u, dict(like.loads) | {"zw": state.loads["zw"]})
 
-    def taken(self, other: Fitting) -> State:
-        """The state that another mesh's system holds, on this mesh with the same front."""
-        shape, loads = other.shape(), other.system.state().loads
-        self.system.set_loads(loads)
-        return State(self.model.interpolated(shape), loads)
+    def taken(self, other: Fitting, state: State) -> State:
+        """A state of another mesh on this mesh, with the same front."""
+        return self.model.state_of(other.shape(state), state.loads)
 
-    def _length_of(self, coefficients: np.ndarray) -> float:
-        """Size of a move to a front."""
+    def move(self, state: State, coefficients: np.ndarray) -> float:
+        """Largest distance by which the mesh of a state would move to a front."""
         if self.front is None:
             return 0.0
         angles = self.front.angles
-        return float(np.abs(chebyshev.chebval(np.cos(angles), coefficients) - self.front.at(angles)).max())
+        wanted = chebyshev.chebval(np.cos(angles), coefficients)
+        with self.system.at(state):
+            return float(np.abs(wanted - self.front.at(angles)).max())
 
-    def _move(self, coefficients: np.ndarray) -> float:
-        length = self._length_of(coefficients)
-        if length:
-            shape, zw = self.shape(), self.system.load("zw")
-            self.front.put(coefficients)
-            self.system.set_state(self.model.interpolated(shape), {"zw": zw})
-        return length
+    def _with_front(self, state: State, coefficients: np.ndarray) -> State:
+        """A state interpolated to the mesh of a front."""
+        if not self.move(state, coefficients):
+            return state
+        return self.model.state_of(self.shape(state), state.loads | self.front.loads(coefficients))
 
     # -- the position over material points -------------------------------------------------------
 
-    def shape(self) -> Shape:
-        """The current position as splines: a guess for another mesh."""
-        pieces = self._splines()
-        to_mesh = None if self.front is None else self.front.frozen()
+    def shape(self, state: State) -> Shape:
+        """The position of a state as splines: a guess for another mesh."""
+        with self.system.at(state):
+            pieces = self._splines()
+            to_mesh = None if self.front is None else self.front.frozen()
 
         def position(s: np.ndarray, t: np.ndarray) -> np.ndarray:
             x = s if to_mesh is None else to_mesh(s, t)
@@ -198,12 +192,12 @@ class Fitting:
 
         return position
 
-    def apart(self, other: Shape) -> float:
-        """Root mean square distance of the current position from another one."""
+    def apart(self, state: State, other: Shape) -> float:
+        """Root mean square distance of a state's position from another one."""
         ends = self.model.data.length, np.pi
         lines = [np.linspace(0, end, count) for end, count in zip(ends, PLACES, strict=True)]
         z, theta = (part.ravel() for part in np.meshgrid(*lines))
-        return float(np.sqrt(np.mean(np.sum((self.shape()(z, theta) - other(z, theta)) ** 2, axis=0))))
+        return float(np.sqrt(np.mean(np.sum((self.shape(state)(z, theta) - other(z, theta)) ** 2, axis=0))))
 
     @cached_property
     def _nodes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

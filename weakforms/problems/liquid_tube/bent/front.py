@@ -26,13 +26,21 @@ from numpy.polynomial import chebyshev
 from petsc4py import PETSc
 from scipy.fft import dct
 
-from weakforms.solvers.equilibrium.system import Formulation, State, System
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 NAME = "front_"
 """Beginning of the coefficients' names in a state's loads."""
 
+
 THIN = 1e-4
 """Smallest distance of the front from the fixed rows, relative to the distance between these."""
+
+
+def front_of(loads: Mapping[str, float]) -> np.ndarray:
+    """The coefficients of the front among the loads of a state; empty if there are none."""
+    return np.array([value for name, value in loads.items() if name.startswith(NAME)])
 
 
 class FrontMap:
@@ -67,9 +75,7 @@ class FrontMap:
 
     def put(self, coefficients: np.ndarray) -> None:
         """Move the row to a front; coefficients beyond its own number are dropped, missing ones are zero."""
-        given = np.zeros(len(self.angles))
-        count = min(len(given), len(coefficients))
-        given[:count] = coefficients[:count]
+        given = self._own(coefficients)
         if self.moves and np.array_equal(given, self.coefficients):
             return
         self.coefficients = given
@@ -110,9 +116,17 @@ class FrontMap:
         out[[0, -1]] /= 2
         return out
 
-    def loads(self) -> dict[str, float]:
-        """The coefficients by name."""
-        return {f"{NAME}{i}": float(c) for i, c in enumerate(self.coefficients)}
+    def loads(self, coefficients: np.ndarray | None = None) -> dict[str, float]:
+        """Coefficients of a front by name, by default those of the current one."""
+        of = self.coefficients if coefficients is None else self._own(coefficients)
+        return {f"{NAME}{i}": float(c) for i, c in enumerate(of)}
+
+    def _own(self, coefficients: np.ndarray) -> np.ndarray:
+        """As many coefficients as this front has: more are dropped, missing ones are zero."""
+        given = np.zeros(len(self.angles))
+        count = min(len(given), len(coefficients))
+        given[:count] = coefficients[:count]
+        return given
 
 
 class HalfSystem(System):
@@ -123,15 +137,25 @@ class HalfSystem(System):
     Args:
         formulation: The weak form.
         front: The front that the mesh follows, or ``None``.
-        read: Additional columns of the current state, which cannot be prescribed.
+        read: Additional columns of the lent state, which cannot be prescribed.
+        beside: A system with the same unknown and loads; what is lent to one is lent to both.
     """
 
     def __init__(
-        self, formulation: Formulation, front: FrontMap | None, read: Callable[[], dict[str, float]]
+        self,
+        formulation: Formulation,
+        front: FrontMap | None,
+        read: Callable[[], dict[str, float]],
+        beside: System | None = None,
     ) -> None:
-        self.front, self._read = front, read
+        self.front, self._read, self._beside = front, read, beside
         self._weighed = -1
         super().__init__(formulation)
+
+    @property
+    def is_lent(self) -> bool:
+        """Whether the forms, or those of the system with the same unknown, belong to a state."""
+        return super().is_lent or (self._beside is not None and self._beside.is_lent)
 
     @property
     def mass(self) -> PETSc.Mat:
@@ -142,21 +166,24 @@ class HalfSystem(System):
             self.update_mass()
         return super().mass
 
-    def set_loads(self, loads: Mapping[str, float]) -> None:
+    def _write_loads(self, loads: Mapping[str, float]) -> None:
         """Write scalars into the forms, and move the row to their front."""
-        super().set_loads({name: value for name, value in loads.items() if not name.startswith(NAME)})
-        coefficients = [value for name, value in loads.items() if name.startswith(NAME)]
-        if coefficients:
-            self.front.put(np.array(coefficients))
+        super()._write_loads({name: value for name, value in loads.items() if not name.startswith(NAME)})
+        if self.front is not None and (coefficients := front_of(loads)).size:
+            self.front.put(coefficients)
 
-    def state(self) -> State:
-        """Copy of the state that the forms hold."""
-        held = super().state()
+    def _held(self) -> State:
+        held = super()._held()
         if self.front is not None:
             held.loads |= self.front.loads()
         return held
 
+    def _require_whole(self, state: State) -> None:
+        super()._require_whole(state)
+        if self.front is not None and not front_of(state.loads).size:
+            raise ValueError("a state without its front")
+
     def monitors(self) -> dict[str, float]:
-        """All scalar functionals of the current state, and the additional columns."""
+        """All scalar functionals of the lent state, and the additional columns."""
         found = super().monitors()
         return found | self._read() if found else found

@@ -25,7 +25,7 @@ UFL computes its derivative in the position completely; its derivative in ``zw``
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import basix.ufl
@@ -45,7 +45,9 @@ from weakforms.problems.liquid_tube.bent.edge_points import EdgePoints
 from weakforms.problems.liquid_tube.bent.edge_tangents import EdgeTangents
 from weakforms.problems.liquid_tube.bent.front import FrontMap, HalfSystem
 from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
-from weakforms.solvers.equilibrium.system import Formulation, System
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 
 READ = {"mid": 1 / 2, "quarter": 1 / 4}
 """Positions ``Z`` of the points in columns, over the length of the stress-free tube."""
@@ -148,17 +150,17 @@ class SurfaceModel:
         self.breaking = None
         if not data.full:
             odd = conditions + self._mirror_conditions((0, 2))
-            self.breaking = self._assembled(self._second_variation_only(odd))
+            self.breaking = self._assembled(self._second_variation_only(odd), beside=self.system)
 
     def _rules(self) -> list[int]:
         if self.front is not None:
             return [2 * self.data.degree + FITTED_RULE] * len(RULES)
         return [times * self.data.degree for times in RULES]
 
-    def _assembled(self, formulation: Formulation) -> System:
+    def _assembled(self, formulation: Formulation, beside: System | None = None) -> System:
         if self.data.full:
             return System(formulation)
-        return HalfSystem(formulation, self.front, self._resultants_read)
+        return HalfSystem(formulation, self.front, self._resultants_read, beside)
 
     # -- geometry --------------------------------------------------------------------------------
 
@@ -214,10 +216,21 @@ class SurfaceModel:
             return Surface(of, of.dx(0), of.dx(1))
         return Surface(of, of.dx(2), ufl.dot(ufl.grad(of), self._across))
 
-    def interpolated(self, shape: Shape) -> np.ndarray:
-        """Owned degrees of freedom of a position or displacement, with the prescribed values at the rings."""
-        function = fem.Function(self.space)
-        function.interpolate(self._over(shape))
+    def state_of(self, position: Shape, loads: Mapping[str, float]) -> State:
+        """The state with a position and some loads; those not given are the initial ones."""
+        whole = self.system.initial.loads | dict(loads)
+        return State(self.interpolated(position, whole), whole)
+
+    def interpolated(self, shape: Shape, loads: Mapping[str, float] | None = None) -> np.ndarray:
+        """Owned degrees of freedom of a position or displacement, on the mesh that follows the loads' front.
+
+        Args:
+            shape: The position or displacement.
+            loads: Loads of a state; by default the initial ones, whose front is nowhere.
+        """
+        function, nowhere = fem.Function(self.space), np.full(self.system.size, np.nan)
+        with self.system.at(State(nowhere, dict(loads or self.system.initial.loads))):
+            function.interpolate(self._over(shape))
         return function.x.array[: self.system.size].copy()
 
     # -- forms -----------------------------------------------------------------------------------

@@ -14,17 +14,17 @@ from mpi4py import MPI
 from numpy.polynomial import chebyshev
 from pydantic import Field, model_validator
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.liquid_tube.bent.about import FLUID_TUBE_SURFACE
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, displacement, position, turned
 from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
-from weakforms.results import Failure, Quantity, Result
+from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.support.roots import root
@@ -106,7 +106,11 @@ class FluidTubeSurface(Problem):
         The numbers belong to the mesh and have no uncertainty.
         """
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
-        run = WholeRun(parameters, numerics, comm)
+        try:
+            run = WholeRun(parameters, numerics, comm)
+        except AbsentError as error:
+            result.absent.append(Absence(error.what, f"fluid_tube_surface: {error}"))
+            return
         degree = quadrature_degree(run.system.formulation.residual)
         result.numerics |= {"stopping": STOPPING, "quadrature_degree": degree}
         for i, (what, part) in enumerate({"bifurcation": run.critical, "bent state": run.bent}.items()):
@@ -147,7 +151,7 @@ class WholeRun:
 
     def _guess(self, at: AxisymmetricState) -> State:
         loads = {"zw": at.values["zw"]} | ({"phase": 0.0} if self.full else {})
-        return State(self.model.interpolated(position(at)), loads)
+        return self.model.state_of(position(at), loads)
 
     def _no_rotation(self) -> list[Plane]:
         """Condition of no displacement along the rotated mode, so that a bent state cannot rotate."""
@@ -206,7 +210,8 @@ class WholeRun:
             return self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])[0]
 
         state = walk(solve, start, 0.0, self.amplitude, abs(self.amplitude))
-        values = self.system.monitors()
+        with self.system.at(state):
+            values = self.system.monitors()
         nearest = Stability(self.system).modes(state, 1)[0]
         return {
             "zw_bent": state.loads["zw"],

@@ -20,7 +20,7 @@ from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.model import SurfaceModel
-from weakforms.solvers.equilibrium.system import State
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Mode, Stability
 
 NEAR = 5
@@ -125,10 +125,10 @@ class BentStability:
     def _at_fixed_volume(self, state: State) -> tuple[float, int]:
         """Lowest C1v eigenvalue and number of negative ones at fixed volume, with variable level."""
         system, data = self.model.system, self.model.data
-        system.set_state(state.u, state.loads)
-        border = system.load_derivative("zw") / data.gamma
-        full = state.loads["zw"] >= data.L
-        area = 0.0 if full else system.monitor_gradient("V")[1]["zw"]
+        with system.at(state):
+            border = system.load_derivative("zw") / data.gamma
+            full = state.loads["zw"] >= data.L
+            area = 0.0 if full else system.monitor_gradient("V")[1]["zw"]
         found = self.keeps.bordered(state, border, area / data.gamma)
         return found.eigenvalues[0], found.n_negative
 
@@ -163,13 +163,13 @@ class BentStability:
             ConvergenceError: If there is no such mode, or its eigenvalue is far from zero.
         """
         system = self.model.breaking
-        system.set_state(state.u, state.loads)
-        vector = fem_petsc.assemble_vector(self._turning)
+        with system.at(state):
+            vector = fem_petsc.assemble_vector(self._turning)
+            size = float(np.sqrt(system.sum(fem.assemble_scalar(self._turning_squared))))
         vector.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
         products = vector.array.copy()
         products[system.bc_dofs] = 0.0
         overlaps = np.array([abs(system.dot(products, mode.vector)) for mode in modes])
-        size = float(np.sqrt(system.sum(fem.assemble_scalar(self._turning_squared))))
         if size < SMALLEST_TURN * np.sqrt(2 * np.pi * self.model.data.length):
             turn, likeness = min(modes, key=lambda mode: abs(mode.eigenvalue)), 1.0
         else:

@@ -32,8 +32,9 @@ from weakforms.problems.wrinkled.sheets.about import WRINKLED_SHEET
 from weakforms.problems.wrinkled.state import Held
 from weakforms.results import Result
 from weakforms.solvers.equilibrium.constraints import Held as Prescribed
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.system import Formulation, State, System
+from weakforms.solvers.equilibrium.system import System
 
 QUARTER = np.pi / 2
 CAP = 4.0
@@ -82,8 +83,9 @@ class Sheet:
         places = space.tabulate_dof_coordinates()
         position.x.array[:] = self._revolved(places, comm)
         system = System(self._formulation(mesh, space, position))
-        state, _ = ExtendedNewton(system, max_iterations=40).solve(State(system.owned().copy(), {}))
-        values = system.monitors()
+        state, _ = ExtendedNewton(system, max_iterations=40).solve(system.initial)
+        with system.at(state):
+            values = system.monitors()
         owned = places[: system.size // 3]
         x, y, _ = state.u.reshape(-1, 3).T
         twist = np.abs(x * np.sin(owned[:, 0]) - y * np.cos(owned[:, 0])).max(initial=0.0)

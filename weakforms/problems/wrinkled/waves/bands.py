@@ -31,11 +31,13 @@ class Bands:
 
     def lowest(self, n: float, beta: float | None = None) -> float:
         """The lowest eigenvalue."""
-        return waves_at(self.held).spectrum(n, 1, self.beta if beta is None else beta).eigenvalues[0]
+        with waves_at(self.held) as waves:
+            return waves.spectrum(n, 1, self.beta if beta is None else beta).eigenvalues[0]
 
     def unstable(self, n: float) -> bool:
         """Whether it is negative, by inertia."""
-        return waves_at(self.held).negative_count(n, self.beta) > 0
+        with waves_at(self.held) as waves:
+            return waves.negative_count(n, self.beta) > 0
 
     def first_whole(self, most: int) -> int | None:
         """Smallest unstable whole wave number up to ``most``."""
@@ -69,12 +71,13 @@ class Bands:
         """Bending stiffness at which the lowest eigenvalue of ``n`` waves is zero; 0 where it is stable."""
         if not self.unstable(n):
             return 0.0
-        waves, stiff = waves_at(self.held), 1e-8
-        while waves.negative_count(n, stiff):
-            stiff *= 10
-            if stiff > STIFF:
-                raise ConvergenceError(f"n = {n:g} is unstable at any bending stiffness up to {STIFF:g}")
-        return waves.stiffness(n, stiff)
+        stiff = 1e-8
+        with waves_at(self.held) as waves:
+            while waves.negative_count(n, stiff):
+                stiff *= 10
+                if stiff > STIFF:
+                    raise ConvergenceError(f"n = {n:g} is unstable at any bending stiffness up to {STIFF:g}")
+            return waves.stiffness(n, stiff)
 
     def most_stiffness(self, most: int) -> float | None:
         """Approximate wave number that needs the largest bending stiffness; ``None`` if all are stable."""

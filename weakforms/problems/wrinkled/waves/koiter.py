@@ -9,17 +9,15 @@ couples the meridian's rotation across nodes (Engel et al. 2002). Both ends are 
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import ufl
 from dolfinx import fem
 from ufl.core.expr import Expr
 
 from weakforms.forms.revolution import hoop_bending, meridional_bending
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
 from weakforms.problems.wrinkled.waves.modes import Waves, waves_of
-from weakforms.solvers.equilibrium.system import Formulation
+from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.stability.modes import SecondVariation
 
 POISSON = 0.5
@@ -79,12 +77,12 @@ class ShellWaves:
         return self.variation.spectrum(1).eigenvalues[0]
 
 
-@lru_cache(maxsize=8)
+@kept_with_model
 def _shell_of(model: WrinkledModel) -> ShellWaves:
     return ShellWaves(model)
 
 
 def shell_eigenvalue(held: Held, n: float, beta: float) -> float:
     """Lowest eigenvalue for ``n`` waves with the shell's bending stiffness ``beta H^3``."""
-    held.put()
-    return _shell_of(held.model).lowest(n, beta)
+    with held.lent():
+        return _shell_of(held.model).lowest(n, beta)

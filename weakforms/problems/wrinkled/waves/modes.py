@@ -10,8 +10,9 @@ perturbation does not move break points.
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cached_property
 
 import basix.ufl
 import numpy as np
@@ -23,23 +24,22 @@ from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
 from weakforms.problems.meridian.blocks import LOWER, UPPER
 from weakforms.problems.wrinkled.fields import Meridian
-from weakforms.problems.wrinkled.model import WrinkledModel
-from weakforms.solvers.equilibrium.system import Formulation, State
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
+from weakforms.problems.wrinkled.state import Held
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation, judged
 from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
-
-if TYPE_CHECKING:
-    from weakforms.problems.wrinkled.state import Held
 
 MODE = ("meridional", "circumferential", "normal")
 """Components of a mode: along the meridian, around the axis, outwards."""
 
 
 class Waves:
-    """Second variations of the state that a model holds, with their spectra and modes.
+    """Second variations of the state that a model is lent to, with their spectra and modes.
 
     Args:
-        model: The model, which holds the state.
+        model: The model.
     """
 
     def __init__(self, model: WrinkledModel) -> None:
@@ -199,13 +199,14 @@ class Waves:
         return {name: sign * found[name] for name in MODE}
 
 
-@lru_cache(maxsize=32)
+@kept_with_model
 def waves_of(model: WrinkledModel) -> Waves:
-    """The waves of a model, kept for later calls."""
+    """The waves of a model."""
     return Waves(model)
 
 
-def waves_at(held: Held) -> Waves:
-    """The waves of a state, which is written into its model."""
-    held.put()
-    return waves_of(held.model)
+@contextmanager
+def waves_at(held: Held) -> Iterator[Waves]:
+    """Context in which the model belongs to a state; gives the waves of the state."""
+    with held.lent():
+        yield waves_of(held.model)

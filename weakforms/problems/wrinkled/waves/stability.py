@@ -77,7 +77,8 @@ class StabilityChanges:
 
     def lowest(self, held: Held) -> float:
         """The lowest eigenvalue."""
-        return waves_at(held).spectrum(self.n, 1, self.beta).eigenvalues[0]
+        with waves_at(held) as waves:
+            return waves.spectrum(self.n, 1, self.beta).eigenvalues[0]
 
     def between(self, points: Sequence[tuple[int, str, float, Held]]) -> list[Change]:
         """All changes between neighbours of a branch, in order.
@@ -116,8 +117,8 @@ class StabilityChanges:
         _, own, value, held = point
         if own == name:
             return value
-        held.put()
-        return held.model.system.monitor(name)
+        with held.lent():
+            return held.model.system.monitor(name)
 
     def _around_a_dip(self, a: Sample, b: Sample, name: str, dip: float) -> list[tuple[Sample, Sample]]:
         """Two changes between neighbours of the same sign, if there are any."""

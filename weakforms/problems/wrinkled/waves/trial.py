@@ -8,8 +8,6 @@ has no meridional displacement, so that the second variation is linear in ``n``:
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -19,9 +17,9 @@ from ufl.core.expr import Expr
 from weakforms.errors import InputError
 from weakforms.forms.revolution import second_order
 from weakforms.problems.meridian.model import TAUT
-from weakforms.problems.wrinkled.model import WrinkledModel
+from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import Held
-from weakforms.problems.wrinkled.waves.modes import waves_at, waves_of
+from weakforms.problems.wrinkled.waves.modes import waves_of
 
 PROBES = (10.0, 20.0, 30.0)
 """Wave numbers at which the second variation is evaluated."""
@@ -71,7 +69,7 @@ class Trial:
         return float(self.model.mesh.comm.allreduce(fem.assemble_scalar(form), op=MPI.SUM))
 
 
-@lru_cache(maxsize=32)
+@kept_with_model
 def _trial_of(model: WrinkledModel, power: int) -> Trial:
     return Trial(model, power)
 
@@ -86,19 +84,19 @@ def trial_form(held: Held, power: int) -> dict[str, float]:
     Raises:
         InputError: If there is no wrinkled wet part.
     """
-    waves_at(held)
     if held.zones.first == TAUT or (held.zones.surface is None and not held.zones.wet):
         raise InputError(
             "wrinkled_linear: the lower end is dry or taut, there is no wrinkled wet part to be perturbed; a "
             "smaller Af or a larger M or delta wrinkles it, a higher zw wets it"
         )
     trial = _trial_of(held.model, power)
-    ends = [float(held.model.breaks[-1]), *held.zones.fronts[:1]]
+    ends = [float(held.model.breaks_of(held.state.loads)[-1]), *held.zones.fronts[:1]]
     if held.zones.surface is not None:
         ends.append(held.zones.surface)
-    trial.surface.value = min(ends)
-    values = [trial.second(n) for n in PROBES]
+    with held.lent():
+        trial.surface.value = min(ends)
+        values, rate = [trial.second(n) for n in PROBES], trial.rate()
     b = (values[2] - values[0]) / (PROBES[2] - PROBES[0])
     a = values[0] - PROBES[0] * b
     curved = (values[0] - 2 * values[1] + values[2]) / np.abs(values).max()
-    return {"A": a, "B": b, "B_exact": trial.rate(), "n_star": a / -b, "curved": curved}
+    return {"A": a, "B": b, "B_exact": rate, "n_star": a / -b, "curved": curved}

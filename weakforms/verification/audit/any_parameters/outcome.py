@@ -52,6 +52,7 @@ class Draw:
     messages: tuple[str, ...] = ()
     """Messages of the solve: the listed failures, or the last lines of standard error."""
     seconds: float = 0.0
+    """Processor time."""
 
     @property
     def command(self) -> str:
@@ -95,7 +96,7 @@ class AuditRun:
     count: int
     """Number of sets for each problem."""
     limit: float
-    """Time limit of a solve in seconds."""
+    """Limit of a solve in seconds of processor time."""
     started: str
     """ISO 8601, UTC."""
     seconds: float

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -30,6 +32,9 @@ Report = Callable[[int, int, str], None]
 SHOWN = 3
 """Number of lines of standard error that are stored."""
 
+WAITING = 20.0
+"""A solve that waits instead of computing is ended after this many times the limit of processor time."""
+
 
 def run_audit(
     problems: list[str],
@@ -46,7 +51,7 @@ def run_audit(
         problems: Their names.
         count: Number of sets for each problem.
         seed: Seed of the draws.
-        limit: Seconds after which a solve is ended.
+        limit: Seconds of processor time after which a solve is ended; a busy machine changes no outcome.
         out: Output folder; every outcome is stored below it at once.
         resume: Keep stored outcomes for the same source, set and limit.
         report: Called with the progress.
@@ -80,12 +85,16 @@ def run_audit(
 
 
 def solved(call: list[str], limit: float) -> tuple[str, tuple[str, ...], float]:
-    """Solve by the command line in a process that is ended at the limit: status, messages, seconds."""
-    begun = time.perf_counter()
+    """Solve by the command line in a process that is ended at the limit.
+
+    Returns:
+        Status, messages, seconds of processor time (with those of the compiler).
+    """
+    begun = _processor_time()
     with tempfile.TemporaryDirectory(prefix="weakforms-audit-") as folder:
         file = Path(folder) / "result.json"
         code, complaint = _process([sys.executable, "-m", "weakforms", *call, "--out", str(file)], limit)
-        seconds = round(time.perf_counter() - begun, 2)
+        seconds = round(_processor_time() - begun, 2)
         return *classified(code, complaint, _read(file), limit), seconds
 
 
@@ -98,12 +107,12 @@ def classified(
         code: Exit status of its process; ``None`` when it was ended at the limit.
         complaint: Its standard error.
         result: Its result; empty if there is none.
-        limit: Time limit in seconds.
+        limit: Limit in seconds of processor time.
     """
     said = [line.removeprefix("weakforms: ") for line in complaint.splitlines() if line.strip()]
     last = tuple(said[-SHOWN:])
     if code is None:
-        return "too slow", (f"it did not end within {limit:g} s",)
+        return "too slow", (f"it did not end within {limit:g} s of processor time",)
     failures = tuple(f"{item['what']}: {item['reason']}" for item in result.get("failures", []))
     if code == 0 and result and not failures:
         absent = tuple(f"{item['what']}: {item['reason']}" for item in result.get("absent", []))
@@ -117,7 +126,8 @@ def classified(
 
 def _process(call: list[str], limit: float) -> tuple[int | None, str]:
     """Exit status and standard error of a process; no status when it was ended at the limit."""
-    surroundings = os.environ | {"OMP_NUM_THREADS": "1"}
+    surroundings, begun = os.environ | {"OMP_NUM_THREADS": "1"}, _processor_time()
+    most = math.ceil(limit)
     child = subprocess.Popen(
         call,
         stdin=subprocess.DEVNULL,
@@ -125,18 +135,26 @@ def _process(call: list[str], limit: float) -> tuple[int | None, str]:
         stderr=subprocess.PIPE,
         env=surroundings,
         start_new_session=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (most, most)),  # noqa: PLW1509  (no threads)
         text=True,
         errors="replace",
     )
     try:
-        complaint = child.communicate(timeout=limit)[1]
-        return child.returncode, complaint
+        complaint = child.communicate(timeout=WAITING * limit)[1]
     except subprocess.TimeoutExpired:
         return None, ""
     finally:
         with suppress(ProcessLookupError):
             os.killpg(child.pid, signal.SIGKILL)  # and its child processes
         child.wait()
+    spent = child.returncode < 0 and _processor_time() - begun >= limit
+    return None if spent else child.returncode, complaint
+
+
+def _processor_time() -> float:
+    """Seconds of processor time of all child processes that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _read(file: Path) -> dict[str, Any]:

@@ -50,7 +50,8 @@ class Expectation:
     """Where a fault is looked for first: a case, part of one, or a test.
 
     Written ``paper2.fig03``, ``paper2.fig03::limit_points`` (only the curves and checks of the case with a
-    verdict whose name contains that), or ``tests/unit/test_x.py::test_y``.
+    verdict whose name contains that), ``tests/unit/test_x.py::test_y``, or ``table NAME`` (the
+    reference table computed again).
     """
 
     text: str
@@ -59,6 +60,11 @@ class Expectation:
     def is_test(self) -> bool:
         """Whether it is a test, not a case."""
         return self.text.startswith("tests/")
+
+    @property
+    def table(self) -> str:
+        """Name of the reference table; empty if it is none."""
+        return self.text.removeprefix("table ") if self.text.startswith("table ") else ""
 
     @property
     def case(self) -> str:

@@ -22,6 +22,7 @@ from typing import Any
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results.io import dumps, load_json, write_atomically
+from weakforms.verification.audit.faults import tables
 from weakforms.verification.audit.faults.children import Children
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import ROOT
@@ -167,7 +168,7 @@ def measured(out: Path) -> list[Measured]:
 
 
 class Watchers:
-    """Who sees a line: measured ones that run it, then those beside them, then those that import its file.
+    """Who sees a line: measured ones that run it, tables, those beside them, those that import its file.
 
     A test that finds a solution in a fixture or a cache does not run the lines that made it, so the other
     tests of a file that runs the line follow.
@@ -197,7 +198,8 @@ class Watchers:
                 near |= {text for text in beside if file in found.lines.get(text, {})}
         known = {found.unit for found in self._measured}
         guessed = [(text, UNKNOWN) for text in self._near.watching(file, known)]
-        return [*_fastest(direct, near), *_fastest(beside, near), *guessed]
+        again = [(text, UNKNOWN) for text in tables.watching(file, line, self._near.reach(file))]
+        return [*_fastest(direct, near), *again, *_fastest(beside, near), *guessed]
 
 
 def _fastest(seconds: dict[str, float], near: set[str]) -> list[tuple[str, float]]:
@@ -229,7 +231,7 @@ class Imports:
             file: Relative to the tree.
             known: Units that were measured: they are not guessed at.
         """
-        reach = self._reach(file)
+        reach = self.reach(file)
         near = sorted((self._rank(name, far, file), name) for name, far in reach.items())
         tests = [functions(self._root / name, name) for _, name in near if _is_test(name, known)]
         cases = [[_case(name)] for _, name in near if name.startswith("cases/")]
@@ -245,7 +247,7 @@ class Imports:
         place = name if name.startswith("tests/") else self._files[name].read_text("utf-8")
         return next((k for k, word in enumerate(beginnings) if word in place), len(words)), far
 
-    def _reach(self, file: str) -> dict[str, int]:
+    def reach(self, file: str) -> dict[str, int]:
         """Files that import it, with the length of the shortest way."""
         far, edge = {file: 0}, [file]
         for name in edge:  # grows as it goes

@@ -1,4 +1,4 @@
-"""The process that runs in a scratch copy: cases and tests, up to the first that does not pass.
+"""The process that runs in a scratch copy: cases, tests and tables, up to the first that does not pass.
 
 ``python -m weakforms.verification.audit.faults.probe ANSWERS [--all | --lines] EXPECTATION...`` in the
 copy's folder. Cases go the way of ``weakforms check``, through
@@ -21,6 +21,7 @@ from typing import Any
 from weakforms.errors import ConvergenceError, WeakformsError
 from weakforms.verification.audit.faults.catalogue import Expectation
 from weakforms.verification.audit.faults.lines import Lines, Monitor
+from weakforms.verification.audit.faults.tables import run_table
 from weakforms.verification.cases.case import Case
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.judging.checks.check import Check
@@ -179,6 +180,8 @@ def main(answers: Path, words: list[str]) -> None:
         try:
             if monitor:
                 found = _watched(wanted, out, monitor)
+            elif wanted.table:
+                found = run_table(wanted.table, out)
             else:
                 found = run_tests(wanted) if wanted.is_test else run_case(wanted, out)
         except Exception as error:

@@ -24,8 +24,14 @@ BUDGET = 300.0
 AT_ONCE = 20.0
 """Seconds of cases and tests that one process is given, before it is seen whether the budget is spent."""
 
+SAYING = ("comparison", "test")
+"""Kinds of findings that say what is wrong; all others are crashes."""
+
 MOST = 25
 """Expectations that one process is given."""
+
+AFTER_CRASH = 0.2
+"""Fraction of the budget for which a verdict or an assertion is looked for after a crash."""
 
 PATIENCE = 60.0
 """A mutant's process is ended after so many seconds beyond :data:`LONGER` times what its tests take without
@@ -69,15 +75,18 @@ class RandomCampaign(Campaign):
         return replace(self._ended(fault, "equivalent", None, (), time.perf_counter()), status=fault.verdict)
 
     def _searched(self, fault: Fault, root: Path, begun: float) -> FaultOutcome:
-        found, searched = None, []
+        found, searched, last = None, [], begun + self.budget
         seeing = self._watchers.of(fault.file, fault.line)
         for texts, seconds in _portions(seeing):
-            if time.perf_counter() - begun > self.budget:
-                break
-            found, more = self._noticed(root, texts, PATIENCE + LONGER * seconds)
-            searched += more
-            if found is not None:
-                break
+            left = texts
+            while left and time.perf_counter() < last and not (found and found.kind in SAYING):
+                noticed, more = self._noticed(root, left, PATIENCE + LONGER * seconds)
+                searched += more
+                left = left[len(more) :] if noticed else []
+                if noticed and found is None:
+                    last = min(last, time.perf_counter() + AFTER_CRASH * self.budget)
+                if noticed and (found is None or noticed.kind in SAYING):
+                    found = noticed
         outcome = self._ended(fault, "caught" if found else "survived", found, tuple(searched), begun)
         outcome = replace(outcome, watching=len(seeing))
         write_atomically(self._file(fault), dumps(record(self._key(fault), outcome)))

@@ -1,0 +1,78 @@
+"""Disks stretched to what their law takes: a true reason in terms of the parameters, no internal error."""
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from weakforms import solve
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.forms.materials import MATERIALS
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
+from weakforms.problems.meridian.limits import limit_of, require_taut
+from weakforms.solvers.equilibrium.system import System
+
+COARSE = {"cells": 8, "degree": 3, "levels": 2}
+
+
+def law(model, **constants):
+    known = {name: c.default for name, c in MATERIALS[model].constants.items()} | constants
+    return Chosen(model, tuple(known.items()))
+
+
+@pytest.mark.parametrize(
+    ("given", "stretch", "why"),
+    [
+        # The chains' stretch is sqrt(2/3) lam at large equal stretches: full extension at sqrt(3/2 links).
+        ({"model": "arruda_boyce", "links": 20.0, "beta": 2.0}, np.sqrt(30.0), "beyond its end"),
+        # w,11 = 2 mu lam2 (2 - lam2/f2): it is 0.02 w,1/lam at 3.985; the last step may pass that.
+        ({"model": "harmonic", "f2": 2.0, "beta": 3.0}, 3.985, "hardly resists"),
+    ],
+)
+def test_a_disk_is_inflated_to_where_its_law_ends_and_says_so(given, stretch, why):
+    result = solve("circular", **given, t_end=8.0, numerics=COARSE)
+    assert result.failures == []
+    (rest,) = result.absent
+    assert re.search(rf"followed up to t0 = .*{why}.*lower t_end", rest.reason)
+    reached = result.branch().columns["lam_pole"][-1]
+    assert 0.97 * stretch < reached < 1.02 * stretch
+    assert given["model"] == "harmonic" or reached < stretch
+
+
+@pytest.mark.parametrize(
+    ("chosen", "beta", "why"),
+    [
+        (law("arruda_boyce", links=1.521), 5.973, "beyond its end"),
+        (law("harmonic", f2=2.599), 8.807, "hardly resists"),
+        (law("harmonic", f2=1.2), 2.65, "gives no tension|hardly resists"),
+    ],
+)
+def test_a_pre_stretch_that_the_law_does_not_take_is_refused(chosen, beta, why):
+    with pytest.raises(InputError, match=rf"circular: beta = {beta:g}: .*({why}).*; lower beta"):
+        require_taut("circular", chosen, beta, "beta")
+    require_taut("circular", chosen, 1.01, "beta")
+
+
+def test_a_mooney_rivlin_membrane_takes_any_stretch_and_others_what_is_within_their_limit():
+    assert limit_of(mooney_rivlin_of(0.1), [(50.0, 50.0)]) == ""
+    gent = law("gent", jm=20.0)  # equal stretches: 2 lam^2 + lam^-4 - 3 = jm at lam = 3.39
+    assert limit_of(gent, [(3.3, 3.3)]) == ""
+    assert limit_of(gent, [(1.0, 1.0), (3.38, 3.38)])
+    assert limit_of(law("varga"), [(2.0, 2.0)]) == ""
+    assert "hardly resists" in limit_of(law("varga"), [(8.0, 8.0)])
+
+
+def test_the_pre_stretch_is_refused_before_anything_is_solved():
+    with pytest.raises(InputError, match=r"beta = 9: .*lower beta"):
+        solve("circular", model="gent", jm=5.0, beta=9.0)
+
+
+def test_stretches_at_which_the_law_is_not_defined_are_no_state():
+    """A converged residual does not see nodes beyond full extension; the largest values of columns do."""
+    held = SimpleNamespace(formulation=SimpleNamespace(maxima={"t": 0}), _peaks={"t": lambda: np.inf})
+    held._interpolant = SimpleNamespace(update=lambda: None)
+    with pytest.raises(ConvergenceError, match="stretches at which the law is not defined"):
+        System._maxima(held)
+    held._peaks = {"t": lambda: 2.0}
+    assert System._maxima(held) == {"t": 2.0}
