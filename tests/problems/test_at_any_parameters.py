@@ -163,6 +163,18 @@ def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stabilit
     assert [point.n_negative for point in branch.points] == [first, *counts[1:]]
 
 
+def test_a_tube_is_inflated_from_rest_each_time():
+    """The second free branch, up to ``p_end``, started from the bulged state at first contact."""
+    given = {"alpha": 0.4899, "delta1": 1.389, "lf": 1.106, "k": 668.0, "s": 9.626, "p_end": 2.367}
+    coarse = {"cells": 16, "degree": 3, "levels": 2}
+    result = solve("tube", **given, contact="adhesive", phase="deflation", numerics=coarse)
+    assert result.failures == []
+    assert "p_end = 2.367 is below first contact" in result.absent[0].reason
+    p = result.branch().columns["p"]
+    assert p[0] == pytest.approx(2.367, abs=1e-9)
+    assert -0.1 * 2.367 < p[-1] <= 0
+
+
 def no_bifurcation(*_):
     raise AbsentError("bifurcation point", "the primary branch has 0; choose another delta")
 
