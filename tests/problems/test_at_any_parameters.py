@@ -21,6 +21,7 @@ from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import Requests, StateRequest, validated
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
+from weakforms.problems.wrinkled.sheets import cylinder as sheet
 from weakforms.results import validate
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.walk import walk
@@ -198,6 +199,22 @@ def test_a_surface_that_does_not_bend_says_so(monkeypatch):
     result = solve("fluid_tube_surface")
     assert (result.quantities, result.failures) == ({}, [])
     assert result.absent[0].reason.startswith("fluid_tube_surface: the primary branch has 0")
+
+
+@pytest.mark.parametrize("stalled", [None, "steps too small"])
+def test_a_sheet_has_no_state_at_a_load_that_its_branch_does_not_reach(stalled, monkeypatch):
+    def near(*_):
+        raise InputError("p = 32 is crossed 0 times on this branch, not 1; p ranges over [0, 5.8]")
+
+    branch = SimpleNamespace(near=near, trace=SimpleNamespace(stalled=stalled))
+    monkeypatch.setattr(sheet, "wrinkled_membrane", lambda *_: SimpleNamespace(control="p", plain=None))
+    monkeypatch.setattr(sheet, "WrinkledBranch", lambda *_: branch)
+    if stalled:
+        with pytest.raises(ConvergenceError, match=r"ranges over \[0, 5\.8\]: steps too small"):
+            solve("wrinkled_sheet", load="gas", at_load=32.0)
+    else:
+        (absence,) = solve("wrinkled_sheet", load="gas", at_load=32.0, volume_end=14.0).absent
+        assert re.search(r"\[0, 5\.8\], up to 14 times the volume .*; lower at_load", absence.reason)
 
 
 def test_a_walk_shortens_its_steps_and_says_how_far_it_came():
