@@ -19,6 +19,7 @@ from weakforms.problems.liquid_tube.bent import problem as bent
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.problem import Requests, StateRequest, validated
+from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets import cylinder as sheet
@@ -199,6 +200,24 @@ def test_a_surface_that_does_not_bend_says_so(monkeypatch):
     result = solve("fluid_tube_surface")
     assert (result.quantities, result.failures) == ({}, [])
     assert result.absent[0].reason.startswith("fluid_tube_surface: the primary branch has 0")
+
+
+@pytest.mark.parametrize(
+    ("values", "hint"),
+    [
+        ({"delta": 4.9, "M": 1.3, "Af": 0.3, "c2": 0.0}, "; choose a smaller delta, or another M or Af"),
+        ({}, ""),
+    ],
+)
+def test_a_membrane_that_is_not_found_without_load_names_what_to_change(values, hint):
+    def by_homotopy(_load):
+        raise ConvergenceError("the system is singular")
+
+    branch = WrinkledBranch.__new__(WrinkledBranch)
+    branch.membrane = SimpleNamespace(by_homotopy=by_homotopy, values=values)
+    with pytest.raises(ConvergenceError) as caught:
+        branch._start(None)
+    assert str(caught.value) == f"the membrane without load is not found: the system is singular{hint}"
 
 
 @pytest.mark.parametrize("stalled", [None, "steps too small"])
