@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+from importlib import import_module
 
 import pytest
 from canned_run import Reader
@@ -177,3 +178,12 @@ def test_formulas_of_the_theory_are_numbered_in_order_and_drawn(folder):
 )
 def test_markdown_has_formulas_and_leaves_dollars_of_commands(text, shown):
     assert shown in markdown(text)
+
+
+@pytest.mark.parametrize("about", registry.abouts().values(), ids=lambda about: about.name)
+def test_every_problem_names_the_functions_that_define_it(about):
+    assert about.forms
+    for place in about.forms:
+        module, _, function = place.partition(":")
+        found = import_module(f"weakforms.{module}")
+        assert not function or callable(getattr(found, function)), place

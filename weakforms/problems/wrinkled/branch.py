@@ -85,8 +85,17 @@ class WrinkledBranch:
         return load < PAST_LIMIT * peak
 
     def _start(self, continuation: Continuation) -> CurvePoint:
-        """The start of the trace: no load."""
-        state, _ = self.membrane.by_homotopy(0.0)
+        """The start of the trace: no load.
+
+        Raises:
+            ConvergenceError: If it is not found; the message names the parameters of the membrane's shape.
+        """
+        try:
+            state, _ = self.membrane.by_homotopy(0.0)
+        except ConvergenceError as error:
+            shape = [name for name in ("delta", "M", "Af") if name in self.membrane.values]
+            hint = f"; choose a smaller delta, or another {' or '.join(shape[1:])}" if shape else ""
+            raise ConvergenceError(f"the membrane without load is not found: {error}{hint}") from error
         unloaded = fixed.Held(self.control, 0.0)
         return continuation.start(state, unloaded, towards={self.control: 1.0})
 
