@@ -50,7 +50,7 @@ def bulges(solutions: Solutions) -> Finding:
 
 def paths_differ(solutions: Solutions) -> Finding:
     """Radius of outer points at the lowest pressure of deflation, and in inflation at the same height."""
-    found = []
+    found, ways = [], {1: decide.positive, 2: decide.negative}
     for beta, letter in ((1, "a"), (2, "b")):
         up = reference(1, f"paths_fig04{letter}")
         for x in (0.6, 0.8):
@@ -59,7 +59,7 @@ def paths_differ(solutions: Solutions) -> Finding:
             way = [up.columns[f"{name}_{x}"] for name in ("eta", "rho")]
             cubic, straight = float(CubicSpline(*way)(eta.value)), float(np.interp(eta.value, *way))
             before = decide.Number(cubic, abs(cubic - straight))
-            found.append(decide.positive(f"radius of X = {x} inflating minus deflating", before - rho))
+            found.append(ways[beta](f"radius of X = {x} inflating minus deflating", before - rho))
     return decide.all_of(found)
 
 
@@ -135,7 +135,8 @@ CASE = Case(
         ),
         Claim(
             "paths_differ",
-            "outer points take other paths in deflation than in inflation, nearer to the axis",
+            "outer points take other paths in deflation than in inflation: nearer to the axis without "
+            "pre-stretch, farther from it with pre-stretch",
             ALONG,
             paths_differ,
         ),

@@ -179,7 +179,7 @@ def _edge(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
     place = solutions.value(curve.of, curve.at, panel.edge)
     along = next(iter(columns.values()))
     x, y = (float(np.interp(place, along, columns[axis.name])) for axis in (panel.x, panel.y))
-    return [Marker("contact_edge", "contact edge", x, y)]
+    return [Marker("contact_edge", "", x, y)]
 
 
 def _marker_label(point: SpecialPoint) -> str:
