@@ -102,7 +102,7 @@ def test_junit_parses_and_counts(run):
 def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
     (tmp_path / "mine.html").write_text("<p>mine</p>")
     write_report(sample(passing_case()), tmp_path)
-    assert {"paper2.html", "shapes"} < set(os.listdir(tmp_path))
+    assert {"paper2.html", "shapes", "figures"} < set(os.listdir(tmp_path))
     write_report(sample(), tmp_path)
     left = {
         "audit.html",
@@ -114,13 +114,14 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
         "mine.html",
         "report.json",
         "shapes",
+        "figures",
     }
     assert set(os.listdir(tmp_path)) == left
-    assert os.listdir(tmp_path / "shapes") == []
+    assert os.listdir(tmp_path / "shapes") == os.listdir(tmp_path / "figures") == []
 
 
 def test_a_page_that_cannot_be_drawn_leaves_the_numbers(tmp_path, monkeypatch):
-    monkeypatch.setattr("weakforms.verification.report.report.render", lambda *_: 1 / 0)
+    monkeypatch.setattr("weakforms.verification.report.report.render_with_files", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(sample(passing_case()), tmp_path)
     assert load_run(tmp_path).cases[0] == passing_case()
