@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
-    from weakforms.verification.crosscheck.compare import Verdicts
+    from weakforms.verification.crosscheck.verdicts import Verdicts
 
 CurveLike = str | Path | Mapping[str, Sequence[float]]
 
@@ -38,10 +38,11 @@ def weakforms_check() -> Callable[..., Verdicts]:
         only: Sequence[str] | None = None,
         branch: str | None = None,
         unjudged: bool = False,
+        **more: Any,
     ) -> Verdicts:
         __tracebackhide__ = True
         try:
-            verdicts = compare(case, curve, name, accuracy, columns, constants, only, branch)
+            verdicts = compare(case, curve, name, accuracy, columns, constants, only, branch, **more)
         except InputError as error:
             pytest.fail(f"nothing was compared: {error}", pytrace=False)
         if not verdicts.passed and not (unjudged and verdicts.status == NOT_JUDGED):

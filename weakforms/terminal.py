@@ -18,7 +18,7 @@ from typing import Any
 import typer
 from rich.console import Console
 
-from weakforms.errors import InputError, WeakformsError, lacking
+from weakforms.errors import InputError, WeakformsError, lacking, not_among
 
 _LACKS = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO),
@@ -49,8 +49,30 @@ def request(
     return {
         "parameters": data.get("parameters", {}) | dict(pairs("--set", sets)),
         "numerics": data.get("numerics", {}) | dict(pairs("--mesh", mesh)),
-        "at": [*data.get("at", {}).items(), *pairs("--at", at)],
+        "at": [*data.get("at", {}).items(), *_states(pairs("--at", at))],
     }
+
+
+def _states(given: list[tuple[str, str]]) -> list[tuple[str, Any]]:
+    """Requested states; ``NAME=@FILE`` asks for one at every value that column has in a CSV or JSON file.
+
+    Raises:
+        InputError: If there is no such file, or it has no such column.
+    """
+    from weakforms.results import read_curve
+
+    states: list[tuple[str, Any]] = []
+    for name, value in given:
+        if not value.startswith("@"):
+            states.append((name, value))
+            continue
+        columns = read_curve(Path(value[1:]), "").columns
+        if name not in columns:
+            raise InputError(
+                f"--at {name}={value}: no column {name!r} in {value[1:]}{not_among(name, columns)}"
+            )
+        states += [(name, float(number)) for number in columns[name]]
+    return states
 
 
 def pairs(option: str, given: list[str] | None) -> list[tuple[str, str]]:

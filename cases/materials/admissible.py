@@ -40,11 +40,12 @@ SAMPLES = {
     for m in ALL
     if m != "harmonic"
 }
+STRETCHES = ((1.5, 0.9), (2.0, 1.2))
 SWAPPED = {
-    m: [(material(model=m, l1=a, l2=b), material(model=m, l1=b, l2=a)) for a, b in ((1.5, 0.9), (2.0, 1.2))]
-    for m in ALL
+    m: [(material(model=m, l1=a, l2=b), material(model=m, l1=b, l2=a)) for a, b in STRETCHES] for m in ALL
 }
 EXCHANGED = {"W": "W", "W1": "W2", "W2": "W1", "W11": "W22", "W22": "W11", "W12": "W12"}
+NOT_CONSTANT = decide.Stated(0.1, "differ", "section 3.2.4: no number is printed; it would be zero")
 POWER = decide.Stated(
     1.5,
     "goes to infinity",
@@ -84,6 +85,20 @@ def symmetric(solutions: Solutions) -> Finding:
             others = np.array([there[name].value for name in EXCHANGED.values()])
             found.append(decide.exact(model, values, others, 1 + np.abs(values).max()))
     return decide.all_of(found)
+
+
+def space_and_sheet(solutions: Solutions) -> Finding:
+    """(W1 - W2)/(l1 - l2) of the harmonic material: proportional to its thickness, not constant."""
+    ratios, thickness = [], []
+    for (a, b), (spec, _) in zip(STRETCHES, SWAPPED["harmonic"], strict=True):
+        q = solutions.result(spec).quantities
+        ratios.append((q["W1"].value - q["W2"].value) / (a - b))
+        thickness.append(3 + (a * b - 1) / 2 - a - b)  # f'(i) = l1 l2 with f'' = 2
+    over = np.array(ratios) / np.array(thickness)
+    return decide.all_of(
+        decide.exact("over l3, at two deformations", over[0], over[1], over[1]),
+        decide.at_least("ratio without l3", abs(ratios[0] / ratios[1] - 1), NOT_CONSTANT),
+    )
 
 
 def grows(solutions: Solutions) -> Finding:
@@ -187,6 +202,13 @@ CASE = Case(
             "condition 1: the energy is positive at every deformation tried, except at rest",
             tuple((spec, None) for specs in SAMPLES.values() for spec in specs),
             not_negative,
+        ),
+        Claim(
+            "space_and_sheet",
+            "the harmonic energy in space (3.25), with its thickness eliminated, is none of the plane ones "
+            "(3.26), whose (W1 - W2)/(l1 - l2) is constant: the two theories differ (section 3.2.4)",
+            tuple((spec, None) for spec, _ in SWAPPED["harmonic"]),
+            space_and_sheet,
         ),
         Claim(
             "symmetric",

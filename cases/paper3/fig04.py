@@ -6,7 +6,11 @@ The aspect ratio is not printed; both of figure 2 are shown.
 from weakforms.cases import Axis, Case, Claim, Curve, Finding, Panel, Solutions, decide, fluid_tube
 
 LENGTHS, GAMMAS = (8, 24), (0.058, 0.116, 0.232)
+DENSITY = {g: {} if g == 0.116 else {"gamma": g} for g in GAMMAS}
+"""Without the default value, so that figures share solutions."""
 TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGTHS for g in GAMMAS}
+BENT = {key: fluid_tube(L=key[0], delta=2, secondary=True, **DENSITY[key[1]]) for key in TUBES if key[0] == 8}
+BENT_ASKED = {"V": 1e-5, "r_mid": 1e-5, "r_mid_pi": 1e-5}
 
 
 def critical(solutions: Solutions, length: int, kind: str) -> list[decide.Number]:
@@ -55,6 +59,17 @@ CASE = Case(
                     reference=f"primary_L_{length}_delta_2" + ("" if g == 0.116 else f"_gamma_{g}"),
                 )
                 for g in GAMMAS
+            )
+            + tuple(
+                Curve(
+                    BENT[length, g],
+                    rf"$\rho g A^2/\mu H = {g}$, secondary",
+                    reference=f"secondary_L_{length}_delta_2" + ("" if g == 0.116 else f"_gamma_{g}"),
+                    branch="secondary",
+                    asked=BENT_ASKED,
+                )
+                for g in GAMMAS
+                if (length, g) in BENT
             ),
         )
         for length, low, high in ((8, 0.5, 5), (24, 0.6, 0.9))

@@ -321,7 +321,7 @@ def requests(tmp_path):
         "solved": {"problem": "tube", "parameters": {"alpha": 0.2}, "at": {"u_max": 1.0}},
         "unknown": {"problem": "cube"},
         "escaping": {"case": CASE, "curve": "../secret.csv", "name": CURVE},
-        "mixed": {"problem": "tube", "curve": curve},
+        "mixed": {"problem": "tube", "case": CASE, "curve": curve},
     }
     for name, data in written.items():
         (folder / f"{name}.json").write_text(json.dumps(data))
@@ -374,3 +374,27 @@ def test_a_folder_that_will_not_do(weakforms, tmp_path, requests, what):
 def test_schemas_are_sound():
     for name in ("request", "verdicts", "error"):
         jsonschema.Draft202012Validator.check_schema(schema(name))
+
+
+def test_the_words_of_compare_with_a_solution(weakforms, tmp_path):
+    lam = np.linspace(1.1, 2.0, 4)
+    pressure = 4 * (lam - lam**-5 + 0.2 * (lam**3 - lam**-3)) / lam**2
+    path = tmp_path / "mine.csv"
+    path.write_text(
+        "lam,P\n" + "\n".join(f"{a!r},{b!r}" for a, b in zip(lam.tolist(), pressure.tolist(), strict=True))
+    )
+    words = ("compare", "sphere", path, "--with", "solve", "--accuracy", "1e-9")
+    assert weakforms(*words, "alpha=0.2").status == 0
+    wrong = weakforms(*words, "alpha=0.1", "--cause")
+    assert wrong.status == 1
+    assert "sphere, solve" in wrong.out
+    assert "the curve reaches" in wrong.out
+    assert weakforms("compare", CASE, path, "alpha=0.2").status == 2
+    stored = tmp_path / "r.json"
+    assert weakforms("solve", "sphere", "alpha=0.2", "--at", f"lam=@{path}", "--out", stored).status == 0
+    assert len(json.loads(stored.read_text())["states"]) == 4
+    given = ("compare", "sphere", path, "--with", stored, "--over", "lam")
+    assert weakforms(*given, "--accuracy", "1e-4").status == 0
+    unclaimed = weakforms(*given)
+    assert (unclaimed.status, "no accuracy is claimed" in unclaimed.out) == (5, True)
+    assert "no column 'P_'" in weakforms("solve", "sphere", "--at", f"P_=@{path}").err

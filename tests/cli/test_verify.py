@@ -22,6 +22,7 @@ PAGES = {
     "audit.html",
     "coverage.html",
     "faults.html",
+    "thesis.html",
     "index.html",
     "junit.xml",
     "paper2.html",

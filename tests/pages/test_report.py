@@ -3,6 +3,8 @@
 import json
 import math
 import os
+from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -106,6 +108,7 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
         "audit.html",
         "coverage.html",
         "faults.html",
+        "thesis.html",
         "index.html",
         "junit.xml",
         "mine.html",
@@ -146,3 +149,20 @@ def test_without_a_browser_there_is_no_pdf(tmp_path, monkeypatch):
     with pytest.raises(InputError, match="no such folder"):
         pdf.write_pdf(sample(), tmp_path / "nowhere" / "report.pdf")
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize(("user", "without"), [(0, True), (1000, False)])
+def test_only_root_prints_without_the_browsers_sandbox(tmp_path, monkeypatch, user, without):
+    commands = []
+
+    def printed(command, **_):
+        commands.append(command)
+        (place,) = [word for word in command if word.startswith("--print-to-pdf=")]
+        Path(place.partition("=")[2]).write_bytes(b"%PDF")
+        return SimpleNamespace(returncode=0, stderr="")
+
+    monkeypatch.setattr(pdf, "browser", lambda: "browser")
+    monkeypatch.setattr(pdf.os, "geteuid", lambda: user)
+    monkeypatch.setattr(pdf.subprocess, "run", printed)
+    assert pdf.write_pdf(sample(), tmp_path / "report.pdf").read_bytes() == b"%PDF"
+    assert ("--no-sandbox" in commands[0]) is without

@@ -18,7 +18,7 @@ from weakforms.problems.liquid_tube import problem as liquid_tube
 from weakforms.problems.liquid_tube.bent import problem as bent
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
 from weakforms.problems.material_choice import mooney_rivlin_of
-from weakforms.problems.problem import validated
+from weakforms.problems.problem import Requests, StateRequest, validated
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
 from weakforms.results import validate
@@ -295,3 +295,11 @@ def test_defaults_are_accepted_as_typed_on_a_command_line(name):
     assert validated(model, typed, name) == model(**typed)
     for key, value in defaults.items():
         assert key not in typed or getattr(validated(model, {key: typed[key]}, name), key) == value
+
+
+@pytest.mark.parametrize("name", registry.abouts())
+def test_a_state_at_a_column_that_is_not_there_is_refused_before_anything_is_solved(name):
+    problem = registry.get(name)
+    wanted = StateRequest("nothing", 1.0, 1, "primary", ())
+    with pytest.raises(InputError, match=r"nothing|states"):
+        problem.check(problem.parameters(), Requests(states=(wanted,)))

@@ -206,3 +206,16 @@ def test_options_do_not_leak_between_solvers():
     before = PETSc.Options().getAll()
     ExtendedNewton(one_dof(lambda u, p, _: u - p), ["load"])
     assert PETSc.Options().getAll() == before
+
+
+@pytest.mark.parametrize(("begin", "count"), [(1.0001, 1), (3.0, 6)])
+def test_newton_keeps_its_jacobian_only_while_it_converges_fast(begin, count):
+    solver = ExtendedNewton(one_dof(lambda u, p, _: u**3 + u - p))
+    for _ in range(2):  # a second solve does not begin with the Jacobian of the first
+        state = solver.system.initial.copy()
+        state.u[:], state.loads["load"] = begin, 2.0
+        found, record = solver.solve(state)
+        assert record.factorizations == count
+        assert found.u == pytest.approx([1.0], abs=1e-12)
+        state.loads["load"] = 130.0
+        assert solver.solve(state)[0].u == pytest.approx([5.0], abs=1e-12)

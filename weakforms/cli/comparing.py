@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from weakforms.cli.app import Json, Resume, app, examples
+from weakforms.errors import InputError
 from weakforms.terminal import console, once, plain, print_json, progress_bar, rank
 
 
@@ -15,11 +16,21 @@ from weakforms.terminal import console, once, plain, print_json, progress_bar, r
     epilog=examples(
         "weakforms compare paper2.fig02 mine.csv --curve fig02b_delta1_1 --column p",
         "weakforms compare paper2.fig02 si.csv --map p=pressure --constant R_f=0.02 --out verdict",
+        "weakforms compare paper2.fig02 n10.csv n20.csv n40.csv --curve fig02b_delta1_1",
+        "weakforms compare tube mine.csv alpha=0.2 delta1=1.05 --with solve --accuracy 1e-4",
+        "weakforms compare tube mine.csv --with r.json --over u_max",
     )
 )
 def compare(  # noqa: PLR0913, PLR0917  (one an option)
-    case: Annotated[str, typer.Argument(help="Id of a case.")],
-    file: Annotated[Path, typer.Argument(help="CSV or JSON with the curve.")],
+    case: Annotated[str, typer.Argument(help="Id of a case; with --with the name of a problem.")],
+    words: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="FILE... [NAME=VALUE]...",
+            help="CSV or JSON with the curve; several files, from a coarse mesh to a fine one, are judged by "
+            "their limit. With --with solve also parameters of the problem.",
+        ),
+    ],
     curve: Annotated[str | None, typer.Option(help="Which curve of the case.")] = None,
     accuracy: Annotated[
         float | None,
@@ -44,12 +55,34 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
     branch: Annotated[
         str | None, typer.Option(help="Branch of the file; default: the one that the case draws.")
     ] = None,
+    against: Annotated[
+        str | None,
+        typer.Option(
+            "--with",
+            metavar="solve|RESULT.json",
+            help="Compare with a solution at the parameters given and at the curve's own abscissae, or with "
+            "a stored result.",
+        ),
+    ] = None,
+    over: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="With --with: column over which the curve is compared."),
+    ] = None,
+    crossing: Annotated[
+        int, typer.Option(min=1, help="With --with solve: which crossing of each abscissa along the branch.")
+    ] = 1,
+    ratio: Annotated[
+        float, typer.Option(help="Size of the cells of a mesh over the size on the next one.")
+    ] = 2.0,
+    cause: Annotated[
+        bool, typer.Option("--cause", help="Solve for what explains a column out of bounds; needs DOLFINx.")
+    ] = False,
     out: Annotated[
         Path | None, typer.Option(help="Folder for verdicts.json, pictures and a page that shows both.")
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Compare a curve of another code with the reference table of a case.
+    """Compare a curve of another code with the reference table of a case, a solution or a stored result.
 
     The curve must have every column that the case judges, unless --column selects some. Exit status: 0 within
     bounds, 1 out of bounds, 2 bad input (also a result for other parameters), 5 not judged (a column is
@@ -60,8 +93,27 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
 
     if out is not None:  # before anything is compared: pictures need an extra
         from weakforms.verification.report.verdict_page import write_verdicts
-    given = (once("--map", names), once("--constant", constants))
-    verdicts = compare_curve(case, file, curve, accuracy, *given, only, branch)
+    files = [Path(word) for word in words if "=" not in word or Path(word).exists()]
+    parameters = once("parameter", [word for word in words if Path(word) not in files])
+    if parameters and against != "solve":
+        raise InputError(f"{next(iter(parameters))}: parameters are given with --with solve only")
+    if not files:
+        raise InputError("no curve is given: name its file after the case or the problem")
+    verdicts = compare_curve(
+        case,
+        files if len(files) > 1 else files[0],
+        curve,
+        accuracy,
+        once("--map", names),
+        once("--constant", constants),
+        only,
+        branch,
+        against=parameters if against == "solve" else against,
+        over=over,
+        crossing=crossing,
+        ratio=ratio,
+        cause=cause,
+    )
     if out is not None:
         write_verdicts(verdicts, out)
     if as_json:

@@ -87,7 +87,8 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
         list[str] | None,
         typer.Option(
             metavar="NAME=VALUE",
-            help="Also solve for a state: a column and its value, or a kind of special point and its number.",
+            help="Also solve for a state: a column and its value, or a kind of special point and its number; "
+            "NAME=@FILE solves at every value of that column in a CSV file.",
         ),
     ] = None,
     crossing: Annotated[

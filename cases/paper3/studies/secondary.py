@@ -36,7 +36,7 @@ PUBLISHED = {
 STATES = tuple((TUBES[length, 2], at) for length, at in PUBLISHED.items())
 EVERY = tuple((tube, None) for tube in TUBES.values())
 HALF, FULL = (fluid_tube_surface(L=8, delta=2, extent=extent) for extent in ("half", "full"))
-UNEVEN = FULL.at(uneven=0.2)
+UNEVEN, MIRRORED = FULL.at(uneven=0.2), HALF.at(amplitude=-0.1)
 SAME = ("zw_bifurcation", "V_bifurcation", "zw_bent", "V_bent", "Pi_bent")
 TURN = reference(3, "secondary_turn")
 WIDE = 0.02
@@ -220,6 +220,15 @@ def double_zero(solutions: Solutions) -> Finding:
     )
 
 
+def mirror_branch(solutions: Solutions) -> Finding:
+    """Bent states to both sides, with the same elements."""
+    one, other = (quantities(solutions, spec) for spec in (HALF, MIRRORED))
+    return decide.all_of(
+        decide.at_most(f"{name} apart", abs(other[name] / one[name] - 1), SAME_ZERO)
+        for name in ("zw_bent", "V_bent", "Pi_bent")
+    )
+
+
 def of_the_branch(solutions: Solutions) -> Finding:
     """Level and volume at which the whole surface bends, compared with the primary branch's bifurcation."""
     whole = quantities(solutions, HALF)
@@ -346,6 +355,12 @@ CASE = Case(
             "same zero and the same secondary branch",
             ((HALF, None), (FULL, None)),
             double_zero,
+        ),
+        Claim(
+            "mirror_branch",
+            "the secondary branch goes on to the other side with the same levels and volumes",
+            ((HALF, None), (MIRRORED, None)),
+            mirror_branch,
         ),
         Claim(
             "of_the_branch",

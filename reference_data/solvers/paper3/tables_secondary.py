@@ -24,7 +24,7 @@ from reference_data.solvers.paper3.modes import critical_point, galerkin_critica
 from reference_data.solvers.paper3.modes import quantities as axisymmetric
 from reference_data.solvers.paper3.path import RESOLUTIONS
 from reference_data.solvers.paper3.strong import states as balance
-from reference_data.solvers.paper3.tables_primary import PAPER
+from reference_data.solvers.paper3.tables_primary import DENSITY, PAPER
 from reference_data.solvers.registry import Builder
 
 # Levels of the tables; the branch starts just above the last one.
@@ -36,6 +36,11 @@ LEVELS: dict[FluidTube, tuple[float, ...]] = {
     FluidTube(24, 2): (7.6, 7.65, 7.7, 7.75, 7.779, 7.8, 7.85, 7.9, 7.95, 8.0, 8.015),
     FluidTube(24, 3): (7.6, 7.65, 7.7, 7.75, 7.8, 7.85, 7.9, 7.95),
 }
+DENSER: dict[FluidTube, tuple[float, ...]] = {
+    FluidTube(8, 2, 0.058): (11.9, 12.0, 12.1, 12.17),
+    FluidTube(8, 2, 0.232): (5.2, 5.25, 5.29, 5.31),
+}
+"""Levels for other densities: near the bifurcation, where figure 4 shows the branch."""
 FINER = (FluidTube(8, 3),)  # bulges most: on the usual grids u of heights is 3e-6 near the bifurcation
 COMPRESSED = (FluidTube(24, 1.5),)  # T2 < 0 in the dry part: see COMPRESSED_NOTES
 OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch is left
@@ -55,7 +60,7 @@ def series(grids: Sizes, nets: Sizes = bent.NETS) -> Series:
 def start(tube: FluidTube) -> tuple[State, Shape]:
     """The first n = 1 bifurcation by collocation and by Galerkin's method."""
     how = RESOLUTIONS[1]
-    near = zeros(tube, PAPER[tube][1], 4.0, (1,))[1]
+    near = zeros(tube, (PAPER | DENSITY)[tube][1], 4.0, (1,))[1]
     state = critical_point(near.moved_to(how.partial if near.partial else how.full), how, 1).state
     return state, galerkin_critical(state, how, 1)
 
@@ -65,7 +70,7 @@ def followed(tube: FluidTube) -> branch.Secondary:
     """The secondary branch on the coarsest grid, over the levels of the table."""
     line = branch.Secondary(start(tube)[1], 0)
     line.leave(OFFSETS)
-    line.to_level(LEVELS[tube][0], STEP)
+    line.to_level((LEVELS | DENSER)[tube][0], STEP)
     return line
 
 
@@ -86,7 +91,7 @@ def compared(tube: FluidTube, found: tuple[Surface, ...]) -> tuple[Surface, Surf
 
 def curve(name: str, tube: FluidTube) -> Table:
     """Secondary branch over the level."""
-    levels = LEVELS[tube]
+    levels = (LEVELS | DENSER)[tube]
     rows: tuple[Rows, ...] = ([], [], [], [])  # Galerkin's method coarse and fine, collocation likewise
     eigen: tuple[Rows, ...] = ([], [], [], [])
     spin = 0.0
@@ -113,7 +118,8 @@ def curve(name: str, tube: FluidTube) -> Table:
     title = f"Secondary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
     extra = {"rotation_eigenvalue": round_up(spin)}
     about = series(branch.GRIDS[2:] if tube in FINER else branch.GRIDS[:3], bent.chosen(tube))
-    return about.table(name, title, "figures 2 and 3", given(tube), columns, notes=notes, extra=extra)
+    source = "figure 4" if tube in DENSER else "figures 2 and 3"
+    return about.table(name, title, source, given(tube), columns, notes=notes, extra=extra)
 
 
 def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, source: str) -> Table:
@@ -289,8 +295,8 @@ def _top(offsets: Array, rows: Rows) -> dict[str, float]:
 
 def _tables() -> dict[str, Builder]:
     out: dict[str, Builder] = {}
-    for tube in LEVELS:
-        name = named("secondary", tube, False)
+    for tube in (*LEVELS, *DENSER):
+        name = named("secondary", tube, tube in DENSER)
         out[name] = partial(curve, name, tube)
     net = np.arange(41) / 40, np.pi * np.arange(13) / 12
     lines = np.arange(61) / 60, np.array([0.0, np.pi / 2, np.pi])

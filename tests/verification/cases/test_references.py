@@ -170,7 +170,7 @@ def test_columns_the_case_does_not_ask_for_need_an_accuracy(monkeypatch):
     from dataclasses import replace
 
     from weakforms.verification.cases.discovery import get_case
-    from weakforms.verification.crosscheck import compare as module
+    from weakforms.verification.crosscheck import targets as module
 
     found = get_case("paper2.fig03")
     panels = [

@@ -14,8 +14,8 @@ from weakforms.results import Branch, CurveFile, Result
 from weakforms.verification.cases import references
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.crosscheck.columns import require_same_parameters
-from weakforms.verification.crosscheck.compare import tables_of
 from weakforms.verification.crosscheck.rows import FLOOR, interpolated, judge_column, met, scale_of
+from weakforms.verification.crosscheck.targets import tables_of
 from weakforms.verification.run.requests import schema
 
 FREE = ("paper1.free", "free_alpha_0.1_beta_2")

@@ -48,6 +48,7 @@ NUMBERS = (
         length="R_f, radius of the clamp (= beta R_0)",
         alpha="C2/C1",
         beta="uniform pre-stretch, 1",
+        M="thickness at the pole over h, its mean of pole and clamp",
         k="K R_f^2/(C1 h)",
         l="L/R_f",
         eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 x dx",

@@ -42,6 +42,8 @@ class DiskData:
     l: float  # noqa: E741  (the paper's symbol)
     cells: int
     degree: int
+    M: float = 1.0
+    """Thickness at the pole over the mean of pole and clamp."""
 
     @property
     def length(self) -> float:
@@ -70,13 +72,14 @@ class FreeDisk(MeridianModel):
         beta: float,
         mesh: Blocks,
         energy: str = "standard",
+        M: float = 1.0,
     ) -> None:
         body = Body(
             name="disk",
             parameters=(),
             length=lambda _q: 1 / beta,
             radius=lambda x, _q: x,
-            thickness=lambda _x, _q: 1.0,
+            thickness=lambda x, _q: 1.0 if M == 1 else M + 2 * (1 - M) * beta * x,
             held=((None, None), (beta, 0.0)),
             upwards=-1.0,
             pole=True,
@@ -121,7 +124,7 @@ class DiskModel(FreeDisk):
         values = {"p": 0.0, "k": 0.0, "l": data.l}
         breaks, quadrature = [0.0, data.length / 2, data.length], 2 * data.degree + 4
         mesh = Blocks(breaks, data.cells, data.degree, quadrature, fronts={"front": 1})
-        super().__init__(comm, data.law, values, data.beta, mesh)
+        super().__init__(comm, data.law, values, data.beta, mesh, M=data.M)
         terms, span = (bond.terms, bond.span) if bond else (1, 1.0)
         # The moment is a product of the other two series.
         lengths = {"lam2": terms + 1, "depth": terms + 1, "moment": 2 * terms}

@@ -78,7 +78,7 @@ class CircularParameters(MaterialChoice):
     needs: ClassVar[Needs] = {
         **dict.fromkeys(("k", "l", "p_end"), ({"contact": TOUCHES}, {"phase": ("peeling",)})),
         "adhesion": [{"contact": ("adhesive",)}, {"phase": ("peeling",)}],
-        "t_end": [{"contact": ("none",), "phase": ("inflation",)}],
+        **dict.fromkeys(("t_end", "M"), ({"contact": ("none",), "phase": ("inflation",)},)),
     }
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
@@ -94,6 +94,9 @@ class CircularParameters(MaterialChoice):
         3.477, gt=0, le=HIGHEST_P, description="pressure at which inflation towards and in contact ends"
     )
     p: float | None = Field(None, ge=0, le=50, description="pressure of a peeling curve")
+    M: float = Field(
+        1.0, gt=0, lt=2, description="thickness at the pole over h, linear to 2 - M at the clamp; free only"
+    )
     t_end: float = Field(2.0, gt=0.06, le=10, description="pole height at which free inflation ends")
 
 
@@ -165,7 +168,7 @@ class Circular(BranchProblem):
         runs = [
             inflation(
                 comm.py2f(),
-                DiskData(*disk, cells // 2, degree),
+                DiskData(*disk, cells // 2, degree, parameters.M),
                 parameters.adhesion,
                 parameters.p_end,
                 numerics.step,

@@ -12,7 +12,7 @@ from weakforms.problems.branch_problem import BranchProblem, Family, from_rest
 from weakforms.problems.homogeneous import body as closed_body
 from weakforms.problems.homogeneous.about import HOMOGENEOUS, INFINITE_TUBE, SPHERE
 from weakforms.problems.homogeneous.body import Body, system_of
-from weakforms.problems.homogeneous.material import require_defined
+from weakforms.problems.homogeneous.material import require_reachable
 from weakforms.problems.homogeneous.maxwell import maxwell_states
 from weakforms.problems.material_choice import Chosen, MaterialChoice
 from weakforms.problems.problem import End, Needs, Numerics, Requests, Task
@@ -124,7 +124,7 @@ class Sphere(ClosedProblem):
             InputError: With a message that says what is allowed.
         """
         super().check(parameters, requests)
-        require_defined(self.name, parameters, parameters.lam_end, parameters.lam_end, "lam_end")
+        require_reachable(self.name, parameters, parameters.lam_end, parameters.lam_end, "lam_end")
         chosen = parameters.material
         if not parameters.vary:
             if any(r.branch == "fold" or r.name == "cusp_point" for r in requests.states):
@@ -188,7 +188,7 @@ class InfiniteTube(ClosedProblem):
     def check(self, parameters: InfiniteTubeParameters, requests: Requests) -> None:
         """Refuse stretches that the law does not reach."""
         super().check(parameters, requests)
-        require_defined(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
+        require_reachable(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
 
     def ends(self, parameters: InfiniteTubeParameters, _branch: str) -> list[End]:
         """The largest hoop stretch."""
@@ -237,7 +237,7 @@ class Homogeneous(ClosedProblem):
         if across is None:
             chosen = parameters.material
             across = float(chosen.material.width(end, **dict(chosen.constants)))
-        require_defined(self.name, parameters, end, across, "lam_end")
+        require_reachable(self.name, parameters, end, across, "lam_end")
 
     def ends(self, parameters: HomogeneousParameters, _branch: str) -> list[End]:
         """The last stretch."""

@@ -1,25 +1,8 @@
-"""Python functions that PETSc calls: their exceptions are kept until PETSc has returned.
-
-A PETSc object owns the functions that it calls, and Python's garbage collector does not see this. A solver
-that owns a PETSc object which owns one of the solver's methods would therefore never be freed, nor would its
-mesh, its matrices and its factors. PETSc gets the methods by :func:`unowned`.
-"""
+"""Exceptions in Python functions that PETSc calls are kept until PETSc has returned."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
-from weakref import WeakMethod
-
-
-def unowned(method: Callable[..., None]) -> Callable[..., None]:
-    """A function that calls a bound method, and does not keep its object alive."""
-    held = WeakMethod(method)
-
-    def call(*args: Any) -> None:
-        held()(*args)
-
-    return call
 
 
 class Deferred:

@@ -17,7 +17,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.equilibrium.callbacks import Deferred, unowned
+from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -32,6 +32,11 @@ It is also the largest allowed error of a constraint."""
 OF_FORCES = 1e-15, 1e-10
 """Smallest and largest value of this limit, relative to the size of the forces (:meth:`System.force_size`).
 The smallest is about 25 times round-off; the largest is the residual of a Newton step at the tolerance."""
+
+KEPT = 1e-3
+"""If an iteration reduces the residual norm to less than this fraction, the next one keeps its Jacobian. It
+then converges about as fast again, at a small part of the price; the error that is left is this fraction of
+the last step."""
 
 STOPPING = (
     "relative Newton step 1e-10; residual norm below 1e-8, but not below 1e-15 nor above 1e-10 of the nodal "
@@ -101,6 +106,7 @@ class ExtendedNewton:
         self.last: State | None = None
         """The state at which the last solve ended, converged or not."""
         self._callbacks = Deferred()
+        self._made_at = -1
         self._size = system.size
         self._root = system.comm.size - 1
         self._rooted = system.comm.rank == self._root
@@ -126,16 +132,18 @@ class ExtendedNewton:
     def _make_snes(self, defaults: dict[str, str | int]) -> PETSc.SNES:
         snes = PETSc.SNES().create(self.system.comm)
         snes.setOptionsPrefix(self._prefix)
-        snes.setFunction(unowned(self._residual), self._x.duplicate())
+        snes.setFunction(self._residual, self._x.duplicate())
+        # PETSc owns these contexts, which Python's collector does not see: they may not own this object.
+        this = proxy(self)
         sizes = (self._x.getSizes(), self._x.getSizes())
         shell = PETSc.Mat().createPython(sizes, comm=self.system.comm)
-        shell.setPythonContext(_BorderedOperator(proxy(self)))
+        shell.setPythonContext(_BorderedOperator(this))
         shell.setUp()
-        snes.setJacobian(unowned(self._jacobian), shell)
+        snes.setJacobian(self._jacobian, shell)
         ksp = snes.getKSP()
         ksp.setType("preonly")
         ksp.getPC().setType("python")
-        ksp.getPC().setPythonContext(_BorderedSolve(proxy(self)))
+        ksp.getPC().setPythonContext(_BorderedSolve(this))
         snes.setTolerances(rtol=0.0, atol=0.0, **self._tolerances)
         snes.setConvergenceHistory(self._tolerances["max_it"] + 1, reset=True)
         options = PETSc.Options()
@@ -178,15 +186,28 @@ class ExtendedNewton:
 
         self._callbacks.run(work, lambda: out.set(np.nan))
 
-    def _jacobian(self, _snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
+    def _jacobian(self, snes: PETSc.SNES, x: PETSc.Vec, mat: PETSc.Mat, _p: PETSc.Mat) -> None:
         def work() -> None:
+            if self._is_good_still(snes):
+                return
             self.bordered = None
             self._put(x)
             self.factor.update()
             self.bordered = self.border(self.constraints)
+            self._made_at = self.factor.count
 
         self._callbacks.run(work, lambda: None)  # the linear solve that follows fails
         mat.assemble()
+
+    def _is_good_still(self, snes: PETSc.SNES) -> bool:
+        """Whether the last iteration converged so fast that the next one keeps its Jacobian.
+
+        Some constraints factorise the tangent themselves; then there is nothing to keep.
+        """
+        if not snes.getIterationNumber() or self.bordered is None or self._made_at != self.factor.count:
+            return False
+        norms, _ = snes.getConvergenceHistory()
+        return bool(norms[-1] < KEPT * norms[-2])
 
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
         """Bordered tangent at the state that the system is lent to, with ``K`` factorised already."""

@@ -12,7 +12,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.equilibrium.callbacks import Deferred, unowned
+from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.newton import SolveRecord, run_snes, solve_record
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -48,8 +48,8 @@ class Subspace:
             self._reduced = system.tangent().ptap(basis)
         snes = PETSc.SNES().create(system.comm)
         snes.setOptionsPrefix(prefix)
-        snes.setFunction(unowned(self._residual), self._q.duplicate())
-        snes.setJacobian(unowned(self._jacobian), self._reduced)
+        snes.setFunction(self._residual, self._q.duplicate())
+        snes.setJacobian(self._jacobian, self._reduced)
         ksp = snes.getKSP()
         ksp.setType("preonly")
         self._direct(ksp.getPC())

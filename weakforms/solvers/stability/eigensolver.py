@@ -6,31 +6,28 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import numpy as np
+from mpi4py import MPI
 from petsc4py import PETSc
 from slepc4py import SLEPc
 
 from weakforms.solvers.equilibrium.callbacks import Deferred
-from weakforms.solvers.equilibrium.system import System
 
 Inverse = Callable[[np.ndarray], np.ndarray]
 
 
-def shift_and_invert(system: System, prefix: str, wanted: int, target: float) -> SLEPc.EPS:
-    r"""A solver of :math:`K x = \mu M x` for eigenvalues near a target, whose inverse is yet to be chosen.
+def shift_and_invert(comm: MPI.Intracomm, prefix: str) -> SLEPc.EPS:
+    r"""A solver of :math:`K x = \mu M x` for the eigenvalues nearest to its target.
+
+    Its operators, its target and the inverse of the shifted matrix are yet to be set.
 
     Args:
-        system: Its current matrix is ``K``.
+        comm: Ranks.
         prefix: SLEPc options prefix.
-        wanted: Number of eigenvalues.
-        target: The target; the eigenvalues nearest to it are found.
     """
-    eps = SLEPc.EPS().create(system.comm)
+    eps = SLEPc.EPS().create(comm)
     eps.setOptionsPrefix(prefix)
-    eps.setOperators(system.matrix, system.mass)
     eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
     eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-    eps.setTarget(target)
-    eps.setDimensions(nev=wanted)
     st = eps.getST()
     st.setType("sinvert")
     st.getKSP().setType("preonly")
@@ -44,11 +41,13 @@ def by_cholesky(eps: SLEPc.EPS) -> None:
     pc.setFactorSolverType("mumps")
 
 
-def by_inverse(eps: SLEPc.EPS, inverse: Inverse, callbacks: Deferred) -> None:
-    """Use a given inverse of the shifted matrix, such as factors that exist already."""
+def by_inverse(eps: SLEPc.EPS, callbacks: Deferred) -> ExactInverse:
+    """Let an inverse that exists already, such as factors of the shifted matrix, be set before each solve."""
+    inverse = ExactInverse(callbacks)
     pc = eps.getST().getKSP().getPC()
     pc.setType("python")
-    pc.setPythonContext(_Preconditioner(inverse, callbacks))
+    pc.setPythonContext(inverse)
+    return inverse
 
 
 def give_back(eps: SLEPc.EPS) -> None:
@@ -57,16 +56,22 @@ def give_back(eps: SLEPc.EPS) -> None:
         eps.destroy()
 
 
-class _Preconditioner:
-    """A preconditioner that solves exactly."""
+class ExactInverse:
+    """A preconditioner that solves exactly.
 
-    def __init__(self, solve: Inverse, callbacks: Deferred) -> None:
-        self._solve, self._callbacks = solve, callbacks
+    PETSc owns it, and Python's collector does not see this: it has its inverse only while it is in use, and
+    owns no system.
+    """
+
+    solve: Inverse | None = None
+
+    def __init__(self, callbacks: Deferred) -> None:
+        self._callbacks = callbacks
 
     def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
         """``out`` is the solution for ``rhs``."""
 
         def work() -> None:
-            out.array_w[:] = self._solve(rhs.array_r.copy())
+            out.array_w[:] = self.solve(rhs.array_r.copy())
 
         self._callbacks.run(work, lambda: out.set(0.0))  # every vector is an eigenvector of it

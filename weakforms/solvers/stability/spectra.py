@@ -17,6 +17,7 @@ from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.eigensolver import (
+    ExactInverse,
     Inverse,
     by_cholesky,
     by_inverse,
@@ -68,6 +69,8 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
         self._callbacks = Deferred()
+        self._kept: SLEPc.EPS | None = None
+        self._inverse: ExactInverse | None = None
 
     @contextmanager
     def _tangent_at(self, state: State, shift: float = 0.0) -> Iterator[None]:
@@ -79,13 +82,23 @@ class Stability:
             yield
 
     def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
-        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS."""
-        eps = shift_and_invert(self.system, self._prefix, wanted, target)
-        eps.setTolerances(tol=1e-12, max_it=200)
+        """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS.
+
+        With a given inverse it is the same object each time: to make one costs as much as a small spectrum.
+        """
         if inverse is None:
+            eps = shift_and_invert(self.system.comm, self._prefix)
             by_cholesky(eps)
         else:
-            by_inverse(eps, inverse, self._callbacks)
+            if self._kept is None:
+                self._kept = shift_and_invert(self.system.comm, self._prefix)
+                self._inverse = by_inverse(self._kept, self._callbacks)
+            eps, self._inverse.solve = self._kept, inverse
+        eps.setOperators(self.system.matrix, self.system.mass)
+        eps.setTarget(target)
+        basis = min(max(2 * wanted, wanted + 15), self.system.matrix.getSize()[0])  # SLEPc's rule
+        eps.setDimensions(nev=wanted, ncv=basis)
+        eps.setTolerances(tol=1e-12, max_it=200)
         eps.setFromOptions()
         return eps
 
@@ -277,13 +290,20 @@ class Stability:
         Raises:
             ConvergenceError: If fewer than ``wanted`` converge, SLEPc raises an error, or an inverse fails.
         """
+        found = None
         try:
             self._run(eps)
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
-            return read(eps)
+            found = read(eps)
         finally:
-            give_back(eps)
+            if self._inverse is not None:
+                self._inverse.solve = None
+            if found is None:  # after an error its parts may be in use
+                self._kept = None
+            if eps is not self._kept:
+                give_back(eps)
+        return found
 
     def _run(self, eps: SLEPc.EPS) -> None:
         try:

@@ -11,8 +11,9 @@ from rich.text import Text
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification.cases import examples, references
 from weakforms.verification.cases.discovery import FoundCase, among, find_cases
-from weakforms.verification.crosscheck.compare import Verdicts, tables_of
 from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, scale_text
+from weakforms.verification.crosscheck.targets import tables_of
+from weakforms.verification.crosscheck.verdicts import Verdicts
 from weakforms.verification.report.wording import plain_tex, plural, scientific, signed
 
 
@@ -251,10 +252,16 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
             table.add_row(*((v.column, WORDS[v.status]) if k == 0 else ("", "largest error")), *numbers)
     console.print(table)
     for v in verdicts.verdicts:
-        if v.units:
-            line(f"{v.check}: {v.units}")
+        if v.asked is None and v.reached is not None:
+            line(f"{v.check}: no accuracy is claimed; the curve reaches {scientific(v.reached)}")
+        elif v.status == FAILED and v.reached is not None and not v.units:
+            line(f"{v.check}: the curve reaches {scientific(v.reached)}, not {scientific(v.asked)}")
+        for text in filter(None, (v.units, v.trend, *v.causes)):
+            line(f"{v.check}: {text}")
         if v.judged_rows < v.rows:
             line(f"{v.check}: {v.detail}")
+    for found in verdicts.convergence:
+        line(f"{found.column}: {WORDS[found.status]}: {found.text}")
     line(f"errors are relative to {scale_text(verdicts.abscissa)}")
     if verdicts.left_out:
         line(f"left out: {', '.join(verdicts.left_out)}")

@@ -56,6 +56,14 @@ class ColumnVerdict(Verdict):
     """The smallest value by which errors are divided, in the column's own scaling."""
     units: str = ""
     """The meaning of a constant ratio between curve and table, if there is one."""
+    reached: float | None = None
+    """The smallest accuracy that the curve could claim: with it every row is judged and within its bound."""
+    trend: str = ""
+    """How the errors go along the curve, if the column is out of bounds."""
+    causes: tuple[str, ...] = ()
+    """Changes of the problem that explain the errors, if they were looked for and found."""
+    rows_judged: dict[str, list[float]] = field(default_factory=dict)
+    """Abscissa, signed error and bound of every row."""
 
     @property
     def unjudged_rows(self) -> int:
@@ -74,6 +82,14 @@ class JudgedColumn:
     error: np.ndarray = field(default_factory=lambda: np.zeros(0))
     """Signed errors, each divided by the scale of its row."""
     bound: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    known: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    """Uncertainty of the table at each row, relative to the scale of the row."""
+
+    @property
+    def difference(self) -> np.ndarray:
+        """Curve minus table at each row, in the column's own scaling."""
+        size = np.maximum(np.abs(self.expected), self.verdict.scale_floor or 0.0)
+        return self.error * size
 
 
 def tolerance(rows: np.ndarray) -> float:
@@ -139,7 +155,7 @@ def scale_of(column: np.ndarray, covered: np.ndarray, expected: np.ndarray) -> t
 
 
 def judge_column(
-    table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float, numbers: np.ndarray
+    table: Reference, column: str, x: np.ndarray, values: np.ndarray, asked: float | None, numbers: np.ndarray
 ) -> JudgedColumn:
     """Judge a column, with the error and the bound of every row.
 
@@ -152,7 +168,8 @@ def judge_column(
         column: Name of the column.
         x: The curve's abscissa, within the table's range.
         values: The curve's column there.
-        asked: Relative accuracy.
+        asked: Relative accuracy; ``None`` if none is claimed: then there is no verdict, and the accuracy that
+            the curve reaches takes its place in the bounds.
         numbers: Number of each row in the curve, from 1.
     """
     rows = table.columns[table.abscissa]
@@ -162,11 +179,15 @@ def judge_column(
     known = np.hypot(table.uncertainty[column], slack) / scale
     with np.errstate(over="ignore"):
         error = np.nan_to_num((values - expected) / scale)
-    bound = asked + 2 * known
+    reached = float(np.max(np.maximum(np.abs(error) - 2 * known, 2 * known)))
+    claim = reached if asked is None else asked
+    bound = claim + 2 * known
     # A row beyond even the wide bound is wrong, however coarse the table is.
-    judged = (bound <= 2 * asked) | (np.abs(error) > bound)
+    judged = (bound <= 2 * claim) | (np.abs(error) > bound)
     count = int(np.sum(judged))
-    if not np.all(np.abs(error[judged]) <= bound[judged]):
+    if asked is None:
+        status = NOT_JUDGED
+    elif not np.all(np.abs(error[judged]) <= bound[judged]):
         status = FAILED
     elif count >= fewest(table) and 2 * count > len(x):
         status = PASSED
@@ -194,7 +215,7 @@ def judge_column(
         detail=_detail(table, status, len(x), count, asked, floor),
         error=abs(at["error"]),
         bound=at["bound"],
-        asked=float(asked),
+        asked=asked,
         reference_uncertainty=float(known[worst]),
         where=at["where"],
         reference=table.name,
@@ -207,8 +228,10 @@ def judge_column(
         largest=described(largest),
         scale=scale_text(table.abscissa),
         scale_floor=floor,
+        reached=reached,
+        rows_judged={name: v.tolist() for name, v in (("x", x), ("error", error), ("bound", bound))},
     )
-    return JudgedColumn(verdict, x, expected, error, bound)
+    return JudgedColumn(verdict, x, expected, error, bound, known)
 
 
 def fewest(table: Reference) -> int:
@@ -223,8 +246,10 @@ def scale_text(abscissa: str) -> str:
     )
 
 
-def _detail(table: Reference, status: str, rows: int, judged: int, asked: float, floor: float) -> str:
+def _detail(table: Reference, status: str, rows: int, judged: int, asked: float | None, floor: float) -> str:
     text = f"{rows} rows; errors are divided by {floor:.6g} at least"
+    if asked is None:
+        return f"{text}; no accuracy is claimed"
     if judged < rows:
         text += f"; {rows - judged} lie where the table is too coarse to judge to {asked:g}"
     if status != NOT_JUDGED:
@@ -237,7 +262,7 @@ def _detail(table: Reference, status: str, rows: int, judged: int, asked: float,
     )
 
 
-def absent(table: Reference, column: str, asked: float, rows: int) -> JudgedColumn:
+def absent(table: Reference, column: str, asked: float | None, rows: int) -> JudgedColumn:
     """The verdict on a column that the table has and the curve does not have."""
     return JudgedColumn(
         ColumnVerdict(
@@ -246,7 +271,7 @@ def absent(table: Reference, column: str, asked: float, rows: int) -> JudgedColu
             passed=False,
             statement=f"{column} over {table.abscissa} against {table.source}",
             detail=f"the curve has no column {column}: add it, or name the columns to judge with --column",
-            asked=float(asked),
+            asked=asked,
             reference=table.name,
             column=column,
             rows=rows,

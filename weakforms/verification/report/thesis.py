@@ -47,7 +47,6 @@ COMPRESSED = (
 MISSING = {
     (3, "2b"): COMPRESSED,
     (3, "3b"): COMPRESSED,
-    (3, "4"): "the dashed secondary branches for the other densities are missing",
 }
 """What the thesis shows and no case draws."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from markupsafe import Markup
 
 from weakforms.results.io import dumps, require_writable, write_atomically
-from weakforms.verification.crosscheck.compare import Verdicts
+from weakforms.verification.crosscheck.verdicts import Verdicts
 from weakforms.verification.report.figures import panel_figure
 from weakforms.verification.report.look import LOOK
 from weakforms.verification.report.pages import template

@@ -18,6 +18,7 @@ import jsonschema
 
 from weakforms.errors import InputError, WeakformsError
 from weakforms.results.io import dumps, first_error, load_json, require_writable, write_atomically
+from weakforms.verification.crosscheck.convergence import RATIO
 from weakforms.verification.crosscheck.rows import EXIT_STATUS, FAILED, PASSED
 
 SCHEMA = "weakforms.request/1"
@@ -75,19 +76,27 @@ def answer(data: Mapping[str, Any], folder: Path, progress: Any = None) -> tuple
     Raises:
         WeakformsError: For bad input, or a solve without a result.
     """
-    if "case" in data:
+    if "curve" in data:
         from weakforms.verification.crosscheck.compare import compare
 
-        curve = data["curve"]
+        given = data["curve"]
+        several = given if isinstance(given, list) else [given]
+        found = [c if isinstance(c, dict) else _inside(folder, c) for c in several]
+        against = _inside(folder, data["result"]) if "result" in data else data.get("parameters", {})
         verdicts = compare(
-            data["case"],
-            curve if isinstance(curve, dict) else _inside(folder, curve),
+            data.get("case") or data["problem"],
+            found if isinstance(given, list) else found[0],
             data.get("name"),
             data.get("accuracy"),
             data.get("map"),
             data.get("constants"),
             data.get("columns"),
             data.get("branch"),
+            against=None if "case" in data else against,
+            over=data.get("over"),
+            crossing=data.get("crossing", 1),
+            ratio=data.get("ratio", RATIO),
+            cause=data.get("cause", False),
         )
         return verdicts.exit_status, verdicts.to_json()
     from weakforms import api

@@ -38,6 +38,10 @@ LOOKED_AT = 12
 """Number of eigenvalues near zero among which those of the ``n = 1`` modes are searched."""
 
 
+SMALLEST = 0.02
+"""Smallest displacement of a bent state; below, the bifurcation is too near for Newton's method."""
+
+
 class WholeNumerics(Numerics):
     """One mesh only, because the problem shows effects of the mesh."""
 
@@ -63,8 +67,17 @@ class WholeParameters(Parameters):
     )
     uneven: float = Field(0.0, ge=0, le=0.5, description="unevenness of the mesh around the axis (full only)")
     amplitude: float = Field(
-        0.1, ge=0.02, le=0.2, description="root mean square displacement of the bent state"
+        0.1,
+        ge=-0.2,
+        le=0.2,
+        description="root mean square displacement of the bent state; negative: to the other side",
     )
+
+    @model_validator(mode="after")
+    def _bent(self) -> Self:
+        if abs(self.amplitude) < SMALLEST:
+            raise ValueError(f"amplitude must be at least {SMALLEST:g}, to either side")
+        return self
 
 
 class FluidTubeSurface(Problem):
@@ -197,7 +210,7 @@ class WholeRun:
             guess.u = guess.u + left * self.modes[0]
             return self.solver.solve(guess, [*self._no_rotation(), Plane(self.rows[0], {}, target)])[0]
 
-        state = walk(solve, start, 0.0, self.amplitude, self.amplitude)
+        state = walk(solve, start, 0.0, self.amplitude, abs(self.amplitude))
         with self.system.at(state):
             values = self.system.monitors()
         nearest = Stability(self.system).modes(state, 1)[0]

@@ -1,0 +1,124 @@
+"""A curve compared with a solution at its own abscissae or with a result, and what explains its errors."""
+
+import json
+
+import jsonschema
+import numpy as np
+import pytest
+
+import weakforms
+from weakforms import InputError, compare
+from weakforms.verification.cases import references
+from weakforms.verification.run.requests import answer, schema
+
+LAM = np.linspace(1.05, 3.5, 12)
+TUBE = {"alpha": 0.1, "delta1": 1.1, "u_end": 1.6}
+
+
+def balloon(alpha=0.1):
+    """Pressure of the Mooney-Rivlin balloon, in closed form."""
+    return 4 * (LAM - LAM**-5 + alpha * (LAM**3 - LAM**-3)) / LAM**2
+
+
+def checked(verdicts):
+    jsonschema.validate(verdicts.to_json(), schema("verdicts"))
+    json.dumps(verdicts.to_json(), allow_nan=False)
+    return verdicts
+
+
+def test_the_problem_is_solved_at_the_abscissae_of_the_curve():
+    curve = {"lam": LAM, "P": balloon(0.2)}
+    right = checked(compare("sphere", curve, against={"alpha": 0.2}, accuracy=1e-9))
+    assert (right.status, right.abscissa, right.case, right.partial) == ("passed", "lam", "sphere", False)
+    assert right.table_rows == len(LAM)
+    wrong = checked(compare("sphere", curve, against={"alpha": 0.1}, accuracy=1e-9))
+    assert wrong.status == "failed"
+    (column,) = wrong.verdicts
+    errors = balloon(0.2) / balloon(0.1) - 1
+    np.testing.assert_allclose(column.rows_judged["error"], errors, rtol=1e-8)
+    assert column.reached == pytest.approx(errors.max(), rel=1e-6)
+    assert "above the table and grow with lam" in column.trend
+
+
+def test_without_a_claim_there_is_no_verdict_but_the_accuracy_that_is_reached():
+    curve = {"lam": LAM, "P": balloon() * (1 + 3e-4 * np.sin(LAM))}
+    verdicts = checked(compare("sphere", curve, against={"alpha": 0.1}))
+    assert (verdicts.status, verdicts.exit_status) == ("not judged", 5)
+    (column,) = verdicts.verdicts
+    assert column.asked is None
+    assert column.reached == pytest.approx(3e-4, rel=0.01)
+    assert compare("sphere", curve, against={"alpha": 0.1}, accuracy=1.01 * column.reached).passed
+    assert not compare("sphere", curve, against={"alpha": 0.1}, accuracy=0.99 * column.reached).passed
+
+
+def test_a_result_takes_the_place_of_a_table(tmp_path):
+    result = weakforms.solve("sphere", alpha=0.1)
+    weakforms.save(result, tmp_path / "r.json")
+    inside = {"lam": LAM[:-1], "P": balloon()[:-1]}
+    for given in (result, tmp_path / "r.json"):
+        assert checked(compare("sphere", inside, against=given, over="lam", accuracy=1e-4)).passed
+    assert not compare(
+        "sphere", inside | {"P": 1.001 * inside["P"]}, against=result, over="lam", accuracy=1e-4
+    ).passed
+    with pytest.raises(InputError, match="is a result of sphere, not of tube"):
+        compare("tube", {"u_max": [0.1, 0.2], "p": [1, 1.1]}, against=result, over="u_max")
+    with pytest.raises(InputError, match="P turns along the branch; compare over lam"):
+        compare("sphere", {"P": [1.0, 1.1, 1.2], "lam": [1.1, 1.2, 1.3]}, against=result, over="P")
+
+
+@pytest.mark.parametrize(
+    ("problem", "curve", "how", "said"),
+    [
+        ("shpere", {"lam": [1.1, 1.2]}, {}, "did you mean 'sphere'"),
+        ("sphere", {"stretch": [1.1, 1.2]}, {}, "name yours with --map"),
+        ("sphere", {"lam": [1.1, 1.2], "P": [1, 2]}, {"over": "V"}, "the curve has no column 'V'"),
+        ("sphere", {"lam": [1.1, 9.0], "P": [1, 2]}, {}, "raise lam_end"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(problem, curve, how, said):
+    with pytest.raises(InputError, match=said):
+        compare(problem, curve, against={}, **how)
+
+
+def test_a_request_compares_with_a_solution(tmp_path):
+    data = {"problem": "sphere", "parameters": {"alpha": 0.1}, "accuracy": 1e-9}
+    curve = {"lam": LAM.tolist(), "P": balloon().tolist()}
+    jsonschema.validate(data | {"curve": curve}, schema("request"))
+    status, found = answer(data | {"curve": curve}, tmp_path)
+    assert (status, found["status"]) == (0, "passed")
+
+
+@pytest.fixture(scope="module")
+def another():
+    """The tube with alpha 0.5 % too large, as another code would give it."""
+    at = [("u_max", u) for u in np.linspace(0.3, 1.5, 9)]
+    result = weakforms.solve("tube", **(TUBE | {"alpha": 0.1005}), at=at)
+    return {n: [float(s.quantities[n].value) for s in result.states] for n in ("u_max", "p", "V")}
+
+
+def test_a_wrong_parameter_is_named_with_its_size(another):
+    found = compare("tube", another, against=TUBE, over="u_max", accuracy=1e-6, cause=True)
+    assert [v.causes[0] for v in found.verdicts] == ["equals alpha 0.5 % too large"] * 2
+    assert not any("pre-stretch" in text or "dead" in text for v in found.verdicts for text in v.causes)
+    table = compare("paper2.fig03", another, "fig03a_delta1_1.1", only=["p", "V"], cause=True)
+    assert [v.causes[0] for v in table.verdicts] == ["equals alpha 0.5 % too large"] * 2
+
+
+def test_a_missing_pre_stretch_is_named():
+    table = references.load(2, "fig03a_delta1_1").columns
+    inside = (table["u_max"] > 0.2) & (table["u_max"] < 1.5)
+    curve = {"u_max": table["u_max"][inside], "p": table["p"][inside]}
+    found = compare("tube", curve, against=TUBE, accuracy=1e-6, cause=True)
+    assert "equals delta1 = 1: is the pre-stretch missing?" in found.verdicts[0].causes
+
+
+def test_a_dead_load_is_named():
+    curve = {"lam": LAM, "P": balloon() * LAM**2}
+    found = compare("sphere", curve, against={"alpha": 0.1}, accuracy=1e-6, cause=True)
+    assert any("a dead load" in text for text in found.verdicts[0].causes)
+
+
+def test_an_error_of_no_known_kind_has_no_cause():
+    curve = {"lam": LAM, "P": balloon() * (1 + 1e-3 * np.cos(40 * LAM))}
+    found = compare("sphere", curve, against={"alpha": 0.1}, accuracy=1e-6, cause=True)
+    assert found.verdicts[0].causes == ()

@@ -1,0 +1,182 @@
+r"""What explains the errors of a column: another parameter, a missing pre-stretch, a load of another kind.
+
+A parameter :math:`q` explains the difference :math:`e` of curve and table if it is a multiple of the
+sensitivity, :math:`e \approx \Delta q\; \partial c / \partial q`, over the whole abscissa. The sensitivity is
+the difference of two solutions on the same mesh, in which the error of the mesh cancels.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from weakforms import api
+from weakforms.errors import WeakformsError
+from weakforms.problems.registry import abouts
+from weakforms.verification.crosscheck.rows import JudgedColumn
+from weakforms.verification.crosscheck.targets import Target
+
+SAMPLES = 9
+"""Rows of the curve at which problems are solved to look for causes."""
+
+STEP = 1e-3
+"""Relative change of a parameter for its sensitivity."""
+
+EXPLAINED = 0.1
+"""Part of the errors that an explanation may leave over: what is left must be a tenth of them at most."""
+
+NEUTRAL = {"delta1": 1.0, "beta": 1.0}
+"""Parameters with the value that means that there is no pre-stretch."""
+
+NEAR_POWER = 0.02
+"""Distance from a whole number within which an exponent counts as that number."""
+
+
+def trend(judged: JudgedColumn, over: str) -> str:
+    """The errors of a column along the curve, in words: their ratio to the table, or how they grow.
+
+    Args:
+        judged: A column out of bounds.
+        over: Name of the abscissa.
+    """
+    error = judged.error[np.argsort(judged.x)]
+    sign = "above" if np.median(error) > 0 else "below"
+    size = np.abs(error)
+    mixed = (
+        np.any(error > 0)
+        and np.any(error < 0)
+        and min(np.ptp(error[error > 0]), np.ptp(error[error < 0])) > 0
+    )
+    if np.ptp(error) <= EXPLAINED * size.max():
+        return f"every row lies {size.mean():.2g} of the table's value {sign} it"
+    start, end = (
+        float(size[part].mean()) for part in (slice(0, len(size) // 3 + 1), slice(-len(size) // 3, None))
+    )
+    way = "grow" if end > 2 * start else "fall" if start > 2 * end else ""
+    where = "on both sides of the table" if mixed else f"{sign} the table"
+    return f"the errors lie {where}" + (
+        f" and {way} with {over}, from {size[0]:.1e} to {size[-1]:.1e}" if way else ""
+    )
+
+
+def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[str, ...]]:
+    """Explanations of the errors of each column; none if nothing explains nine tenths of them.
+
+    Those that explain most columns come first, then those that leave least over.
+
+    Args:
+        target: The table, with the parameters of its solution.
+        failed: Columns out of bounds, all with the same rows.
+
+    Raises:
+        EnvironmentLackError: If DOLFINx is missing.
+    """
+    api.require_environment()
+    if not failed:
+        return {}
+    order = np.argsort(failed[0].x)
+    picked = order[np.unique(np.linspace(0, len(order) - 1, SAMPLES).round().astype(int))]
+    place = str(target.table.abscissa), failed[0].x[picked]
+    base = _columns(target, {}, *place)
+    left: dict[str, dict[str, float]] = {judged.verdict.column: {} for judged in failed}
+    if base is None or not left.keys() <= base.keys():
+        return {}
+    moved = {
+        name: _columns(target, {name: value * (1 + STEP) or STEP}, *place) for name, value in _numbers(target)
+    }
+    without = {
+        name: _columns(target, {name: neutral}, *place)
+        for name, neutral in NEUTRAL.items()
+        if target.parameters.get(name, neutral) != neutral
+    }
+    for judged in failed:
+        column = judged.verdict.column
+        difference, expected = judged.difference[picked], judged.expected[picked]
+        found = left[column]
+        for name, value in _numbers(target):
+            if (other := moved[name]) is not None:
+                factor, rest = _fitted(difference, (other[column] - base[column]) / STEP)
+                way = f"{abs(100 * factor):.2g} % too {'large' if factor > 0 else 'small'}"
+                found[f"equals {name} {way}" if value else f"equals {name} = {factor:.3g}"] = rest
+        for name, other in without.items():
+            if other is not None:
+                text = f"equals {name} = {NEUTRAL[name]:g}: is the pre-stretch missing?"
+                found[text] = _rest(difference, other[column] - base[column])
+        found |= dict(islice(_powers(difference, expected, base), 1))
+        left[column] = {text: rest for text, rest in found.items() if rest <= EXPLAINED}
+    common = Counter(text for found in left.values() for text in found)
+    return {
+        column: tuple(sorted(found, key=lambda text: (-common[text], found[text])))
+        for column, found in left.items()
+    }
+
+
+def _powers(
+    difference: np.ndarray, expected: np.ndarray, base: Mapping[str, np.ndarray]
+) -> Iterator[tuple[str, float]]:
+    """Stretches with whose power the curve is multiplied.
+
+    A pressure per undeformed area is the pressure times the stretched area, a nominal stress is the true one
+    times a stretch.
+    """
+    ratio = (expected + difference) / np.where(expected, expected, np.nan)
+    for name, stretch in base.items():
+        if (
+            not name.startswith("lam")
+            or np.any(stretch <= 0)
+            or np.ptp(stretch) < 0.05
+            or not np.all(ratio > 0)
+        ):
+            continue
+        slope = float(np.polyfit(np.log(stretch), np.log(ratio), 1)[0])
+        power = round(slope)
+        if power and abs(slope - power) <= NEAR_POWER:
+            rest = _rest(difference, expected * (stretch**power - 1))
+            if rest <= EXPLAINED:
+                text = f"equals the table times {name}^{power}: a dead load, or stress per undeformed area?"
+                yield text, rest
+
+
+def _numbers(target: Target) -> Iterator[tuple[str, float]]:
+    """The parameters of the solution that are numbers and have an effect; not the ends of branches."""
+    fields = api.require_environment().get(target.problem).parameters.model_fields
+    given = target.parameters
+    for name, field in fields.items():
+        value = given.get(name, field.default)
+        if isinstance(value, int | float) and not isinstance(value, bool) and not name.endswith("_end"):
+            yield name, float(value)
+
+
+def _columns(
+    target: Target, changed: Mapping[str, float], over: str, x: np.ndarray
+) -> dict[str, np.ndarray] | None:
+    """The columns of a solution on a coarse mesh at values of one of them; ``None`` without such states."""
+    about = abouts()[target.problem]
+    branch = target.curves[0].branch if target.curves else "primary"
+    from weakforms.problems.problem import StateRequest
+
+    states = [StateRequest(over, float(value), 1, branch, profile=()) for value in x]
+    parameters: dict[str, Any] = {**target.parameters, **changed}
+    with suppress(WeakformsError):
+        numerics = dict(about.example.numerics)
+        result = api.solve_requests(target.problem, parameters, numerics, states, branch_uncertainty=False)
+        if len(result.states) == len(x):
+            names = result.states[0].quantities
+            return {n: np.array([float(s.quantities[n].value) for s in result.states]) for n in names}
+    return None
+
+
+def _fitted(difference: np.ndarray, slope: np.ndarray) -> tuple[float, float]:
+    """The multiple of a sensitivity that is closest to the differences, and the part that is left over."""
+    size = float(slope @ slope)
+    factor = float(difference @ slope) / size if size else 0.0
+    return factor, _rest(difference, factor * slope)
+
+
+def _rest(difference: np.ndarray, explained: np.ndarray) -> float:
+    return float(np.linalg.norm(difference - explained) / np.linalg.norm(difference))
