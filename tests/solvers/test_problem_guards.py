@@ -244,7 +244,7 @@ def test_a_limit_load_that_is_not_one(limits, monkeypatch):
     monkeypatch.setattr(wrinkled_branch, "solver_of", always(None))
     found = SimpleNamespace(special=always([None] * limits))
     monkeypatch.setattr(wrinkled_branch, "FittedBranch", always(found))
-    model = SimpleNamespace(system=SimpleNamespace(update_mass=always(None)))
+    model = SimpleNamespace(system=SimpleNamespace(weighed_here=nullcontext))
     held = SimpleNamespace(model=model, lent=nullcontext, scalars=("p",), constraints=(), state=None)
     told = bare(wrinkled_branch.WrinkledBranch, control="p")
     words = f"^{limits} limit loads between V = 4 and 6 on a fitted mesh$"
