@@ -147,8 +147,7 @@ def test_the_neo_hookean_law_of_the_catalogue_is_the_papers_tube():
     for material in (None, Chosen("neo_hookean", ())):
         path = FluidPath(MPI.COMM_SELF, TubeData(8.0, 2.0, 0.116, 0.0, 8, 4, material=material), 1)
         state = path.dry()
-        with path.model.system.at(state):
-            path.model.system.update_mass()
+        with path.model.system.at(state), path.model.system.weighed_here():
             found.append([*path.model.system.monitors().values(), *path.modes.observe().values()])
     assert found[0] == pytest.approx(found[1], rel=1e-10, abs=1e-10)
 

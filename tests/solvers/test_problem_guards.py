@@ -58,7 +58,7 @@ def test_a_fold_line_that_finer_meshes_do_not_have(monkeypatch):
     branches = iter(([1], [1], []))
     maker = lambda *_: lambda _level: SimpleNamespace(turns=lambda: next(branches))  # noqa: E731
     monkeypatch.setattr(tube_problem, "branch_maker", maker)
-    monkeypatch.setattr(tube_problem, "fold_line", always(SimpleNamespace(stalled="")))
+    monkeypatch.setattr(tube_problem, "fold_line_between", always(SimpleNamespace(stalled="")))
     problem = tube_problem.TubeFold()
     task = Task(problem.parameters(), problem.numerics(cells=32, levels=2), None, None, None)
     refused("delta1 = 1: a limit point on 16 cells, but none on 32: raise cells", problem.families, task)
@@ -166,7 +166,8 @@ def test_a_bent_state_that_is_not_another_meshs():
 
 
 def test_a_bent_branch_of_which_no_point_is_on_all_meshes():
-    told = bare(SecondaryFamily, name="secondary", failures=[], fine=SimpleNamespace(shown=["zw"]))
+    told = bare(SecondaryFamily, name="secondary", failures=[])
+    told.fine = SimpleNamespace(shown=["zw"], control="zw")
     told.levels, told._on_all = [SimpleNamespace(points=[1, 2])], raising(STALLED)
     refused("^branch secondary: no point could be solved for on all meshes$", told.branch)
     (failure,) = told.failures
@@ -243,7 +244,7 @@ def test_a_limit_load_that_is_not_one(limits, monkeypatch):
     monkeypatch.setattr(wrinkled_branch, "solver_of", always(None))
     found = SimpleNamespace(special=always([None] * limits))
     monkeypatch.setattr(wrinkled_branch, "FittedBranch", always(found))
-    model = SimpleNamespace(system=SimpleNamespace(update_mass=always(None)))
+    model = SimpleNamespace(system=SimpleNamespace(weighed_here=nullcontext))
     held = SimpleNamespace(model=model, lent=nullcontext, scalars=("p",), constraints=(), state=None)
     told = bare(wrinkled_branch.WrinkledBranch, control="p")
     words = f"^{limits} limit loads between V = 4 and 6 on a fitted mesh$"
@@ -276,11 +277,11 @@ def at_load(load, touched=2.0):
 
 @pytest.mark.parametrize(("load", "touched"), [(3.5, 2.0), (0.5, 2.0), (1.5, -0.1), (1.5, 4.1)])
 def test_an_event_of_a_zone_outside_its_bracket(load, touched):
-    membrane = SimpleNamespace(length=4.0, meshes=[8, 16], control="p", fit=always(at_load(1.5)))
+    membrane = SimpleNamespace(length=4.0, control="p", touching=always([at_load(1.5)] * 2))
     located = wrinkled_events._located
     given = membrane, at_load(1.0), at_load(3.0), (1.0, 3.0, 1.0), 0, True
     assert located(*given)[0].kind == "zone_opening"
-    membrane.fit = always(at_load(load, touched))
+    membrane.touching = always([at_load(load, touched)] * 2)
     refused(rf"^a zone's event was found at {load:g}, outside \[1, 3\]$", located, *given)
 
 

@@ -135,7 +135,6 @@ def test_homotopy_ends_where_continuation_does(critical):
     by_homotopy = tube.by_homotopy(7.44)[0]
     stepwise = tube.by_homotopy(1.0)[0]
     solver = wrinkled_state.solver_of(tube.plain_model, ())
-    tube.prepare()
     for level in [*np.arange(1.5, 7.5, 0.5).tolist(), 7.44]:
         stepwise.loads["zw"] = level
         stepwise, _ = solver.solve(stepwise)

@@ -68,17 +68,16 @@ class WrinkledBranch:
         load_end, volume_end, step = self._settings
         steps = StepControl(first=step / 8, largest=step, predictor_error=PREDICTOR)
         continuation = Continuation(solver_of(self.membrane.plain_model, (self.control,)), control=steps)
-        start = self._start(continuation)
-        most = volume_end * start.monitors["V"]
+        with self.membrane.weighed():
+            start = self._start(continuation)
+            most, peak = volume_end * start.monitors["V"], [start.state.loads[self.control]]
 
-        peak = [start.state.loads[self.control]]
+            def stop(point: CurvePoint) -> bool:
+                load = point.state.loads[self.control]
+                peak[0] = max(peak[0], load)
+                return load > load_end or self._is_past_limit(load, peak[0]) or point.monitors["V"] > most
 
-        def stop(point: CurvePoint) -> bool:
-            load = point.state.loads[self.control]
-            peak[0] = max(peak[0], load)
-            return load > load_end or self._is_past_limit(load, peak[0]) or point.monitors["V"] > most
-
-        return SolutionCurve(continuation, self.control, start, stop)
+            return SolutionCurve(continuation, self.control, start, stop)
 
     def _is_past_limit(self, load: float, peak: float) -> bool:
         """Whether the load has decreased so far from its largest value that the branch ends."""
@@ -124,8 +123,8 @@ class WrinkledBranch:
             InputError: If the column does not take the value that often.
         """
         trace = self.trace
-        self.membrane.prepare()
-        return trace.at(name, value, crossing)
+        with self.membrane.weighed():
+            return trace.at(name, value, crossing)
 
     def _fitted(self, solved: Solved, name: str, fine_only: bool = False) -> list[Held]:
         plain = self.membrane.plain(solved.state)
@@ -259,15 +258,13 @@ class WrinkledBranch:
 
     def _limit_from(self, held: Held, low: float, high: float) -> Held:
         """The limit load between two volumes by arc length, with fronts and load as unknowns."""
-        model = held.model
-        with held.lent():
-            model.system.update_mass()
+        system, beyond = held.model.system, lambda point: point.monitors["V"] > high
         continuation = Continuation(
-            solver_of(model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
+            solver_of(held.model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
         )
-        begin = continuation.start(held.state, fixed.Held("V", low), towards={"V": 1.0})
-        branch = FittedBranch(continuation, self.control, begin, lambda point: point.monitors["V"] > high)
-        limits = branch.special()
+        with held.lent(), system.weighed_here():
+            begin = continuation.start(held.state, fixed.Held("V", low), towards={"V": 1.0})
+            limits = FittedBranch(continuation, self.control, begin, beyond).special()
         if len(limits) != 1:
             raise ConvergenceError(
                 f"{len(limits)} limit loads between V = {low:.6g} and {high:.6g} on a fitted mesh"

@@ -220,6 +220,24 @@ class FittedMembrane:
         touched = None if touch is None else float(breaks[node])
         return Held(model, state, found, record, scalars, tuple(own), touched, layout)
 
+    def touching(self, start: Held, touch: Touch, free: Sequence[str] | None = None) -> list[Held]:
+        """The state at which ``gw`` just touches 1 at a point, on every mesh, coarse to fine.
+
+        Args:
+            start: A state near it, with its zones.
+            touch: About where; each mesh starts from the place that the finer one has found.
+            free: Unknown loads besides the break points; by default the control.
+
+        Raises:
+            ConvergenceError: If it is not found on some mesh.
+        """
+        found: list[Held] = []
+        for level in reversed(range(len(self.meshes))):
+            start = self.fit(level, start, start.zones, (), free, touch, same=bool(found))
+            touch = replace(touch, at=start.touched)
+            found.append(start)
+        return found[::-1]
+
     def moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
         """A state interpolated to another mesh with its marks."""
         loads = {k: v for k, v in start.state.loads.items() if not (k[0] == "b" and k[1:].isdigit())}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 
 import numpy as np
@@ -42,17 +43,21 @@ class Membrane(FittedMembrane):
         """The finest mesh with equal blocks."""
         return model_on(self.meshes[-1], BLOCKS)
 
-    def prepare(self) -> State:
-        """Undisplaced state of the plain mesh; its mass matrix then measures arc length."""
+    def undisplaced(self) -> State:
+        """Undisplaced state of the plain mesh, a guess for solves on it."""
         model = self.plain_model
         breaks = np.linspace(0.0, self.length, BLOCKS + 1)
         marks = Marks(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
         loads = {name: float(self.values[name]) for name in model.loads if name in self.values}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, BLOCKS)}
-        undisplaced = State(np.zeros(model.system.size), loads, marks)
-        with model.system.at(undisplaced):
-            model.system.update_mass()
-        return undisplaced
+        return State(np.zeros(model.system.size), loads, marks)
+
+    @contextmanager
+    def weighed(self) -> Iterator[None]:
+        """Context in which arc length on the plain mesh is measured by the mass of this membrane."""
+        system = self.plain_model.system
+        with system.at(self.undisplaced()), system.weighed_here():
+            yield
 
     def by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         """State of the plain mesh at a load, from the completely wrinkled unloaded membrane.
@@ -92,7 +97,7 @@ class Membrane(FittedMembrane):
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
-        undisplaced = self.prepare()
+        undisplaced = self.undisplaced()
         breaks = self.plain_model.breaks_of(undisplaced.loads)
         state = self.moved(folded, self.plain_model, breaks, undisplaced.marks)
         state.loads[self.control] = load
@@ -115,7 +120,7 @@ class Membrane(FittedMembrane):
         Raises:
             ConvergenceError: If a step does not converge.
         """
-        state = self.prepare()
+        state = self.undisplaced()
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
         for gas, liquid in GAS_TO_LIQUID:
@@ -156,7 +161,7 @@ class Membrane(FittedMembrane):
 
     def unloaded_from(self, level: int, state: float, start: Held | None) -> Held:
         """The same from a state of neighbouring parameters, or from the undisplaced one."""
-        undisplaced = self.prepare()
+        undisplaced = self.undisplaced()
         begin = self.plain(undisplaced)
         if start is not None:
             loads = start.state.loads | self._own(undisplaced)

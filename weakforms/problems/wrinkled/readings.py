@@ -136,9 +136,7 @@ class Readings:
 
     def quantity(self, name: str, values: list[float]) -> Quantity:
         """The same as a quantity of a result."""
-        found = self.estimate(name, values, self._resolved(name))
-        order = float(found.order)
-        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
+        return self.estimate(name, values, self._resolved(name)).quantity()
 
     def quantities(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
         """All columns of a state, including its spectra.

@@ -83,7 +83,7 @@ class SecondVariation(System):
         loads = tuple(map(self.load, self._weighing))
         if self._weighed != loads:
             self._weighed = loads
-            self.update_mass()
+            self._update_mass()
         return super().mass
 
     def spectrum(self, count: int = 1) -> Spectrum:
