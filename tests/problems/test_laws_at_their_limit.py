@@ -9,8 +9,10 @@ import pytest
 from weakforms import solve
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials import MATERIALS
+from weakforms.problems import registry
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meridian.limits import limit_of, require_taut
+from weakforms.problems.problem import Requests, validated
 from weakforms.solvers.equilibrium.system import System
 
 COARSE = {"cells": 8, "degree": 3, "levels": 2}
@@ -83,6 +85,17 @@ def test_a_law_is_not_followed_to_stresses_without_measure():
             solve(problem, model="ogden", **steep, lam_end=end)
     assert "stresses of more than" in limit_of(law("ogden", **steep), [(1.0, 13.87)])
     assert solve("homogeneous", alpha=0.0, loading="equibiaxial", lam_end=0.06).failures == []
+
+
+@pytest.mark.parametrize("problem", ["tube", "wrinkled_tube", "fluid_tube"])
+def test_an_axial_pre_stretch_with_stresses_without_measure_is_refused(problem):
+    name = "delta1" if problem == "tube" else "delta"
+    steep = {"alpha2": 64.0, "mu2": 0.01}
+    with pytest.raises(InputError, match=rf"{problem}: {name} = 4: .* more than 1e\+06 times .*lower {name}"):
+        solve(problem, model="ogden", **steep, **{name: 4.0})
+    chosen = registry.get(problem)
+    parameters = validated(chosen.parameters, {"model": "ogden", name: 4.0}, problem)
+    chosen.check(parameters, Requests())
 
 
 def test_the_pre_stretch_is_refused_before_anything_is_solved():

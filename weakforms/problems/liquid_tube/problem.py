@@ -16,6 +16,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.material_choice import MOONEY_RIVLIN, require_model
+from weakforms.problems.meridian.limits import require_bearable
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
 from weakforms.results import Absence, Failure, Result
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
@@ -48,6 +49,7 @@ class FluidTube(BranchProblem):
         """
         super().check(parameters, requests)
         require_model(self.name, parameters, tuple(LAWS))
+        require_bearable(self.name, parameters.material, parameters.delta, 1.0, "delta")
         if parameters.secondary:
             require_model(f"{self.name}: secondary = true", parameters, (MOONEY_RIVLIN,))
         for wanted in requests.states:

@@ -49,3 +49,23 @@ def require_taut(problem: str, law: Chosen, stretch: float, name: str) -> None:
         why = f"model = {law.model!r} gives no tension at this stretch in both directions"
     if why:
         raise InputError(f"{problem}: {name} = {stretch:g}: {why}; lower {name}")
+
+
+def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str) -> None:
+    """Refuse an axial pre-stretch at which a law has stresses without measure.
+
+    Args:
+        problem: Name of the problem, for the message.
+        law: The law.
+        l1: The pre-stretch.
+        l2: Circumferential stretch with it.
+        name: The parameter of the pre-stretch.
+
+    Raises:
+        InputError: With a message that names the parameter.
+    """
+    if law.model != MOONEY_RIVLIN and stressed(law, l1, l2) > LARGEST:
+        raise InputError(
+            f"{problem}: {name} = {l1:g}: model = {law.model!r} has stresses of more than {LARGEST:g} times "
+            f"its stiffness at rest; lower {name}, or the exponents"
+        )

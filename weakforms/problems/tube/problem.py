@@ -10,6 +10,7 @@ from mpi4py import MPI
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
+from weakforms.problems.meridian.limits import require_bearable
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
@@ -43,6 +44,7 @@ class Tube(BranchProblem):
             InputError: If phase or extent do not fit the contact, or a state cannot exist.
         """
         super().check(parameters, requests)
+        require_bearable(self.name, parameters.material, parameters.delta1, 1.0, "delta1")
         if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
                 "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"

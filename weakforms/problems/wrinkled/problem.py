@@ -18,6 +18,7 @@ from pydantic import BeforeValidator, Field
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.meridian.limits import require_bearable
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE
 from weakforms.problems.wrinkled.body import CYLINDER
@@ -122,6 +123,8 @@ class WrinkledTube(BranchProblem):
         """
         super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
+        delta = parameters.delta
+        require_bearable(self.name, parameters.material, delta, delta**-0.5, "delta")
         control = parameters.control
         for wanted in requests.states:
             if wanted.name in LOAD.values() and wanted.name != control:
