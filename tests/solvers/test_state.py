@@ -1,5 +1,7 @@
 """Forms belong to one state at a time, inside of a context; a reading without a state fails loudly."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import ufl
@@ -10,6 +12,7 @@ from small_systems import system_of
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.problems.meridian.model import WRINKLED, Marks
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
@@ -121,18 +124,18 @@ def test_a_second_variation_belongs_to_the_state_of_its_base():
 
 
 def test_marks_of_blocks_belong_to_the_state():
-    """Two states of one wrinkled model: each is read with its own zones, in any order."""
+    """Two states of one wrinkled model that differ in their marks: each is read with its own."""
     values = {"M": 1.5, "delta": 2.0, "c2": 0.01, "L": 8.0, "gamma": PAPER_GAMMA, "Af": 0.5568}
     tube = Membrane(MPI.COMM_SELF, CYLINDER, values, True, (3,), 4, "relaxed")
-    plain = tube.plain(tube.by_homotopy(7.44)[0])
-    (fitted,) = tube.fitted(plain, Held("zw", 7.44))
-    undone = State(fitted.state.u, fitted.state.loads)
-    with pytest.raises(ValueError, match="a state without marks"), fitted.model.system.at(undone):
+    (held,) = tube.fitted(tube.plain(tube.by_homotopy(7.44)[0]), Held("zw", 7.44))
+    system, marks = held.model.system, held.state.marks
+    folded = replace(held.state, marks=Marks(np.full_like(marks.taut, WRINKLED), marks.wet))
+    with system.at(held.state):
+        own = system.monitor("Pi")
+        with system.at(folded):
+            assert system.monitor("Pi") < own - 1e-3
+        assert system.monitor("Pi") == own
+        assert system.state().marks is marks
+    undone = State(held.state.u, held.state.loads)
+    with pytest.raises(ValueError, match="a state without marks"), system.at(undone):
         pass
-    before = [held.extreme("gw", 1) for held in (plain, fitted)]
-    potentials = []
-    for held in (plain, fitted, plain):
-        with held.lent():
-            potentials.append(held.model.system.monitor("Pi"))
-    assert potentials[0] == potentials[2]
-    assert [held.extreme("gw", 1) for held in (plain, fitted)] == before
