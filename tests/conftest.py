@@ -4,6 +4,7 @@
 a whole file, so that module fixtures are set up in one worker only.
 """
 
+import gc
 import os
 import re
 import signal
@@ -69,6 +70,12 @@ def pytest_xdist_make_scheduler(config, log):
             return crashed
 
     return CasesAndFiles(config, log) if config.getoption("dist") == "loadscope" else None
+
+
+def pytest_collection_finish(session) -> None:
+    """Leave what is loaded out of the garbage collections that follow, one after each solve."""
+    gc.collect()
+    gc.freeze()
 
 
 class SignOfLife:

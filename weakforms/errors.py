@@ -30,6 +30,9 @@ class AbsentError(InputError):
         super().__init__(reason)
         self.what = what
 
+    def __reduce__(self) -> tuple:
+        return type(self), (self.what, str(self))  # as it comes back from a worker
+
 
 class ConvergenceError(WeakformsError):
     """A solve ended without a converged state; no number of it may be shown."""

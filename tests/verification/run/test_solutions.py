@@ -1,5 +1,6 @@
 """What a run did not solve is said to be missing, and why: no check reads a number that is not there."""
 
+import pickle
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 from weakforms import api, tube
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.results import Branch, Failure, Field, Quantity, Result, SpecialPoint, State
 from weakforms.verification.audit.coverage.families import FAMILIES
 from weakforms.verification.audit.coverage.judged import solved
@@ -97,3 +98,8 @@ def test_coverage_is_not_counted_on_what_did_not_converge(monkeypatch):
         ConvergenceError, match=r"^tube at \{'alpha': 0\.1\}: state at u_max = 2: Newton stalled$"
     ):
         solved(family, {"alpha": 0.1}, {})
+
+
+def test_what_is_absent_comes_back_from_a_worker():
+    error = pickle.loads(pickle.dumps(AbsentError("branch primary", "no state was found")))
+    assert (error.what, str(error)) == ("branch primary", "no state was found")
