@@ -27,9 +27,7 @@ TUBES = {
     for d in STRETCHES
     if (length, d) != (24, 1.5)
 }
-"""L = 24, delta = 1.5 is not compared with its table, because its dry part is slightly compressed. A membrane
-without bending stiffness wrinkles there as finely as the mesh allows. Inertia and eigenvalues depend on the
-mesh, and from some states of a coarse mesh Newton's method does not find the states of a finer one."""
+"""L = 24, delta = 1.5, whose dry part is compressed, is in case ``compressed``."""
 PUBLISHED = {
     length: At("zw", zw, branch="secondary", profile=()) for length, zw in {8: 7.336, 24: 7.779}.items()
 }
