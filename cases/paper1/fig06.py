@@ -43,6 +43,10 @@ def stick_indents_more(solutions: Solutions) -> Finding:
     return decide.all_of(found)
 
 
+INSIDE, SAME_POINT = 0.95, 1e-9
+"""Part of the larger patch's radius from which a profile is fitted, and distance of points that are one."""
+
+
 def apart(solutions: Solutions, alpha: float, beta: int) -> decide.Number:
     """Largest distance of the frictionless profile from the adhesive one, outside both patches."""
     at = At("p", AT[alpha].value, profile=())
@@ -51,8 +55,8 @@ def apart(solutions: Solutions, alpha: float, beta: int) -> decide.Number:
     slip, stick = (solutions.profile(spec, at).columns for spec in specs)
     outside = slip["rho"] > edge
     points = np.column_stack([slip[name][outside] for name in ("rho", "eta")])
-    free = stick["rho"] > 0.95 * edge  # beyond the edge of its own patch, which is smaller
-    free &= np.diff(stick["X"], append=2) > 1e-9  # some points are sampled twice
+    # From a little inside on, which is beyond the smaller patch; some points are sampled twice.
+    free = (stick["rho"] > INSIDE * edge) & (np.diff(stick["X"], append=2) > SAME_POINT)
     x, curve = stick["X"][free], np.column_stack([stick[name][free] for name in ("rho", "eta")])
     found = []
     for step in (1, 2):  # splines through all points of the other profile, and through every other one

@@ -23,8 +23,9 @@ from weakforms.cases import (
 
 LENGTHS, STRETCHES = (8, 24), (1.5, 2, 3)
 TUBES = {(length, d): fluid_tube(L=length, delta=d, gamma=0.116) for length in LENGTHS for d in STRETCHES}
-BENT = {key: fluid_tube(L=key[0], delta=key[1], secondary=True) for key in TUBES if key != (24, 1.5)}
-"""All tubes except L = 24, delta = 1.5, whose dry part is slightly compressed: see case ``secondary``."""
+BENT = {key: fluid_tube(L=key[0], delta=key[1], secondary=True) for key in TUBES}
+BENT[24, 1.5] = BENT[24, 1.5].on(levels=2, secondary_levels=2, secondary_cells=12, secondary_end=0.94)
+"""On a coarse mesh, because its dry part is slightly compressed: see case ``compressed``."""
 STIFF, CROSSED, SOFT = At("zw", 4.0), At("zw", 7.5), At("zw", 8.1, crossing=2)
 CROSSINGS = reference(3, "crossings")
 ACCURACY = 1e-7
@@ -124,10 +125,9 @@ CASE = Case(
                     rf"$\delta = {d}$, secondary",
                     reference=f"secondary_L_{length}_delta_{d}",
                     branch="secondary",
-                    asked={"V": 1e-5},
+                    asked={"V": 2e-2 if (length, d) == (24, 1.5) else 1e-5},
                 )
                 for d in STRETCHES
-                if (length, d) in BENT
             ),
         )
         for name, length in (("a", 8), ("b", 24))

@@ -10,7 +10,7 @@ DENSITY = {g: {} if g == 0.116 else {"gamma": g} for g in GAMMAS}
 """Without the default value, so that figures share solutions."""
 TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGTHS for g in GAMMAS}
 BENT = {key: fluid_tube(L=key[0], delta=2, secondary=True, **DENSITY[key[1]]) for key in TUBES if key[0] == 8}
-BENT_ASKED = {"V": 1e-5, "r_mid": 1e-5, "r_mid_pi": 1e-5}
+BENT_ASKED = {"V": 5e-7, "r_mid": 5e-7, "r_mid_pi": 5e-7}
 
 
 def critical(solutions: Solutions, length: int, kind: str) -> list[decide.Number]:

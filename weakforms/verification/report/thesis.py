@@ -41,14 +41,10 @@ THESIS = """
 all."""
 
 COMPRESSED = (
-    "the secondary branch for delta = 1.5 is missing: its dry part is compressed, and a membrane without "
-    "bending stiffness wrinkles there as finely as a mesh allows"
+    "the secondary branch for delta = 1.5 is on a coarse mesh: its dry part is compressed, and a membrane "
+    "without bending stiffness wrinkles there as finely as a mesh allows"
 )
-MISSING = {
-    (3, "2b"): COMPRESSED,
-    (3, "3b"): COMPRESSED,
-}
-"""What the thesis shows and no case draws."""
+REMARKS = {(3, "2b"): COMPRESSED, (3, "3b"): COMPRESSED}
 
 CURVES = ("curve", "field")
 """Kinds of verdicts on curves and profiles."""
@@ -77,14 +73,14 @@ class Row:
     """Whether its case was run."""
 
     @property
-    def missing(self) -> str:
-        """What the thesis shows in it and no case draws."""
-        return MISSING.get((self.paper, self.name), "")
+    def remark(self) -> str:
+        """What a reader must know of its curves."""
+        return REMARKS.get((self.paper, self.name), "")
 
     @property
     def held(self) -> bool:
         """Whether it is held as a whole."""
-        if not self.run or self.failed or self.missing:
+        if not self.run or self.failed:
             return False
         return self.compared == self.drawn if self.compared else bool(self.statements)
 
