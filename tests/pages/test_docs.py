@@ -41,7 +41,7 @@ def readers(folder):
 def test_there_is_a_page_for_everything(readers, folder):
     wanted = {f"problems/{name}.html" for name in registry.abouts()}
     wanted |= {f"api/{group}.html" for group in api.GROUPS}
-    wanted |= {"index.html", "cases.html", "gallery.html", "CONTRIBUTING.html"}
+    wanted |= {"index.html", "cases.html", "gallery.html", "search.html", "CONTRIBUTING.html"}
     wanted |= {f"{path.stem}.html" for path in (site.ROOT / "docs").glob("*.md")}
     assert set(readers) == wanted
     assert all(reader.open == [] for reader in readers.values())
@@ -51,7 +51,8 @@ def test_there_is_a_page_for_everything(readers, folder):
 def test_links_arrive_and_nothing_is_loaded(readers, folder):
     ids = {page: {v for _, name, v in reader.attributes if name == "id"} for page, reader in readers.items()}
     for page, reader in readers.items():
-        assert not {"script", "iframe", "object", "embed", "img"} & set(reader.tags)
+        active = {"script"} if page != "search.html" else set()
+        assert not (active | {"iframe", "object", "embed", "img"}) & set(reader.tags)
         for tag, name, value in reader.attributes:
             if name != "href" or value.startswith(("https://", "data:,")):
                 continue
@@ -108,6 +109,28 @@ def test_the_gallery_has_every_script_and_the_pictures_of_those_that_ran(readers
     for name in scripts():
         assert f"{name}.py" in text
         assert f"examples/gallery/{name}.py" in text, "the text says how to run it"
+
+
+def test_the_search_finds_sections_and_needs_no_server(folder, tmp_path):
+    text = (folder / "search.html").read_text("utf-8")
+    (data,) = re.findall(r'id="entries">(.*?)</script>', text, re.S)
+    found = json.loads(data)
+    assert {place.partition("#")[0] for _, place, _ in found} >= {
+        "index.html",
+        "problems/tube.html",
+        "theory.html",
+    }
+    assert any(place.startswith("problems/tube.html") and "delta1" in words for _, place, words in found)
+    try:
+        browser()
+    except EnvironmentLackError:
+        pytest.skip("no Chromium or Chrome here; ./run test brings one")
+    with Browser(tmp_path) as window:
+        window.open(folder / "search.html", 1280, "light")
+        ask = "(asked.value = {!r}, asked.dispatchEvent(new Event('input')), found.children.length)"
+        assert window.evaluate(ask.format("limit_point tube")) > 0
+        assert window.evaluate(ask.format("no-such-word-anywhere")) == 0
+        assert window.complaints() == []
 
 
 def test_a_script_that_fails_is_named_with_its_reason(tmp_path, monkeypatch):

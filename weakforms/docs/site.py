@@ -17,6 +17,7 @@ from weakforms.docs import api
 from weakforms.docs.gallery import gallery, scripts
 from weakforms.docs.pictures import pictures
 from weakforms.docs.prose import docstring, formula, markdown
+from weakforms.docs.search import SCRIPT, entries, policy
 from weakforms.errors import InputError
 from weakforms.results import write_atomically
 from weakforms.results.io import require_writable
@@ -71,6 +72,7 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
     for path in site.guides:
         site.guide(path)
     site.home()
+    site.search()
     return out / "index.html"
 
 
@@ -84,10 +86,13 @@ class Site:
 
     def __init__(self, out: Path, names: list[str]) -> None:
         self.out = out
+        self.written: dict[str, str] = {}
+        """Pages by file name."""
         self.guides = [*sorted((ROOT / "docs").glob("*.md")), *ROOT.glob("CONTRIBUTING.md")]
         guides = [(_title(p), f"{p.stem}.html") for p in self.guides]
+        shown = [("Gallery", "gallery.html")] * bool(scripts())
         self.contents = [
-            ("Guide", [("Home", "index.html"), *[("Gallery", "gallery.html")] * bool(scripts()), *guides]),
+            ("Guide", [("Home", "index.html"), ("Search", "search.html"), *shown, *guides]),
             ("Problems", [(name, f"problems/{name}.html") for name in names]),
             ("Reference", [("cases", "cases.html"), *((g, f"api/{g}.html") for g in api.GROUPS)]),
         ]
@@ -111,8 +116,9 @@ class Site:
             up="../" * page.count("/"),
             look=LOOK,
             version=revision(),
-            **facts,
+            **{"policy": ""} | facts,
         )
+        self.written[page] = text
         write_atomically(self.out / page, text)
 
     def home(self) -> None:
@@ -121,6 +127,19 @@ class Site:
         text = re.sub(r"(?m)^!\[.*\n(\n\*.*(?:\n.+)*)?", "", text.partition("\n")[2])
         text = text.replace("](docs/", "](")
         self.write("index.html", "docs.html", "weakforms", "Documentation", body=self._prose(text))
+
+    def search(self) -> None:
+        """The page that searches all pages written so far."""
+        found = Markup(entries(self.written))
+        self.write(
+            "search.html",
+            "search.html",
+            "Search",
+            "Guide",
+            entries=found,
+            script=Markup(SCRIPT),
+            policy=policy(),
+        )
 
     def guide(self, path: Path) -> None:
         """A page of the folder ``docs``."""

@@ -51,6 +51,23 @@ def test_without_a_claim_there_is_no_verdict_but_the_accuracy_that_is_reached():
     assert not compare("sphere", curve, against={"alpha": 0.1}, accuracy=0.99 * column.reached).passed
 
 
+def test_no_claim_below_what_is_reached_is_judged_in_every_row():
+    table = references.load(2, "fig03a_delta1_1").columns
+    curve = {"u_max": table["u_max"] + 0.003, "p": table["p"]}  # between the rows the table is less certain
+    keep = slice(0, -1)
+    curve = {name: values[keep] for name, values in curve.items()}
+
+    def at(accuracy):
+        return compare("paper2.fig03", curve, "fig03a_delta1_1", accuracy, only=["p"])
+
+    reached = at(1e-3).verdicts[0].reached
+    exact = {name: table[name][keep] for name in ("u_max", "p")}
+    best = compare("paper2.fig03", exact, "fig03a_delta1_1", 1e-6, only=["p"]).verdicts[0].reached
+    assert 0 < best < reached, "even the table's own values reach no more than the table's uncertainty"
+    assert (at(1.001 * reached).status, at(1.001 * reached).unjudged_rows) == ("passed", {"p": 0})
+    assert at(0.999 * reached).status == "failed" or at(0.999 * reached).unjudged_rows["p"] > 0
+
+
 def test_a_result_takes_the_place_of_a_table(tmp_path):
     result = weakforms.solve("sphere", alpha=0.1)
     weakforms.save(result, tmp_path / "r.json")

@@ -60,12 +60,22 @@ def test_curves_that_do_not_approach_each_other_fail():
     assert "do not approach" in found.detail
 
 
+def exact(cells, order):
+    """A curve whose error is one power of the size of the cells and nothing else."""
+    return {"u_max": TABLE["u_max"], "p": TABLE["p"] * (1 + 0.1 * float(cells) ** -order)}
+
+
+def test_the_limit_of_a_pure_power_is_the_table():
+    found = judged([exact(n, 2) for n in CELLS])[1]
+    assert found.order == pytest.approx(2, abs=1e-6)
+    assert abs(found.limit_error) < 1e-11
+
+
 def test_an_uncertain_limit_is_not_judged():
-    rng = np.random.default_rng(4)
-    rough = [curve(n) for n in CELLS]
-    for one, size in zip(rough, (6e-3, 3e-3, 1.5e-3), strict=True):
-        one["p"] = one["p"] * (1 + size * rng.uniform(-1, 1, len(one["p"])))
-    assert judged(rough)[0].status != "passed"
+    """Errors that hardly shrink have a limit, but nobody knows it: a whole order is far away."""
+    verdicts, found = judged([exact(n, 0.1) for n in CELLS])
+    assert (verdicts.status, found.status) == ("not judged", "not judged")
+    assert "too coarse" in found.detail
 
 
 def test_the_finest_curve_is_judged_too_if_it_claims_an_accuracy():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping
 from xml.etree import ElementTree as ET
 
@@ -13,6 +14,11 @@ FEWEST = 4
 
 GLYPH = re.compile(r'<path id="([\w-]+--)(STIX\w*-\w+-[0-9a-f]+)"( [^>]*)/>')
 """A letter in a drawing; its name tells font and character, so that it is the same in every drawing."""
+
+WORD = re.compile(r'(?:<use href="#STIX[\w-]+" transform="[^"]*" ?/>){2,}')
+"""Letters that follow each other; the same text has the same letters at the same places."""
+STYLE = re.compile(r' style="(?:fill|stroke)[^"]{16,}"')
+"""The style of an element of a drawing."""
 
 
 def inline_svg(drawing: str, ident: str, title: str, description: str, colours: Mapping[str, str]) -> str:
@@ -112,7 +118,11 @@ def standalone(drawing: str) -> str:
 
 
 def share_letters(page: str) -> str:
-    """A page on which every letter of its drawings is defined once, at the start of its body."""
+    """A page on which letters, repeated words and styles of its drawings are defined once, before its text.
+
+    Blanks between the cells of its tables are left out.
+    """
+    page = re.sub(r"(</t[dhr]>|<tr[^>]*>)\s+(?=<)", r"\1", page)
     letters: dict[str, str] = {}
 
     def keep(found: re.Match[str]) -> str:
@@ -122,8 +132,22 @@ def share_letters(page: str) -> str:
     page = GLYPH.sub(keep, page)
     if not letters:
         return page
-    page = re.sub(r'href="#[\w-]+--(STIX\w*-\w+-[0-9a-f]+)"', r'href="#\1"', page)
-    defined = "".join(letters.values())
+    page = re.sub(
+        r'href="#[\w-]+--(STIX\w*-\w+-[0-9a-f]+)"', r'href="#\1"', page.replace("<defs></defs>", "")
+    )
+    page, words = _numbered(page, WORD, "w", '<use href="#{}"/>')
+    page, styles = _numbered(page, STYLE, "s", ' class="{}"')
+    groups = "".join(f'<g id="{name}">{word}</g>' for word, name in words.items())
+    rules = "".join(f".{name}{{{style[8:-1]}}}" for style, name in styles.items())
+    defined = f"<style>{rules}</style>" * bool(rules) + "".join(letters.values()) + groups
     shared = f'<svg width="0" height="0" aria-hidden="true" class="letters"><defs>{defined}</defs></svg>'
     start = page.index(">", page.index("<body")) + 1
     return f"{page[:start]}{shared}{page[start:]}"
+
+
+def _numbered(page: str, what: re.Pattern[str], letter: str, instead: str) -> tuple[str, dict[str, str]]:
+    """The page with a name in place of everything that occurs twice, and the names."""
+    repeated = [text for text, times in Counter(what.findall(page)).items() if times > 1]
+    names = {text: f"{letter}{k}" for k, text in enumerate(repeated)}
+    page = what.sub(lambda hit: instead.format(names[hit[0]]) if hit[0] in names else hit[0], page)
+    return page, names
