@@ -71,12 +71,9 @@ class TubePhases(ContactPhases):
         self, comm: MPI.Intracomm, data: ContactData, p_end: float, step: float, terms: int = 18
     ) -> None:
         super().__init__(ContactModel(comm, data), p_end, step, terms)
-        self._rest = self.slip.system.state()
-        """Start of every free branch; it is kept, because each branch changes the state of its system."""
 
     def inflate(self, depth: float) -> EquilibriumBranch:
         """Free inflation up to a displacement of the mid-plane."""
-        self.slip.system.set_state(self._rest.u, self._rest.loads)
         return free_branch(self.slip.system, self.data.delta1, depth, self.step)
 
     def small_patch(self) -> State:
