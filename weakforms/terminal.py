@@ -142,6 +142,9 @@ def print_json(data: Any) -> None:
 PULSE = 15.0
 """Longest silence in a log, in seconds."""
 
+ENOUGH = 0.05
+"""Share of a run's work after which a log shows the time that is left."""
+
 
 class WorkProgress:
     """Progress of long work: a bar on a terminal, lines in a log. This base class prints nothing.
@@ -169,11 +172,14 @@ class _Log(WorkProgress):
 
     def __init__(self) -> None:
         self._begun, self._latest, self._ended = time.monotonic(), "starting", Event()
+        self._share, self._first = 0.0, None
         # Keep the current stream: it may be redirected later.
         self._stream = sys.stderr
 
     def __call__(self, what: str, done: float, total: float) -> None:
-        self._latest = what
+        self._latest, self._share = what, done / total if total else 0.0
+        # What an earlier run did is done at the first report.
+        self._first = self._first or (time.monotonic(), self._share)
 
     def line(self, text: str) -> None:
         if self._stream is None:
@@ -185,7 +191,16 @@ class _Log(WorkProgress):
 
     def beat(self) -> None:
         while not self._ended.wait(PULSE):
-            self.line(self._latest)
+            self.line(self._latest + self._left())
+
+    def _left(self) -> str:
+        """The time that is left at the speed so far, once there is enough to tell it from."""
+        since, before = self._first or (0.0, 0.0)
+        gained = self._share - before
+        if gained < ENOUGH * (1 - before) or self._share >= 1:
+            return ""
+        left = (time.monotonic() - since) * (1 - self._share) / gained
+        return f"; about {left / 60:.0f} min left" if left >= 90 else f"; about {left:.0f} s left"
 
     def end(self) -> None:
         self._ended.set()

@@ -35,6 +35,23 @@ def test_bench_has_its_stages(weakforms, small):
     assert "floor" in shown
 
 
+def test_a_run_is_held_against_the_last_one_by_its_ratios(weakforms, small, tmp_path):
+    file, words = tmp_path / "bench.jsonl", ("bench", "--only", "tube", "--no-cold")
+    assert weakforms(*words, "--history", str(file)).status == 0
+    (line,) = map(json.loads, file.read_text("utf-8").splitlines())
+    assert line["machine"]["cores"]
+    assert "petsc" in line["versions"]
+    known = line["problems"]["tube"]
+    for factor, status, word in ((0.1, 1, "slower"), (10.0, 0, "faster")):
+        line["problems"]["tube"] = known | {"ratio": factor * known["ratio"], "ratio_spread": 0.0}
+        file.write_text(json.dumps(line) + "\n", "utf-8")
+        called = weakforms(*words, "--against", str(file))
+        assert (called.status, f"now: {word}" in " ".join(called.out.split())) == (status, True)
+    file.write_text("{}\n", "utf-8")
+    called = weakforms(*words, "--against", str(file))
+    assert (called.status, "is no history of the benchmark" in called.err) == (2, True)
+
+
 def test_unknown_problem_is_one_line(weakforms):
     called = weakforms("bench", "--only", "bridge")
     assert (called.status, called.err.count("\n")) == (2, 1)

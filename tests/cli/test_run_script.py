@@ -249,10 +249,7 @@ def test_native_without_dolfinx_is_named_with_its_remedy(machine):
 
 def test_image_is_built_once(machine):
     built = machine.tree.parent / "built"
-    machine.put(
-        "docker",
-        f"case $1 in image) [[ -e {built} ]] ;; build) : > {built} ;; run) exit 3 ;; esac",
-    )
+    machine.put("docker", f"case $1 in image) [[ -e {built} ]] ;; build) : > {built} ;; run) exit 3 ;; esac")
     first, second = machine.run("list"), machine.run("list")
     assert (first.returncode, second.returncode) == (3, 3)
     assert "about 3 minutes" in first.stderr
@@ -351,36 +348,18 @@ def test_folders_user_and_environment(machine, tmp_path):
         (tmp_path / name).mkdir(parents=True)
     (tmp_path / "curves" / "c.csv").touch()
     (tmp_path / "here" / "link").symlink_to(tmp_path / "with blank")
-    args = [
-        "compare",
-        "paper2.fig03",
-        "../curves/c.csv",
-        f"--out={tmp_path}/results/r.json",
-        "sub/x",
-        "link/y",
-        "/etc/hosts",
-    ]
+    args = ["compare", "paper2.fig03", "../curves/c.csv", f"--out={tmp_path}/results/r.json"]
+    args += ["sub/x", "link/y", "/etc/hosts"]
     assert machine.run(*args, cwd=tmp_path / "here").returncode == 0
     (call,) = machine.calls("docker", "run")
     seen = values(call, "-v")
-    for folder in (
-        machine.tree,
-        tmp_path / "here",
-        tmp_path / "curves",
-        tmp_path / "results",
-        tmp_path / "with blank",
-    ):
+    for folder in (machine.tree, *(tmp_path / name for name in ("here", "curves", "results", "with blank"))):
         assert f"{folder}:{folder}" in seen
     assert len(seen) == 6, "and the cache, but no folder of the image"
     assert values(call, "-w") == [str(tmp_path / "here")]
     assert values(call, "--user") == [f"{os.getuid()}:{os.getgid()}"]
     environment = values(call, "-e")
-    for pair in (
-        "NO_COLOR=1",
-        "WEAKFORMS_TRACE=yes",
-        "OMP_NUM_THREADS=1",
-        f"PYTHONPATH={machine.tree}",
-    ):
+    for pair in ("NO_COLOR=1", "WEAKFORMS_TRACE=yes", "OMP_NUM_THREADS=1", f"PYTHONPATH={machine.tree}"):
         assert pair in environment
     assert not any("SECRET" in pair for pair in environment)
     assert call[-len(args) :] == args

@@ -146,6 +146,23 @@ def test_a_log_says_what_is_planned_and_how_each_case_went(weakforms, tiny, tmp_
     assert any(line.startswith("0 of 2 solved; tube(") for line in said)  # where the work is, meanwhile
 
 
+def test_a_log_tells_the_time_that_is_left_at_the_speed_of_this_run(monkeypatch):
+    """What an earlier run did took no time now."""
+    now = [0.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    log = terminal._Log()
+    for second, share, text in (
+        (0, 0.5, ""),
+        (30, 0.51, ""),
+        (60, 0.6, "; about 4 min left"),
+        (120, 0.9, "; about 30 s left"),
+        (150, 1.0, ""),
+    ):
+        now[0] = second
+        log("solving", share, 1.0)
+        assert log._left() == text
+
+
 def test_work_is_shared_by_all_cores_unless_ranks_share_it(monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(6)))
     assert terminal.free_cores() == 6

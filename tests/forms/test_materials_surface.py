@@ -23,7 +23,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.wrinkled.body import CYLINDER
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import NEAR_FRONTS, PAPER_GAMMA
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.solvers.equilibrium.constraints import Held
@@ -147,8 +147,7 @@ def test_the_neo_hookean_law_of_the_catalogue_is_the_papers_tube():
     for material in (None, Chosen("neo_hookean", ())):
         path = FluidPath(MPI.COMM_SELF, TubeData(8.0, 2.0, 0.116, 0.0, 8, 4, material=material), 1)
         state = path.dry()
-        with path.model.system.at(state):
-            path.model.system.update_mass()
+        with path.model.system.at(state), path.model.system.weighed_here():
             found.append([*path.model.system.monitors().values(), *path.modes.observe().values()])
     assert found[0] == pytest.approx(found[1], rel=1e-10, abs=1e-10)
 

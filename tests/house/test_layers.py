@@ -208,6 +208,28 @@ def test_a_page_names_files_that_exist(page):
     assert lost <= added
 
 
+RAW = {"_write", "_write_loads", "_mark", "_give_up", "mark", "put", "rewrite", "set_state", "set_loads"}
+"""What changes the state of forms without a context."""
+
+OWNERS = {
+    "weakforms/solvers/equilibrium/state.py": RAW,
+    "weakforms/solvers/equilibrium/system.py": {"_give_up"},
+    "weakforms/solvers/equilibrium/newton.py": {"rewrite"},
+    "weakforms/solvers/equilibrium/subspace.py": {"rewrite"},
+    "weakforms/solvers/stability/modes.py": {"_write", "_give_up"},
+    "weakforms/problems/liquid_tube/bent/front.py": {"_write_loads", "put"},
+}
+"""The modules that own it: states, Newton's methods, second variations, and the mesh with a front."""
+
+
+def test_nobody_else_puts_a_state():
+    for path in files("weakforms"):
+        name = path.relative_to(ROOT).as_posix()
+        calls = [n for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Call)]
+        called = {c.func.attr for c in calls if isinstance(c.func, ast.Attribute)}
+        assert called & RAW <= OWNERS.get(name, set()), f"{name} puts a state without a context"
+
+
 def test_only_compat_looks_at_versions():
     looking = {
         p.relative_to(ROOT / "weakforms").as_posix()

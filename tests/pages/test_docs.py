@@ -3,12 +3,14 @@
 import ast
 import json
 import re
+from importlib import import_module
 
 import pytest
 from canned_run import Reader
 from headless import CONTRASTS, SIZES, Browser
 
 from weakforms.docs import api, site
+from weakforms.docs.gallery import gallery, scripts
 from weakforms.docs.prose import docstring, formula, markdown
 from weakforms.errors import EnvironmentLackError
 from weakforms.problems import registry
@@ -25,6 +27,7 @@ def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         right = site.pictures
         patch.setattr(site, "pictures", lambda at, jobs, names, tell: right(at, jobs, ["sphere"], tell))
+        patch.setattr(site, "gallery", lambda at, names, tell: gallery(at, ["balloon"], tell))
         assert site.write_docs(folder) == folder / "index.html"
     return folder
 
@@ -38,7 +41,7 @@ def readers(folder):
 def test_there_is_a_page_for_everything(readers, folder):
     wanted = {f"problems/{name}.html" for name in registry.abouts()}
     wanted |= {f"api/{group}.html" for group in api.GROUPS}
-    wanted |= {"index.html", "cases.html", "CONTRIBUTING.html"}
+    wanted |= {"index.html", "cases.html", "gallery.html", "CONTRIBUTING.html"}
     wanted |= {f"{path.stem}.html" for path in (site.ROOT / "docs").glob("*.md")}
     assert set(readers) == wanted
     assert all(reader.open == [] for reader in readers.values())
@@ -96,6 +99,22 @@ def test_the_picture_is_drawn_from_the_solution(readers):
     text = " ".join(" ".join(page.words).split())
     assert "P over lam, of this example" in text
     assert "Marked: limit point; limit point" in text
+
+
+def test_the_gallery_has_every_script_and_the_pictures_of_those_that_ran(readers):
+    page = readers["gallery.html"]
+    text = " ".join(" ".join(page.words).split())
+    assert page.tags.count("figure") == 1
+    for name in scripts():
+        assert f"{name}.py" in text
+        assert f"examples/gallery/{name}.py" in text, "the text says how to run it"
+
+
+def test_a_script_that_fails_is_named_with_its_reason(tmp_path, monkeypatch):
+    (tmp_path / "bad.py").write_text('"""Bad."""\nraise SystemExit("no such law")\n')
+    monkeypatch.setattr("weakforms.docs.gallery.FOLDER", tmp_path)
+    (shown,) = gallery(tmp_path / "out", ["bad"])
+    assert (shown.title, shown.picture, shown.failure) == ("Bad.", None, "no such law")
 
 
 def test_formulas_and_docstrings():
@@ -177,3 +196,12 @@ def test_formulas_of_the_theory_are_numbered_in_order_and_drawn(folder):
 )
 def test_markdown_has_formulas_and_leaves_dollars_of_commands(text, shown):
     assert shown in markdown(text)
+
+
+@pytest.mark.parametrize("about", registry.abouts().values(), ids=lambda about: about.name)
+def test_every_problem_names_the_functions_that_define_it(about):
+    assert about.forms
+    for place in about.forms:
+        module, _, function = place.partition(":")
+        found = import_module(f"weakforms.{module}")
+        assert not function or callable(getattr(found, function)), place

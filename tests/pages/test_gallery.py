@@ -1,11 +1,17 @@
 """The scripts of ``examples/gallery``: they run, print numbers that the references have, and draw."""
 
 import importlib.util
+import os
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.image import imread
+
+from weakforms.verification.cases import references
 
 ROOT = Path(__file__).resolve().parents[2]
 GALLERY = ROOT / "examples" / "gallery"
@@ -32,3 +38,68 @@ def test_the_picture_of_the_readme_is_that_of_the_solved_states(tmp_path):
     drawn, kept = imread(tmp_path / "shapes.png"), imread(ROOT / "docs" / "shapes.png")
     assert drawn.shape == kept.shape
     assert np.mean(np.abs(drawn - kept)) < 0.01
+
+
+def ran(name, tmp_path, *words):
+    """What a script prints; its picture must be there."""
+    path = tmp_path / f"{name}.svg"
+    command = [sys.executable, GALLERY / f"{name}.py", path, *words]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
+    assert done.returncode == 0, done.stderr
+    assert path.read_text("utf-8").count("<path") > 50
+    return done.stdout
+
+
+def numbers(text, pattern):
+    """Values without their uncertain digits in brackets."""
+    return [float(hit.partition("(")[0]) for hit in re.findall(pattern + r" ([-\d.]+)", text)]
+
+
+def test_the_balloon(tmp_path):
+    text = ran("balloon", tmp_path)
+    (cusp,) = numbers(text, "merge at alpha =")
+    assert cusp == pytest.approx(0.2144583, abs=1e-6)
+    assert text.count("limit point") == 5
+
+
+def test_the_tube_has_the_limit_points_and_the_cusp_of_the_tables(tmp_path):
+    text = ran("tube", tmp_path)
+    table = references.load(2, "limit_points_alpha_0.1").columns
+    for delta1 in (1.0, 1.1):
+        expected = table["p"][np.isclose(table["delta1"], delta1)]
+        np.testing.assert_allclose(
+            numbers(text, rf"delta1 = {delta1}: limit point \d at p ="), expected, rtol=1e-6
+        )
+    cusps = references.load(2, "cusp").columns
+    row = np.isclose(cusps["alpha"], 0.1) & np.isclose(cusps["lf"], 6)
+    np.testing.assert_allclose(numbers(text, "merge at delta1 ="), cusps["delta1"][row], rtol=1e-6)
+
+
+def test_a_law_of_ones_own(tmp_path):
+    text = ran("own_law", tmp_path)
+    assert "b = 0.1: limit points at P = none" in text
+    assert "tube, b = 0.05: 2 limit points" in text
+
+
+def test_contact(tmp_path):
+    text = ran("contact", tmp_path)
+    starts = numbers(text, "contact starts at p =")
+    assert len(starts) == 2
+    assert starts[0] == pytest.approx(starts[1], rel=1e-7), "before contact there is no difference"
+    slides, sticks = numbers(text, "patch at p = 3:")
+    assert 0 < sticks < slides < 1 or 0 < slides < sticks < 1
+
+
+def test_bending_comes_before_the_limit_point(tmp_path):
+    text = ran("bending", tmp_path, "quick")
+    (limit,) = numbers(text, "limit_point at zw =")
+    assert min(numbers(text, "bifurcation_point at zw =")) < limit
+
+
+@pytest.mark.slow
+def test_only_a_bending_stiffness_gives_a_shortest_wave(tmp_path):
+    without, beside = ran("wrinkling", tmp_path).splitlines()
+    falling, turning = (numbers(line, r"n = \d+:") for line in (without, beside))
+    assert falling == sorted(falling, reverse=True)
+    assert turning[-1] > min(turning)

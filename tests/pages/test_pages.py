@@ -1,5 +1,6 @@
 """The pages contain every check, need no other files, are linked, and remain valid with hostile texts."""
 
+import csv
 import math
 import os
 import re
@@ -8,13 +9,24 @@ from itertools import pairwise
 from xml.etree import ElementTree as ET
 
 import pytest
-from canned_run import CaseOutcome, CurveOutcome, Marker, Reader, curve, panel, sample, verdict
+from canned_run import (
+    CaseOutcome,
+    CurveOutcome,
+    Marker,
+    Reader,
+    curve,
+    panel,
+    passing_case,
+    sample,
+    verdict,
+)
 from matplotlib.figure import Figure
 
 from weakforms.verification.report import figures
 from weakforms.verification.report.figures import convergence_figure, panel_figure
 from weakforms.verification.report.junit import junit_xml
 from weakforms.verification.report.pages import GROUPS, render, render_whole
+from weakforms.verification.report.wording import typeset
 
 
 @pytest.fixture(scope="session")
@@ -37,6 +49,7 @@ def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder)
         "junit.xml",
         "report.json",
         "shapes",
+        "figures",
     }
     assert expected | {"paper2.html"} < set(os.listdir(folder))
     assert len(os.listdir(folder)) == 10, "and one page for the hostile group"
@@ -84,7 +97,7 @@ def test_every_check_figure_and_status_appears(run, pages, readers):
     assert "shapes/paper2_fig03-bulge.vtu" in text
     pictures = [reader.tags.count("svg"), reader.tags.count("figure")]
     pictures.append(len([1 for _, n, v in reader.attributes if (n, v) == ("role", "img")]))
-    assert pictures == [5, 5, 5], "three panels, one surface, one convergence plot"
+    assert pictures == [8, 6, 6], "three panels, a surface, a convergence plot, a sketch; letters, arrows"
     assert text.rindex("bad:p") < text.rindex("good:p")
 
 
@@ -146,7 +159,7 @@ def test_as_one_page_for_printing_every_link_stays_within(run):
     links = [v for tag, name, v in reader.attributes if (tag, name) == ("a", "href")]
     inner = [v for v in links if v.startswith("#")]
     assert {v[1:] for v in inner} <= ids
-    assert {v for v in links if v not in inner} <= {v for v in links if v.startswith("shapes/")}
+    assert {v for v in links if v not in inner} <= {v for v in links if v.startswith(("shapes/", "figures/"))}
     assert reader.open == []
 
 
@@ -242,3 +255,74 @@ def test_many_checks_are_folded():
     assert all(f"<code>bulk_{i}:p</code>" in page for i in range(600))
     section = page.index('id="paper2.bulk"')
     assert page.index("broken:p", section) < page.index("<details", section)
+
+
+def test_every_panel_has_a_number_and_its_files(folder, readers):
+    reader = readers["paper2.html"]
+    assert "paper2.fig03, panel 1" in words(reader)
+    offered = {v for tag, n, v in reader.attributes if (tag, n) == ("a", "href") and v.startswith("figures/")}
+    assert len(offered) == 6
+    kinds = set()
+    for name in offered:
+        text = (folder / name).read_text("utf-8")
+        if name.endswith(".svg"):
+            assert text.startswith("<?xml")
+            assert "var(" not in text, "a file of its own has its own colours"
+        else:
+            rows = list(csv.reader(text.splitlines()))
+            assert rows[0][:2] == ["curve", "what"]
+            kinds |= {row[1] for row in rows[1:]}
+    assert kinds == {"weak form", "reference", "error over u_max"}
+
+
+def test_letters_and_marks_of_drawings_are_defined_once(readers):
+    for name, reader in readers.items():
+        ids = [v for _, n, v in reader.attributes if n == "id"]
+        assert len(ids) == len(set(ids)), name
+        used = {v[1:] for tag, n, v in reader.attributes if (tag, n) == ("use", "href")}
+        marks = {v[5:-1] for _, n, v in reader.attributes if n.startswith("marker-")}
+        assert used | marks <= set(ids)
+    assert any(n == "marker-mid" for _, n, _ in readers["paper2.html"].attributes)
+
+
+def test_a_failed_check_says_how_to_repeat_it(readers):
+    text = words(readers["index.html"])
+    assert "./run check paper2.fig02 ; the case is cases/paper2/fig02.py" in text
+
+
+def test_a_case_begins_with_its_problem_its_symbols_and_its_references():
+    case = passing_case()
+    case.solutions = [
+        {"problem": "tube", "parameters": {"alpha": 0.1, "delta1": d, "contact": "none", "spec": None}}
+        for d in (1.0, 1.1)
+    ]
+    case.solutions.append({"problem": "of another version", "parameters": {}})
+    reader = Reader(render(sample(case))["paper2.html"])
+    text = words(reader)
+    for said in (
+        "Inflation of a pre-stretched cylindrical membrane",
+        "axial pre-stretch, 1",
+        "share no code",
+    ):
+        assert said in text
+    assert "δ 1 = 1, 1.1;" in text, "the values of a parameter in all solutions"
+    sketches = [v for _, n, v in reader.attributes if n == "aria-label" and v.startswith("A tube between")]
+    assert len(sketches) == 1
+
+
+@pytest.mark.parametrize(
+    ("raw", "shown"),
+    [
+        ("r_max", r"$r_{\mathrm{max}}$"),
+        ("lam1_mid", r"$\lambda_{1,\mathrm{mid}}$"),
+        ("zw", "$z_{w}$"),
+        ("fluid_M_1.5_delta_2_low", r"fluid, $M$ = 1.5, $\delta$ = 2, low"),
+        ("alpha = 0.05, beta = 1.2", r"$\alpha$ = 0.05, $\beta$ = 1.2"),
+        ("wrinkled_tube(Af=0.5, L=6.0)", "wrinkled tube: $A_{f}$ = 0.5, $L$ = 6.0"),
+        ("height of the pole", "height of the pole"),
+        ("first 3 points", "first 3 points"),
+        (r"$\delta_1$ = 1.1, alpha = 2", r"$\delta_1$ = 1.1, alpha = 2"),
+    ],
+)
+def test_raw_names_are_typeset(raw, shown):
+    assert typeset(raw) == shown

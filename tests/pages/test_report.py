@@ -3,6 +3,8 @@
 import json
 import math
 import os
+from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -100,7 +102,7 @@ def test_junit_parses_and_counts(run):
 def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
     (tmp_path / "mine.html").write_text("<p>mine</p>")
     write_report(sample(passing_case()), tmp_path)
-    assert {"paper2.html", "shapes"} < set(os.listdir(tmp_path))
+    assert {"paper2.html", "shapes", "figures"} < set(os.listdir(tmp_path))
     write_report(sample(), tmp_path)
     left = {
         "audit.html",
@@ -112,13 +114,14 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
         "mine.html",
         "report.json",
         "shapes",
+        "figures",
     }
     assert set(os.listdir(tmp_path)) == left
-    assert os.listdir(tmp_path / "shapes") == []
+    assert os.listdir(tmp_path / "shapes") == os.listdir(tmp_path / "figures") == []
 
 
 def test_a_page_that_cannot_be_drawn_leaves_the_numbers(tmp_path, monkeypatch):
-    monkeypatch.setattr("weakforms.verification.report.report.render", lambda *_: 1 / 0)
+    monkeypatch.setattr("weakforms.verification.report.report.render_with_files", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(sample(passing_case()), tmp_path)
     assert load_run(tmp_path).cases[0] == passing_case()
@@ -147,3 +150,20 @@ def test_without_a_browser_there_is_no_pdf(tmp_path, monkeypatch):
     with pytest.raises(InputError, match="no such folder"):
         pdf.write_pdf(sample(), tmp_path / "nowhere" / "report.pdf")
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize(("user", "without"), [(0, True), (1000, False)])
+def test_only_root_prints_without_the_browsers_sandbox(tmp_path, monkeypatch, user, without):
+    commands = []
+
+    def printed(command, **_):
+        commands.append(command)
+        (place,) = [word for word in command if word.startswith("--print-to-pdf=")]
+        Path(place.partition("=")[2]).write_bytes(b"%PDF")
+        return SimpleNamespace(returncode=0, stderr="")
+
+    monkeypatch.setattr(pdf, "browser", lambda: "browser")
+    monkeypatch.setattr(pdf.os, "geteuid", lambda: user)
+    monkeypatch.setattr(pdf.subprocess, "run", printed)
+    assert pdf.write_pdf(sample(), tmp_path / "report.pdf").read_bytes() == b"%PDF"
+    assert ("--no-sandbox" in commands[0]) is without

@@ -18,9 +18,11 @@ from weakforms.problems.liquid_tube import problem as liquid_tube
 from weakforms.problems.liquid_tube.bent import problem as bent
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
 from weakforms.problems.material_choice import mooney_rivlin_of
-from weakforms.problems.problem import validated
+from weakforms.problems.problem import Requests, StateRequest, validated
+from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
+from weakforms.problems.wrinkled.sheets import cylinder as sheet
 from weakforms.results import validate
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.walk import walk
@@ -163,6 +165,18 @@ def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stabilit
     assert [point.n_negative for point in branch.points] == [first, *counts[1:]]
 
 
+def test_a_tube_is_inflated_from_rest_each_time():
+    """The second free branch, up to ``p_end``, started from the bulged state at first contact."""
+    given = {"alpha": 0.4899, "delta1": 1.389, "lf": 1.106, "k": 668.0, "s": 9.626, "p_end": 2.367}
+    coarse = {"cells": 16, "degree": 3, "levels": 2}
+    result = solve("tube", **given, contact="adhesive", phase="deflation", numerics=coarse)
+    assert result.failures == []
+    assert "p_end = 2.367 is below first contact" in result.absent[0].reason
+    p = result.branch().columns["p"]
+    assert p[0] == pytest.approx(2.367, abs=1e-9)
+    assert -0.1 * 2.367 < p[-1] <= 0
+
+
 def no_bifurcation(*_):
     raise AbsentError("bifurcation point", "the primary branch has 0; choose another delta")
 
@@ -186,6 +200,40 @@ def test_a_surface_that_does_not_bend_says_so(monkeypatch):
     result = solve("fluid_tube_surface")
     assert (result.quantities, result.failures) == ({}, [])
     assert result.absent[0].reason.startswith("fluid_tube_surface: the primary branch has 0")
+
+
+@pytest.mark.parametrize(
+    ("values", "hint"),
+    [
+        ({"delta": 4.9, "M": 1.3, "Af": 0.3, "c2": 0.0}, "; choose a smaller delta, or another M or Af"),
+        ({}, ""),
+    ],
+)
+def test_a_membrane_that_is_not_found_without_load_names_what_to_change(values, hint):
+    def by_homotopy(_load):
+        raise ConvergenceError("the system is singular")
+
+    branch = WrinkledBranch.__new__(WrinkledBranch)
+    branch.membrane = SimpleNamespace(by_homotopy=by_homotopy, values=values)
+    with pytest.raises(ConvergenceError) as caught:
+        branch._start(None)
+    assert str(caught.value) == f"the membrane without load is not found: the system is singular{hint}"
+
+
+@pytest.mark.parametrize("stalled", [None, "steps too small"])
+def test_a_sheet_has_no_state_at_a_load_that_its_branch_does_not_reach(stalled, monkeypatch):
+    def near(*_):
+        raise InputError("p = 32 is crossed 0 times on this branch, not 1; p ranges over [0, 5.8]")
+
+    branch = SimpleNamespace(near=near, trace=SimpleNamespace(stalled=stalled))
+    monkeypatch.setattr(sheet, "wrinkled_membrane", lambda *_: SimpleNamespace(control="p", plain=None))
+    monkeypatch.setattr(sheet, "WrinkledBranch", lambda *_: branch)
+    if stalled:
+        with pytest.raises(ConvergenceError, match=r"ranges over \[0, 5\.8\]: steps too small"):
+            solve("wrinkled_sheet", load="gas", at_load=32.0)
+    else:
+        (absence,) = solve("wrinkled_sheet", load="gas", at_load=32.0, volume_end=14.0).absent
+        assert re.search(r"\[0, 5\.8\], up to 14 times the volume .*; lower at_load", absence.reason)
 
 
 def test_a_walk_shortens_its_steps_and_says_how_far_it_came():
@@ -295,3 +343,11 @@ def test_defaults_are_accepted_as_typed_on_a_command_line(name):
     assert validated(model, typed, name) == model(**typed)
     for key, value in defaults.items():
         assert key not in typed or getattr(validated(model, {key: typed[key]}, name), key) == value
+
+
+@pytest.mark.parametrize("name", registry.abouts())
+def test_a_state_at_a_column_that_is_not_there_is_refused_before_anything_is_solved(name):
+    problem = registry.get(name)
+    wanted = StateRequest("nothing", 1.0, 1, "primary", ())
+    with pytest.raises(InputError, match=r"nothing|states"):
+        problem.check(problem.parameters(), Requests(states=(wanted,)))

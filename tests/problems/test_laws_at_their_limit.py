@@ -63,6 +63,28 @@ def test_a_mooney_rivlin_membrane_takes_any_stretch_and_others_what_is_within_th
     assert "hardly resists" in limit_of(law("varga"), [(8.0, 8.0)])
 
 
+def test_a_law_is_not_followed_to_stresses_without_measure():
+    """With an exponent of 38 a stretch of 13.87 gives 1e40; the trace did not end within 3000 points."""
+    steep = {
+        "mu1": 3.243,
+        "alpha1": 13.09,
+        "mu2": 0.0005517,
+        "alpha2": 38.64,
+        "mu3": -0.03626,
+        "alpha3": -65.32,
+    }
+    for problem, end in (
+        ("infinite_tube", 13.87),
+        ("sphere", 8.0),
+        ("homogeneous", 20.0),
+        ("homogeneous", 0.2),
+    ):
+        with pytest.raises(InputError, match=rf"{problem}: .* more than 1e\+06 times .*lam_end nearer to 1"):
+            solve(problem, model="ogden", **steep, lam_end=end)
+    assert "stresses of more than" in limit_of(law("ogden", **steep), [(1.0, 13.87)])
+    assert solve("homogeneous", alpha=0.0, loading="equibiaxial", lam_end=0.06).failures == []
+
+
 def test_the_pre_stretch_is_refused_before_anything_is_solved():
     with pytest.raises(InputError, match=r"beta = 9: .*lower beta"):
         solve("circular", model="gent", jm=5.0, beta=9.0)

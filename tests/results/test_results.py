@@ -238,3 +238,9 @@ def test_validation_does_not_change_what_it_sees():
     before = copy.deepcopy(data)
     validate(data)
     assert data == before
+
+
+def test_what_is_wrong_with_a_result_is_named_with_its_place():
+    for data, place in (({}, "top level"), ({**full().to_json(), "branches": [1]}, "branches/0")):
+        with pytest.raises(InputError, match=f"at {place}: "):
+            validate(data)

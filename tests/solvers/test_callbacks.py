@@ -1,15 +1,21 @@
-"""An exception raised in a callback of PETSc or SLEPc reaches the caller unchanged after they return."""
+"""Python that PETSc and SLEPc own: its exceptions reach the caller, and it keeps nothing alive."""
+
+import gc
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from small_systems import system_of
 
+from weakforms import solve
 from weakforms.errors import ConvergenceError, EnvironmentLackError
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.subspace import Subspace
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.memory import release
 
 NOT_SOLVED = [ConvergenceError("made up"), ZeroDivisionError("made up"), np.linalg.LinAlgError("made up")]
 OTHERS = [EnvironmentLackError("no compiler"), KeyboardInterrupt(), KeyError("a bug")]
@@ -119,3 +125,16 @@ def test_a_spectrum_names_what_its_inverse_raises(error, at):
     assert error in (caught.value, caught.value.__cause__)
     assert inverse.calls == at  # it is not asked again
     assert stability.spectrum(state).eigenvalues == right
+
+
+def alive():
+    release(MPI.COMM_SELF)
+    return sum(isinstance(item, System) for item in gc.get_objects())
+
+
+@pytest.mark.parametrize(("problem", "parameters"), [("tube", {"alpha": 0.1}), ("fluid_tube", {"n_max": 1})])
+def test_a_finished_solve_leaves_no_system_behind(problem, parameters):
+    """A solver that is owned by a Python context of PETSc would stay for ever, with its mesh and matrices."""
+    before = alive()
+    solve(problem, numerics={"cells": 16, "levels": 2, "step": 0.5}, **parameters)
+    assert alive() <= before

@@ -151,7 +151,8 @@ def test_eigenvalues_below_every_target_are_refused(monkeypatch):
     system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0), "Lagrange", 2, 20, ends=True)
     looked = Lowest(system)
     monkeypatch.setattr(looked, "_below", lambda _shift: 1)
-    refused("there are eigenvalues below -", looked._target)
+    looked._count = 1
+    refused("there are eigenvalues below -", looked._go_below)
 
 
 def test_copies_that_are_never_found_are_missed(monkeypatch):

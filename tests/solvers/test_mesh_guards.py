@@ -84,18 +84,13 @@ def test_bent_states_whose_two_finest_meshes_count_differently(name):
 
 
 def test_wrinkled_states_that_are_stable_on_some_meshes_only(monkeypatch):
-    class Counted:
-        def __init__(self, system):
-            self.count = system.count
-
-        def spectrum(self, _state, shift):
-            return SimpleNamespace(n_negative=self.count, eigenvalues=[1.0])
-
     def held(count):
-        system = SimpleNamespace(count=count, weighed_here=nullcontext)
-        return SimpleNamespace(lent=nullcontext, state=None, model=SimpleNamespace(system=system))
+        return SimpleNamespace(state=None, model=SimpleNamespace(system=count))
 
-    monkeypatch.setattr(wrinkled_readings, "Stability", Counted)
+    def spectrum_of(count, _state, _shift):
+        return SimpleNamespace(n_negative=count, eigenvalues=[1.0])
+
+    monkeypatch.setattr(wrinkled_readings, "spectrum_of", spectrum_of)
     monkeypatch.setattr(Readings, "quantity", lambda *_: Quantity(1.0))
     told = bare(Readings)
     refused("stability depends on the mesh", told._spectrum, [held(0), held(1)], 0.0)

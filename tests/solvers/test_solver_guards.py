@@ -119,6 +119,14 @@ def test_an_unconverged_state_of_a_subspace_is_refused():
         Subspace(system, basis, np.zeros(1)).solve(State(np.array([0.7]), {"load": 0.0}))
 
 
+def test_pivoting_is_switched_on_once():
+    """Who asks again is told so, and does not factorise again without end."""
+    factor = Factorization(system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4))
+    first = factor.package
+    assert [factor.use_pivoting(), factor.use_pivoting()] == [first != "mumps", False]
+    assert factor.package == "mumps"
+
+
 def test_a_singular_bordered_system_is_refused():
     """An unsupported string pulled to one side."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4)

@@ -17,6 +17,7 @@ from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.roots import polynomial_through
 
 COMM = MPI.COMM_SELF
 
@@ -206,3 +207,40 @@ def test_options_do_not_leak_between_solvers():
     before = PETSc.Options().getAll()
     ExtendedNewton(one_dof(lambda u, p, _: u - p), ["load"])
     assert PETSc.Options().getAll() == before
+
+
+@pytest.mark.parametrize(("begin", "count"), [(1.0001, 1), (3.0, 6)])
+def test_newton_keeps_its_jacobian_only_while_it_converges_fast(begin, count):
+    solver = ExtendedNewton(one_dof(lambda u, p, _: u**3 + u - p))
+    for _ in range(2):  # a second solve does not begin with the Jacobian of the first
+        state = solver.system.initial.copy()
+        state.u[:], state.loads["load"] = begin, 2.0
+        found, record = solver.solve(state)
+        assert record.factorizations == count
+        assert found.u == pytest.approx([1.0], abs=1e-12)
+        state.loads["load"] = 130.0
+        assert solver.solve(state)[0].u == pytest.approx([5.0], abs=1e-12)
+
+
+# -- polynomials through values ---------------------------------------------------------------------
+
+NODES = np.array([0.0, 0.3, 0.4, 1.0])
+
+
+def cubic(x):
+    return 2 - x + 3 * x**2 - 0.5 * x**3
+
+
+@pytest.mark.parametrize("at", [-0.2, 0.05, 0.3, 0.77, 1.0])
+def test_it_is_exact_for_polynomials_also_at_its_points(at):
+    assert polynomial_through(NODES, cubic(NODES))(at) == pytest.approx(cubic(at), rel=1e-13)
+    vectors = np.column_stack([cubic(NODES), -2 * cubic(NODES)])
+    assert polynomial_through(NODES, vectors)(at) == pytest.approx(cubic(at) * np.array([1, -2]), rel=1e-13)
+
+
+def test_it_is_the_same_to_the_last_bit_every_time():
+    """SciPy's interpolator shuffles its points, so that two runs of a program differ."""
+    values = np.random.default_rng(3).normal(size=(12, 50))
+    points = (1 - np.cos(np.pi * (np.arange(12) + 0.5) / 12)) / 2
+    first, second = (polynomial_through(points, values)(0.3141) for _ in range(2))
+    assert np.array_equal(first, second)

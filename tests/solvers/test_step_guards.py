@@ -14,7 +14,7 @@ from weakforms.solvers.continuation.continuation import Continuation, StepContro
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.stability import lowest
+from weakforms.solvers.stability import eigensolver
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -131,7 +131,7 @@ def test_fewer_eigenvalues_than_wanted_are_no_answer(error):
 
 def test_fewer_lowest_eigenvalues_than_wanted_are_no_answer(monkeypatch):
     looked = Lowest(string())
-    monkeypatch.setattr(lowest, "SLEPc", SimpleNamespace(EPS=Answers))
+    monkeypatch.setattr(eigensolver, "SLEPc", SimpleNamespace(EPS=Answers))
     assert [value for value, _ in looked._solve(2, 0.0, 1e-9, [])] == [1.0, 2.0]
     refused(r"^SLEPc converged 2 of 3 eigenvalues$", looked._solve, 3, 0.0, 1e-9, [])
     monkeypatch.setattr(Answers, "error", BROKEN[0])

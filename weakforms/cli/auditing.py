@@ -120,7 +120,13 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
         _ended(lambda: verb.faults_verb(only or [], expression, listed, *shared))
 
 
-@app.command(epilog=examples("weakforms bench --only tube", "weakforms bench --json"))
+@app.command(
+    epilog=examples(
+        "weakforms bench --only tube",
+        "weakforms bench --history bench.jsonl",
+        "weakforms bench --against bench.jsonl",
+    )
+)
 def bench(
     only: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Only this problem; may be repeated.")
@@ -133,6 +139,17 @@ def bench(
             min=0, max=2_000_000, help="Refine the triangulated tube up to this number of unknowns."
         ),
     ] = 0,
+    history: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Add this run to a file of JSON lines.")
+    ] = None,
+    against: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Say what is slower than in the last run of such a file, by ratios to the floor; exit "
+            "status 1 if anything is.",
+        ),
+    ] = None,
 ) -> None:
     """Measure time and memory by stage for fixed problems, with and without compiled forms."""
     from weakforms import api
@@ -140,6 +157,11 @@ def bench(
     from weakforms.verification.audit.bench_surface import print_surface_bench, run_surface_bench
 
     api.require_environment()
+    from weakforms.verification.audit import bench_history
+
+    if surface and (history or against):
+        raise InputError("bench: --surface has no ratios; --history and --against exclude it")
+    before = bench_history.last(against) if against else {}
     with progress_bar() as progress:
         if surface:
             table = run_surface_bench(surface, progress)
@@ -153,6 +175,13 @@ def bench(
         print_surface_bench(table, console())
     else:
         print_bench(table, console())
+    if history:
+        bench_history.append(history, table)
+    lines, found = bench_history.slower(table, before) if not surface else ([], [])
+    for line in lines:
+        console(stderr=as_json).print(line, soft_wrap=True)
+    if found:
+        raise typer.Exit(1)
 
 
 @app.command(hidden=True)

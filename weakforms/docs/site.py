@@ -14,6 +14,7 @@ from jinja2 import ChoiceLoader, Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from weakforms.docs import api
+from weakforms.docs.gallery import gallery, scripts
 from weakforms.docs.pictures import pictures
 from weakforms.docs.prose import docstring, formula, markdown
 from weakforms.errors import InputError
@@ -64,6 +65,9 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
             f"api/{group}.html", "api.html", f"{group}", "API", about=title, modules=api.modules(group)
         )
     site.write("cases.html", "cases.html", "Cases", "Documentation", cases=find_cases())
+    if scripts():
+        shown = gallery(out / "gallery", scripts() if solve else (), progress)
+        site.write("gallery.html", "gallery.html", "Gallery", "Guide", scripts=shown)
     for path in site.guides:
         site.guide(path)
     site.home()
@@ -81,8 +85,9 @@ class Site:
     def __init__(self, out: Path, names: list[str]) -> None:
         self.out = out
         self.guides = [*sorted((ROOT / "docs").glob("*.md")), *ROOT.glob("CONTRIBUTING.md")]
+        guides = [(_title(p), f"{p.stem}.html") for p in self.guides]
         self.contents = [
-            ("Guide", [("Home", "index.html"), *((_title(p), f"{p.stem}.html") for p in self.guides)]),
+            ("Guide", [("Home", "index.html"), *[("Gallery", "gallery.html")] * bool(scripts()), *guides]),
             ("Problems", [(name, f"problems/{name}.html") for name in names]),
             ("Reference", [("cases", "cases.html"), *((g, f"api/{g}.html") for g in api.GROUPS)]),
         ]

@@ -55,7 +55,7 @@ def test_level_and_volume_fall_and_one_eigenvalue_is_negative(family):
 def test_negative_eigenvalues_are_those_of_the_state_itself(family):
     fine = family.fine
     for point in family.levels[0].points[1::4]:
-        (*_, last), (counted, *_) = family._on_all(point)
+        (*_, last), (counted, *_) = family._solved_on_all(point)
         with fine.system.at(last.state):
             fine.solver.factor.update()
             assert fine.solver.factor.negative_count() == counted

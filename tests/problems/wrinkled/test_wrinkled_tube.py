@@ -18,7 +18,7 @@ from weakforms.problems.wrinkled import state as wrinkled_state
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.fields import Zones
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 from weakforms.problems.wrinkled.state import BLOCKS, Layout
 from weakforms.solvers.equilibrium.constraints import Held
@@ -135,7 +135,6 @@ def test_homotopy_ends_where_continuation_does(critical):
     by_homotopy = tube.by_homotopy(7.44)[0]
     stepwise = tube.by_homotopy(1.0)[0]
     solver = wrinkled_state.solver_of(tube.plain_model, ())
-    tube.prepare()
     for level in [*np.arange(1.5, 7.5, 0.5).tolist(), 7.44]:
         stepwise.loads["zw"] = level
         stepwise, _ = solver.solve(stepwise)

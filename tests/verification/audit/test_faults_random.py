@@ -1,6 +1,7 @@
 """Random mutants: which are drawn, which checks see them, and how their outcome is reported."""
 
 import ast
+import sys
 from collections import Counter
 from dataclasses import replace
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ import pytest
 from weakforms.cli import app
 from weakforms.errors import InputError
 from weakforms.terminal import guarded
-from weakforms.verification.audit.faults import lines, random_runner, runner
+from weakforms.verification.audit.faults import children, lines, random_runner, runner
 from weakforms.verification.audit.faults.catalogue import REASONS
 from weakforms.verification.audit.faults.children import Answer, Children
 from weakforms.verification.audit.faults.findings import finding
@@ -231,6 +232,22 @@ def test_an_assertion_a_break_down_and_a_stall_are_told_apart(tmp_path):
     assert [answer.status for answer in answers] == ["passed", *["failed"] * 4]
     kinds = [finding(answer, False).kind for answer in answers[1:]]
     assert kinds == ["test", "stopped", "not solved", "test"]
+
+
+@pytest.mark.parametrize(
+    ("work", "ended"),
+    [("time.sleep(2.5)", False), ("time.sleep(30)", True), ("[0 for _ in iter(int, 1)]", True)],
+)
+def test_a_run_is_ended_by_its_processor_time(work, ended, tmp_path, monkeypatch):
+    """A busy machine makes no test kill a mutant; an endless loop kills it, and so does a deadlock."""
+    monkeypatch.setattr(children, "WAITING", 2.0)
+    monkeypatch.setattr(children, "LOOK", 0.1)
+    words = [sys.executable, "-c", f"import time; {work}"]
+    with (tmp_path / "log").open("wb") as log:
+        started = Children()._start(words, tmp_path, log)
+        failure = Children()._wait(started, 2.0)
+    assert failure == ("it did not end within 2 s of processor time" if ended else "")
+    assert started.poll() is not None
 
 
 MUTANT = Mutant(

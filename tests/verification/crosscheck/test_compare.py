@@ -10,10 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from weakforms import InputError, compare, dimensional
-from weakforms.results import Branch, CurveFile, Result
+from weakforms.results import Branch, Result
 from weakforms.verification.cases import references
 from weakforms.verification.cases.discovery import find_cases
-from weakforms.verification.crosscheck.columns import require_same_parameters
 from weakforms.verification.crosscheck.rows import FLOOR, interpolated, judge_column, met, scale_of
 from weakforms.verification.crosscheck.targets import tables_of
 from weakforms.verification.run.requests import schema
@@ -317,18 +316,6 @@ def result(problem, parameters, columns, branch="primary"):
     provenance = {**versions, "ranks": 1, "wall_s": 0.0}
     branches = [Branch(branch, "p", columns)]
     return Result(problem, parameters, {}, {}, provenance, branches).to_json()
-
-
-def test_every_case_fits_its_own_tables_parameters():
-    """The curve of any case would be accepted as its result: the rule knows all parameters."""
-    for found in find_cases():
-        for panel in found.case.panels:
-            for curve in panel.curves:
-                if curve.reference is not None:
-                    table = references.load_curve(found.paper, curve.reference)
-                    own = dict(curve.of.parameters)
-                    given = CurveFile(table.columns, curve.of.problem, json.loads(json.dumps(own)))
-                    require_same_parameters(given, table, curve)
 
 
 # -- any table, and any mistake ------------------------------------------------------------------

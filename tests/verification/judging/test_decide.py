@@ -207,3 +207,17 @@ def test_numbers_are_stacked_and_joined():
     assert join([Number([1, 2], 0.2), 3.0]).value.tolist() == [1, 2, 3]
     assert Number([1.0, 3.0], [0.1, 0.2]).largest().uncertainty == 0.2
     assert Number([1.0, 3.0], [0.1, 0.2]).smallest().value == 1.0
+
+
+@pytest.mark.parametrize(("value", "holds"), [(0.5, False), (0.7, True), (1.1, False)])
+def test_what_lies_between_lies_above_the_lower_end_too(value, holds):
+    assert decide.between("x", Number(value, 1e-9), 0.6, 1.0).holds is holds
+
+
+@pytest.mark.parametrize(
+    ("cells", "errors"), [((8, 16), [1e-1, 1e-3]), ((8, 16, 32, 64), [1e-1, 1e-2, 1e-3]), ((), [])]
+)
+def test_too_few_errors_show_no_mean_order(cells, errors):
+    found = decide.mean_order("x", cells, Number(errors, 1e-9), 2.0)
+    assert (found.holds, "show no mean order" in found.detail) == (False, True)
+    assert decide.mean_order("x", (8, 16, 32), Number([1e-1, 1e-2, 1e-3], 1e-9), 2.0).holds

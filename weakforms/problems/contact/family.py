@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from weakforms.errors import AbsentError, InputError
 from weakforms.problems.contact.phases import ContactPhases
 from weakforms.results import Absence, SpecialPoint
-from weakforms.solvers.continuation.branch import SolutionCurve
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily
 
@@ -51,8 +51,9 @@ def contact_branch(
         return alone(lambda run: run.emptied if deflates else run.until_end, why)
     if deflates:
         return PiecewiseFamily([Piece(family(lambda run: run.deflation, True), {})])
-    pieces = [
-        Piece(family(lambda run: run.free, False), no_patch),
-        Piece(family(lambda run: run.adhesive if sticks else run.frictionless, sticks), {}),
-    ]
-    return PiecewiseFamily(pieces, lambda: [onset()])
+    free = Piece(family(lambda run: run.free, False), no_patch)
+    try:
+        touching = Piece(family(lambda run: run.adhesive if sticks else run.frictionless, sticks), {})
+    except AbsentError as error:  # without friction the law gives way below p_end
+        return PiecewiseFamily([free], absent=[Absence(error.what, str(error))])
+    return PiecewiseFamily([free, touching], lambda: [onset()])

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.problems.contact.model import PatchModel
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 
-def moved(model: Any, state: State, front: float) -> State:
+def moved(model: PatchModel, state: State, front: float) -> State:
     """The same membrane on a differently divided mesh, by splines through nodal values."""
     new = State(state.u.copy(), state.loads | {"front": front})
     old, wanted = (np.repeat(model.material(model.nodes(), s.loads), 2) for s in (state, new))
@@ -23,7 +22,7 @@ def moved(model: Any, state: State, front: float) -> State:
     return new
 
 
-def stick_guess(model: Any, slipped: Solved) -> State:
+def stick_guess(model: PatchModel, slipped: Solved) -> State:
     """A frictionless state as a guess for the model with the same mesh and front whose patch sticks.
 
     What sticks is not an unknown. Outside, it is measured from its own value at the front, not from that of

@@ -8,12 +8,13 @@ which has a state of the front-fitted mesh, and solved by Newton's method.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.problems.contact.model import PatchModel
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -48,7 +49,7 @@ class History:
     """Functionals of the model: what the free part has at its edge."""
 
     def __init__(
-        self, model: Any, t: np.ndarray, frozen: np.ndarray, weights: np.ndarray | float = 1.0
+        self, model: PatchModel, t: np.ndarray, frozen: np.ndarray, weights: np.ndarray | float = 1.0
     ) -> None:
         self.model, self.span = model, model.bond.span
         self.fronts = self.span * (1 + t) / 2

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import inf
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError, WeakformsError
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
+from weakforms.problems.contact.model import PatchModel
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -48,7 +50,7 @@ class Inflation:
     usual_load: ClassVar[float] = inf
     """Pressure up to which the usual step is used."""
 
-    def __init__(self, slip: Any, p_end: float, step: float) -> None:
+    def __init__(self, slip: PatchModel, p_end: float, step: float) -> None:
         self.slip, self.data, self.p_end, self.step = slip, slip.data, p_end, step
 
     # -- what depends on the body --------------------------------------------------------------
@@ -157,7 +159,7 @@ class Inflation:
         """Frictionless contact, with the front as an unknown besides the pressure."""
         return self._follow(self.slip, self.small_patch())
 
-    def _follow(self, model: Any, state: State) -> FittedBranch:
+    def _follow(self, model: PatchModel, state: State) -> FittedBranch:
         solver, length = ExtendedNewton(model.system, ["p", "front"]), self.data.length
         continuation = Continuation(
             solver,
@@ -198,7 +200,7 @@ class Inflation:
 
     # -- steps and the way back --------------------------------------------------------------
 
-    def _deflated(self, model: Any, state: State, p: float, slack: float) -> EquilibriumBranch:
+    def _deflated(self, model: PatchModel, state: State, p: float, slack: float) -> EquilibriumBranch:
         """From a state at ``p_end`` down to a pressure, or to where the membrane is slack."""
         # A long step, of a large load, must not pass the last pressure by much.
         least = p - PASSED * self.p_end

@@ -1,20 +1,20 @@
 """All phases of a membrane against a substrate: inflation, free and in contact, with a patch that may stick.
 
-What sticks is in the :class:`Bond` of the model and in its :class:`History`.
+What sticks is in the bond of the model and in its :class:`History`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import inf
-from typing import Any
 
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.contact.guesses import moved, stick_guess
 from weakforms.problems.contact.history import History
 from weakforms.problems.contact.inflation import Inflation
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, Solved
+from weakforms.problems.contact.model import PatchModel
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 SPANS, WIDER = 6, 1.02
@@ -22,16 +22,6 @@ SPANS, WIDER = 6, 1.02
 
 BEYOND = 1e-6
 """By how much a patch may pass the end of its history, relative to that."""
-
-
-@dataclass(frozen=True)
-class Bond:
-    """A patch that sticks: its shape is a series in the place at which each point touched, up to ``span``."""
-
-    terms: int
-    span: float
-    rigid: bool = False
-    """Whether the patch keeps its whole shape, and not only its stretch along the substrate."""
 
 
 class ContactPhases(Inflation):
@@ -45,7 +35,7 @@ class ContactPhases(Inflation):
             the uncertainties include the truncation error.
     """
 
-    def __init__(self, slip: Any, p_end: float, step: float, terms: int) -> None:
+    def __init__(self, slip: PatchModel, p_end: float, step: float, terms: int) -> None:
         super().__init__(slip, p_end, step)
         self.terms = terms
 
@@ -54,7 +44,7 @@ class ContactPhases(Inflation):
         raise NotImplementedError
 
     @property
-    def stick(self) -> Any:
+    def stick(self) -> PatchModel:
         """The model whose patch sticks, with its history, up to the front reached.
 
         Raises:

@@ -22,13 +22,13 @@ from mpi4py import MPI
 from ufl.core.expr import Expr
 
 from weakforms.forms.loads import bed_potential
-from weakforms.problems.contact.phases import Bond
+from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.series import Series
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
 
 

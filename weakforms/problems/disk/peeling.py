@@ -11,8 +11,9 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.disk.phases import DiskPhases
 from weakforms.results import Quantity
 from weakforms.results import State as StateRecord
-from weakforms.solvers.continuation.branch import FittedBranch, Solved
+from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State

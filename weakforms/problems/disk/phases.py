@@ -20,13 +20,15 @@ from numpy.polynomial import chebyshev
 
 from weakforms.problems.contact.guesses import moved
 from weakforms.problems.contact.history import History
-from weakforms.problems.contact.phases import Bond, ContactPhases
+from weakforms.problems.contact.model import Bond
+from weakforms.problems.contact.phases import ContactPhases
 from weakforms.problems.disk.model import DiskData, DiskModel
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.limits import limit_of
-from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State

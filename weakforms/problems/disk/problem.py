@@ -21,7 +21,8 @@ from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.limits import require_taut
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.results import SpecialPoint
-from weakforms.solvers.continuation.branch import EquilibriumBranch, SolutionCurve
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 from weakforms.solvers.uncertainty.refinement import Slow

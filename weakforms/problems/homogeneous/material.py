@@ -8,7 +8,13 @@ from pydantic import Field
 from weakforms.errors import InputError
 from weakforms.forms.materials import MATERIALS
 from weakforms.problems.homogeneous.about import MATERIAL
-from weakforms.problems.homogeneous.material_point import NAMES, STATES, evaluated
+from weakforms.problems.homogeneous.material_point import (
+    LARGEST,
+    NAMES,
+    STATES,
+    evaluated,
+    stressed,
+)
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.results import Quantity, Result
@@ -77,4 +83,19 @@ def require_defined(problem: str, parameters: MaterialChoice, l1: float, l2: flo
         raise InputError(
             f"{problem}: model = {parameters.model!r} is not defined at {what} = {l1:g}, {l2:g} "
             "(beyond full extension, or without thickness); smaller stretches are allowed"
+        )
+
+
+def require_reachable(problem: str, parameters: MaterialChoice, l1: float, l2: float, what: str) -> None:
+    """Refuse stretches at which the chosen law is not defined, or under stresses that no branch reaches.
+
+    Raises:
+        InputError: With a message that names them.
+    """
+    require_defined(problem, parameters, l1, l2, what)
+    if stressed(parameters.material, l1, l2) > LARGEST:
+        raise InputError(
+            f"{problem}: model = {parameters.model!r} has stresses of more than {LARGEST:g} times its "
+            f"stiffness at rest at {what} = {l1:g}, {l2:g}; choose a lam_end nearer to 1, "
+            "or smaller exponents"
         )

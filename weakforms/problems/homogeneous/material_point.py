@@ -16,6 +16,10 @@ from weakforms.problems.material_choice import Chosen
 
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
 
+LARGEST = 1e6
+"""Largest stress, relative to the stiffness at rest, up to which a law is followed. No rubber comes near it,
+and the number of steps along a branch grows with the logarithm of the load."""
+
 STATES = ("slack", "tension along 1", "tension along 2", "taut")
 """States of a sheet by number."""
 
@@ -78,3 +82,9 @@ def point_of(model: str) -> MaterialPoint:
 def evaluated(chosen: Chosen, l1: float, l2: float, energy: str = "full") -> dict[str, float]:
     """A law with its constants at two stretches (see :class:`MaterialPoint`)."""
     return point_of(chosen.model)(chosen.constants, l1, l2, energy)
+
+
+def stressed(chosen: Chosen, l1: float, l2: float) -> float:
+    """The larger of ``|w,1|`` and ``|w,2|`` at two stretches, relative to ``w,11`` at rest."""
+    here, rest = evaluated(chosen, l1, l2), evaluated(chosen, 1.0, 1.0)
+    return max(abs(here["W1"]), abs(here["W2"])) / rest["W11"]

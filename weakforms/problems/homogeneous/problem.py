@@ -12,14 +12,14 @@ from weakforms.problems.branch_problem import BranchProblem, Family, from_rest
 from weakforms.problems.homogeneous import body as closed_body
 from weakforms.problems.homogeneous.about import HOMOGENEOUS, INFINITE_TUBE, SPHERE
 from weakforms.problems.homogeneous.body import Body, system_of
-from weakforms.problems.homogeneous.material import require_defined
+from weakforms.problems.homogeneous.material import require_reachable
 from weakforms.problems.homogeneous.maxwell import maxwell_states
 from weakforms.problems.material_choice import Chosen, MaterialChoice
 from weakforms.problems.problem import End, Needs, Numerics, Requests, Task
 from weakforms.results import Result
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
-from weakforms.solvers.continuation.continuation import Continuation, StepControl
-from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine, fold_line
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -76,7 +76,7 @@ def _start_under_force(system: System, body: Body, step: float) -> State:
     return pulled.at("force", body.force).state
 
 
-def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float) -> FoldLine:
+def fold_line_of(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float) -> FoldLine:
     """The first limit point, followed in a constant of the law until it returns or reaches an end.
 
     Raises:
@@ -85,24 +85,18 @@ def fold_line(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, 
     system = system_of(body, chosen, vary)
     along = body.unknowns[0]
     branch = from_rest(system, body.load, along, lam_end, step)
-    turns = branch.turns()
-    if not len(turns):
+    if not len(branch.turns()):
         raise InputError(f"no limit point up to {along} = {lam_end:g}: no line of them starts there")
-    first = branch.special()[0].state
-    fold = Fold(body.load, system.mass_times(branch.points[int(turns[0])].tangent.u))
-    begin = first.loads[vary]
+    begin = branch.points[0].state.loads[vary]
     size = abs(to - begin)
     largest = min(max(step, size / 50), size / 4)  # constants have different sizes
     steps = StepControl(first=largest / 8, largest=largest)
-    line = Continuation(ExtendedNewton(system, [body.load, vary]), [fold], steps, shift=1e-6)
-    start = line.start(first, Held(vary, begin), towards={vary: np.sign(to - begin)})
     low, high = min(begin, to), max(begin, to)
-    return FoldLine(
-        line,
-        vary,
-        start,
-        stop=lambda q: not low < q.state.loads[vary] < high or q.monitors[along] > lam_end,
-    )
+
+    def stop(point: CurvePoint) -> bool:
+        return not low < point.state.loads[vary] < high or point.monitors[along] > lam_end
+
+    return fold_line(branch, vary, float(np.sign(to - begin)), steps, stop)
 
 
 class SphereParameters(MaterialChoice):
@@ -130,7 +124,7 @@ class Sphere(ClosedProblem):
             InputError: With a message that says what is allowed.
         """
         super().check(parameters, requests)
-        require_defined(self.name, parameters, parameters.lam_end, parameters.lam_end, "lam_end")
+        require_reachable(self.name, parameters, parameters.lam_end, parameters.lam_end, "lam_end")
         chosen = parameters.material
         if not parameters.vary:
             if any(r.branch == "fold" or r.name == "cusp_point" for r in requests.states):
@@ -170,7 +164,8 @@ class Sphere(ClosedProblem):
 
             def line(level: int) -> FoldLine:
                 progress("fold", level, numerics.levels)
-                return fold_line(body, chosen, parameters.vary, parameters.vary_end, parameters.lam_end, step)
+                ends = parameters.vary_end, parameters.lam_end
+                return fold_line_of(body, chosen, parameters.vary, *ends, step)
 
             across = (parameters.vary, "lam")
             found["fold"] = BranchFamily(line, numerics.levels, ORDER, across=across, name="fold")
@@ -193,7 +188,7 @@ class InfiniteTube(ClosedProblem):
     def check(self, parameters: InfiniteTubeParameters, requests: Requests) -> None:
         """Refuse stretches that the law does not reach."""
         super().check(parameters, requests)
-        require_defined(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
+        require_reachable(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
 
     def ends(self, parameters: InfiniteTubeParameters, _branch: str) -> list[End]:
         """The largest hoop stretch."""
@@ -242,7 +237,7 @@ class Homogeneous(ClosedProblem):
         if across is None:
             chosen = parameters.material
             across = float(chosen.material.width(end, **dict(chosen.constants)))
-        require_defined(self.name, parameters, end, across, "lam_end")
+        require_reachable(self.name, parameters, end, across, "lam_end")
 
     def ends(self, parameters: HomogeneousParameters, _branch: str) -> list[End]:
         """The last stretch."""

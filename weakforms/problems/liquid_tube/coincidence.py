@@ -21,7 +21,7 @@ from weakforms.problems.liquid_tube.problem import CAPS, FluidTubeNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_model
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.results import Absence, Quantity, Result
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.stability.modal import ModalBranch

@@ -15,7 +15,8 @@ from mpi4py import MPI
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.branch import WIDEST, FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.pieces import nth
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.support.sampling import Sampler
@@ -95,14 +96,11 @@ class PrimaryBranch:
         Raises:
             ConvergenceError: If the branch has no such state.
         """
-        left = crossing
-        for piece in self.path.pieces:
-            here = len(piece.crossings(name, value))
-            if left <= here:
-                solved = piece.at(name, value, left)
-                return self._read(solved, np.asarray(points, dtype=float))
-            left -= here
-        raise ConvergenceError(f"{name} = {value:g} is not taken {crossing} times on the primary branch")
+        found = nth(self.path.pieces, lambda piece: len(piece.crossings(name, value)), crossing)
+        if found is None:
+            raise ConvergenceError(f"{name} = {value:g} is not taken {crossing} times on the primary branch")
+        piece, here = found
+        return self._read(piece.at(name, value, here), np.asarray(points, dtype=float))
 
     def _read(self, solved: Solved, points: np.ndarray) -> AxisymmetricState:
         r, z = self.path.sampled(solved.state, points, ("r", "z"))

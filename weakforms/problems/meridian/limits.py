@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from weakforms.errors import InputError
-from weakforms.problems.homogeneous.material_point import NAMES, evaluated
+from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
 
 LEAST_RESISTANCE = 0.02
@@ -33,6 +33,8 @@ def limit_of(law: Chosen, places: Iterable[tuple[float, float]]) -> str:
             return f"{stretched} is beyond its end, or within {MARGIN:.0%} of it"
         if l1 > 1 and l1 * here["W11"] < LEAST_RESISTANCE * here["W1"]:
             return f"{stretched} hardly resists meridional stretch any more"
+        if stressed(law, l1, l2) > LARGEST:
+            return f"{stretched} has stresses of more than {LARGEST:g} times its stiffness at rest"
     return ""
 
 

@@ -66,7 +66,7 @@ class SurfaceRun:
         self.rings = model.body.triangles.rings
         self.stability = Stability(model.system)
         self.stability.factor.use_pivoting()
-        self._lowest = Lowest(model.system)
+        self._lowest = Lowest(model.system, factor=self.stability.factor)
         self._subspace = model.symmetric()
         self._newton: ExtendedNewton | None = None
         self._begin = State(self.system.initial.u, dict(loads))

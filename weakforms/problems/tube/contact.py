@@ -16,12 +16,12 @@ from dolfinx import fem
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
-from weakforms.problems.contact.phases import Bond
+from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.series import Series
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, one_end
 from weakforms.problems.tube.model import TubeModel
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
 
 UNILATERAL_QUADRATURE = 160

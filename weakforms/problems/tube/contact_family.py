@@ -13,7 +13,7 @@ from weakforms.problems.tube.contact import ContactData
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.phases import TubePhases
 from weakforms.results import SpecialPoint
-from weakforms.solvers.continuation.branch import SolutionCurve
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 from weakforms.solvers.uncertainty.refinement import Slow

@@ -28,9 +28,9 @@ from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, one_end
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.limits import LEAST_RESISTANCE
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine, fold_line
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
-from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -238,7 +238,7 @@ def yielding(point: CurvePoint) -> str:
     )
 
 
-def fold_line(branch: EquilibriumBranch, ends: tuple[float, float], step: float) -> FoldLine:
+def fold_line_between(branch: EquilibriumBranch, ends: tuple[float, float], step: float) -> FoldLine:
     """The first limit point of a branch, followed in ``delta1`` until it returns or reaches an end.
 
     Args:
@@ -246,15 +246,9 @@ def fold_line(branch: EquilibriumBranch, ends: tuple[float, float], step: float)
         ends: Range of pre-stretches of the line.
         step: Largest arc-length step.
     """
-    begin = branch.special()[0].state
-    middle = branch.points[int(branch.turns()[0])]
-    fold = Fold("p", branch.system.mass_times(middle.tangent.u))
-    solver = ExtendedNewton(branch.system, ["p", "delta1"])
     low, high = ends
-    at = begin.loads["delta1"]
-    continuation = Continuation(solver, [fold], StepControl(first=step / 4, largest=step), shift=1e-6)
-    inwards = 1.0 if at < (low + high) / 2 else -1.0
-    start = continuation.start(begin, Held("delta1", at), towards={"delta1": inwards})
-    return FoldLine(
-        continuation, "delta1", start, stop=lambda point: not low < point.state.loads["delta1"] < high
+    inwards = 1.0 if branch.points[0].state.loads["delta1"] < (low + high) / 2 else -1.0
+    steps = StepControl(first=step / 4, largest=step)
+    return fold_line(
+        branch, "delta1", inwards, steps, lambda point: not low < point.state.loads["delta1"] < high
     )

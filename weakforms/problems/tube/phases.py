@@ -10,11 +10,13 @@ from mpi4py import MPI
 from numpy.polynomial import chebyshev
 
 from weakforms.problems.contact.history import History
-from weakforms.problems.contact.phases import Bond, ContactPhases
+from weakforms.problems.contact.model import Bond
+from weakforms.problems.contact.phases import ContactPhases
 from weakforms.problems.tube.contact import FIRST_FRONT, ContactData, ContactModel
 from weakforms.problems.tube.model import FIRST_U, TAUT, free_branch, yielding, yields
-from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 
@@ -69,9 +71,12 @@ class TubePhases(ContactPhases):
         self, comm: MPI.Intracomm, data: ContactData, p_end: float, step: float, terms: int = 18
     ) -> None:
         super().__init__(ContactModel(comm, data), p_end, step, terms)
+        self._rest = self.slip.system.state()
+        """Start of every free branch; it is kept, because each branch changes the state of its system."""
 
     def inflate(self, depth: float) -> EquilibriumBranch:
         """Free inflation up to a displacement of the mid-plane."""
+        self.slip.system.set_state(self._rest.u, self._rest.loads)
         return free_branch(self.slip.system, self.data.delta1, depth, self.step)
 
     def small_patch(self) -> State:

@@ -13,7 +13,7 @@ from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
-from weakforms.problems.tube.model import FIRST_U, TubeMesh, TubeModel, fold_line, free_branch
+from weakforms.problems.tube.model import FIRST_U, TubeMesh, TubeModel, fold_line_between, free_branch
 from weakforms.problems.tube.parameters import (
     LONGEST_WHOLE,
     TubeFoldParameters,
@@ -21,7 +21,8 @@ from weakforms.problems.tube.parameters import (
     TubeParameters,
     resolving,
 )
-from weakforms.solvers.continuation.branch import EquilibriumBranch, SolutionCurve
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 SCANNED = 17
@@ -145,7 +146,7 @@ class TubeFold(BranchProblem):
                     f"tube_fold: delta1 = {start:g}: a limit point on {numerics.meshes[0]} cells, but "
                     f"none on {numerics.meshes[level]}: raise cells"
                 )
-            return fold_line(equilibria, ends, numerics.step)
+            return fold_line_between(equilibria, ends, numerics.step)
 
         return {
             "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("delta1", "u_max"))

@@ -10,13 +10,14 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.wrinkled.events import Event, events
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
 from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
-from weakforms.solvers.continuation.branch import DIAGNOSTICS, FittedBranch, SolutionCurve, Solved
+from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.equilibrium import constraints as fixed
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.uncertainty.family import CRITICAL
@@ -67,25 +68,33 @@ class WrinkledBranch:
         load_end, volume_end, step = self._settings
         steps = StepControl(first=step / 8, largest=step, predictor_error=PREDICTOR)
         continuation = Continuation(solver_of(self.membrane.plain_model, (self.control,)), control=steps)
-        start = self._start(continuation)
-        most = volume_end * start.monitors["V"]
+        with self.membrane.weighed():
+            start = self._start(continuation)
+            most, peak = volume_end * start.monitors["V"], [start.state.loads[self.control]]
 
-        peak = [start.state.loads[self.control]]
+            def stop(point: CurvePoint) -> bool:
+                load = point.state.loads[self.control]
+                peak[0] = max(peak[0], load)
+                return load > load_end or self._is_past_limit(load, peak[0]) or point.monitors["V"] > most
 
-        def stop(point: CurvePoint) -> bool:
-            load = point.state.loads[self.control]
-            peak[0] = max(peak[0], load)
-            return load > load_end or self._is_past_limit(load, peak[0]) or point.monitors["V"] > most
-
-        return SolutionCurve(continuation, self.control, start, stop)
+            return SolutionCurve(continuation, self.control, start, stop)
 
     def _is_past_limit(self, load: float, peak: float) -> bool:
         """Whether the load has decreased so far from its largest value that the branch ends."""
         return load < PAST_LIMIT * peak
 
     def _start(self, continuation: Continuation) -> CurvePoint:
-        """The start of the trace: no load."""
-        state, _ = self.membrane.by_homotopy(0.0)
+        """The start of the trace: no load.
+
+        Raises:
+            ConvergenceError: If it is not found; the message names the parameters of the membrane's shape.
+        """
+        try:
+            state, _ = self.membrane.by_homotopy(0.0)
+        except ConvergenceError as error:
+            shape = [name for name in ("delta", "M", "Af") if name in self.membrane.values]
+            hint = f"; choose a smaller delta, or another {' or '.join(shape[1:])}" if shape else ""
+            raise ConvergenceError(f"the membrane without load is not found: {error}{hint}") from error
         unloaded = fixed.Held(self.control, 0.0)
         return continuation.start(state, unloaded, towards={self.control: 1.0})
 
@@ -114,8 +123,8 @@ class WrinkledBranch:
             InputError: If the column does not take the value that often.
         """
         trace = self.trace
-        self.membrane.prepare()
-        return trace.at(name, value, crossing)
+        with self.membrane.weighed():
+            return trace.at(name, value, crossing)
 
     def _fitted(self, solved: Solved, name: str, fine_only: bool = False) -> list[Held]:
         plain = self.membrane.plain(solved.state)
@@ -249,15 +258,13 @@ class WrinkledBranch:
 
     def _limit_from(self, held: Held, low: float, high: float) -> Held:
         """The limit load between two volumes by arc length, with fronts and load as unknowns."""
-        model = held.model
-        with held.lent():
-            model.system.update_mass()
+        system, beyond = held.model.system, lambda point: point.monitors["V"] > high
         continuation = Continuation(
-            solver_of(model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
+            solver_of(held.model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
         )
-        begin = continuation.start(held.state, fixed.Held("V", low), towards={"V": 1.0})
-        branch = FittedBranch(continuation, self.control, begin, lambda point: point.monitors["V"] > high)
-        limits = branch.special()
+        with held.lent(), system.weighed_here():
+            begin = continuation.start(held.state, fixed.Held("V", low), towards={"V": 1.0})
+            limits = FittedBranch(continuation, self.control, begin, beyond).special()
         if len(limits) != 1:
             raise ConvergenceError(
                 f"{len(limits)} limit loads between V = {low:.6g} and {high:.6g} on a fitted mesh"

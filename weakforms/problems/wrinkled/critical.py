@@ -12,8 +12,8 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.body import CYLINDER
-from weakforms.problems.wrinkled.fitted import PLACE, Membrane
-from weakforms.problems.wrinkled.start import WALK
+from weakforms.problems.wrinkled.fitted import PLACE
+from weakforms.problems.wrinkled.membrane import WALK, Membrane
 from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
@@ -117,19 +117,14 @@ def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate
     if not at_end:
         s = place + np.linspace(-1.0, 1.0, SAMPLES) * membrane.length / (SAMPLES - 1)
         place = float(s[np.argmin(held.sampled(s)["gw"])])
-    found, levels = [], range(len(membrane.meshes))
-    for level in reversed(levels):
-        touch = Touch(place, at_end)
-        held = membrane.fit(level, held, held.zones, (), free=("M",), touch=touch, same=bool(found))
-        place = held.touched
-        found.append((held.state.loads["M"], place))
-    thickness, places = zip(*reversed(found), strict=True)
-    where = estimate(list(places), 2 * degree)
+    found = membrane.touching(held, Touch(place, at_end), free=("M",))
+    thickness = [held.state.loads["M"] for held in found]
+    where = estimate([held.touched for held in found], 2 * degree)
     where = replace(where, uncertainty=where.uncertainty + PLACE)
-    ratio = estimate(list(thickness), 2 * degree)
+    ratio = estimate(thickness, 2 * degree)
     value = float(ratio.value)
     membrane.values["M"] = value + float(np.sign(value - 1)) * BESIDE
-    growth = abs(_least(membrane.unloaded_from(levels[-1], TAUT, first)) - 1.0) / BESIDE
+    growth = abs(_least(membrane.unloaded_from(len(found) - 1, TAUT, first)) - 1.0) / BESIDE
     return {"M": replace(ratio, uncertainty=ratio.uncertainty + ROUND_OFF / growth), "Z": where}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled.fields import Zones
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import Held, Touch
 from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
@@ -154,12 +154,8 @@ def _located(
     low, high, state = zone
     at_end = low == 0.0 or high == membrane.length
     place = 0.0 if low == 0.0 else high if at_end else (low + high) / 2
-    levels, start = [], absent
-    for level in reversed(range(len(membrane.meshes))):
-        start = membrane.fit(level, start, start.zones, (), touch=Touch(place, at_end), same=bool(levels))
-        place = start.touched
-        levels.append(start)
-    load = levels[0].state.loads[membrane.control]
+    levels = membrane.touching(absent, Touch(place, at_end))
+    load, place = levels[-1].state.loads[membrane.control], levels[0].touched
     ends = sorted(held.state.loads[membrane.control] for held in (absent, present))
     slack = SLACK * max(1.0, abs(ends[1]))
     if not ends[0] - slack <= load <= ends[1] + slack or not 0 <= place <= membrane.length:
@@ -167,4 +163,4 @@ def _located(
             f"a zone's event was found at {load:.12g}, outside [{ends[0]:.12g}, {ends[1]:.12g}]"
         )
     kind = "zone_opening" if opening else "zone_closing"
-    return [Event(kind, state, after, tuple(reversed(levels)))]
+    return [Event(kind, state, after, tuple(levels))]

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import BY_STATE, Marks
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.model import WrinkledModel
-from weakforms.problems.wrinkled.start import VERGE, VERGE_FITTED, PlainMembrane
 from weakforms.problems.wrinkled.state import (
     AtBreak,
     Held,
     Layout,
+    Mesh,
     Touch,
     model_on,
     solver_of,
@@ -42,8 +45,46 @@ PLACE = 1e-7
 """Resulting error of the position."""
 
 
-class Membrane(PlainMembrane):
-    """One membrane at given parameters, with its states on a plain mesh and on fitted meshes."""
+VERGE, VERGE_FITTED = 1e-7, 1e-10
+"""Deviation of ``gw`` from 1 that counts as zero, on a plain mesh and on a fitted mesh."""
+
+
+class FittedMembrane:
+    """One membrane at given parameters, with its states on meshes fitted to their zones.
+
+    Args:
+        comm: Ranks.
+        body: Geometry and thickness.
+        values: Parameters: the body's, ``c2``, ``gamma``.
+        liquid: Whether the load is ``zw``; else it is ``p``.
+        cells: Cells of each block on each mesh, coarse to fine.
+        degree: Degree of the elements.
+        energy: See :class:`WrinkledModel`.
+        near_fronts: Distances from fronts at which further blocks end, for short waves.
+        material: A law that replaces the Mooney-Rivlin law.
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        body: Body,
+        values: Mapping[str, float],
+        liquid: bool,
+        cells: Sequence[int],
+        degree: int,
+        energy: str,
+        near_fronts: Sequence[float] = (),
+        material: Chosen | None = None,
+    ) -> None:
+        self.body, self.liquid, self.energy = body, liquid, energy
+        self.near_fronts = tuple(near_fronts)
+        self.values = {"gamma": 0.0, "c2": 0.0, "residual_stiffness": 0.0, "p": 0.0, "zw": 0.0, **values}
+        self.length = float(body.length(self.values))
+        self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy, material) for n in cells]
+        self.control = "zw" if liquid else "p"
+        self.on_meshes: list[dict[str, float]] = [{} for _ in cells]
+        """Parameters that are results themselves, for each mesh, so that differences between meshes include
+        their errors. Those of the finest mesh are also in ``values``."""
 
     def fitted(self, start: Held, constraint: Constraint, fine_only: bool = False) -> list[Held]:
         """The state given by a constraint on the control, on every mesh, coarse to fine, or the finest.
@@ -106,7 +147,7 @@ class Membrane(PlainMembrane):
             model = model_on(self.meshes[-1], len(layout.breaks) - 1)
             unmarked = np.full(model.blocks, BY_STATE)
             marks = Marks(unmarked, unmarked if self.liquid else layout.marks.wet)
-            guess = self._moved(held, model, layout.breaks, marks)
+            guess = self.moved(held, model, layout.breaks, marks)
             state, record = solver_of(model, (self.control,)).solve(guess, [constraint])
             held = Held(model, state, held.zones, record, (self.control,))
             held.zones = held.shown_zones(VERGE, self.liquid)
@@ -148,7 +189,7 @@ class Membrane(PlainMembrane):
         if same:
             layout = replace(start.layout, breaks=start.model.breaks_of(start.state.loads))
         model = model_on(self.meshes[level], len(layout.breaks) - 1)
-        guess = self._moved(start, model, layout.breaks, layout.marks)
+        guess = self.moved(start, model, layout.breaks, layout.marks)
         guess.loads |= self.on_meshes[level]
         nodes = [*layout.fronts, *([] if layout.surface is None else [layout.surface])]
         own = [AtBreak(model, "gw", k) for k in layout.fronts]
@@ -179,7 +220,25 @@ class Membrane(PlainMembrane):
         touched = None if touch is None else float(breaks[node])
         return Held(model, state, found, record, scalars, tuple(own), touched, layout)
 
-    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
+    def touching(self, start: Held, touch: Touch, free: Sequence[str] | None = None) -> list[Held]:
+        """The state at which ``gw`` just touches 1 at a point, on every mesh, coarse to fine.
+
+        Args:
+            start: A state near it, with its zones.
+            touch: About where; each mesh starts from the place that the finer one has found.
+            free: Unknown loads besides the break points; by default the control.
+
+        Raises:
+            ConvergenceError: If it is not found on some mesh.
+        """
+        found: list[Held] = []
+        for level in reversed(range(len(self.meshes))):
+            start = self.fit(level, start, start.zones, (), free, touch, same=bool(found))
+            touch = replace(touch, at=start.touched)
+            found.append(start)
+        return found[::-1]
+
+    def moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
         """A state interpolated to another mesh with its marks."""
         loads = {k: v for k, v in start.state.loads.items() if not (k[0] == "b" and k[1:].isdigit())}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, model.blocks)}

@@ -21,13 +21,13 @@ from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wrinkled import body
 from weakforms.problems.wrinkled.about import HEMISPHERE
 from weakforms.problems.wrinkled.branch import WrinkledBranch
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
 from weakforms.results import Result
-from weakforms.solvers.continuation.branch import SolutionCurve
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.equilibrium import constraints as fixed
 
 GAMMA = 100 * PAPER_GAMMA

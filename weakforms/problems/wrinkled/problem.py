@@ -23,12 +23,12 @@ from weakforms.problems.wrinkled.about import WRINKLED_TUBE
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
-from weakforms.results import Quantity, Result
+from weakforms.results import Result
 from weakforms.solvers.equilibrium.newton import STOPPING
-from weakforms.solvers.uncertainty.refinement import Estimate, estimate
+from weakforms.solvers.uncertainty.refinement import estimate
 
 DENSITY, GRAVITY, RADIUS, THICKNESS, SHEAR = 1000.0, 9.81, 0.010, 0.1e-3, 0.2111e6
 """The paper's data for water, cylinder and ``C1`` in SI units."""
@@ -157,7 +157,7 @@ class WrinkledTube(BranchProblem):
         result.numerics["stopping"] = STOPPING
         progress("critical radius", 0, 1)
         critical = _critical(parameters, numerics, comm)
-        result.quantities["Af_critical"] = quantity(estimate(critical, 2 * numerics.degree))
+        result.quantities["Af_critical"] = estimate(critical, 2 * numerics.degree).quantity()
         branch = self._branch(parameters, numerics, requests, comm, critical)
         self._answer(result, {"primary": branch}, task)
         result.special_points.extend(branch.fronts)
@@ -221,9 +221,3 @@ def wrinkled_membrane(
     for own, radius in zip(membrane.on_meshes, radii, strict=False):
         own["Af"] = radius
     return membrane
-
-
-def quantity(found: Estimate) -> Quantity:
-    """An estimate as a quantity of a result."""
-    order = float(found.order)
-    return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)

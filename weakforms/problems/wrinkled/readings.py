@@ -9,12 +9,13 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.meridian.model import WRINKLED
-from weakforms.problems.wrinkled.fitted import PLACE, Membrane
+from weakforms.problems.wrinkled.fitted import PLACE
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import Held, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
 from weakforms.results import Field, Quantity, SpecialPoint
-from weakforms.solvers.continuation.branch import Solved
-from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.stability.spectra import same_count, spectrum_of
 from weakforms.solvers.uncertainty.family import special_point
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate, estimate_in_norm
 
@@ -135,9 +136,7 @@ class Readings:
 
     def quantity(self, name: str, values: list[float]) -> Quantity:
         """The same as a quantity of a result."""
-        found = self.estimate(name, values, self._resolved(name))
-        order = float(found.order)
-        return Quantity(float(found.value), float(found.uncertainty), order if order > 0 else None)
+        return self.estimate(name, values, self._resolved(name)).quantity()
 
     def quantities(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
         """All columns of a state, including its spectra.
@@ -177,15 +176,10 @@ class Readings:
 
         By SLEPc, and by inertia.
         """
-        spectra = []
-        for held in levels:
-            with held.lent(), held.model.system.weighed_here():
-                spectra.append(Stability(held.model.system).spectrum(held.state, shift=critical))
-        counts = {spectrum.n_negative for spectrum in spectra}
-        if len(counts) != 1:
-            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
+        spectra = [spectrum_of(held.model.system, held.state, critical) for held in levels]
+        count = same_count(spectrum.n_negative for spectrum in spectra)
         lowest = self.quantity("eigenvalue_1", [spectrum.eigenvalues[0] for spectrum in spectra])
-        return {"n_negative": Quantity(counts.pop()), "eigenvalue_1": lowest}
+        return {"n_negative": Quantity(count), "eigenvalue_1": lowest}
 
     def point(self, same: Sequence[Solved], branch: str, exact: Sequence[str] = ()) -> SpecialPoint:
         """A special point from its columns on every mesh.

@@ -11,7 +11,7 @@ from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE_THRESHOLD
 from weakforms.problems.wrinkled.critical import natural_radius, threshold
-from weakforms.problems.wrinkled.problem import WrinkledNumerics, quantity
+from weakforms.problems.wrinkled.problem import WrinkledNumerics
 from weakforms.results import Failure, Result
 
 
@@ -70,4 +70,4 @@ class WrinkledTubeThreshold(Problem):
         except ConvergenceError as error:
             result.failures.append(Failure("threshold", str(error)))
         else:
-            result.quantities |= {name: quantity(one) for name, one in found.items()}
+            result.quantities |= {name: one.quantity() for name, one in found.items()}

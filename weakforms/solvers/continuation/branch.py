@@ -1,280 +1,25 @@
-"""A solution curve on one mesh: its trace, its special points, and the state at any value of a column."""
+"""Curves with their special points: equilibria over a load, over a load and fronts, and lines of folds."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
 
-from weakforms.errors import ConvergenceError, InputError
-from weakforms.results.model import ROUND_OFF, crossings
-from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, hermite
-from weakforms.solvers.equilibrium.constraints import Fold, Held, MonitorPlane
-from weakforms.solvers.equilibrium.newton import Constraint
+from weakforms.errors import ConvergenceError
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import SolutionCurve, Solved
+from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
-from weakforms.solvers.support.roots import root
-
-DIAGNOSTICS = ("n_negative", "residual", "iterations")
-"""Columns that describe the solve; they cannot be prescribed."""
-
-
-BETWEEN = (0.25, 0.5, 0.75)
-"""Fractions of the interval between two points of a trace at which eigenvalues are counted again."""
+from weakforms.solvers.support.roots import polynomial_through, root
 
 NODES = 8
 """Number of states from which a bifurcation point is interpolated."""
 
-
-@dataclass(frozen=True)
-class Solved:
-    """A state that was solved for on a branch: its columns and its degrees of freedom."""
-
-    values: dict[str, float]
-    state: State
-    kind: str = ""
-    """Kind of the special point; empty for any other state."""
-
-
-class SolutionCurve:
-    """A one-dimensional set of solutions from a start to an end.
-
-    Args:
-        continuation: Follows the curve.
-        control: The load over which the curve is drawn; limit points are its extrema.
-        start: First point.
-        stop: True at the last requested point.
-
-    Attributes:
-        points: The converged points in order.
-        stalled: Why the trace ended early; ``None`` if it did not.
-        ended: Why there is no more to trace, such as a law that gives way; ``None`` if that is not so.
-    """
-
-    ended: str | None = None
-
-    def __init__(
-        self,
-        continuation: Continuation,
-        control: str,
-        start: CurvePoint,
-        stop: Callable[[CurvePoint], bool],
-    ) -> None:
-        self.continuation = continuation
-        self.solver, self.system = continuation.solver, continuation.system
-        self.control = control
-        self.loads = continuation.solver.scalars
-        self.points: list[CurvePoint] = []
-        self.stalled: str | None = None
-        try:
-            for point in continuation.trace(start, stop):
-                self.points.append(point)
-        except ConvergenceError as error:
-            self.stalled = str(error)
-
-    # -- columns -----------------------------------------------------------------------------
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """Every column over the points of the trace."""
-        points = self.points
-        out = {name: np.array([p.state.loads[name] for p in points]) for name in self.loads}
-        for name in points[0].monitors:
-            out[name] = np.array([p.monitors[name] for p in points])
-        out["n_negative"] = np.array([p.n_negative for p in points])
-        out["residual"] = np.array([p.record.norms[-1] for p in points])
-        out["iterations"] = np.array([p.record.iterations for p in points])
-        return out
-
-    @property
-    def shown(self) -> list[str]:
-        """Columns that results show, without diagnostics."""
-        names = [*self.loads, *self.points[0].monitors]
-        return [name for name in names if name not in self.system.formulation.internal]
-
-    def _values(self, state: State) -> dict[str, float]:
-        """Columns of a state."""
-        with self.system.at(state):
-            return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
-
-    # -- states on demand --------------------------------------------------------------------
-
-    def at(self, name: str, value: float, crossing: int = 1) -> Solved:
-        """Solve for the state at which a column takes a value for the ``crossing``-th time along the branch.
-
-        Raises:
-            InputError: If the column cannot be prescribed or does not take the value that often.
-            ConvergenceError: If the state was bracketed but Newton's method did not converge to it.
-        """
-        hits = self.crossings(name, value)
-        if len(hits) < crossing:
-            column = self._over_points(name)
-            raise InputError(
-                f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
-                f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
-            )
-        i = int(hits[crossing - 1])
-        solved = self._solve(self._between(i, self._fraction(i, name, value)), Held(name, value))
-        self._require_within(i, solved, f"state at {name} = {value:g}")
-        return solved
-
-    def near(self, guess: State, name: str, value: float) -> Solved:
-        """Solve for the state at which a column takes a value, from a state near it."""
-        return self._solve(guess, Held(name, value))
-
-    def _fraction(self, i: int, name: str, value: float) -> float:
-        """Fraction of the interval between two neighbours where a column (a load: its cubic) has a value."""
-        before, after = (self._column(point, name) - value for point in self.points[i : i + 2])
-        for share, left in ((0.0, before), (1.0, after)):
-            if abs(left) <= ROUND_OFF * abs(value):
-                return share
-        if name in self.loads:
-            return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
-        return before / (before - after)
-
-    def crossings(self, name: str, value: float) -> np.ndarray:
-        """Indices of the points after which a column crosses a value.
-
-        Raises:
-            InputError: If the column cannot be prescribed.
-        """
-        if name not in (*self.loads, *self.system.formulation.monitors):
-            known = ", ".join((*self.loads, *self.system.formulation.monitors))
-            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
-        return crossings(self._over_points(name), value)
-
-    def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
-        """Solve for the state of this mesh in the plane across the branch through a point of another mesh.
-
-        Args:
-            like: The point of the other mesh.
-            rates: Direction of that branch in some columns; the plane is normal to it.
-            near: Position along the branch, as a fraction of the arc length.
-        """
-        target = sum(rate * self._column(like, name) for name, rate in rates.items())
-        places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
-        arclengths = np.array([p.arclength for p in self.points])
-        hits = np.flatnonzero((places[:-1] - target) * (places[1:] - target) <= 0)
-        middle = (arclengths[:-1] + arclengths[1:]) / 2
-        if not len(hits):
-            hits = np.array([int(np.argmin(np.abs(places[:-1] - target)))])
-        i = int(hits[np.argmin(np.abs(middle[hits] - near * arclengths[-1]))])
-        span = places[i + 1] - places[i]
-        guess = self._between(i, (target - places[i]) / span if span else 0.5)
-        return self._solve(guess, MonitorPlane(rates, target))
-
-    def _over_points(self, name: str) -> np.ndarray:
-        return np.array([self._column(point, name) for point in self.points])
-
-    def _column(self, point: CurvePoint, name: str) -> float:
-        return point.state.loads[name] if name in self.loads else point.monitors[name]
-
-    def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
-        state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
-        return Solved(self._values(state), state, kind)
-
-    def _between(self, i: int, fraction: float) -> State:
-        """Cubic interpolation between two neighbours of the trace."""
-        a, b = self.points[i], self.points[i + 1]
-        h, (v0, s0, v1, s1) = b.arclength - a.arclength, hermite(fraction)
-        u = v0 * a.state.u + s0 * h * a.tangent.u + v1 * b.state.u + s1 * h * b.tangent.u
-        loads = {
-            name: v0 * a.state.loads[name]
-            + v1 * b.state.loads[name]
-            + h * (s0 * a.tangent.loads[name] + s1 * b.tangent.loads[name])
-            for name in self.loads
-        }
-        return State(u, {**a.state.loads, **loads}, a.state.marks)
-
-    def _require_within(self, i: int, solved: Solved, what: str) -> None:
-        """Refuse a solution outside of the interval in which Newton's method should find it."""
-        a, b = self.points[i], self.points[i + 1]
-        length = b.arclength - a.arclength
-        for end in (a, b):
-            gap = self.continuation.distance(solved.state, end.state)
-            if gap > 1.2 * length:
-                raise ConvergenceError(f"{what}: converged {gap:.2g} away from where it was bracketed")
-
-    def _root(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
-        """Solve for the state between two neighbours where a function is zero, over planes across it."""
-        tangent = self.points[i].tangent
-        last: list[Solved] = []
-
-        def value(fraction: float) -> float:
-            guess = self._between(i, fraction)
-            last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
-            return function(last[-1])
-
-        value(root(value, 0.0, 1.0, f"{kind} in {self.control}", xtol=1e-13, rtol=1e-13))
-        self._require_within(i, last[-1], f"{kind} in {self.control}")
-        return last[-1]
-
-    def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
-        """Rates of some columns along the branch at a point of the trace."""
-        with self.system.at(point.state):
-            return {name: self.continuation.rate(name, point.tangent) for name in names}
-
-    def end_at(self, name: str, value: float) -> None:
-        """Replace the last point by the point at which a column has a value, which lies just before it.
-
-        Raises:
-            ConvergenceError: If the trace ended before it.
-        """
-        crossings = len(self.crossings(name, value))
-        if not crossings:
-            raise ConvergenceError(f"{name} = {value:g} is not reached: {self.stalled or 'the branch ends'}")
-        solved = self.at(name, value, crossings)
-        before, last = self.points[-2:]
-        length = self.continuation.distance(solved.state, before.state)
-        self.points[-1] = self.continuation.point(
-            solved.state, last.record, before.tangent, before.arclength + length
-        )
-
-    def extend_to(self, load: str, value: float) -> None:
-        """Add a point at the end, at a value of a load that is near enough for a linear guess."""
-        last, continuation = self.points[-1], self.continuation
-        step = (value - last.state.loads[load]) / last.tangent.loads[load]
-        guess = continuation.predict(None, last, step)
-        state, record = self.solver.solve(guess, [*continuation.fixed, Held(load, value)])
-        length = continuation.distance(state, last.state)
-        self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
-
-    def require_nothing_between(self) -> None:
-        """Make sure that there is no special point between neighbours with the same inertia.
-
-        Raises:
-            ConvergenceError: If eigenvalues change sign between two points and change it back.
-        """
-
-    def _require_same_between(self, counts: np.ndarray, count: Callable[[State], int], what: str) -> None:
-        """Where neighbours have the same inertia, compare it with the inertia of states between them.
-
-        If two eigenvalues cross zero in opposite directions within a step, or one crosses it and returns, the
-        count at both ends is the same. An interpolated state is near the branch, not on it. If its count
-        differs, the state is solved for and counted again.
-        """
-        for i in np.flatnonzero(np.diff(counts) == 0).tolist():
-            for fraction in BETWEEN:
-                guess = self._between(i, fraction)
-                if count(guess) == counts[i]:
-                    continue
-                solved = self._solve(guess, self.continuation.plane(guess, self.points[i].tangent))
-                found = count(solved.state)
-                if found != counts[i]:
-                    raise ConvergenceError(
-                        f"{what} change sign between neighbours (after point {i}) and change it back, "
-                        f"{counts[i]} negative, {found} between: shorter steps are needed to tell them apart"
-                    )
-
-    def turns(self) -> np.ndarray:
-        """Indices of the points after which the control changes direction."""
-        rates = np.array([p.tangent.loads[self.control] for p in self.points])
-        return np.flatnonzero(rates[:-1] * rates[1:] < 0)
-
-    def _turn_guess(self, i: int) -> State:
-        ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
-        return self._between(i, ra / (ra - rb))
+AWAY = 1e-6
+"""Shift of the inertia on a line of folds: its critical eigenvalue, which is zero, does not count."""
 
 
 class FittedBranch(SolutionCurve):
@@ -356,11 +101,11 @@ class EquilibriumBranch(SolutionCurve):
             guess = self._between(i, float(fraction))
             solved.append(self._solve(guess, self.continuation.plane(guess, tangent)))
             eigenvalues.append(stability.nearest_by_index(solved[-1].state, index))
-        along = BarycentricInterpolator(nodes, eigenvalues)
+        along = polynomial_through(nodes, np.array(eigenvalues))
         zero = root(lambda x: float(along(x)), 0.0, 1.0, "a change of stability", xtol=1e-14)
 
         def at_root(values: list) -> np.ndarray:
-            return BarycentricInterpolator(nodes, np.array(values))(zero)
+            return polynomial_through(nodes, np.array(values))(zero)
 
         names = solved[0].values
         loads = {k: float(at_root([s.state.loads[k] for s in solved])) for k in solved[0].state.loads}
@@ -392,3 +137,28 @@ class FoldLine(SolutionCurve):
                 return fold.curvature(self.solver)
 
         return self._root(i, curvature, "cusp_point")
+
+
+def fold_line(
+    branch: EquilibriumBranch,
+    second: str,
+    towards: float,
+    steps: StepControl,
+    stop: Callable[[CurvePoint], bool],
+) -> FoldLine:
+    """The first limit point of a branch, followed over a second load.
+
+    Args:
+        branch: The branch, which has a limit point.
+        second: The second load.
+        towards: Sign of its change along the line at first.
+        steps: Lengths of steps.
+        stop: True at the last requested point.
+    """
+    first = branch.special()[0].state
+    middle = branch.points[int(branch.turns()[0])]
+    fold = Fold(branch.control, branch.system.mass_times(middle.tangent.u))
+    solver = ExtendedNewton(branch.system, [branch.control, second])
+    line = Continuation(solver, [fold], steps, shift=AWAY)
+    start = line.start(first, Held(second, first.loads[second]), towards={second: towards})
+    return FoldLine(line, second, start, stop)

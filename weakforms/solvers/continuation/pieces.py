@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
 from weakforms.errors import InputError
 from weakforms.results import Absence, Branch, Failure, Quantity, SpecialPoint, State
 from weakforms.solvers.uncertainty.family import KINDS, BranchFamily
+
+Part = TypeVar("Part")
 
 
 @dataclass(frozen=True)
@@ -88,25 +91,39 @@ class PiecewiseFamily:
         Raises:
             InputError: If no part has such a state.
         """
-        left, ranges = crossing, []
-        for piece in self.pieces:
+        special, ranges = name in KINDS, []
+
+        def count(piece: Piece) -> int:
             family = piece.family
-            if name in KINDS:
-                here = sum(point.kind == name for point in family.special_points())
-                if value <= here:
-                    return _with_fixed(family.state(name, value, 1, profile), piece.fixed, crossing)
-                value -= here
-                continue
+            if special:
+                return sum(point.kind == name for point in family.special_points())
             if name in piece.fixed:
-                continue
+                return 0
             columns = family.fine.columns()[name]
-            ranges += [columns.min(), columns.max()]
-            here = len(family.fine.crossings(name, value))
-            if left <= here:
-                return _with_fixed(family.state(name, value, left, profile), piece.fixed, crossing)
-            left -= here
+            ranges.extend([columns.min(), columns.max()])
+            return len(family.fine.crossings(name, value))
+
+        found = nth(self.pieces, count, value if special else crossing)
+        if found is not None:
+            piece, here = found
+            wanted = (here, 1) if special else (value, here)
+            return _with_fixed(piece.family.state(name, *wanted, profile), piece.fixed, crossing)
         where = f"; {name} ranges over [{min(ranges):.6g}, {max(ranges):.6g}]" if ranges else ""
         raise InputError(f"{name} = {value:g} is not taken {crossing} times on this branch{where}")
+
+
+def nth(parts: Iterable[Part], count: Callable[[Part], int], wanted: float) -> tuple[Part, float] | None:
+    """The part of a branch with the ``wanted``-th of what is counted, and which one it is there.
+
+    Parts after it are not counted.
+    """
+    left = wanted
+    for part in parts:
+        here = count(part)
+        if left <= here:
+            return part, left
+        left -= here
+    return None
 
 
 def _with_fixed(state: State, fixed: Mapping[str, float], crossing: int) -> State:

@@ -60,7 +60,7 @@ class System(Lendable):
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
         self._mass_entries: PETSc.Mat | None = None
-        self.update_mass()
+        self._update_mass()
         self._give_up()
 
     def _ufl_forms(self) -> dict[str, ufl.Form]:
@@ -96,7 +96,7 @@ class System(Lendable):
         """Mass matrix, which defines the norms for arc length and for modes."""
         return self._mass
 
-    def update_mass(self) -> None:
+    def _update_mass(self) -> None:
         """Assemble the mass matrix again, if it depends on loads or on a moving mesh."""
         self._mass = self._mass_matrix()
 
@@ -106,9 +106,13 @@ class System(Lendable):
 
         Afterwards the old matrix defines arc length again, so that a branch does not depend on earlier
         evaluations.
+
+        Raises:
+            NoStateError: Outside of :meth:`at`.
         """
+        self.require_lent()
         kept = self._mass
-        self.update_mass()
+        self._update_mass()
         try:
             yield
         finally:

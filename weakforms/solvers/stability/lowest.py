@@ -9,22 +9,27 @@ from __future__ import annotations
 
 import numpy as np
 from petsc4py import PETSc
-from slepc4py import SLEPc
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
-from weakforms.solvers.stability.spectra import LOWEST, Mode, give_back
+from weakforms.solvers.stability.eigensolver import by_inverse, give_back, shift_and_invert
+from weakforms.solvers.stability.spectra import LOWEST, Mode
 
 ROUGH, SHARP = 1e-3, 1e-11
 """Relative residuals of the first search and of the returned modes."""
 
-BELOW = 0.02
-"""Distance of the target below the lowest eigenvalue, relative to its magnitude."""
+BELOW = (1e-3, 0.02)
+"""Distances of the target below the lowest eigenvalue, relative to its magnitude, the nearest first: the
+eigenvalues next to the lowest are as close to it, and only a target that is as near separates them."""
 
 APART = 1e-8
 """Eigenvalues closer together than this relative distance are copies of one."""
+
+BEYOND = 1.25
+"""Ratio of the first target to the last lowest eigenvalue, if that was negative."""
 
 ATTEMPTS = 6
 """Number of searches for missing copies."""
@@ -33,17 +38,27 @@ ATTEMPTS = 6
 class Lowest:
     """Computes the lowest eigenvalues and modes at states of one system.
 
+    One factorisation at a target gives the inertia there and the inverse for SLEPc, with an ordering that is
+    found once for all targets and states.
+
     Args:
         system: The discrete equilibrium equations.
         prefix: SLEPc options prefix.
+        factor: Factorisation that is shared with others, because on large meshes it dominates the memory.
     """
 
-    def __init__(self, system: System, prefix: str = "weakforms_lowest_") -> None:
+    def __init__(
+        self, system: System, prefix: str = "weakforms_lowest_", factor: Factorization | None = None
+    ) -> None:
         self.system = system
-        self.factor = Factorization(system, prefix + "factor_")
+        self.factor = factor or Factorization(system, prefix + "factor_")
         self.factor.use_pivoting()
         self._prefix = prefix
         self._generic = _generic(system)
+        self._callbacks = Deferred()
+        self._target, self._count = 0.0, 0
+        self._last: float | None = None
+        """The last lowest eigenvalue; the next one is searched near it first."""
 
     def __call__(self, state: State, count: int) -> list[Mode]:
         """The ``count`` lowest eigenvalues in ascending order, multiple ones repeated, with their modes.
@@ -56,65 +71,86 @@ class Lowest:
         """
         with self.system.at(state):
             self.system.tangent()
-            target = self._target()
-            (first,) = self._solve(1, target, ROUGH, [])[:1]
-            near = first[0] - BELOW * max(abs(first[0]), 1e-3)
+            self._factorise(0.0, anew=True)
+            try:
+                modes = self._lowest(count)
+            finally:
+                self._shift(0.0)  # the matrix is the tangent again
+        self._last = modes[0].eigenvalue
+        return modes
+
+    def _lowest(self, count: int) -> list[Mode]:
+        self._go_below()
+        target = self._target
+        (first,) = self._solve(1, target, ROUGH, [])[:1]
+        for share in BELOW:
+            near = first[0] - share * max(abs(first[0]), 1e-3)
             if near > target and not self._below(near):
                 target = near
-            found = self._solve(count, target, SHARP, [])
-            for _ in range(ATTEMPTS):
-                found = sorted(found, key=lambda pair: pair[0])
-                last = found[count - 1][0]
-                edge = last + APART * max(1.0, abs(last))
-                if self._below(edge) <= sum(value < edge for value, _ in found):
-                    return self._directed([self._mode(*pair) for pair in found])[:count]
-                found += self._solve(count, target, SHARP, [vector for _, vector in found])
-            raise ConvergenceError("stability: SLEPc finds fewer lowest eigenvalues than the inertia counts")
+                break
+        found = self._solve(count, target, SHARP, [])
+        for _ in range(ATTEMPTS):
+            found = sorted(found, key=lambda pair: pair[0])
+            last = found[count - 1][0]
+            edge = last + APART * max(1.0, abs(last))
+            if self._below(edge) <= sum(value < edge for value, _ in found):
+                return self._directed([self._mode(*pair) for pair in found])[:count]
+            found += self._solve(count, target, SHARP, [vector for _, vector in found])
+        raise ConvergenceError("stability: SLEPc finds fewer lowest eigenvalues than the inertia counts")
 
-    def _below(self, shift: float) -> int:
-        """Number of eigenvalues below a shift."""
-        self.system.shift(-shift)
-        self.factor.refactor()
-        count = self.factor.negative_count()
-        self.system.shift(shift)
-        return count
+    def _shift(self, target: float) -> None:
+        """Make the matrix ``K - target M``."""
+        if target != self._target:
+            self.system.shift(self._target - target)
+            self._target = target
 
-    def _target(self) -> float:
-        """Zero, or the first of -1, -2, -4 ... below all eigenvalues."""
-        target = 0.0
+    def _factorise(self, target: float, anew: bool = False) -> None:
+        """Factorise ``K - target M``, unless that was the last matrix and ``K`` is not new."""
+        if target != self._target or anew:
+            self._shift(target)
+            self.factor.refactor()
+            self._count = self.factor.negative_count()
+
+    def _below(self, target: float) -> int:
+        """Number of eigenvalues below a target, at which the matrix is factorised then."""
+        self._factorise(target)
+        return self._count
+
+    def _go_below(self) -> None:
+        """Factorise at zero, or at the first target of a growing series, below all eigenvalues."""
+        if not self._count:
+            return
+        target = BEYOND * self._last if self._last is not None and self._last < 0 else -1.0
         while self._below(target):
-            target = min(2 * target, -1.0)
+            target *= 2
             if target < LOWEST:
                 raise ConvergenceError(f"stability: there are eigenvalues below {LOWEST:g}")
-        return target
 
     def _solve(
         self, wanted: int, target: float, tolerance: float, apart_from: list[PETSc.Vec]
     ) -> list[tuple[float, PETSc.Vec]]:
-        eps = SLEPc.EPS().create(self.system.comm)
-        eps.setOptionsPrefix(self._prefix)
+        """Eigenvalues nearest to a target, with their vectors; apart from given ones."""
+        self._factorise(target)
+        eps = shift_and_invert(self.system.comm, self._prefix)
         eps.setOperators(self.system.matrix, self.system.mass)
-        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
-        eps.setTarget(target)
+        eps.setTarget(0.0)  # the matrix is shifted
         eps.setDimensions(nev=wanted)
         eps.setTolerances(tol=tolerance, max_it=300)
         if apart_from:
             eps.setDeflationSpace(apart_from)
-        st = eps.getST()
-        st.setType("sinvert")
-        st.getKSP().setType("preonly")
-        st.getKSP().getPC().setType("cholesky")
-        st.getKSP().getPC().setFactorSolverType("mumps")
+        by_inverse(eps, self._callbacks).solve = self.factor.solve
         eps.setFromOptions()
         try:
-            eps.solve()
+            try:
+                eps.solve()
+            finally:
+                self._callbacks.release()
             if eps.getConverged() < wanted:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
             out = []
             for i in range(eps.getConverged()):
                 vector = self.system.matrix.createVecRight()
-                out.append((float(eps.getEigenpair(i, vector).real), vector))
+                out.append((float(eps.getEigenpair(i, vector).real) + target, vector))
             return out
         except PETSc.Error as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error

@@ -12,10 +12,12 @@ import numpy as np
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.results.model import crossings
-from weakforms.solvers.continuation.branch import FittedBranch, Solved
+from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation, Singular
+from weakforms.solvers.stability.spectra import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
 BISECTIONS = 6
@@ -238,14 +240,12 @@ class ModalFamily(BranchFamily):
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """Number of negative eigenvalues in the symmetric space, without the zero of a special point."""
-        counts = set()
+        counts = []
         for level, s in zip(self.levels, solved, strict=True):
             with level.system.at(s.state):
                 spectrum = level.modes.variation(0).spectrum(2)
-            counts.add(sum(value < -critical for value in spectrum.eigenvalues))
-        if len(counts) != 1:
-            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
-        return {"n_negative": Quantity(counts.pop())}
+            counts.append(sum(value < -critical for value in spectrum.eigenvalues))
+        return {"n_negative": Quantity(same_count(counts))}
 
 
 class SinglePoint(ModalBranch):

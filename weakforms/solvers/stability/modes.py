@@ -42,6 +42,13 @@ class SecondVariation(System):
     def __init__(self, formulation: Formulation, base: System) -> None:
         self.base = base
         self._weighed: tuple[float, ...] | None = None
+        constants = {*formulation.mass.constants()}
+        self._weighing = [
+            name
+            for name, (value, _) in formulation.loads.items()
+            if not isinstance(value, fem.Constant) or value in constants
+        ]
+        """Loads on which the mass matrix may depend: points of a moving mesh, and constants of its form."""
         super().__init__(formulation)
         self.factor = Factorization(self)
         self.stability = Stability(self)
@@ -72,11 +79,11 @@ class SecondVariation(System):
 
     @property
     def mass(self) -> PETSc.Mat:
-        """Mass matrix at the base's loads."""
-        loads = tuple(map(self.load, self.load_names))
+        """Mass matrix at the base's loads, assembled again if one of those that it depends on has changed."""
+        loads = tuple(map(self.load, self._weighing))
         if self._weighed != loads:
             self._weighed = loads
-            self.update_mass()
+            self._update_mass()
         return super().mass
 
     def spectrum(self, count: int = 1) -> Spectrum:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -16,6 +16,14 @@ from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.stability.eigensolver import (
+    ExactInverse,
+    Inverse,
+    by_cholesky,
+    by_inverse,
+    give_back,
+    shift_and_invert,
+)
 
 LOWEST = -1e6
 """Lower limit of the search for eigenvalues."""
@@ -28,7 +36,6 @@ BESIDE = 1e-4
 """Relative distance between a known eigenvalue and the target for its mode."""
 
 
-Inverse = Callable[[np.ndarray], np.ndarray]
 Found = TypeVar("Found")
 
 
@@ -62,8 +69,8 @@ class Stability:
         self.factor = Factorization(system)
         self._prefix = prefix
         self._callbacks = Deferred()
-        self._inverse = _Preconditioner(self._callbacks)
         self._kept: SLEPc.EPS | None = None
+        self._inverse: ExactInverse | None = None
 
     @contextmanager
     def _tangent_at(self, state: State, shift: float = 0.0) -> Iterator[None]:
@@ -80,34 +87,19 @@ class Stability:
         With a given inverse it is the same object each time: to make one costs as much as a small spectrum.
         """
         if inverse is None:
-            eps = self._new_solver()
-            pc = eps.getST().getKSP().getPC()
-            pc.setType("cholesky")
-            pc.setFactorSolverType("mumps")
-            eps.setFromOptions()
+            eps = shift_and_invert(self.system.comm, self._prefix)
+            by_cholesky(eps)
         else:
             if self._kept is None:
-                self._kept = self._new_solver()
-                pc = self._kept.getST().getKSP().getPC()
-                pc.setType("python")
-                pc.setPythonContext(self._inverse)
-                self._kept.setFromOptions()
+                self._kept = shift_and_invert(self.system.comm, self._prefix)
+                self._inverse = by_inverse(self._kept, self._callbacks)
             eps, self._inverse.solve = self._kept, inverse
         eps.setOperators(self.system.matrix, self.system.mass)
         eps.setTarget(target)
         basis = min(max(2 * wanted, wanted + 15), self.system.matrix.getSize()[0])  # SLEPc's rule
         eps.setDimensions(nev=wanted, ncv=basis)
-        return eps
-
-    def _new_solver(self) -> SLEPc.EPS:
-        eps = SLEPc.EPS().create(self.system.comm)
-        eps.setOptionsPrefix(self._prefix)
-        eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
-        eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
         eps.setTolerances(tol=1e-12, max_it=200)
-        st = eps.getST()
-        st.setType("sinvert")
-        st.getKSP().setType("preonly")
+        eps.setFromOptions()
         return eps
 
     def spectrum(self, state: State, count: int = 2, shift: float = 0.0) -> Spectrum:
@@ -305,7 +297,8 @@ class Stability:
                 raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
             found = read(eps)
         finally:
-            self._inverse.solve = None
+            if self._inverse is not None:
+                self._inverse.solve = None
             if found is None:  # after an error its parts may be in use
                 self._kept = None
             if eps is not self._kept:
@@ -322,28 +315,23 @@ class Stability:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
 
 
+def spectrum_of(system: System, state: State, shift: float) -> Spectrum:
+    """The lowest eigenvalues of a state, with the mass matrix of its own mesh (which fronts move)."""
+    with system.at(state), system.weighed_here():
+        return Stability(system).spectrum(state, shift=shift)
+
+
+def same_count(counts: Iterable[int]) -> int:
+    """The number of negative eigenvalues that all meshes agree on.
+
+    Raises:
+        ConvergenceError: If they do not.
+    """
+    found = set(counts)
+    if len(found) != 1:
+        raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(found)}")
+    return found.pop()
+
+
 def _values(eps: SLEPc.EPS) -> list[float]:
     return [eps.getEigenvalue(i).real for i in range(eps.getConverged())]
-
-
-def give_back(eps: SLEPc.EPS) -> None:
-    """Destroy a solver; after an error some of its parts are in use, and the first error counts."""
-    with suppress(PETSc.Error):
-        eps.destroy()
-
-
-class _Preconditioner:
-    """A preconditioner that solves exactly; it has its inverse only in use, and owns no system."""
-
-    solve: Inverse | None = None
-
-    def __init__(self, callbacks: Deferred) -> None:
-        self._callbacks = callbacks
-
-    def apply(self, _pc: PETSc.PC, rhs: PETSc.Vec, out: PETSc.Vec) -> None:
-        """``out`` is the solution for ``rhs``."""
-
-        def work() -> None:
-            out.array_w[:] = self.solve(rhs.array_r.copy())
-
-        self._callbacks.run(work, lambda: out.set(0.0))  # every vector is an eigenvector of it

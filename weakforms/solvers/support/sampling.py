@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 import ufl
@@ -13,7 +13,7 @@ from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from ufl.core.expr import Expr
 
 from weakforms.solvers.support import compat
-from weakforms.solvers.support.roots import root
+from weakforms.solvers.support.roots import polynomial_through, root
 
 
 class Interpolant:
@@ -92,25 +92,9 @@ def _first(x: np.ndarray, values: np.ndarray, level: float) -> float:
     node = int(beyond[cell].argmax())
     if node == 0:
         return float(x[cell, 0])
-    polynomial, sign = _interpolating_polynomial(x[cell], values[cell]), np.sign(values[cell, node])
+    polynomial, sign = polynomial_through(x[cell], values[cell]), np.sign(values[cell, node])
     ends = x[cell, node - 1], x[cell, node]
     return root(lambda at: sign * polynomial(at) - level, *ends, f"|value| = {level:g}", xtol=1e-15)
-
-
-def _interpolating_polynomial(x: np.ndarray, values: np.ndarray) -> Callable[[float], float]:
-    """The polynomial through points, by barycentric weights: three times faster than scipy for one cell."""
-    apart = x[:, None] - x
-    np.fill_diagonal(apart, 1.0)
-    weights = 1 / np.prod(apart, axis=1)
-
-    def polynomial(at: float) -> float:
-        away = at - x
-        if not away.all():
-            return float(values[np.argmin(np.abs(away))])
-        terms = weights / away
-        return float(terms @ values / terms.sum())
-
-    return polynomial
 
 
 class Sampler:

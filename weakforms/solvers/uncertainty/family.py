@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
-from weakforms.solvers.continuation.branch import DIAGNOSTICS, SolutionCurve, Solved
-from weakforms.solvers.stability.spectra import Spectrum, Stability
+from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
+from weakforms.solvers.stability.spectra import Spectrum, same_count, spectrum_of
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.support.sampling import Sampler
 from weakforms.solvers.uncertainty.refinement import (
@@ -38,6 +40,10 @@ PLACES = 101
 """Number of positions on a meridian at which the order of convergence of its fields is observed."""
 
 
+Compared = tuple[Sequence[Mapping[str, float]], Mapping[str, float]]
+"""A point of a branch: its columns on every mesh, coarse to fine, and on the finest one with diagnostics."""
+
+
 class BranchFamily:
     """A branch that is traced on several meshes from coarse to fine.
 
@@ -53,6 +59,9 @@ class BranchFamily:
         slow: A part of all errors that converges more slowly.
         name: Name of the branch.
     """
+
+    traced_on_finest = True
+    """Whether the points of the branch are those of the finest mesh's trace; else of the coarsest one's."""
 
     judges_points = True
     """Whether stability is also computed for a state without a profile."""
@@ -100,43 +109,49 @@ class BranchFamily:
     def branch(self, with_uncertainty: bool = True) -> Branch:
         """All columns, with uncertainties if requested.
 
-        A point that cannot be compared with the coarser meshes is left out and listed as a failure.
+        A point that cannot be compared with the other meshes is left out and listed as a failure.
+
+        Raises:
+            ConvergenceError: If no point can be compared.
         """
-        fine = self.fine
-        columns = {n: v for n, v in fine.columns().items() if n in (*fine.shown, *DIAGNOSTICS)}
-        if not with_uncertainty:
-            return Branch(self.name, fine.control, columns)
-        names = fine.shown
-        total = fine.points[-1].arclength or 1.0
-        kept, errors, missed = [], [], []
-        for i, point in enumerate(fine.points):
-            rates = fine.direction(point, self.across)
+        names, control = self.fine.shown, self.fine.control
+        if not with_uncertainty and self.traced_on_finest:
+            return Branch(self.name, control, self._trace())
+        kept, missed = [], []
+        for i, compared in enumerate(self._comparisons()):
             try:
-                others = [
-                    level.at_position(point, rates, point.arclength / total).values
-                    for level in self.levels[:-1]
-                ]
+                kept.append(compared())
             except ConvergenceError as error:
                 missed.append((i, str(error)))
-                continue
-            own = {name: columns[name][i] for name in names}
-            errors.append([[values[n] for n in names] for values in [*others, own]])
-            kept.append(i)
         if missed:
             places = f"points {missed[0][0]} to {missed[-1][0]}, {len(missed)} of them left out"
             self.failures.append(Failure(f"branch {self.name}, {places}", missed[0][1]))
         if not kept:
             raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
-        table = np.array(errors)  # (points, levels, columns)
+        columns = {name: np.array([row[name] for _, row in kept]) for name in kept[0][1]}
+        if not with_uncertainty:
+            return Branch(self.name, control, columns)
+        table = np.array([[[values[n] for n in names] for values in levels] for levels, _ in kept])
         caps = np.array([self._cap(name, *self.across) for name in names])
-        found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow)
-        wide = _widen(found.uncertainty)
-        return Branch(
-            self.name,
-            fine.control,
-            {name: values[kept] for name, values in columns.items()},
-            {name: wide[:, j] for j, name in enumerate(names)},
-        )
+        found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow).uncertainty
+        spread = _widen(found) if self.traced_on_finest else found
+        return Branch(self.name, control, columns, dict(zip(names, spread.T, strict=True)))
+
+    def _trace(self) -> dict[str, np.ndarray]:
+        """Columns of the finest mesh's trace."""
+        return {n: v for n, v in self.fine.columns().items() if n in (*self.fine.shown, *DIAGNOSTICS)}
+
+    def _comparisons(self) -> Iterator[Callable[[], Compared]]:
+        """For each point of the branch a function that solves for it on all meshes."""
+        columns, total = self._trace(), self.fine.points[-1].arclength or 1.0
+        for i, point in enumerate(self.fine.points):
+            row = {name: values[i] for name, values in columns.items()}
+            yield partial(self._compared, point, point.arclength / total, row)
+
+    def _compared(self, point: CurvePoint, near: float, row: dict[str, float]) -> Compared:
+        rates = self.fine.direction(point, self.across)
+        others = [level.at_position(point, rates, near).values for level in self.levels[:-1]]
+        return [*others, row], row
 
     # -- points ------------------------------------------------------------------------------
 
@@ -226,11 +241,8 @@ class BranchFamily:
         At a special point the critical eigenvalue is zero up to round-off and does not count as negative.
         """
         spectra = [_spectrum(level, s, critical) for level, s in zip(self.levels, solved, strict=True)]
-        counts = {spectrum.n_negative for spectrum in spectra}
-        if len(counts) != 1:
-            raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(counts)}")
         return {
-            "n_negative": Quantity(counts.pop()),
+            "n_negative": Quantity(same_count(spectrum.n_negative for spectrum in spectra)),
             "eigenvalue_1": self._quantity([s.eigenvalues[0] for s in spectra], "eigenvalue_1"),
         }
 
@@ -326,9 +338,7 @@ def _orders(values: dict[str, Estimate]) -> dict[str, float]:
 
 
 def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:
-    """The lowest eigenvalues of a state, with the mass matrix of its own mesh (which fronts move)."""
-    with level.system.at(solved.state), level.system.weighed_here():
-        return Stability(level.system).spectrum(solved.state, shift=max(critical, level.continuation.shift))
+    return spectrum_of(level.system, solved.state, max(critical, level.continuation.shift))
 
 
 def _widen(uncertainty: np.ndarray) -> np.ndarray:

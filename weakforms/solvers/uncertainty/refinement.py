@@ -14,6 +14,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from weakforms.results import Quantity
+
 ALGEBRAIC = 1e-11
 """Relative error of Newton's stopping rule and of round-off; it is added to every uncertainty."""
 
@@ -45,6 +47,12 @@ class Estimate:
     value: np.ndarray
     uncertainty: np.ndarray
     order: np.ndarray
+
+    def quantity(self, left: float = 0.0) -> Quantity:
+        """A number of a result, with a further error, relative to the number or to 1 if that is larger."""
+        value, order = float(self.value), float(self.order)
+        spread = float(self.uncertainty) + left * max(1.0, abs(value))
+        return Quantity(value, spread, order if order > 0 else None)
 
 
 def estimate(

@@ -54,6 +54,7 @@ def run_bench(
 
     from weakforms.solvers.support.provenance import versions
     from weakforms.verification.audit.bench_work import works
+    from weakforms.verification.run.machine import environment
 
     known = list(works())
     if unknown := [name for name in only if name not in known]:
@@ -76,6 +77,7 @@ def run_bench(
         "cores": os.cpu_count(),
         "load": os.getloadavg()[0],
         "problems": list(found.values()),
+        "machine": environment(),
         "versions": versions(),
     }
 
@@ -127,12 +129,14 @@ def measure(name: str, started: float, only_start: bool) -> dict[str, Any]:
         work.run()
     rounds = [(_spent(work.run), _spent(meter.floor)) for _ in range(REPEATS.get(name, USUAL))]
     run, floor = (min(times) for times in zip(*rounds, strict=True))
+    ratios = [one / other for one, other in rounds]
     work.run()  # the state for the eigenvalues
     eigen, _ = timed(work.eigenvalues)
     return found | {
         "run_seconds": run,
         "floor_seconds": floor,
         "ratio": run / floor,
+        "ratio_spread": max(ratios) / min(ratios) - 1,
         "ratio_asked": work.asked,
         "stages": {
             stage: {"calls": meter.calls[stage], "seconds": meter.seconds[stage]}

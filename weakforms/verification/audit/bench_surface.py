@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import resource
 import time
-from collections.abc import Callable
 from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+
+from weakforms.terminal import WorkProgress
 
 ROWS, COLUMNS = 40, 96
 """Quadrilaterals along and around on the first mesh; each further mesh doubles one of them in turn."""
@@ -17,14 +18,13 @@ LEVELS = (0.5, 3.0, 4.0)
 """Loads of the states; the last one is measured."""
 
 
-def run_surface_bench(
-    unknowns: int, progress: Callable[[str, int, int], None] = lambda *_: None
-) -> dict[str, Any]:
+def run_surface_bench(unknowns: int, progress: WorkProgress | None = None) -> dict[str, Any]:
     """Meshes of the tube up to a number of unknowns: equilibrium, inertia and eigenvalues at ``zw = 4``.
 
     Args:
         unknowns: Largest number of degrees of freedom.
-        progress: Called with the stage, the number of finished meshes, and the number of meshes.
+        progress: Called with the mesh, the number of finished meshes, and the number of meshes; a finished
+            mesh is a line.
 
     Returns:
         A row for each mesh: its size, seconds by stage, peak memory so far over all ranks, and the numbers.
@@ -41,7 +41,7 @@ def run_surface_bench(
     while 3 * (meshes[-1][0] + 1) * meshes[-1][1] < unknowns / 2:
         rows, columns = meshes[-1]
         meshes.append((2 * rows, columns) if len(meshes) % 2 else (rows, 2 * columns))
-    table = []
+    table, progress = [], progress or WorkProgress()
     for i, (rows, columns) in enumerate(meshes):
         progress(f"{rows} x {columns}", i, len(meshes))
         row: dict[str, Any] = {"mesh": f"{rows} x {columns}", "unknowns": 3 * (rows + 1) * columns}
@@ -69,21 +69,28 @@ def run_surface_bench(
         row |= {name: values[name] for name in ("n_negative", "Lambda_1", "V", "residual")}
         row["peak_mib"] = comm.allreduce(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) / 1024
         table.append(row)
+        progress.line(
+            ", ".join(f"{name} {text}" for name, text in zip(HEADINGS.values(), _texts(row), strict=True))
+        )
     return {"ranks": comm.size, "zw": LEVELS[-1], "rows": table, "versions": versions()}
+
+
+HEADINGS = {"mesh": "mesh", "unknowns": "unknowns", "set_up_s": "set up", "states_s": "states"}
+HEADINGS |= {"inertia_s": "inertia", "lowest_s": "lowest", "peak_mib": "memory", "n_negative": "negative"}
+HEADINGS |= {"Lambda_1": "Lambda_1"}
+DIGITS = {"Lambda_1": 6, "peak_mib": 4}
+
+
+def _texts(row: dict[str, Any]) -> list[str]:
+    return [f"{v:.{DIGITS.get(n, 3)}g}" if isinstance(v := row[n], float) else str(v) for n in HEADINGS]
 
 
 def print_surface_bench(table: dict[str, Any], console: Console) -> None:
     """Print the refinement as a table."""
     title = f"Tube on flat triangles, zw = {table['zw']:g}, {table['ranks']} rank(s); seconds, MiB"
-    names = {"mesh": "mesh", "unknowns": "unknowns", "set_up_s": "set up", "states_s": "states"}
-    names |= {"inertia_s": "inertia", "lowest_s": "lowest", "peak_mib": "memory", "n_negative": "negative"}
-    names |= {"Lambda_1": "Lambda_1"}
-    digits = {"Lambda_1": 6, "peak_mib": 4}
     shown = Table(title=title, box=None, padding=(0, 1, 0, 0))
-    for heading in names.values():
+    for heading in HEADINGS.values():
         shown.add_column(heading, no_wrap=True)
     for row in table["rows"]:
-        shown.add_row(
-            *(f"{v:.{digits.get(n, 3)}g}" if isinstance(v := row[n], float) else str(v) for n in names)
-        )
+        shown.add_row(*_texts(row))
     console.print(shown)

@@ -18,7 +18,7 @@ from typing import Any, Protocol
 from mpi4py import MPI
 
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch, secondary_branch
-from weakforms.problems.liquid_tube.bent.model import SurfaceData
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch

@@ -24,10 +24,11 @@ from matplotlib.mathtext import MathTextParser
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
 
 from weakforms.verification.judging.outcome import Convergence, CurveOutcome, PanelOutcome, Verdict
-from weakforms.verification.report.junit import clean, inline_svg
+from weakforms.verification.report.junit import clean
 from weakforms.verification.report.look import HEIGHT, LEFT, LOOK, RIGHT, WIDTH
 from weakforms.verification.report.summary import describe, describe_histories, of_curve
-from weakforms.verification.report.wording import plain_tex
+from weakforms.verification.report.svg import inline_svg
+from weakforms.verification.report.wording import plain_tex, typeset
 
 INK, MUTED = LOOK["light"]["ink"], LOOK["light"]["muted"]
 POINTS, MARKERS = LOOK["points"], LOOK["markers"]
@@ -124,7 +125,7 @@ def svg(figure: Figure, ident: str, title: str, description: str) -> str:
 
 def as_math(text: str) -> str:
     """Text for a figure: TeX between dollars if matplotlib can set it, else the plain text."""
-    text = " ".join(clean(text).split())
+    text = typeset(" ".join(clean(text).split()))
     try:
         MathTextParser("path").parse(text)
     except (ValueError, RuntimeError):

@@ -1,10 +1,9 @@
-"""XML: JUnit files for continuous integration, and drawings for inclusion in a page."""
+"""JUnit files for continuous integration."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 from xml.etree import ElementTree as ET
 
 from weakforms.verification.judging.outcome import CaseOutcome, RunOutcome, Verdict
@@ -15,65 +14,6 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000
 def clean(text: object) -> str:
     """The text, with every character that is not allowed in XML, HTML or UTF-8 replaced by U+FFFD."""
     return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", str(text))
-
-
-def inline_svg(drawing: str, ident: str, title: str, description: str, colours: Mapping[str, str]) -> str:
-    """A matplotlib drawing, prepared for a page with other drawings.
-
-    Args:
-        drawing: The SVG document from matplotlib.
-        ident: Every id, and every reference to one, gets this prefix.
-        title: Accessible name.
-        description: Description of the drawing in words.
-        colours: Hexadecimal colour to the CSS variable that may replace it.
-
-    Returns:
-        An ``<svg>`` element without document type, metadata, style sheet or fixed size.
-    """
-    root = ET.fromstring(drawing)
-    for parent in root.iter():
-        for child in list(parent):
-            if child.tag.rpartition("}")[2] in ("metadata", "style"):
-                parent.remove(child)
-    used = set(re.findall(r"#([\w-]+)", " ".join(v for e in root.iter() for v in e.attrib.values())))
-    for element in root.iter():
-        element.tag = element.tag.rpartition("}")[2]
-        attributes = {key.rpartition("}")[2]: value for key, value in element.attrib.items()}
-        element.attrib.clear()
-        for key, value in attributes.items():
-            if key != "id" or value in used:
-                element.set(key, _rewritten(key, value, ident, colours))
-    box = root.get("viewBox", "")
-    root.attrib.clear()
-    root.attrib |= {"xmlns": "http://www.w3.org/2000/svg", "viewBox": box, "role": "img"}
-    root.attrib |= {"aria-labelledby": f"{ident}--title {ident}--desc", "class": "figure"}
-    root.attrib |= {"stroke-linejoin": "round", "stroke-linecap": "butt"}
-    for group in root.iter("g"):
-        styles = {use.get("style") for use in group} if all(e.tag == "use" for e in group) else ()
-        if len(styles) == 1 and len(group) > 1 and not group.get("style") and None not in styles:
-            group.set("style", styles.pop() or "")
-            for use in group:
-                del use.attrib["style"]
-    for place, (tag, text) in enumerate((("title", title), ("desc", description))):
-        element = ET.Element(tag, id=f"{ident}--{tag}")
-        element.text = clean(text)
-        root.insert(place, element)
-    return ET.tostring(root, encoding="unicode", short_empty_elements=True)
-
-
-def _rewritten(key: str, value: str, ident: str, colours: Mapping[str, str]) -> str:
-    if key == "id":
-        return f"{ident}--{value}"
-    if key == "href":
-        return value.replace("#", f"#{ident}--")
-    if key in ("d", "x", "y"):
-        return " ".join(re.sub(r"(\.\d\d)\d+", r"\1", value).split())
-    value = value.replace("url(#", f"url(#{ident}--")
-    return re.sub(
-        "#[0-9a-f]{6}",
-        lambda hit: f"var({colours[hit[0]]},{hit[0]})" if hit[0] in colours else hit[0],
-        value,
-    )
 
 
 def junit_xml(run: RunOutcome) -> str:

@@ -6,10 +6,7 @@ A group is the part of a case's id before the dot: a paper, or a folder of cases
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
-from itertools import chain, count
-from operator import call
+from collections.abc import Callable, Iterable, Mapping
 from statistics import quantiles
 from typing import Any
 
@@ -21,22 +18,18 @@ from weakforms.verification.audit.coverage.outcome import COLUMNS, PARTS, Covere
 from weakforms.verification.audit.faults.outcome import FaultOutcome, Seeded
 from weakforms.verification.judging.consistency import exempt
 from weakforms.verification.judging.outcome import (
-    CaseOutcome,
-    Convergence,
     RunOutcome,
     SurfaceOutcome,
     Verdict,
 )
 from weakforms.verification.report import summary, thesis, wording
+from weakforms.verification.report.case_views import case_view, draw, figure_files
 from weakforms.verification.report.elsewhere import Elsewhere
-from weakforms.verification.report.figures import convergence_figure, panel_figure
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.look import LOOK, TEMPLATES
-from weakforms.verification.report.surface_figures import surface_figure
-from weakforms.verification.run.workers import workers
+from weakforms.verification.report.svg import share_letters
+from weakforms.verification.report.wording import file_name, unused
 
-FOLDED = 30
-"""If a case has more passed checks than this, they are folded under their summary."""
 RESERVED = (
     "top",
     "main",
@@ -110,14 +103,27 @@ def render(
     Returns:
         HTML by file name; the first page is ``index.html``. Pages load no other files.
     """
+    return render_with_files(run, seeded, others, jobs, audited, covered)[0]
+
+
+def render_with_files(
+    run: RunOutcome,
+    seeded: Seeded | None = None,
+    others: tuple[Elsewhere, ...] = (),
+    jobs: int = 1,
+    audited: Audited | None = None,
+    covered: Covered | None = None,
+) -> tuple[dict[str, str], dict[str, str]]:
+    """The pages of :func:`render`, and the files that they offer: every panel as CSV and as SVG."""
     facts = _facts(run, seeded, others, jobs, audited, covered)
     pages = {
-        group["page"]: template("group.html").render(facts, group=group, here=group["page"])
+        group["page"]: share_letters(template("group.html").render(facts, group=group, here=group["page"]))
         for group in facts["groups"]
     }
     for name in ("thesis.html", "faults.html", "audit.html", "coverage.html"):
         pages[name] = template(name).render(facts, here=name)
-    return pages | {"index.html": template("index.html").render(facts, here="index.html")}
+    pages["index.html"] = template("index.html").render(facts, here="index.html")
+    return pages, figure_files(facts["cases"])
 
 
 def render_whole(
@@ -129,14 +135,14 @@ def render_whole(
 ) -> str:
     """All pages as one, for printing, with links inside the page only."""
     facts = _facts(run, seeded, others, audited=audited, covered=covered)
-    return template("whole.html").render(facts, here=None)
+    return share_letters(template("whole.html").render(facts, here=None))
 
 
 def shape_files(run: RunOutcome) -> list[tuple[str, SurfaceOutcome]]:
     """The surfaces of a run, each with its file for ParaView."""
     taken: set[str] = set()
     return [
-        (f"shapes/{_unused(_file(f'{case.id}-{surface.name}'), taken)}.vtu", surface)
+        (f"shapes/{unused(file_name(f'{case.id}-{surface.name}'), taken)}.vtu", surface)
         for case in run.cases
         for surface in case.surfaces
     ]
@@ -166,6 +172,8 @@ def _environment() -> Environment:
     environment.filters |= filters | {
         "tex": lambda text: Markup(wording.html_tex(text)),
         "plain_tex": wording.plain_tex,
+        "typeset": wording.typeset,
+        "symbol": wording.symbol,
         "value": wording.with_uncertainty,
         "coverage_cells": cells,
         "flat": lambda value: list(_flat(value)),
@@ -189,8 +197,8 @@ def _facts(
     """All variables of the templates, from the run and the other outcomes in its folder."""
     taken = set(RESERVED)
     shapes = {id(surface): name for name, surface in shape_files(run)}
-    views = [_case_view(case, taken, shapes) for case in run.cases]
-    _draw([shown for view in views for shown in (*view["figures"], *view["histories"])], jobs)
+    views = [case_view(case, taken, shapes) for case in run.cases]
+    draw([shown for view in views for shown in (*view["figures"], *view["histories"])], jobs)
     groups = _groups(views)
     checks = [(view, row) for view in views for row in view["rows"]]
     verdicts = [row["verdict"] for _, row in checks]
@@ -242,7 +250,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     out = []
     for key, members in found.items():
         name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))
-        stem = _unused(_file(key), taken)
+        stem = unused(file_name(key), taken)
         cases = [view["case"] for view in members]
         rows = [row["verdict"] for view in members for row in view["rows"]]
         group = {
@@ -296,88 +304,6 @@ def _differing(views: Iterable[dict[str, Any]]) -> dict[str, list[tuple[dict[str
     }
 
 
-def _draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
-    """Replace calls by the pictures that they draw."""
-    calls = [entry["svg"] for entry in shown]
-    if jobs == 1:
-        drawn = map(call, calls)
-    else:
-        with workers(jobs) as pool:
-            drawn = list(pool.map(call, calls, chunksize=4))
-    for entry, picture in zip(shown, drawn, strict=True):
-        entry["svg"] = Markup(picture)
-
-
-def _case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> dict[str, Any]:
-    """The data of one case for the template: figures, sorted checks, anchors."""
-    anchor = _anchor(case.id, taken)
-    rows = [
-        {
-            "verdict": verdict,
-            "anchor": _anchor(f"{anchor}:{verdict.check}", taken),
-            "numbers": _numbers(verdict),
-        }
-        for verdict in case.verdicts
-    ]
-    passing = [row for row in rows if row["verdict"].passed]
-    histories = []
-    for records in _by_quantity(case.convergence):
-        drawing = partial(convergence_figure, records, _anchor("f", taken))
-        histories.append({"records": records, "svg": drawing})
-    return {
-        "case": case,
-        "anchor": anchor,
-        "status": summary.case_status(case),
-        "rows": rows,
-        "failing": [row for row in rows if not row["verdict"].passed],
-        "passing": passing,
-        "folded": len(passing) > FOLDED,
-        "figures": _figures(case, anchor, taken, shapes),
-        "histories": histories,
-        "shared": _shared([solution.get("provenance") or {} for solution in case.solutions]),
-    }
-
-
-def _figures(
-    case: CaseOutcome, anchor: str, taken: set[str], shapes: Mapping[int, str]
-) -> list[dict[str, Any]]:
-    """The pictures of a case: its panels, then its surfaces with their files for ParaView."""
-    figures = []
-    for panel in case.panels:
-        ident = _anchor(f"{anchor}:panel-{panel.name}", taken)
-        drawing = partial(panel_figure, panel, _anchor("f", taken), case.verdicts)
-        figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": None})
-    for surface in case.surfaces:
-        ident = _anchor(f"{anchor}:surface-{surface.name}", taken)
-        picture = partial(surface_figure, surface, _anchor("f", taken))
-        figures.append({"panel": surface, "anchor": ident, "svg": picture, "shape": shapes[id(surface)]})
-    return figures
-
-
-def _numbers(verdict: Verdict) -> dict[str, str]:
-    """Error, bound and asked accuracy with as many digits as needed to distinguish them."""
-    values = {name: getattr(verdict, name) for name in ("error", "bound", "asked")}
-    known = [value for value in values.values() if value is not None]
-    for digits in range(2, 7):
-        texts = {name: wording.scientific(value, digits) for name, value in values.items()}
-        if len({texts[n] for n, v in values.items() if v is not None}) == len(set(known)):
-            break
-    return texts
-
-
-def _by_quantity(records: Iterable[Convergence]) -> list[list[Convergence]]:
-    groups: dict[str, list[Convergence]] = {}
-    for record in records:
-        groups.setdefault(record.quantity, []).append(record)
-    return list(groups.values())
-
-
-def _shared(records: list[Mapping[str, Any]]) -> dict[str, Any]:
-    """The entries that several mappings have in common."""
-    first = records[0] if len(records) > 1 else {}
-    return {k: v for k, v in first.items() if all(other.get(k) == v for other in records)}
-
-
 def _flat(value: Any, prefix: str = "") -> Iterable[tuple[str, str]]:
     """Names and values of nested mappings, one pair for each leaf."""
     if isinstance(value, Mapping):
@@ -389,21 +315,3 @@ def _flat(value: Any, prefix: str = "") -> Iterable[tuple[str, str]]:
         yield prefix, ", ".join(f"{i:.12g}" if isinstance(i, float) else str(i) for i in value)
     else:
         yield prefix, "–" if value is None else str(value)
-
-
-def _file(text: str) -> str:
-    """The text as part of a file name, which may have 255 characters."""
-    return re.sub(r"[^A-Za-z0-9_.-]+", "-", text).strip("-.").replace(".", "_")[:100] or "item"
-
-
-def _anchor(text: str, taken: set[str]) -> str:
-    """A unique identifier from a text."""
-    stem = re.sub(r"[^\w.:-]+", "-", clean(text), flags=re.ASCII).strip("-") or "item"
-    return _unused(stem, taken)
-
-
-def _unused(stem: str, taken: set[str]) -> str:
-    """The stem, followed by a number if it is taken."""
-    name = next(n for n in chain([stem], (f"{stem}-{k}" for k in count(2))) if n not in taken)
-    taken.add(name)
-    return name

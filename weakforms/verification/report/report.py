@@ -24,7 +24,7 @@ from weakforms.verification.judging.outcome import SCHEMA, RunOutcome
 from weakforms.verification.report.elsewhere import NAME as ELSEWHERE
 from weakforms.verification.report.elsewhere import Elsewhere, load_elsewhere
 from weakforms.verification.report.junit import junit_xml
-from weakforms.verification.report.pages import render, shape_files
+from weakforms.verification.report.pages import render_with_files, shape_files
 from weakforms.verification.report.vtu import vtu
 
 OURS = '<meta name="generator" content="weakforms">'
@@ -82,7 +82,8 @@ def _drawn(
 ) -> dict[str, str]:
     """Shapes and pages by name, ``index.html`` last."""
     shapes = {name: vtu(surface) for name, surface in shape_files(run)}
-    return shapes | render(run, seeded, others, jobs, audited, covered)
+    pages, files = render_with_files(run, seeded, others, jobs, audited, covered)
+    return shapes | files | pages
 
 
 def _redrawn(
@@ -114,8 +115,8 @@ def _sweep(folder: Path, kept: set[str]) -> None:
     for path in folder.glob("*.html"):
         if path.name not in kept and path.is_file() and OURS in path.read_text("utf-8", "replace")[:2000]:
             path.unlink(missing_ok=True)
-    for path in (folder / "shapes").glob("*.vtu"):
-        if f"shapes/{path.name}" not in kept:
+    for path in (*folder.glob("shapes/*.vtu"), *folder.glob("figures/*.csv"), *folder.glob("figures/*.svg")):
+        if f"{path.parent.name}/{path.name}" not in kept:
             path.unlink(missing_ok=True)
     (folder / "report.pdf").unlink(missing_ok=True)
 

@@ -11,6 +11,7 @@ from weakforms.verification.crosscheck.verdicts import Verdicts
 from weakforms.verification.report.figures import panel_figure
 from weakforms.verification.report.look import LOOK
 from weakforms.verification.report.pages import template
+from weakforms.verification.report.svg import standalone
 
 
 def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
@@ -33,7 +34,7 @@ def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
         for picture in verdicts.pictures
     }
     for name, svg in pictures.items():
-        write_atomically(folder / f"{name}.svg", f'<?xml version="1.0" encoding="UTF-8"?>\n{svg}\n')
+        write_atomically(folder / f"{name}.svg", standalone(svg))
     write_atomically(folder / "verdicts.json", dumps(verdicts.to_json()))
     page = template("verdicts.html").render(
         verdicts=verdicts, pictures={name: Markup(svg) for name, svg in pictures.items()}, look=LOOK

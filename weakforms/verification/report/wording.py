@@ -1,10 +1,11 @@
-"""Numbers, formulas and durations as text: what the report, the terminal and other pages write alike."""
+"""Numbers, formulas, names and durations as text: what report, terminal and other pages write alike."""
 
 from __future__ import annotations
 
 import html
 import math
 import re
+from itertools import chain, count
 
 from weakforms.verification.report.junit import clean
 
@@ -12,6 +13,52 @@ from weakforms.verification.report.junit import clean
 def plain_tex(text: str) -> str:
     r"""TeX between dollars as plain Unicode: ``$\delta_1 = 1$`` becomes ``δ1 = 1``."""
     return re.sub(r"\$([^$]*)\$", lambda hit: re.sub(r"[{}^_]", "", _symbols(hit[1])), clean(text))
+
+
+GREEK = "alpha beta gamma delta eta kappa lam mu rho sigma theta Lambda Pi Theta"
+"""Names of numbers that begin with a Greek letter; ``lam`` is lambda."""
+NAMED = re.compile(rf"({'|'.join(GREEK.split())}|[A-Za-z]{{1,2}})(\d*)((?:_[A-Za-z0-9]+)*)")
+"""A name as a symbol: a letter, a number, and words or numbers after underlines."""
+WORDS = {"of", "in", "at", "to", "is", "or", "no", "on", "an", "as", "by", "a"}
+"""Words that look like symbols."""
+
+
+def symbol(name: str) -> str:
+    r"""A raw name of a number as TeX: ``lam1_mid`` becomes ``$\lambda_{1,\mathrm{mid}}$``."""
+    found = NAMED.fullmatch(name)
+    if not found or name in WORDS:
+        return name
+    letter, number, rest = found.groups()
+    stem = "\\" + {"lam": "lambda"}.get(letter, letter) if letter in GREEK.split() else letter
+    if len(letter) == 2 and letter not in GREEK.split():  # zw, Af
+        stem, number = letter[0], letter[1] + number
+    parts = [number] * bool(number) + [p if len(p) < 2 else rf"\mathrm{{{p}}}" for p in rest.split("_")[1:]]
+    return f"${stem}_{{{','.join(parts)}}}$" if parts else f"${stem}$"
+
+
+def typeset(text: str) -> str:
+    """Text with raw names and their values as TeX: ``gas_M_0.5_delta_2`` is gas, M = 0.5, delta = 2.
+
+    Text that has TeX already stays as it is.
+    """
+    if "$" in text or not text:
+        return text
+    if " = " in text:
+        return re.sub(r"\b([A-Za-z]\w*) = ", lambda hit: f"{symbol(hit[1])} = ", text)
+    call = re.fullmatch(r"(\w+)\((.*)\)", text)
+    if call:
+        listed = re.sub(r"(\w+)=", lambda hit: f"{symbol(hit[1])} = ", call[2])
+        return f"{call[1].replace('_', ' ')}: {listed}" if listed else call[1].replace("_", " ")
+    if not re.search(r"[ _]-?\d", text):
+        return symbol(text)
+    out: list[str] = []
+    for word in re.split(r"[ _]", text):
+        number = re.fullmatch(r"-?\d+(\.\d+)?", word)
+        if number and out and NAMED.fullmatch(out[-1]):
+            out[-1] = f"{symbol(out[-1])} = {word}"
+        else:
+            out.append(word)
+    return ", ".join(out) if any("$" in part for part in out) else text
 
 
 def html_tex(text: str) -> str:
@@ -29,6 +76,7 @@ def html_tex(text: str) -> str:
 
 
 def _symbols(tex: str) -> str:
+    tex = re.sub(r"\\(mathrm|text|mathit)\{([^{}]*)\}", r"\2", tex)
     tex = re.sub(r"\\[,;: ]|~", "\u2009", re.sub(r"\\(mathrm|text|mathit|left|right)\b", "", tex))
     tex = tex.replace("\\sqrt", "√")
     named = re.sub(r"\\([A-Za-z]+)", lambda hit: html.unescape(f"&{hit[1]};").strip("&;"), tex)
@@ -94,3 +142,21 @@ def duration(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s"
+
+
+def file_name(text: str) -> str:
+    """The text as part of a file name, which may have 255 characters."""
+    return re.sub(r"[^A-Za-z0-9_.-]+", "-", text).strip("-.").replace(".", "_")[:100] or "item"
+
+
+def anchor(text: str, taken: set[str]) -> str:
+    """A unique identifier from a text."""
+    stem = re.sub(r"[^\w.:-]+", "-", clean(text), flags=re.ASCII).strip("-") or "item"
+    return unused(stem, taken)
+
+
+def unused(stem: str, taken: set[str]) -> str:
+    """The stem, followed by a number if it is taken."""
+    name = next(n for n in chain([stem], (f"{stem}-{k}" for k in count(2))) if n not in taken)
+    taken.add(name)
+    return name

@@ -11,17 +11,18 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from scipy.interpolate import BarycentricInterpolator, CubicSpline
+from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
-from weakforms.problems.liquid_tube.bent.model import Shape, SurfaceModel
+from weakforms.problems.liquid_tube.bent.model import SurfaceModel
+from weakforms.problems.liquid_tube.bent.surface import Shape
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
-from weakforms.solvers.continuation.branch import Solved
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
-from weakforms.solvers.support.roots import root
+from weakforms.solvers.support.roots import polynomial_through, root
 
 NODES, SPAN = 6, 0.005
 """Number of volumes over which the coarsest mesh's bifurcation is interpolated: a Chebyshev grid within the
@@ -125,9 +126,7 @@ def bifurcation_on(
         )
     zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
     _, *found = trend.row(zero).tolist()
-    u, mode = (
-        BarycentricInterpolator(along, np.array(v))(zero) for v in ([s.state.u for s in solved], modes)
-    )
+    u, mode = (polynomial_through(along, np.array(v))(zero) for v in ([s.state.u for s in solved], modes))
     last = solved[-1].state
     like = model.interpolated(displacement(at), last.loads)
     with system.at(last):
@@ -174,5 +173,5 @@ def _trend(along: np.ndarray, rows: np.ndarray, below: Trend | None) -> Trend:
         known = np.zeros(0) if below is None else below.row(s)
         return np.append(known, np.zeros(size - len(known)))
 
-    difference = BarycentricInterpolator(along, rows - [coarser(s) for s in along])
+    difference = polynomial_through(along, rows - [coarser(s) for s in along])
     return Trend(lambda s: coarser(s) + difference(s), BESIDE[below is not None])

@@ -14,11 +14,13 @@ from mpi4py import MPI
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, Trend, bifurcation_on
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
-from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.bent.model import SurfaceModel
 from weakforms.problems.liquid_tube.bent.stability import BentStability
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
-from weakforms.solvers.continuation.branch import EquilibriumBranch, Solved
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import MonitorPlane, Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord, residual_limit

@@ -6,8 +6,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import cached_property
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
@@ -23,18 +23,18 @@ from weakforms.problems.liquid_tube.bent.branch import (
     secondary_branch,
 )
 from weakforms.problems.liquid_tube.bent.columns import RESULTANTS, SLOPES
-from weakforms.problems.liquid_tube.bent.model import SurfaceData
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.problem import Progress
-from weakforms.results import Branch, Failure, Field, Quantity, SpecialPoint
-from weakforms.solvers.continuation.branch import DIAGNOSTICS, Solved
+from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import DIAGNOSTICS, Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.sampling import Sampler
-from weakforms.solvers.uncertainty.family import BranchFamily
+from weakforms.solvers.uncertainty.family import BranchFamily, Compared
 from weakforms.solvers.uncertainty.refinement import estimate, estimate_in_norm
 
 SUPERCONVERGENT = 2
@@ -112,39 +112,20 @@ class SecondaryFamily(BranchFamily):
 
     fine: SecondaryBranch
     levels: list[SecondaryBranch]
+    traced_on_finest = False
     judges_points = False
 
-    def branch(self, with_uncertainty: bool = True) -> Branch:
-        """The points of the trace, each solved for on all meshes in a plane across the branch.
+    def _comparisons(self) -> Iterator[Callable[[], Compared]]:
+        """The points of the coarsest mesh's trace, each solved for on all meshes in a plane across it."""
+        return (partial(self._on_all, point) for point in self.levels[0].points)
 
-        A point for which this fails is left out and listed as a failure.
-        """
-        names, fine = self.fine.shown, self.fine
-        kept, diagnostics, missed = [], [], []
-        for i, point in enumerate(self.levels[0].points):
-            try:
-                solved, marks = self._on_all(point)
-            except ConvergenceError as error:
-                missed.append((i, str(error)))
-                continue
-            kept.append([[s.values[name] for name in names] for s in solved])
-            diagnostics.append(marks)
-        if missed:
-            what = f"branch {self.name}, points {missed[0][0]} to {missed[-1][0]}, {len(missed)} left out"
-            self.failures.append(Failure(what, missed[0][1]))
-        if not kept:
-            raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
-        table = np.array(kept)  # (points, levels, columns)
-        columns = dict(zip(names, table[:, -1].T, strict=True))
-        columns |= dict(zip(DIAGNOSTICS, np.array(diagnostics).T, strict=True))
-        if not with_uncertainty:
-            return Branch(self.name, fine.control, columns)
-        caps = np.array([self.caps.get(name, self.cap) for name in names])
-        found = estimate([table[:, k] for k in range(table.shape[1])], caps)
-        return Branch(self.name, fine.control, columns, dict(zip(names, found.uncertainty.T, strict=True)))
-
-    def _on_all(self, point: CurvePoint) -> tuple[list[Solved], list[float]]:
+    def _on_all(self, point: CurvePoint) -> Compared:
         """A point of the trace on all meshes, with the number of negative eigenvalues on the finest."""
+        solved, marks = self._solved_on_all(point)
+        own = {name: solved[-1].values[name] for name in self.fine.shown}
+        return [s.values for s in solved], own | dict(zip(DIAGNOSTICS, map(float, marks), strict=True))
+
+    def _solved_on_all(self, point: CurvePoint) -> tuple[list[Solved], list[float]]:
         fine, first = self.fine, self.levels[0].points[0]
         if point is first:
             record, negative = fine.points[0].record, first.n_negative

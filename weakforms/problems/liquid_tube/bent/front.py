@@ -163,7 +163,7 @@ class HalfSystem(System):
         moves = 0 if self.front is None else self.front.moves
         if self._weighed != moves:
             self._weighed = moves
-            self.update_mass()
+            self._update_mass()
         return super().mass
 
     def _write_loads(self, loads: Mapping[str, float]) -> None:

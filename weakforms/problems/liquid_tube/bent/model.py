@@ -25,10 +25,8 @@ UFL computes its derivative in the position completely; its derivative in ``zw``
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
-import basix.ufl
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -43,8 +41,8 @@ from weakforms.forms.fluid import (
 )
 from weakforms.problems.liquid_tube.bent.edge_points import EdgePoints
 from weakforms.problems.liquid_tube.bent.edge_tangents import EdgeTangents
-from weakforms.problems.liquid_tube.bent.front import FrontMap, HalfSystem
-from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
+from weakforms.problems.liquid_tube.bent.front import HalfSystem
+from weakforms.problems.liquid_tube.bent.surface import MaterialSurface, Shape, SurfaceData
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -62,37 +60,8 @@ FITTED_RULE = 2
 SIDES = {"0": 0.0, "pi": np.pi}
 """Meridians of these points."""
 
-Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""A position, or displacement, of shape ``(3, n)`` at material points ``Z``, ``Theta``."""
 
-
-@dataclass(frozen=True)
-class SurfaceData:
-    """The tube, its liquid and its mesh.
-
-    ``cells`` along the tube (a multiple of four), ``around`` over half the circumference. ``uneven`` is the
-    relative amplitude by which the widths of the cells vary around, on the whole circumference only.
-    """
-
-    L: float
-    delta: float
-    gamma: float
-    alpha: float
-    cells: int
-    around: int
-    degree: int
-    full: bool = False
-    uneven: float = 0.0
-    front: float | None = None
-    """On half the circumference: approximate position of the free surface, which the mesh follows."""
-
-    @property
-    def length(self) -> float:
-        """Length of the stress-free tube."""
-        return self.L / self.delta
-
-
-class SurfaceModel:
+class SurfaceModel(MaterialSurface):
     """Weak form of the surface on one mesh. Load: ``zw``; on the whole circumference also ``phase``.
 
     On the whole circumference a bent state can be rotated about the axis. A condition prescribes the
@@ -106,22 +75,7 @@ class SurfaceModel:
     """
 
     def __init__(self, comm: MPI.Intracomm, data: SurfaceData) -> None:
-        self.data = data
-        if data.front is None:
-            nodes = heights(data.cells, data.length)
-        else:
-            nodes, rows = fitted_heights(data.cells, data.length, data.front)
-        if data.full:
-            self._angles = _edges(2 * data.around, data.uneven)
-            self.mesh = prism(comm, nodes, self._angles)
-        else:
-            self.mesh = flat_sheet(comm, nodes, data.around)
-        element = basix.ufl.element("Lagrange", "quadrilateral", data.degree, shape=(3,))
-        self.space = fem.functionspace(self.mesh, element)
-        self.front = None
-        if data.front is not None:
-            self.front = FrontMap(self.mesh, rows, data.degree, 2 * data.around)
-        self.nodes = nodes
+        super().__init__(comm, data)
         self.unknown = fem.Function(self.space, name="surface")
         self.level = fem.Constant(self.mesh, 0.0)
         self.zw = ufl.variable(self.level)
@@ -130,15 +84,14 @@ class SurfaceModel:
             name: fem.Constant(self.mesh, float(getattr(data, name))) for name in ("L", "gamma", "alpha")
         }
         self.copies = 1 if data.full else 2
-        self._across = self._circumferential() if data.full else None
         self.unknown.interpolate(self._over(_cylinder(data.delta)))
         self._rings = fem.Function(self.space)
         self._rings.interpolate(self._over(_cylinder(data.delta)))
-        self._points = None if data.full else self._edge_points(nodes)
+        self._points = None if data.full else self._edge_points(self.nodes)
         self._tangents = None
         if not data.full:
             at = {side: self._point("quarter", side) for side in SIDES}
-            self._tangents = EdgeTangents(self.space, nodes, data.around, at, self.front)
+            self._tangents = EdgeTangents(self.space, self.nodes, data.around, at, self.front)
         # The load's kink at the free surface lies inside cells, and its quadrature limits the accuracy.
         self.dx, self._wet, self._wet_once = (
             ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": rule}) for rule in self._rules()
@@ -162,59 +115,7 @@ class SurfaceModel:
             return System(formulation)
         return HalfSystem(formulation, self.front, self._resultants_read, beside)
 
-    # -- geometry --------------------------------------------------------------------------------
-
-    def material(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """``(Z, Theta)`` of mesh coordinates, shape ``(3, n)``."""
-        if self.front is not None:
-            return self.front.material(points[0], points[1]), points[1]
-        if not self.data.full:
-            return points[0], points[1]
-        corners, next_corners, widths = self._faces()
-        # A point belongs to the face that contains it; on an edge both faces give the same angle.
-        along = (next_corners - corners) / widths[:, None]
-        offset = points[:2].T[:, None, :] - corners[None]
-        s = np.einsum("ijk,jk->ij", offset, along)
-        miss = np.abs(offset[..., 0] * along[:, 1] - offset[..., 1] * along[:, 0])
-        miss += np.maximum(-s, 0) + np.maximum(s - widths, 0)
-        face = np.argmin(miss, axis=1)
-        return points[2], self._angles[face] + s[np.arange(len(face)), face]
-
-    def _faces(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """First and second corner of each face of the prism, and its width."""
-        widths = np.diff([*self._angles, self._angles[0] + 2 * np.pi])
-        corners = polygon(widths)
-        return corners, np.roll(corners, -1, axis=0), widths
-
-    def _over(self, shape: Shape) -> Callable[[np.ndarray], np.ndarray]:
-        return lambda points: shape(*self.material(points))
-
-    def _circumferential(self) -> fem.Function:
-        """Unit vector along ``Theta`` on each face of the prism."""
-        space = fem.functionspace(self.mesh, ("DG", 0, (3,)))
-        direction = fem.Function(space)
-
-        def tangent(points: np.ndarray) -> np.ndarray:
-            # The middle of a face of a polygon inscribed in a circle lies on the face's normal.
-            radius = np.hypot(points[0], points[1])
-            return np.vstack([-points[1] / radius, points[0] / radius, np.zeros_like(radius)])
-
-        direction.interpolate(tangent)
-        return direction
-
-    @property
-    def _stretch(self) -> Expr | float:
-        """Ratio of material area to mesh area."""
-        return 1.0 if self.front is None else self.front.function.dx(0)
-
-    def surface(self, of: Expr) -> Surface:
-        """A field with its derivatives in ``Z`` and ``Theta``."""
-        if self.front is not None:
-            a = of.dx(0) / self._stretch
-            return Surface(of, a, of.dx(1) - a * self.front.function.dx(1))
-        if self._across is None:
-            return Surface(of, of.dx(0), of.dx(1))
-        return Surface(of, of.dx(2), ufl.dot(ufl.grad(of), self._across))
+    # -- states ----------------------------------------------------------------------------------
 
     def state_of(self, position: Shape, loads: Mapping[str, float]) -> State:
         """The state with a position and some loads; those not given are the initial ones."""
@@ -368,12 +269,6 @@ class SurfaceModel:
             dofs = fem.locate_dofs_topological(component, 1, facets)
             out.append(fem.dirichletbc(np.array(0.0), dofs, component))
         return out
-
-
-def _edges(cells: int, uneven: float) -> np.ndarray:
-    """Angles of the edges of the prism's faces, whose widths vary by ``uneven`` with one wave around."""
-    even = 2 * np.pi * np.arange(cells) / cells
-    return even + uneven * (np.sin(even + 0.7) - np.sin(0.7))
 
 
 def _cylinder(delta: float) -> Shape:

@@ -17,7 +17,8 @@ from pydantic import Field, model_validator
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.liquid_tube.bent.about import FLUID_TUBE_SURFACE
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, displacement, position, turned
-from weakforms.problems.liquid_tube.bent.model import SurfaceData, SurfaceModel
+from weakforms.problems.liquid_tube.bent.model import SurfaceModel
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
 from weakforms.results import Absence, Failure, Quantity, Result

@@ -20,6 +20,7 @@ from mpi4py import MPI
 from pydantic import Field
 from ufl.core.expr import Expr
 
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
 from weakforms.forms.wrinkling import surface_tension_field
 from weakforms.problems.material_choice import require_foldable
@@ -30,7 +31,7 @@ from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets.about import WRINKLED_SHEET
 from weakforms.problems.wrinkled.state import Held
-from weakforms.results import Result
+from weakforms.results import Absence, Result
 from weakforms.solvers.equilibrium.constraints import Held as Prescribed
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -184,11 +185,19 @@ class WrinkledSheet(Problem):
         require_foldable(self.name, parameters, waves=True)
 
     def fill(self, result: Result, task: Task) -> None:
-        """Solve on two meshes, starting from the axisymmetric state with its fronts."""
+        """Solve on two meshes, starting from the axisymmetric state with its fronts, if there is one."""
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
         branch = WrinkledBranch(membrane, parameters.at_load, parameters.volume_end, 0.5, 12)
-        plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)
+        try:
+            plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)
+        except InputError as error:
+            if branch.trace.stalled:
+                raise ConvergenceError(f"{self.name}: {error}: {branch.trace.stalled}") from error
+            searched = f"{error}, up to {parameters.volume_end:g} times the volume without load"
+            reason = f"{self.name}: {searched}; lower at_load, or raise volume_end"
+            result.absent.append(Absence("state at at_load", reason))
+            return
         (start,) = membrane.fitted(plain, Prescribed(membrane.control, parameters.at_load), fine_only=True)
 
         def run(coarser: int) -> dict[str, float]:

@@ -19,7 +19,6 @@ from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wrinkled.problem import (
     WrinkledNumerics,
     WrinkledParameters,
-    quantity,
     wrinkled_membrane,
 )
 from weakforms.problems.wrinkled.state import Held
@@ -101,8 +100,7 @@ def _states(parameters: LevelParameters, numerics: WrinkledNumerics, comm: MPI.I
 
 def _on_all(levels: list[Held], value: Callable[[Held], float], cap: float, left: float) -> Quantity:
     """A number of the state from its values on all meshes."""
-    found = quantity(estimate([value(held) for held in levels], cap))
-    return Quantity(found.value, found.uncertainty + left * max(1.0, abs(found.value)), found.order)
+    return estimate([value(held) for held in levels], cap).quantity(left)
 
 
 class WrinkledLinear(AtLevel):
@@ -116,9 +114,7 @@ class WrinkledLinear(AtLevel):
         names = ("A", "B", "B_exact", "n_star", "curved")
         out = {}
         for name in names:
-            found = quantity(estimate([trial[name] for trial in trials], cap))
-            left = ROUND_OFF * max(1.0, abs(found.value))
-            out[name] = Quantity(found.value, found.uncertainty + left, found.order)
+            out[name] = estimate([trial[name] for trial in trials], cap).quantity(ROUND_OFF)
         whole = Bands(levels[-1]).first_whole(MOST_WAVES)
         if whole is not None:
             out["n_true"] = Quantity(float(whole), 0.0)
@@ -147,7 +143,7 @@ class WrinkledBending(AtLevel):
             for name, values, left in zip(
                 ("n_c", "beta_c"), np.array(peaks).T.tolist(), (PLACE, 1e-14), strict=True
             ):
-                found = quantity(estimate(values, cap))
+                found = estimate(values, cap).quantity()
                 # beta_c is small, so that its error is relative to itself.
                 spread = found.uncertainty if name == "n_c" else _relative(values, cap)
                 out[name] = Quantity(found.value, spread + left * max(1.0, found.value), found.order)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled.events import SLACK, Event
-from weakforms.problems.wrinkled.fitted import Membrane
+from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import Held
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.results import Failure

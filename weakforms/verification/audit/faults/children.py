@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
@@ -16,6 +17,12 @@ from threading import Lock
 from typing import Any
 
 from weakforms.verification.cases.references import ROOT
+
+WAITING = 20.0
+"""A process that waits instead of computing is ended after this many times the limit of processor time."""
+
+LOOK = 1.0
+"""Seconds between two looks at the processor time of a process."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +60,7 @@ class Children:
         Args:
             root: The copy.
             expectations: What it runs, up to the first that does not pass.
-            limit: Seconds after which it is ended.
+            limit: Seconds of processor time after which it is ended; a busy machine ends no run.
             go_on: Run all of them, whatever does not pass.
             lines: Folder to work in where the lines that are run are noted; by default one beside the copy.
 
@@ -96,12 +103,15 @@ class Children:
 
     def _wait(self, child: subprocess.Popen, limit: float) -> str:
         failure = ""
+        last = time.monotonic() + WAITING * limit
         try:
-            status = child.wait(limit)
-            failure = f"the process ended with status {status}" if status else ""
-        except subprocess.TimeoutExpired:
-            failure = f"it did not end within {limit:.0f} s"
-            _kill(child)
+            while (status := _ended(child)) is None:
+                if _processor_time(child.pid) > limit or time.monotonic() > last:
+                    failure = f"it did not end within {limit:.0f} s of processor time"
+                    _kill(child)
+                    break
+            else:
+                failure = f"the process ended with status {status}" if status else ""
         finally:
             with self._lock:
                 self._running.discard(child)
@@ -115,6 +125,23 @@ class Children:
             running = list(self._running)
         for child in running:
             _kill(child)
+
+
+def _ended(child: subprocess.Popen) -> int | None:
+    """Exit status of a process; none if it is still running after a short while."""
+    try:
+        return child.wait(LOOK)
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def _processor_time(pid: int) -> float:
+    """Seconds of processor time of a process and those it has waited for; zero where none is known."""
+    try:
+        after_name = Path(f"/proc/{pid}/stat").read_text("utf-8").rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return sum(map(int, after_name[11:15])) / os.sysconf("SC_CLK_TCK")
 
 
 def _kill(child: subprocess.Popen) -> None:

@@ -10,6 +10,8 @@ from __future__ import annotations
 import importlib
 import inspect
 import os
+import resource
+import signal
 import subprocess
 import sys
 import tomllib
@@ -23,13 +25,14 @@ from typing import Any
 
 import numpy as np
 
+from weakforms.verification.audit.faults.children import WAITING
 from weakforms.verification.cases.references import ROOT, folder_of
 
 SOLVERS = "reference_data/solvers/"
 """Folder of the files whose changes are looked for in this way."""
 
-LONGEST = 60.0
-"""Seconds after which the computation of a table is given up; it then shows nothing."""
+LONGEST = 60
+"""Seconds of processor time after which the computation of a table is given up; it then shows nothing."""
 
 MOST = 6
 """Number of tables computed for one change."""
@@ -109,9 +112,18 @@ def run_table(name: str, folder: Path, root: Path | None = None) -> dict[str, An
     surroundings = os.environ | {"PYTHONPATH": str(root)}
     try:
         done = subprocess.run(
-            call, cwd=root, env=surroundings, capture_output=True, text=True, timeout=LONGEST, check=False
+            call,
+            cwd=root,
+            env=surroundings,
+            capture_output=True,
+            text=True,
+            timeout=WAITING * LONGEST,
+            check=False,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST)),
         )
     except subprocess.TimeoutExpired:
+        return {"status": "passed", "verdicts": [], "errors": []}
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         return {"status": "passed", "verdicts": [], "errors": []}
     said = " ".join(done.stderr.split()[-40:])
     if done.returncode in (2, 3):

@@ -1,23 +1,21 @@
-"""First states of a wrinkled membrane: on a plain mesh, and unloaded."""
+"""A wrinkled membrane: its first states on a plain mesh, and unloaded."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 
 import numpy as np
-from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import BY_STATE, DRY, TAUT, WRINKLED, Marks
 from weakforms.problems.wrinkled.fields import Zones
+from weakforms.problems.wrinkled.fitted import VERGE, FittedMembrane
 from weakforms.problems.wrinkled.model import WrinkledModel
-from weakforms.problems.wrinkled.state import BLOCKS, Held, Mesh, Touch, model_on, solver_of
+from weakforms.problems.wrinkled.state import BLOCKS, Held, model_on, solver_of
 from weakforms.solvers.continuation.walk import walk
-from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord
+from weakforms.solvers.equilibrium.newton import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 
 HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)
@@ -31,49 +29,12 @@ GAS_TO_LIQUID = (
 )
 """Gas pressure and fraction of the liquid's weight, in steps from a gas to a liquid."""
 
-VERGE, VERGE_FITTED = 1e-7, 1e-10
-"""Deviation of ``gw`` from 1 that counts as zero, on a plain mesh and on a fitted mesh."""
-
 WALK = 0.1
 """Largest step of a parameter on the way from an easy membrane to the one wanted."""
 
 
-class PlainMembrane:
-    """One membrane at given parameters, with its states on a plain mesh.
-
-    Args:
-        comm: Ranks.
-        body: Geometry and thickness.
-        values: Parameters: the body's, ``c2``, ``gamma``.
-        liquid: Whether the load is ``zw``; else it is ``p``.
-        cells: Cells of each block on each mesh, coarse to fine.
-        degree: Degree of the elements.
-        energy: See :class:`WrinkledModel`.
-        near_fronts: Distances from fronts at which further blocks end, for short waves.
-        material: A law that replaces the Mooney-Rivlin law.
-    """
-
-    def __init__(
-        self,
-        comm: MPI.Intracomm,
-        body: Body,
-        values: Mapping[str, float],
-        liquid: bool,
-        cells: Sequence[int],
-        degree: int,
-        energy: str,
-        near_fronts: Sequence[float] = (),
-        material: Chosen | None = None,
-    ) -> None:
-        self.body, self.liquid, self.energy = body, liquid, energy
-        self.near_fronts = tuple(near_fronts)
-        self.values = {"gamma": 0.0, "c2": 0.0, "residual_stiffness": 0.0, "p": 0.0, "zw": 0.0, **values}
-        self.length = float(body.length(self.values))
-        self.meshes = [Mesh(comm, comm.py2f(), body, n, degree, energy, material) for n in cells]
-        self.control = "zw" if liquid else "p"
-        self.on_meshes: list[dict[str, float]] = [{} for _ in cells]
-        """Parameters that are results themselves, for each mesh, so that differences between meshes include
-        their errors. Those of the finest mesh are also in ``values``."""
+class Membrane(FittedMembrane):
+    """One membrane at given parameters: its first states on a plain mesh, then states on fitted meshes."""
 
     # -- plain mesh ----------------------------------------------------------------------------
 
@@ -82,17 +43,21 @@ class PlainMembrane:
         """The finest mesh with equal blocks."""
         return model_on(self.meshes[-1], BLOCKS)
 
-    def prepare(self) -> State:
-        """Undisplaced state of the plain mesh; its mass matrix then measures arc length."""
+    def undisplaced(self) -> State:
+        """Undisplaced state of the plain mesh, a guess for solves on it."""
         model = self.plain_model
         breaks = np.linspace(0.0, self.length, BLOCKS + 1)
         marks = Marks(np.full(BLOCKS, BY_STATE), np.full(BLOCKS, BY_STATE if self.liquid else DRY))
         loads = {name: float(self.values[name]) for name in model.loads if name in self.values}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, BLOCKS)}
-        undisplaced = State(np.zeros(model.system.size), loads, marks)
-        with model.system.at(undisplaced):
-            model.system.update_mass()
-        return undisplaced
+        return State(np.zeros(model.system.size), loads, marks)
+
+    @contextmanager
+    def weighed(self) -> Iterator[None]:
+        """Context in which arc length on the plain mesh is measured by the mass of this membrane."""
+        system = self.plain_model.system
+        with system.at(self.undisplaced()), system.weighed_here():
+            yield
 
     def by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         """State of the plain mesh at a load, from the completely wrinkled unloaded membrane.
@@ -132,9 +97,9 @@ class PlainMembrane:
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)
-        undisplaced = self.prepare()
+        undisplaced = self.undisplaced()
         breaks = self.plain_model.breaks_of(undisplaced.loads)
-        state = self._moved(folded, self.plain_model, breaks, undisplaced.marks)
+        state = self.moved(folded, self.plain_model, breaks, undisplaced.marks)
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
         if self.energy == "standard":
@@ -155,7 +120,7 @@ class PlainMembrane:
         Raises:
             ConvergenceError: If a step does not converge.
         """
-        state = self.prepare()
+        state = self.undisplaced()
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
         for gas, liquid in GAS_TO_LIQUID:
@@ -196,7 +161,7 @@ class PlainMembrane:
 
     def unloaded_from(self, level: int, state: float, start: Held | None) -> Held:
         """The same from a state of neighbouring parameters, or from the undisplaced one."""
-        undisplaced = self.prepare()
+        undisplaced = self.undisplaced()
         begin = self.plain(undisplaced)
         if start is not None:
             loads = start.state.loads | self._own(undisplaced)
@@ -205,23 +170,3 @@ class PlainMembrane:
 
     def _own(self, state: State) -> dict[str, float]:
         return {name: value for name, value in state.loads.items() if name in self.values}
-
-    # -- methods of fitted meshes ----------------------------------------------------------------
-
-    def fit(
-        self,
-        level: int,
-        start: Held,
-        wanted: Zones,
-        constraints: Sequence[Constraint],
-        free: Sequence[str] | None = None,
-        touch: Touch | None = None,
-        same: bool = False,
-        graded: bool = False,
-    ) -> Held:
-        """Solve on one mesh with its break points at the fronts and at the surface."""
-        raise NotImplementedError
-
-    def _moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
-        """A state interpolated to another mesh."""
-        raise NotImplementedError

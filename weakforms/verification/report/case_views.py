@@ -1,0 +1,146 @@
+"""The data of one case for the templates: figures, sorted checks, histories of refinement."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from io import StringIO
+from operator import call
+from typing import Any
+
+from markupsafe import Markup
+
+from weakforms.verification.cases.discovery import find_cases
+from weakforms.verification.cases.references import part
+from weakforms.verification.judging.outcome import CaseOutcome, Convergence, PanelOutcome, Verdict
+from weakforms.verification.report import summary, wording
+from weakforms.verification.report.figures import convergence_figure, panel_figure
+from weakforms.verification.report.junit import clean
+from weakforms.verification.report.manual import manual, references
+from weakforms.verification.report.surface_figures import surface_figure
+from weakforms.verification.report.svg import standalone
+from weakforms.verification.report.wording import anchor, file_name, unused
+from weakforms.verification.run.workers import workers
+
+FOLDED = 30
+"""If a case has more passed checks than this, they are folded under their summary."""
+
+
+def draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
+    """Replace calls by the pictures that they draw."""
+    calls = [entry["svg"] for entry in shown]
+    if jobs == 1:
+        drawn = map(call, calls)
+    else:
+        with workers(jobs) as pool:
+            drawn = list(pool.map(call, calls, chunksize=4))
+    for entry, picture in zip(shown, drawn, strict=True):
+        entry["svg"] = Markup(picture)
+
+
+def case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> dict[str, Any]:
+    """The data of one case for the template: figures, sorted checks, anchors."""
+    top = anchor(case.id, taken)
+    rows = [
+        {
+            "verdict": verdict,
+            "anchor": anchor(f"{top}:{verdict.check}", taken),
+            "numbers": _numbers(verdict),
+        }
+        for verdict in case.verdicts
+    ]
+    passing = [row for row in rows if row["verdict"].passed]
+    histories = []
+    for records in _by_quantity(case.convergence):
+        drawing = partial(convergence_figure, records, anchor("f", taken))
+        histories.append({"records": records, "svg": drawing})
+    return {
+        "case": case,
+        "anchor": top,
+        "status": summary.case_status(case),
+        "file": _file_of(case.id) if case.errors or len(passing) < len(rows) else "",
+        "manual": manual(case),
+        "references": references(case),
+        "rows": rows,
+        "failing": [row for row in rows if not row["verdict"].passed],
+        "passing": passing,
+        "folded": len(passing) > FOLDED,
+        "figures": _figures(case, top, taken, shapes),
+        "histories": histories,
+        "shared": _shared([solution.get("provenance") or {} for solution in case.solutions]),
+    }
+
+
+def _file_of(case: str) -> str:
+    """The file of a case, as a path in the tree; empty if the tree has no such case."""
+    return next((f"cases/{f.path.relative_to(part('cases'))}" for f in find_cases() if f.id == case), "")
+
+
+def _figures(case: CaseOutcome, top: str, taken: set[str], shapes: Mapping[int, str]) -> list[dict[str, Any]]:
+    """The pictures of a case: its panels, then its surfaces with their files for ParaView."""
+    figures = []
+    for panel in case.panels:
+        ident = anchor(f"{top}:panel-{panel.name}", taken)
+        drawing = partial(panel_figure, panel, anchor("f", taken), case.verdicts)
+        stem = unused(f"figures/{file_name(f'{case.id}-{panel.name}')}", taken)
+        files = [f"{stem}.csv", f"{stem}.svg"]
+        figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": None, "files": files})
+    for surface in case.surfaces:
+        ident = anchor(f"{top}:surface-{surface.name}", taken)
+        picture = partial(surface_figure, surface, anchor("f", taken))
+        figures.append(
+            {"panel": surface, "anchor": ident, "svg": picture, "shape": shapes[id(surface)], "files": []}
+        )
+    return figures
+
+
+def figure_files(views: Iterable[dict[str, Any]]) -> dict[str, str]:
+    """Every panel as files by name: its numbers as CSV, its picture as SVG."""
+    files = {}
+    for view in views:
+        for item in view["figures"]:
+            for name in item["files"]:
+                files[name] = panel_csv(item["panel"]) if name.endswith(".csv") else standalone(item["svg"])
+    return files
+
+
+def panel_csv(panel: PanelOutcome) -> str:
+    """The numbers of a panel, one row for each point: of weak form, reference and errors."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["curve", "what", panel.x, panel.y, "relative error", "bound"])
+    for curve in panel.curves:
+        name = curve.name or curve.label
+        writer.writerows([name, "weak form", x, y] for x, y in zip(curve.x, curve.y, strict=False))
+        rows = zip(curve.reference_x, curve.reference_y, strict=False)
+        writer.writerows([name, "reference", x, y] for x, y in rows)
+        bounds = curve.residual_bound or [""] * len(curve.residual)
+        errors = zip(curve.residual_x, curve.residual, bounds, strict=False)
+        over = f"error over {curve.residual_abscissa}"
+        writer.writerows([name, over, x, "", error, bound] for x, error, bound in errors)
+    return clean(text.getvalue())
+
+
+def _numbers(verdict: Verdict) -> dict[str, str]:
+    """Error, bound and asked accuracy with as many digits as needed to distinguish them."""
+    values = {name: getattr(verdict, name) for name in ("error", "bound", "asked")}
+    known = [value for value in values.values() if value is not None]
+    for digits in range(2, 7):
+        texts = {name: wording.scientific(value, digits) for name, value in values.items()}
+        if len({texts[n] for n, v in values.items() if v is not None}) == len(set(known)):
+            break
+    return texts
+
+
+def _by_quantity(records: Iterable[Convergence]) -> list[list[Convergence]]:
+    groups: dict[str, list[Convergence]] = {}
+    for record in records:
+        groups.setdefault(record.quantity, []).append(record)
+    return list(groups.values())
+
+
+def _shared(records: list[Mapping[str, Any]]) -> dict[str, Any]:
+    """The entries that several mappings have in common."""
+    first = records[0] if len(records) > 1 else {}
+    return {k: v for k, v in first.items() if all(other.get(k) == v for other in records)}

@@ -1,0 +1,84 @@
+"""What a page says of a case before its figures: geometry and loads, equations, symbols, data, references."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from weakforms.problems.registry import abouts
+from weakforms.problems.registry import symbol as declared
+from weakforms.verification.judging.outcome import CaseOutcome
+from weakforms.verification.report.wording import symbol
+
+SKETCHES = {
+    "circular": "disk",
+    "tube": "tube",
+    "fluid": "liquid",
+    "wrinkled": "wrinkled",
+    "sphere": "balloon",
+}
+"""Sketch by the first word of a problem's name."""
+
+KINDS = {
+    "exact": "a closed form",
+    "independent": "computed by two other methods that share no code with the weak form",
+    "printed": "printed in the thesis",
+    "other-code": "another code",
+}
+
+
+def manual(case: CaseOutcome) -> list[dict[str, Any]]:
+    """One entry for each problem that a case solves.
+
+    Returns:
+        The problem's own words (``about``), the name of its sketch, the symbols that the case uses with their
+        scaling, and the values of every parameter.
+    """
+    out = []
+    for name in dict.fromkeys(str(solution.get("problem")) for solution in case.solutions):
+        about = abouts().get(name)
+        if about is None:  # a stored run of another version
+            continue
+        data = [s.get("parameters") or {} for s in case.solutions if s.get("problem") == name]
+        used = dict.fromkeys([*(key for of in data for key in of), *_drawn(case)])
+        symbols = [
+            (declared(key) or symbol(key), key, about.scales[key]) for key in used if key in about.scales
+        ]
+        out.append(
+            {
+                "about": about,
+                "sketch": SKETCHES.get(name.partition("_")[0], ""),
+                "symbols": symbols,
+                "data": _data(data),
+            }
+        )
+    return out
+
+
+def references(case: CaseOutcome) -> dict[str, list[str]]:
+    """Names of the tables by where their numbers come from."""
+    found: dict[str, list[str]] = {}
+    for panel in case.panels:
+        for curve in panel.curves:
+            if curve.reference_name and curve.reference_kind:
+                names = found.setdefault(KINDS.get(curve.reference_kind, curve.reference_kind), [])
+                if curve.reference_name not in names:
+                    names.append(curve.reference_name)
+    return found
+
+
+def _drawn(case: CaseOutcome) -> list[str]:
+    """Names on the axes of a case's panels."""
+    return [name for panel in case.panels for name in (panel.x, panel.y)]
+
+
+def _data(parameters: list[dict[str, Any]]) -> list[tuple[str, str]]:
+    """Every parameter that is a number or a word, with the values that it takes."""
+    values: dict[str, list[str]] = {}
+    for of in parameters:
+        for name, value in of.items():
+            if isinstance(value, int | float | str) and not isinstance(value, bool):
+                text = f"{value:g}" if isinstance(value, float) else str(value)
+                seen = values.setdefault(name, [])
+                if text not in seen:
+                    seen.append(text)
+    return [(name, ", ".join(seen)) for name, seen in values.items()]
