@@ -39,6 +39,7 @@ LEVELS: dict[FluidTube, tuple[float, ...]] = {
 DENSER: dict[FluidTube, tuple[float, ...]] = {
     FluidTube(8, 2, 0.058): (11.9, 12.0, 12.1, 12.17),
     FluidTube(8, 2, 0.232): (5.2, 5.25, 5.29, 5.31),
+    FluidTube(24, 2, 0.058): (11.8, 11.95, 12.05, 12.11),
 }
 """Levels for other densities: near the bifurcation, where figure 4 shows the branch."""
 FINER = (FluidTube(8, 3),)  # bulges most: on the usual grids u of heights is 3e-6 near the bifurcation

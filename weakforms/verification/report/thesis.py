@@ -44,7 +44,14 @@ COMPRESSED = (
     "the secondary branch for delta = 1.5 is on a coarse mesh: its dry part is compressed, and a membrane "
     "without bending stiffness wrinkles there as finely as a mesh allows"
 )
-REMARKS = {(3, "2b"): COMPRESSED, (3, "3b"): COMPRESSED}
+REMARKS = {
+    (3, "2b"): COMPRESSED,
+    (3, "3b"): COMPRESSED,
+    (
+        3,
+        "4",
+    ): "the aspect ratio is not printed; of L = 24 with the densest liquid the secondary branch is missing",
+}
 
 CURVES = ("curve", "field")
 """Kinds of verdicts on curves and profiles."""
