@@ -23,6 +23,7 @@ from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.fields import TAUT
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets import cylinder as sheet
+from weakforms.problems.wrinkled.waves import problem as level
 from weakforms.results import validate
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.walk import walk
@@ -218,6 +219,16 @@ def test_a_membrane_that_is_not_found_without_load_names_what_to_change(values, 
     with pytest.raises(ConvergenceError) as caught:
         branch._start(None)
     assert str(caught.value) == f"the membrane without load is not found: the system is singular{hint}"
+
+
+def test_a_level_without_a_state_names_what_to_change(monkeypatch):
+    def none(*_):
+        raise ConvergenceError("the equilibrium is turned inside out")
+
+    monkeypatch.setattr(level, "_states", none)
+    (failure,) = solve("wrinkled_linear", zw=18.0).failures
+    assert failure.what == "zw = 18"
+    assert failure.reason.startswith("the equilibrium is turned inside out; a lower zw")
 
 
 @pytest.mark.parametrize("stalled", [None, "steps too small"])

@@ -84,7 +84,8 @@ class AtLevel(Problem):
             progress("waves", 0, 1)
             result.quantities |= self._quantities(levels, parameters, 2 * numerics.degree)
         except ConvergenceError as error:
-            result.failures.append(Failure(f"zw = {parameters.zw:g}", str(error)))
+            hint = "; a lower zw, which may be above its limit, or a smaller Af may give a state"
+            result.failures.append(Failure(f"zw = {parameters.zw:g}", f"{error}{hint}"))
 
     def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
         raise NotImplementedError
