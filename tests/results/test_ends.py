@@ -184,3 +184,11 @@ def test_a_single_crossing_says_how_many_there_are():
 def test_a_crossing_below_one_is_refused():
     with pytest.raises(InputError, match="crossing = 0 must be 1 or more, or 'all'"):
         api.prepare("tube", {}, {}, {"p": 1}, 0)
+
+
+def test_the_last_points_of_a_branch_are_compared_with_their_neighbours_on_coarser_meshes():
+    """A coarser mesh's branch ends just before; the plane there cuts it again far away, where p is 9."""
+    given = {"alpha": 0.0, "beta": 1.5, "t_end": 2.0}
+    branch = solve("circular", **given, numerics={"cells": 32, "levels": 2}).branch()
+    assert branch["t0"][-1] > 2.0
+    assert max(branch.uncertainty["p"][-2:] / branch["p"][-2:]) < 1e-3

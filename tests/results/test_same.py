@@ -9,9 +9,9 @@ import pytest
 from weakforms.errors import InputError
 from weakforms.results import Branch, Failure, Field, Quantity, Result, SpecialPoint, State
 from weakforms.verification.audit import same
+from weakforms.verification.audit.elsewhere import NAME, elsewhere, load_elsewhere, write_elsewhere
 from weakforms.verification.audit.same import Run, differences, main, runs, table
 from weakforms.verification.judging.outcome import RunOutcome
-from weakforms.verification.report.elsewhere import NAME, elsewhere, load_elsewhere, write_elsewhere
 from weakforms.verification.report.pages import render
 
 

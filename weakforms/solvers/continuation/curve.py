@@ -19,6 +19,9 @@ DIAGNOSTICS = ("n_negative", "residual", "iterations")
 """Columns that describe the solve; they cannot be prescribed."""
 
 
+FAR = 0.1
+"""Distance along a curve, relative to its length, within which a point of another mesh's curve is sought."""
+
 BETWEEN = (0.25, 0.5, 0.75)
 """Fractions of the interval between two points of a trace at which eigenvalues are counted again."""
 
@@ -150,11 +153,10 @@ class SolutionCurve:
         target = sum(rate * self._column(like, name) for name, rate in rates.items())
         places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
         arclengths = np.array([p.arclength for p in self.points])
-        hits = np.flatnonzero((places[:-1] - target) * (places[1:] - target) <= 0)
-        middle = (arclengths[:-1] + arclengths[1:]) / 2
-        if not len(hits):
-            hits = np.array([int(np.argmin(np.abs(places[:-1] - target)))])
-        i = int(hits[np.argmin(np.abs(middle[hits] - near * arclengths[-1]))])
+        crossed = (places[:-1] - target) * (places[1:] - target) <= 0
+        apart = np.abs((arclengths[:-1] + arclengths[1:]) / 2 - near * arclengths[-1])
+        # This curve may end just before the plane, which may cut it a second time far from there.
+        i = int(np.argmin(np.where(crossed & (apart <= FAR * arclengths[-1]), apart - arclengths[-1], apart)))
         span = places[i + 1] - places[i]
         guess = self._between(i, (target - places[i]) / span if span else 0.5)
         return self._solve(guess, MonitorPlane(rates, target))

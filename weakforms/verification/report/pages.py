@@ -15,6 +15,7 @@ from markupsafe import Markup
 
 from weakforms.verification.audit.any_parameters.outcome import STATUSES, Audited
 from weakforms.verification.audit.coverage.outcome import COLUMNS, PARTS, Covered, cells
+from weakforms.verification.audit.elsewhere import Elsewhere
 from weakforms.verification.audit.faults.outcome import FaultOutcome, Seeded
 from weakforms.verification.judging.consistency import exempt
 from weakforms.verification.judging.outcome import (
@@ -24,7 +25,6 @@ from weakforms.verification.judging.outcome import (
 )
 from weakforms.verification.report import summary, thesis, wording
 from weakforms.verification.report.case_views import case_view, draw, figure_files
-from weakforms.verification.report.elsewhere import Elsewhere
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.look import LOOK, TEMPLATES
 from weakforms.verification.report.svg import share_letters

@@ -11,9 +11,9 @@ from pathlib import Path
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification.audit.any_parameters.outcome import Audited
 from weakforms.verification.audit.coverage.outcome import Covered
+from weakforms.verification.audit.elsewhere import load_elsewhere
 from weakforms.verification.audit.faults.outcome import Seeded
 from weakforms.verification.judging.outcome import RunOutcome
-from weakforms.verification.report.elsewhere import load_elsewhere
 from weakforms.verification.report.pages import render_whole
 
 NAME = "report.pdf"

@@ -19,10 +19,10 @@ from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
 from weakforms.verification.audit.any_parameters.outcome import Audited
 from weakforms.verification.audit.coverage.outcome import Covered
+from weakforms.verification.audit.elsewhere import NAME as ELSEWHERE
+from weakforms.verification.audit.elsewhere import Elsewhere, load_elsewhere
 from weakforms.verification.audit.faults.outcome import Seeded
 from weakforms.verification.judging.outcome import SCHEMA, RunOutcome
-from weakforms.verification.report.elsewhere import NAME as ELSEWHERE
-from weakforms.verification.report.elsewhere import Elsewhere, load_elsewhere
 from weakforms.verification.report.junit import junit_xml
 from weakforms.verification.report.pages import render_with_files, shape_files
 from weakforms.verification.report.vtu import vtu

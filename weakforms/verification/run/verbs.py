@@ -10,10 +10,10 @@ import typer
 from weakforms.terminal import complain, console, plain, progress_bar, rank
 from weakforms.verification.audit.any_parameters.outcome import NAME as AUDIT
 from weakforms.verification.audit.coverage.outcome import NAME as COVERAGE
+from weakforms.verification.audit.elsewhere import elsewhere, write_elsewhere
 from weakforms.verification.audit.faults.outcome import NAME as FAULTS
 from weakforms.verification.audit.faults.outcome import RANDOM, keep_beside, load_faults
 from weakforms.verification.cases.discovery import FoundCase
-from weakforms.verification.report.elsewhere import elsewhere, write_elsewhere
 from weakforms.verification.report.report import load_run, write_report
 from weakforms.verification.report.summary import print_summary, run_status
 
