@@ -52,7 +52,7 @@ def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder)
         "figures",
     }
     assert expected | {"paper2.html"} < set(os.listdir(folder))
-    assert len(os.listdir(folder)) == 10, "and one page for the hostile group"
+    assert len(os.listdir(folder)) == 11, "with one page for the hostile group and the folder of figures"
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
 
 
