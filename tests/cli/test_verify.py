@@ -19,6 +19,7 @@ from weakforms.verification.run import runner, solving
 from weakforms.verification.run.effort import Effort
 
 PAGES = {
+    "figures",
     "audit.html",
     "coverage.html",
     "faults.html",
