@@ -35,14 +35,16 @@ def test_bench_has_its_stages(weakforms, small):
     assert "floor" in shown
 
 
-def test_a_run_is_held_against_the_last_one_by_its_ratios(weakforms, small, tmp_path):
+def test_a_run_is_held_against_the_last_one_by_its_ratios(weakforms, small, monkeypatch, tmp_path):
+    row = bench.measure("tube", time.time(), False) | {"ratio": 2.0, "ratio_spread": 0.1}
+    monkeypatch.setattr(bench, "_in_a_process", lambda *_: dict(row))
     file, words = tmp_path / "bench.jsonl", ("bench", "--only", "tube", "--no-cold")
     assert weakforms(*words, "--history", str(file)).status == 0
     (line,) = map(json.loads, file.read_text("utf-8").splitlines())
     assert line["machine"]["cores"]
     assert "petsc" in line["versions"]
     known = line["problems"]["tube"]
-    for factor, status, word in ((0.1, 1, "slower"), (10.0, 0, "faster")):
+    for factor, status, word in ((0.5, 1, "slower"), (1.0, 0, "as before"), (2.0, 0, "faster")):
         line["problems"]["tube"] = known | {"ratio": factor * known["ratio"], "ratio_spread": 0.0}
         file.write_text(json.dumps(line) + "\n", "utf-8")
         called = weakforms(*words, "--against", str(file))
