@@ -67,6 +67,12 @@ def test_a_panel_with_a_curve_that_is_not_compared_is_not_held(verdicts, referen
     assert not row_of(outcome("paper2.fig05", verdicts, panel(*references))).held
 
 
+def test_a_panel_with_a_curve_that_no_case_draws_is_not_held():
+    row = row_of(outcome("paper3.fig04", checks("a"), panel("a", name="L_8")), paper=3, name="4")
+    assert (row.drawn, row.compared, row.held) == (1, 1, False)
+    assert "missing" in row.remark
+
+
 def test_a_table_is_held_by_its_statements():
     assert row_of(outcome("paper2.table1", [CLAIM]), name="table 1").held
     broken = [CLAIM, replace(CLAIM, check="claim:d", passed=False)]
