@@ -103,6 +103,19 @@ def test_5_energy_grows_without_bound(model):
 # -- the laws that fail ------------------------------------------------------------------------------
 
 
+def test_laws_are_classed_as_in_the_thesis():
+    """Section 3.1: what is derived from chains is micro-mechanical; Beda and Chevalier's law is a hybrid."""
+    classes = {
+        "micro-mechanical": {"neo_hookean", "three_chain", "arruda_boyce"},
+        "hybrid": {"beda_chevalier"},
+        "other": {"saint_venant_kirchhoff", "harmonic"},
+    }
+    classes["phenomenological"] = set(MATERIALS) - set().union(*classes.values())
+    assert {name: law.kind for name, law in MATERIALS.items()} == {
+        name: kind for kind, names in classes.items() for name in names
+    }
+
+
 def test_kirchhoff_fails_condition_5_and_3():
     near = [numbers("saint_venant_kirchhoff", x, 1.0)[0] for x in (1e-2, 1e-4)]
     assert near[1] - near[0] < 1e-3

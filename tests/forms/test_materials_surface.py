@@ -170,7 +170,6 @@ def test_waves_around_a_tube_of_rivlins_series_are_those_of_the_papers_law(load,
     ("problem", "given_", "words"),
     [
         ("fluid_tube", {"model": "three_chain"}, "fluid_tube model three_chain allowed ogden gent"),
-        ("fluid_tube", {"model": "gent", "secondary": True}, "secondary model gent allowed mooney_rivlin"),
         ("fluid_tube", {"model": "gent", "alpha": 0.1}, "alpha is not a constant"),
         ("wrinkled_tube", {"model": "harmonic"}, "wrinkled_tube model harmonic allowed three_chain"),
         ("wrinkled_tube", {"model": "three_chain", "n": (5,)}, "waves around model three_chain allowed gent"),

@@ -15,7 +15,6 @@ from weakforms.forms.wrinkling import (
     surface_tension_field,
     tension_field,
 )
-from weakforms.problems.wrinkled.sheets.material import derivatives
 
 pytestmark = pytest.mark.paper4
 
@@ -39,6 +38,24 @@ STATES = {
     "along 2": [(0.5, 1.5), (0.05, 2.5), (0.6, 1.01)],
     "slack": [(0.9, 0.8), (0.3, 0.99), (0.05, 0.05)],
 }
+
+
+def derivatives(law, form):
+    """Energy ``W``, stresses and tangent of a law in a form, by UFL, as functions of two stretches."""
+    mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
+    stretches = fem.Constant(mesh, np.ones(2))
+    l1, l2 = ufl.variable(stretches[0]), ufl.variable(stretches[1])
+    w = form(law)(l1, l2)
+    first = [ufl.diff(w, l1), ufl.diff(w, l2)]
+    second = [ufl.diff(first[0], l1), ufl.diff(first[0], l2), ufl.diff(first[1], l2)]
+    expression = fem.Expression(ufl.as_vector([w, *first, *second]), np.array([[0.5]]))
+
+    def at(a, b):
+        stretches.value[:] = a, b
+        values = expression.eval(mesh, np.array([0], dtype=np.int32)).ravel()
+        return dict(zip(("W", "W1", "W2", "W11", "W12", "W22"), values.tolist(), strict=True))
+
+    return at
 
 
 @pytest.mark.parametrize("law", LAWS)

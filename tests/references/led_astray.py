@@ -26,7 +26,7 @@ def refused(words, call, *given, error=RuntimeError, **named):
 
 
 @dataclass(frozen=True)
-class Held:
+class StandIn:
     """Whatever an iteration moves."""
 
     tube: object = TUBE

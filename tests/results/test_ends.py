@@ -1,4 +1,4 @@
-"""Every branch says why it ends, every idle parameter is named, and requests beyond an end are refused."""
+"""Every branch says why it ends, idle parameters are named; states beyond an end move it or are refused."""
 
 import numpy as np
 import pytest
@@ -10,6 +10,7 @@ from weakforms.results import Absence, Branch, Ended, Failure, Result
 
 FEW = {"cells": 16, "levels": 2}
 TOUCHING = {"contact": "frictionless", "p_end": 2.5}
+ADHESIVE = {"contact": "adhesive"}
 
 
 def end_of(problem: str, branch: str = "primary", **given: object) -> Ended | None:
@@ -98,6 +99,56 @@ def test_a_state_beyond_the_end_is_refused_before_anything_is_solved(problem, gi
     monkeypatch.setattr(type(registry.get(problem)), "solve", lambda *_: pytest.fail("it was solved"))
     with pytest.raises(InputError, match=said):
         solve(problem, at=at, **given)
+
+
+@pytest.mark.parametrize(
+    ("problem", "given", "at", "end"),
+    [
+        ("tube", {"lf": 3}, {"u_max": 5.5}, {"u_end": 5.5}),
+        ("tube", {"alpha": 0.05}, {"limit_point": 2}, {"u_end": 10}),
+        ("tube", {"contact": "frictionless"}, {"p": 3.2}, {"p_end": 3.2}),
+        ("circular", {}, {"t0": 2.3}, {"t_end": 2.3}),
+        ("sphere", {}, {"lam": 9}, {"lam_end": 9}),
+        ("sphere", {"model": "gent"}, {"limit_point": 2}, {"lam_end": 6}),
+    ],
+)
+def test_a_branch_with_its_default_end_is_followed_to_a_state_beyond_it(problem, given, at, end):
+    numerics = {} if problem == "sphere" else FEW
+    with pytest.warns(UserWarning, match="the branch was followed further"):
+        result = solve(problem, at=at, numerics=numerics, **given)
+    ((name, value),) = end.items()
+    assert (result.parameters[name], len(result.states), result.failures) == (value, 1, [])
+    assert result.branches[0].ended.by == name
+    assert len(result.warnings) == 1
+    assert result.warnings[0].startswith(f"{name} = {value:g} instead of the default")
+
+
+@pytest.mark.parametrize(
+    ("problem", "given", "at", "said"),
+    [
+        ("tube", {}, {"u_max": 12}, r"lies beyond u_end = 5; raise u_end \(allowed: up to 10\)"),
+        ("tube", {"lf": 3}, {"p": 30}, "ends at u_max = 10 .u_end., the end of its range"),
+        ("tube", ADHESIVE | {"phase": "deflation"}, {"p": 4}, "p = 4 lies beyond p_end = 3; raise p_end$"),
+        ("sphere", {"lam_end": 3.5, "model": "gent"}, {"limit_point": 2}, "ends at lam = 3.5"),
+    ],
+)
+def test_a_branch_is_not_followed_beyond_a_range_or_an_end_that_was_set(problem, given, at, said):
+    """Deflation begins at ``p_end``: from a higher pressure it would be another history."""
+    with pytest.raises(InputError, match=said):
+        solve(problem, at=at, numerics={} if problem == "sphere" else FEW, **given)
+
+
+@pytest.mark.parametrize(
+    ("problem", "given", "reason"),
+    [
+        ("tube", {"alpha": 0.05}, "before a limit point at u_max = 6.004; raise u_end"),
+        ("tube", {"alpha": 0.1}, ""),
+        ("sphere", {"model": "gent"}, "before a limit point at lam = 4.085; raise lam_end"),
+    ],
+)
+def test_a_branch_that_ends_before_a_limit_point_says_so(problem, given, reason):
+    result = solve(problem, numerics={} if problem == "sphere" else FEW, **given)
+    assert result.branches[0].ended.reason == reason
 
 
 @pytest.mark.parametrize(

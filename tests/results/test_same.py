@@ -1,6 +1,7 @@
 """All numbers of two solutions are compared, and all differences are named."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from weakforms.verification.audit.elsewhere import NAME, elsewhere, load_elsewhe
 from weakforms.verification.audit.same import Run, differences, main, runs, table
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.pages import render
+from weakforms.verification.report.report import write_report
 
 
 def solution(**changed: float) -> Result:
@@ -54,6 +56,10 @@ def solution(**changed: float) -> Result:
 
 def test_the_same_is_the_same():
     assert max(item.relative for item in differences(solution(), solution())) == 0
+    empty = solution()
+    branch = empty.branches[0]
+    empty.branches[0] = replace(branch, columns={name: column[:0] for name, column in branch.columns.items()})
+    assert max(item.relative for item in differences(empty, empty)) == 0
 
 
 @pytest.mark.parametrize(
@@ -150,6 +156,10 @@ def test_another_run_stands_in_the_report(tmp_path):
     (read,) = load_elsewhere(tmp_path)
     assert read == found
     assert found.environment == {"ranks": "4"}
+    run = RunOutcome("full", "", "2026-01-01T00:00:00+00:00", 1.0, {})
+    assert "ranks 4" in write_report(run, tmp_path, stored=True).read_text("utf-8")
+    assert "ranks 4" not in write_report(run, tmp_path).read_text("utf-8"), "other numbers than the compared"
+    write_elsewhere([found], tmp_path)
     page = render(RunOutcome("full", "", "2026-01-01T00:00:00+00:00", 1.0, {}), None, (found,))["index.html"]
     assert "ranks 4" in page
     assert "9.1e-02" in page

@@ -1,5 +1,7 @@
 """Compiled forms are found again in the cache."""
 
+import os
+
 import basix.ufl
 import numpy as np
 import pytest
@@ -69,3 +71,17 @@ def test_forms_compiled_together_are_one_module_and_are_found_alone_on_every_mes
     assert [fem.assemble_scalar(form) for form in (one, two)] == pytest.approx([2.0, 1.5])
     alone = fem.form(2.0 * ufl.dx(mesh.create_unit_interval(MPI.COMM_SELF, 2)))  # no constant: another form
     assert alone.module is not one.module
+
+
+def test_a_form_is_locked_where_files_can_be_locked(tmp_path, monkeypatch):
+    monkeypatch.setattr(jit_cache, "_held", held := [])
+    assert jit_cache._lock(tmp_path / "form.lock")
+    assert len(held) == 1
+
+    def without_locks(*_):
+        raise OSError("no locks here")
+
+    monkeypatch.setattr(jit_cache.fcntl, "flock", without_locks)
+    assert not jit_cache._lock(tmp_path / "form.lock")
+    assert len(held) == 1
+    os.close(held[0])

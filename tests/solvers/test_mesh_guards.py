@@ -147,9 +147,18 @@ class Walk:
     """A trace of triangles that does not get beyond a load."""
 
     control = "zw"
+    first = 1.0
 
-    def __init__(self, last, without=()):
-        self.last, self.without = last, without
+    def __init__(self, last, without=(), limit=None):
+        self.last, self.without, self.limit = last, without, limit
+
+    def is_beyond(self, load):
+        """Whether a load lies beyond the limit load, once that is known."""
+        return self.limit is not None and load > self.limit
+
+    def turn(self, _load):
+        """The limit load, if there is one."""
+        return self.limit
 
     def at(self, load):
         """The state at a load."""
@@ -165,12 +174,12 @@ class Walk:
 
 
 def test_a_walk_that_stops_short_is_reported():
-    result = SimpleNamespace(failures=[])
-    reached = surface._walk(Walk(2.0), [1.0, 2.0, 3.0, 4.0], result, lambda *_: None)
+    result = SimpleNamespace(failures=[], absent=[])
+    reached = surface._walk(Walk(2.0), np.arange(1.0, 5.0), result, lambda *_: None)
     assert [point.load for point in reached] == [1.0, 2.0]
     (failure,) = result.failures
     assert (failure.what, failure.reason) == ("branch primary, from zw = 3", "Newton stalled")
-    refused("Newton stalled", surface._walk, Walk(0.0), [1.0], result, lambda *_: None)
+    refused("Newton stalled", surface._walk, Walk(0.0), np.array([1.0]), result, lambda *_: None)
 
 
 def test_a_point_without_eigenvalues_is_reported_and_left_out():

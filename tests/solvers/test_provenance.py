@@ -1,9 +1,12 @@
 """A result states correctly how it was made."""
 
+import subprocess
+
 import pytest
 
 from weakforms import solve
 from weakforms.problems.tube.contact import UNILATERAL_QUADRATURE
+from weakforms.solvers.support import provenance
 
 SMALL = {"cells": 16, "levels": 2, "degree": 3}
 TAUT = {"delta1": 1.1, "p_end": 2.1}
@@ -29,3 +32,15 @@ TAUT = {"delta1": 1.1, "p_end": 2.1}
 )
 def test_quadrature_is_that_of_the_form(problem, given, numerics, degree):
     assert solve(problem, numerics=numerics, **given).numerics["quadrature_degree"] == degree
+
+
+@pytest.mark.parametrize(("answer", "revision"), [("abc123+\n", "abc123+"), (None, "unknown")])
+def test_the_revision_is_what_git_says(answer, revision, monkeypatch):
+    def run(command, **given):
+        if answer is None:
+            raise OSError("there is no git")
+        out = answer if given.get("capture_output") and given.get("text") else None
+        return subprocess.CompletedProcess(command, 0, out, "")
+
+    monkeypatch.setattr(subprocess, "run", run)
+    assert provenance.revision.__wrapped__() == revision

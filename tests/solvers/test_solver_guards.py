@@ -137,6 +137,20 @@ def test_a_singular_bordered_system_is_refused():
         BorderedMatrix(factor, [], [], np.zeros((0, 0))).solve(np.ones(system.size), np.zeros(0))
 
 
+def test_a_bordered_matrix_multiplies_what_it_solves():
+    """The product with the solution is the right-hand side, in the rows of the field and in the borders."""
+    system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) + 3 * u * v - p * v, "Lagrange", 1, 4)
+    factor = Factorization(system)
+    with system.at(system.initial):
+        factor.update()
+    ramp, wave = np.linspace(0.1, 1, system.size), np.cos(np.arange(system.size))
+    matrix = BorderedMatrix(factor, [ramp, wave], [wave, ramp**2], np.array([[0.5, 0.2], [-0.1, 0.7]]))
+    f, g = np.sin(np.arange(system.size)), np.array([0.3, -0.4])
+    product = matrix.multiply(*matrix.solve(f, g))
+    assert product[0] == pytest.approx(f, abs=1e-12)
+    assert product[1] == pytest.approx(g, abs=1e-12)
+
+
 def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
     """Two equal strings in one system: eigenvalues are double; the first search finds one of each."""
     system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))

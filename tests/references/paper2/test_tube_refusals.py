@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from led_astray import AWAY, TUBE, Held, always, refused
+from led_astray import AWAY, TUBE, StandIn, always, refused
 
 from reference_data.solvers.core.tables import DisagreementError
 from reference_data.solvers.paper2 import common, tables_contact, tables_free
@@ -112,10 +112,10 @@ def test_a_branch_by_finite_differences_that_never_meets_a_value():
 
 def test_frictionless_contact_under_a_falling_pressure(monkeypatch):
     pressures = iter([1.5, 1.6, 1.55])
-    monkeypatch.setattr(contact_states, "frictionless_near_touch", always(Held(p=1.4)))
-    monkeypatch.setattr(contact_states, "at_front", lambda *_: Held(p=next(pressures)))
+    monkeypatch.setattr(contact_states, "frictionless_near_touch", always(StandIn(p=1.4)))
+    monkeypatch.setattr(contact_states, "at_front", lambda *_: StandIn(p=next(pressures)))
     words = "^frictionless: p falls at front "
-    refused(words, contact_states.frictionless, Held(), None, np.array([3.0]))
+    refused(words, contact_states.frictionless, StandIn(), None, np.array([3.0]))
 
 
 def test_adhesive_inflation_of_the_tube(monkeypatch):
@@ -130,10 +130,10 @@ def test_adhesive_inflation_of_the_tube(monkeypatch):
 
 
 def test_a_patch_of_the_tube_that_is_not_there(monkeypatch):
-    state = Held(fronts=(-0.1, 1.0), zones=(1, 2, 3), substrate=SimpleNamespace(s=1.3))
+    state = StandIn(fronts=(-0.1, 1.0), zones=(1, 2, 3), substrate=SimpleNamespace(s=1.3))
     monkeypatch.setattr(tube_history, "solve", always(state))
     refused("^no patch of width -0.1 at p = 1$", tube_history.lifted, state, None, 1.0)
-    kept = Held(p=1.005, y=(np.full((1, 1, 1), 1.4),), fronts=(0.2, 1.0), substrate=SimpleNamespace(s=1.3))
+    kept = StandIn(p=1.005, y=(np.full((1, 1, 1), 1.4),), fronts=(0.2, 1.0), substrate=SimpleNamespace(s=1.3))
     monkeypatch.setattr(tube_history, "lifted", lambda *_: (_ for _ in ()).throw(RuntimeError("gone")))
     monkeypatch.setattr(tube_history, "released", always(kept))
     words = "^unilateral spring: contact lost and kept at p = 1$"

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from led_astray import AWAY, TUBE, Held, always, refused
+from led_astray import AWAY, TUBE, StandIn, always, refused
 
 from reference_data.solvers.paper3 import collocation as liquid
 from reference_data.solvers.paper3 import galerkin, modes, path
@@ -30,8 +30,8 @@ def test_collocation_of_the_liquid_tube():
 
 @pytest.mark.parametrize("step", AWAY)
 def test_galerkins_method(step, monkeypatch):
-    guess = Held(x=np.zeros((4, 2)), tube=SimpleNamespace(gamma=0.1), volume=always(20.0))
-    monkeypatch.setattr(Held, "surface_radius", 1.0, raising=False)
+    guess = StandIn(x=np.zeros((4, 2)), tube=SimpleNamespace(gamma=0.1), volume=always(20.0))
+    monkeypatch.setattr(StandIn, "surface_radius", 1.0, raising=False)
     matrices = SimpleNamespace(stiffness=np.eye(4), volume=np.ones(4))
     monkeypatch.setattr(galerkin, "Matrices", always(matrices))
     monkeypatch.setattr(galerkin, "residual", always(np.full(4, step)))
@@ -40,8 +40,8 @@ def test_galerkins_method(step, monkeypatch):
 
 
 def test_zeros_of_waves_that_galerkins_method_does_not_find(monkeypatch):
-    state, noise = Held(volume=20.0), np.random.default_rng(1)
-    monkeypatch.setattr(modes.path, "galerkin", always(Held()))
+    state, noise = StandIn(volume=20.0), np.random.default_rng(1)
+    monkeypatch.setattr(modes.path, "galerkin", always(StandIn()))
     monkeypatch.setattr(modes.gal, "solve", lambda _near, volume: volume)
     monkeypatch.setattr(modes, "galerkin_mode", lambda *_: (0.1 + noise.random(), None))
     words = "^Galerkin: zero of n = 1 near V = 20 of Tube.*: no root near "
@@ -52,7 +52,7 @@ def test_liquid_tubes_that_are_neither_filled_nor_over_filled(monkeypatch):
     how = SimpleNamespace(partial="partial", full="full")
     liquid_tube = SimpleNamespace(L=8.0, length=4.0)
 
-    class State(Held):
+    class State(StandIn):
         mesh, partial, moved_to = "partial", True, lambda self, *_: self
 
     monkeypatch.setattr(path, "_filled", always(None))
@@ -104,7 +104,7 @@ def test_coincidences_that_are_not_found(monkeypatch):
 @pytest.mark.parametrize("offset", [None, 0.1])
 @pytest.mark.parametrize("step", AWAY)
 def test_bent_tubes(step, offset, monkeypatch):
-    guess = Held(tube=SimpleNamespace(gamma=0.1, L=8), x=np.zeros((2, 1)))
+    guess = StandIn(tube=SimpleNamespace(gamma=0.1, L=8), x=np.zeros((2, 1)))
     now = SimpleNamespace(
         stiffness=None, functions=None, residual=np.zeros((2, 1)), volume=np.zeros((2, 1)),
         offset=np.ones((2, 1)),

@@ -15,7 +15,7 @@ from weakforms.verification.audit.faults import children, lines, random_runner, 
 from weakforms.verification.audit.faults.catalogue import REASONS
 from weakforms.verification.audit.faults.children import Answer, Children
 from weakforms.verification.audit.faults.findings import finding
-from weakforms.verification.audit.faults.lines import Measured, Watchers, digest, measure, measured
+from weakforms.verification.audit.faults.lines import Measured, Watchers, digest, measure, measured, using
 from weakforms.verification.audit.faults.mutations import mutations
 from weakforms.verification.audit.faults.outcome import RANDOM, Seeded, keep_beside, load_faults
 from weakforms.verification.audit.faults.random_faults import (
@@ -157,8 +157,8 @@ def test_lines_are_noted_once_and_kept(tmp_path, monkeypatch):
     source = (ROOT / "weakforms/verification/judging/bounds.py").read_text().split("\n")
     line = next(k for k, text in enumerate(source, 1) if "bound = FACTOR * np.hypot" in text)
     assert found.sees(test, "weakforms/verification/judging/bounds.py", line, ROOT)
-    comment = next(k for k, text in enumerate(source, 1) if text.startswith('"""'))
-    assert not found.sees(test, "weakforms/verification/judging/bounds.py", comment, ROOT)
+    docstring = next(k for k, text in enumerate(source, 1) if text.strip().startswith('r"""'))
+    assert not found.sees(test, "weakforms/verification/judging/bounds.py", docstring, ROOT)
     assert 0 < found.seconds[test] < 60
     monkeypatch.setattr(Children, "run", lambda *_: pytest.fail("it was run again"))
     assert measure([BOUNDS], tmp_path, True, lambda *_: None) == 0
@@ -189,6 +189,28 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
     assert found == [*(f"tests/a.py::{name}" for name in order), "tests/c.py::guessed"]
     changed = replace(here, digests={"weakforms/x.py": "another"})
     assert changed.sees("tests/a.py::quick", "weakforms/x.py", 3, ROOT), "any line of a file that changed"
+
+
+def test_a_line_that_runs_on_import_is_seen_by_those_who_use_what_it_defines(tmp_path):
+    (tmp_path / "x.py").write_text(SOURCE)
+    for line, users in ((1, {11}), (4, {7}), (2, {7, 11}), (10, {11}), (7, {7}), (9, {7, 11})):
+        assert using(tmp_path / "x.py", line) == users, line
+    assert using(tmp_path / "none.py", 3) == {3}
+
+
+SOURCE = """\
+LIMIT = 1.5
+call()
+class Kept:
+    size: int = 2
+
+    def twice(self):
+        return 2 * self.size
+
+OTHER = 3
+def limited(x, least=0.0):
+    return max(min(x, LIMIT), least)
+"""
 
 
 def test_without_a_measurement_imports_say_who_may_see_it(tmp_path):

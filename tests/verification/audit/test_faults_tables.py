@@ -17,8 +17,9 @@ SMALL = "sphere_limits_varga"
 def pair(tmp_path):
     """The verdicts on a table against another one with an uncertainty of 1e-6 in y."""
 
-    def judge(new, committed="x,y\n1,2\n2,3\n"):
-        for name, text in (("new.csv", new), ("old.csv", committed), ("old.toml", TOML)):
+    def judge(new, committed="x,y\n1,2\n2,3\n", said=""):
+        texts = (("new.csv", new), ("new.toml", said + TOML), ("old.csv", committed), ("old.toml", TOML))
+        for name, text in texts:
             (tmp_path / name).write_text(text)
         found = compared(tmp_path / "new.csv", tmp_path / "old.csv")
         return [verdict["check"] for verdict in found if not verdict["passed"]]
@@ -42,13 +43,20 @@ def test_columns_must_agree_within_the_stated_uncertainty(pair, new, wrong):
     assert pair(new) == wrong
 
 
-def test_a_small_table_of_every_function_comes_first():
+def test_texts_of_a_table_must_agree(pair):
+    assert pair("x,y\n1,2\n2,3\n", said='regenerate = "otherwise"\n') == []
+    assert pair("x,y\n1,2\n2,3\n", said='notes = "another method"\n') == ["the table"]
+
+
+def test_a_small_table_of_every_function_comes_first(monkeypatch):
     known = [Source(f"{name}{k}", name, 10, 20, k) for k in range(3) for name in ("near", "far", "other")]
     known.append(Source("inner", "near", 30, 40, 99))
     file = f"{tables.SOLVERS}core/x.py"
     assert watching(file, 5, {file: 0, "near": 1, "far": 2}, known) == [
-        f"table {name}" for name in ("near0", "inner", "far0", "near1", "far1", "near2")
+        f"table {name}" for name in ("near0", "inner", "far0", "near1", "far1", "near2", "far2")
     ]
+    monkeypatch.setattr(tables, "MOST", 3)
+    assert watching(file, 5, {file: 0, "near": 1, "far": 2}, known) == ["table near0", "table inner", "table far0"]
     here = {f"{tables.SOLVERS}near": 0}
     known = [Source(s.name, f"{tables.SOLVERS}{s.file}", s.first, s.last, s.size) for s in known]
     assert watching(f"{tables.SOLVERS}near", 33, here, known)[0] == "table inner"

@@ -1,6 +1,7 @@
 """Cases are found by their place and selected by expressions that are parsed, never run."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -87,6 +88,21 @@ def test_unknown_case_names_those_close_to_it():
         get_case("paper2.fig3")
 
 
+def test_a_plan_reads_the_tables_before_anything_is_solved():
+    """A check whose table is not in order is refused with the plan, although it wants no solution."""
+
+    class Unsound:
+        def wants(self, _paper):
+            return []
+
+        def names(self, _paper):
+            raise InputError("the table is not in order")
+
+    found = get_case("paper2.fig04")
+    with pytest.raises(InputError, match="not in order"):
+        Plan.of([replace(found, case=replace(found.case, checks=(Unsound(),)))])
+
+
 def test_a_plan_solves_shared_solutions_once_with_all_states_wanted():
     cases = [get_case("paper2.fig04"), get_case("paper2.fig05")]
     plan, alone = Plan.of(cases), [Plan.of([c]) for c in cases]
@@ -145,7 +161,7 @@ def test_solution_keys_tell_apart_all_source_that_numbers_come_from(tmp_path):
     told = {path.relative_to(package).as_posix(): changes(path) for path in parts}
     aside = {name for name, tells in told.items() if not tells}
     assert {name for name in aside if "/" not in name} == {
-        *("terminal.py", "pytest_plugin.py", "__main__.py")
+        *("terminal.py", "pytest_plugin.py", "__main__.py", "world.py")
     }
     assert {name.split("/")[0] for name in aside if "/" in name} == {"verification", "docs", "cli"}
     assert {name.split("/")[0] for name in told.keys() - aside} > {"forms", "problems", "solvers", "results"}

@@ -90,3 +90,15 @@ def test_too_few_meshes_are_refused():
         compare(CASE, [curve(10), curve(20)], NAME)
     with pytest.raises(InputError, match="ratio"):
         compare(CASE, [curve(n) for n in CELLS], NAME, ratio=0.5)
+
+
+@pytest.mark.parametrize(("certain", "status"), [(11, "not judged"), (12, "passed")])
+def test_more_than_half_of_the_rows_must_have_a_certain_limit(certain, status):
+    """The first rows have no error; two powers of the cell size make the limit of the others uncertain."""
+    curves = []
+    for n in CELLS:
+        rows = {name: TABLE[name][:22].copy() for name in ("u_max", "p")}
+        rows["p"][certain:] *= 1 + 0.1 / n + 1.0 / n**2
+        curves.append(rows)
+    assert len(curves[0]["p"]) == 22
+    assert judged(curves, accuracy=1e-4)[1].status == status

@@ -1,13 +1,16 @@
 """Identities between the columns of a solution hold, and fail if one column is changed by one percent."""
 
 import copy
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from weakforms import circular, hemisphere, homogeneous, infinite_tube, sphere, tube
+from weakforms.results import Field, Quantity, State
 from weakforms.verification.judging.consistency import quadrature
 from weakforms.verification.judging.consistency.identities import Identities
+from weakforms.verification.judging.consistency.identity_profiles import one_at
 from weakforms.verification.judging.consistency.identity_table import IDENTITIES
 from weakforms.verification.judging.consistency.traces import TRACED
 from weakforms.verification.run.solutions import Solutions
@@ -84,6 +87,10 @@ def test_numbers_of_points_carry_what_they_are_off():
         "slope": (quadrature.value_at(x, y, 0.4, 1), 5 * np.cos(2)),
         "largest": (quadrature.extreme(x, y, np.argmax), 1.0),
         "beyond": (quadrature.spread([d[1] for d in quadrature.beyond(x, y, 0.5, 1)]), 5 * np.cos(2.5)),
+        "before": (
+            quadrature.spread([d[1] for d in quadrature.beyond(x, y, 0.99, 1, True)]),
+            5 * np.cos(4.95),
+        ),
     }
     for name, ((value, spread), exact) in found.items():
         assert abs(value - exact) <= 2 * spread + 1e-13, name
@@ -112,3 +119,16 @@ def test_identities_are_stated_where_they_are_true_and_nowhere_else(problem, nam
     (identity,) = (i for i in IDENTITIES[problem] if i.name == name)
     for given, expected in SCOPES[problem, name]:
         assert identity.over(given) is expected, given
+
+
+@pytest.mark.parametrize(("level", "judged"), [(-0.9, True), (-0.452, False), (0.9, True)])
+def test_a_front_beside_the_surface_of_the_liquid_is_not_extrapolated_to(level, judged):
+    """The surface is a kink of the profile: beside a front it would be taken for another value there."""
+    t = np.linspace(0, 1, 81)
+    gw = 1 + (t - 0.45) + 20 * np.maximum(t - 0.452, 0) ** 2
+    profile = Field("profile", {"t": t, "gw": gw, "z": t - 0.904}, {"gw": 1e-12})
+    at = {"t_front_1": Quantity(0.45, 1e-12), "zw": Quantity(level, 1e-12)}
+    drawn = {"primary": {"points": [{"column": "zw", "value": level}]}}
+    states = [State({"zw": level}, "primary", at, (profile,))]
+    result = SimpleNamespace(states=states, numerics={"drawn": drawn})
+    assert bool(list(one_at("t_front", "gw").look(result))) is judged

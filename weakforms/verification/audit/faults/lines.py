@@ -98,17 +98,53 @@ class Measured:
     """Of the files as they were, its own among them."""
 
     def sees(self, text: str, file: str, line: int, root: Path) -> bool:
-        """Whether a test function ran a line; of a file that changed since, any line of it."""
+        """Whether a test function ran a line, or one :func:`using` it; of a changed file, any line."""
         lines = self.lines.get(text, {}).get(file)
         if lines is None:
             return False
-        return line in lines or self.digests.get(file) != digest(root / file)
+        return not using(root / file, line).isdisjoint(lines) or self.digests.get(file) != digest(root / file)
 
 
 @cache
 def digest(path: Path) -> str:
     """Digest of a file; empty where there is none."""
     return hashlib.sha256(path.read_bytes()).hexdigest()[:12] if path.is_file() else ""
+
+
+@cache
+def using(path: Path, line: int) -> frozenset[int]:
+    """Lines that a test runs if a line matters to it.
+
+    In a function this is the line itself. A line outside of functions runs only when its file is imported,
+    which the first test does for all others; in its place stand the lines of functions that name what its
+    statement defines, or else all lines of functions.
+    """
+    try:
+        tree = ast.parse(path.read_text("utf-8"))
+    except OSError:
+        return frozenset({line})
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.Lambda)]
+    bodies = [_span(node.body if isinstance(node, ast.FunctionDef) else [node.body]) for node in functions]
+    if any(line in body for body in bodies):
+        return frozenset({line})
+    headed = [body for node, body in zip(functions, bodies, strict=True) if line in _span([node])]
+    inside = frozenset(k for body in headed or bodies for k in body)
+    defined = {
+        name.id
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Assign | ast.AnnAssign) and line in _span([node])
+        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
+        for name in ast.walk(target)
+        if isinstance(name, ast.Name)
+    }
+    named = {
+        node.lineno for node in ast.walk(tree) if getattr(node, "id", getattr(node, "attr", 0)) in defined
+    }
+    return inside & named or inside or frozenset({line})
+
+
+def _span(nodes: list[ast.AST]) -> range:
+    return range(nodes[0].lineno, nodes[-1].end_lineno + 1)
 
 
 def units(root: Path = ROOT) -> list[str]:

@@ -34,8 +34,11 @@ SOLVERS = "reference_data/solvers/"
 LONGEST = 60
 """Seconds of processor time after which the computation of a table is given up; it then shows nothing."""
 
-MOST = 6
+MOST = 12
 """Number of tables computed for one change."""
+
+TEXTS = ("title", "source", "type", "method", "grid", "tolerance", "abscissa", "notes", "parameters")
+"""What a table says of itself that must not change either."""
 
 DISAGREE = "combined uncertainty"
 """Part of the message by which a table is refused because its two methods disagree."""
@@ -139,9 +142,16 @@ def run_table(name: str, folder: Path, root: Path | None = None) -> dict[str, An
 
 
 def compared(new: Path, committed: Path) -> list[dict[str, Any]]:
-    """One verdict for each column: equal within the stated uncertainty and the last digit of the table."""
+    """One verdict for each column: equal within the stated uncertainty and the last digit of the table.
+
+    Texts of the table that changed are one failing verdict, because a table must not name another method.
+    """
     ours, theirs = _columns(new), _columns(committed)
-    about = tomllib.loads(committed.with_suffix(".toml").read_text("utf-8"))["columns"]
+    said, known = (tomllib.loads(path.with_suffix(".toml").read_text("utf-8")) for path in (new, committed))
+    about = known["columns"]
+    others = [key for key in TEXTS if said.get(key) != known.get(key)]
+    if others:
+        return [_verdict("the table", False, f"it says something else of its {', '.join(others)}")]
     if list(ours) != list(theirs) or {len(v) for v in ours.values()} != {len(v) for v in theirs.values()}:
         return [_verdict("the table", False, "other columns, or another number of rows")]
     out = []

@@ -9,7 +9,7 @@ from pathlib import Path
 from rich.console import Console
 
 from weakforms.errors import InputError
-from weakforms.terminal import print_json, progress_bar
+from weakforms.terminal import print_json, progress_bar, require_one_rank
 from weakforms.verification.audit.faults.catalogue import Fault, select
 from weakforms.verification.audit.faults.outcome import NAME, RANDOM, FaultsRun, print_faults
 from weakforms.verification.cases.discovery import Expression
@@ -35,7 +35,7 @@ def faults_verb(
     if listed:
         _list(faults, as_json, screen)
         return 0
-    _require_one_rank()
+    require_one_rank("faults")
     from weakforms import api
     from weakforms.verification.audit.faults.runner import run_faults
 
@@ -76,7 +76,7 @@ def random_verb(
     if listed:
         _list(draw(number, seed)[0], as_json, screen)
         return 0
-    _require_one_rank()
+    require_one_rank("faults")
     from weakforms import api
     from weakforms.verification.audit.faults.random_runner import run_random
 
@@ -101,7 +101,7 @@ def measure_verb(expression: str | None, out: Path, resume: bool, screen: Consol
         InputError: For a malformed expression, or in a run on several ranks.
         EnvironmentLackError: When this Python is too old for it.
     """
-    _require_one_rank()
+    require_one_rank("faults")
     from weakforms import api
     from weakforms.verification.audit.faults.lines import measure, require_monitoring, units
 
@@ -124,13 +124,6 @@ def _shown(run: FaultsRun, file: Path, as_json: bool, screen: Console) -> int:
         print_faults(run, screen)
         screen.print(f"outcome: {file}", soft_wrap=True)
     return 0 if run.status == "caught" else 1
-
-
-def _require_one_rank() -> None:
-    from mpi4py import MPI
-
-    if MPI.COMM_WORLD.size > 1:
-        raise InputError("faults: runs on one rank; -j N puts N of them side by side")
 
 
 def _list(faults: Sequence[Fault], as_json: bool, screen: Console) -> None:

@@ -84,6 +84,16 @@ def middle(field: str) -> Reading:
     return reading
 
 
+def _crosses_level(state: State, profile: Field, place: float) -> bool:
+    """Whether the surface of the liquid, a weak kink of a profile, lies among the points beyond a place."""
+    if "zw" not in state.quantities or "z" not in profile.columns:
+        return False
+    x, z = next(iter(profile.columns.values())), profile.columns["z"]
+    first = int(np.searchsorted(x, place))
+    wet = z[max(first - 1, 0) : first + quadrature.BEYOND] < state.quantities["zw"].value
+    return bool(wet.any() and not wet.all())
+
+
 def at_front(front: str, field: str, kink: bool = True) -> Reading:
     """A column of the profile at a material point that is a column of the state."""
 
@@ -107,7 +117,7 @@ def one_at(fronts: str, column: str) -> Identity:
             x = next(iter(profile.columns.values()))
             for name in (n for n in state.quantities if n.startswith(fronts)):
                 found, place = at_front(name, column)(result, state, profile), state.quantities[name].value
-                if found is not None:
+                if found is not None and not _crosses_level(state, profile, place):
                     value, doubt = found
                     spread = doubt + profile.uncertainty[column] * quadrature.gain(x, place, 0)
                     yield f"{name} ({state.branch})", f"{place:.6g}", compare(value, spread, 1.0, 0.0, 1.0)
