@@ -1,8 +1,9 @@
-# Three stages:
+# Four stages:
 #   deps   Debian's DOLFINx, PETSc, SLEPc and the ordinary Python packages; nothing of this tree.
 #          `./run` works in it with the tree mounted. Its tag is a hash of the text of this stage.
 #   lint   deps, a browser that opens and prints the report, and ruff, which Debian does not have;
 #          only `./run test`, `./run lint` and `./run report --pdf` need it.
+#   notebook  deps and Jupyter; only `./run notebook` needs it.
 #   final  deps and this package, with a warm JIT cache: `docker run IMAGE verify`.
 
 # Another release of Debian, such as sid: --build-arg DEBIAN=sid
@@ -63,6 +64,13 @@ RUN apt-get -o Acquire::Retries=3 update \
 RUN --mount=type=secret,id=ca,target=/run/secrets/ca \
     if [ -s /run/secrets/ca ]; then export PIP_CERT=/run/secrets/ca; fi; \
     pip install --break-system-packages --no-cache-dir --root-user-action=ignore ruff==0.17.5
+
+FROM deps AS notebook
+RUN apt-get -o Acquire::Retries=3 update \
+ && DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 install -y --no-install-recommends \
+        jupyter-notebook python3-ipykernel python3-nbconvert \
+ && apt-get clean \
+ && rm -rf /var/lib/apt/lists/*
 
 FROM deps AS final
 ARG VERSION=0.1.0

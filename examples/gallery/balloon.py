@@ -20,6 +20,7 @@ def number(point: SpecialPoint, name: str) -> weakforms.Quantity:
     return weakforms.Quantity(point.values[name], point.uncertainty[name])
 
 
+# %%
 figure = FigureCanvasAgg(Figure(figsize=(8, 3.6), layout="constrained")).figure
 curves, folds = figure.subplots(1, 2)
 for alpha in (0.05, 0.1, 0.3):
@@ -36,6 +37,7 @@ for alpha in (0.05, 0.1, 0.3):
         curves.plot(point.values["lam"], point.values["P"], "ko", ms=4)
         print(f"alpha = {alpha}: limit point {k} at P = {number(point, 'P')}")
 
+# %%
 fold = weakforms.solve("sphere", vary="alpha", vary_end=0.3, alpha=0.05)
 (cusp,) = fold.points("cusp_point")
 line = fold.branch("fold")
@@ -44,6 +46,7 @@ folds.plot(cusp.values["alpha"], cusp.values["P"], "k*", ms=9)
 folds.annotate("cusp", (cusp.values["alpha"], cusp.values["P"]), xytext=(6, 0), textcoords="offset points")
 print(f"the limit points merge at alpha = {number(cusp, 'alpha')}")
 
+# %%
 curves.set(xlabel="stretch", ylabel="pressure p r/(C1 h)", title="dashed: unstable at held pressure")
 folds.set(xlabel="alpha = C2/C1", ylabel="pressure of the limit points", title="where limit points exist")
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "balloon.svg")

@@ -18,6 +18,7 @@ from weakforms.results import SpecialPoint
 COARSE = {"cells": 32, "levels": 2, "secondary_cells": 12, "secondary_levels": 2}
 bent = "quick" not in sys.argv[2:]
 
+# %%
 result = weakforms.solve("fluid_tube", L=8, delta=2, secondary=bent, numerics=COARSE)
 straight = result.branch("primary")
 
@@ -27,6 +28,7 @@ def number(point: SpecialPoint, name: str) -> weakforms.Quantity:
     return weakforms.Quantity(point.values[name], point.uncertainty[name])
 
 
+# %%
 figure = FigureCanvasAgg(Figure(figsize=(8, 3.6), layout="constrained")).figure
 levels, spectrum = figure.subplots(1, 2)
 levels.plot(straight["V"], straight["zw"], label="straight")
@@ -36,6 +38,8 @@ for kind, mark in (("limit_point", "ko"), ("bifurcation_point", "k*")):
     for point in result.points(kind):
         levels.plot(point.values["V"], point.values["zw"], mark)
         print(f"{kind} at zw = {number(point, 'zw')}")
+
+# %%
 for n in range(4):
     spectrum.plot(straight["V"], straight[f"Lambda_n{n}"], label=f"n = {n}")
 spectrum.axhline(0, color="0.6", lw=0.8)

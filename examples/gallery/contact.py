@@ -24,6 +24,7 @@ def number(point: SpecialPoint, name: str) -> weakforms.Quantity:
     return weakforms.Quantity(point.values[name], point.uncertainty[name])
 
 
+# %%
 figure = FigureCanvasAgg(Figure(figsize=(11, 3.4), layout="constrained")).figure
 shapes, patches, release = figure.subplots(1, 3)
 for contact, colour in (("frictionless", "C0"), ("adhesive", "C1")):
@@ -36,6 +37,8 @@ for contact, colour in (("frictionless", "C0"), ("adhesive", "C1")):
     shapes.plot(profile["rho"], profile["eta"], color=colour, label=contact)
     branch = result.branch()
     patches.plot(branch["p"], branch["rho_contact"], color=colour, label=contact)
+
+# %%
 back = weakforms.solve("circular", contact="adhesive", phase="deflation", p_end=TO, numerics=QUICK)
 patches.plot(back.branch()["p"], back.branch()["rho_contact"], "C1--", label="adhesive, let down")
 peeled = weakforms.solve(
@@ -46,6 +49,7 @@ for point in peeled.points("pull_off"):
     release.plot(point.values["rho_contact"], point.values["G"], "k*", ms=9)
     print(f"pull-off at G = {number(point, 'G')}")
 
+# %%
 shapes.axhline(0.5, color="0.6", lw=0.8)
 shapes.set(xlabel="radius", ylabel="height", title="p = 3, the line is the substrate", aspect="equal")
 patches.set(xlabel="pressure", ylabel="radius of the patch")

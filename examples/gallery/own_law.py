@@ -40,6 +40,7 @@ def number(point: SpecialPoint, name: str) -> weakforms.Quantity:
     return weakforms.Quantity(point.values[name], point.uncertainty[name])
 
 
+# %%
 figure = FigureCanvasAgg(Figure(figsize=(8, 3.6), layout="constrained")).figure
 balloons, tubes = figure.subplots(1, 2)
 for b in (0.02, 0.05, 0.1):
@@ -47,11 +48,14 @@ for b in (0.02, 0.05, 0.1):
     balloons.plot(result.branch()["lam"], result.branch()["P"], label=f"b = {b}")
     pressures = [str(number(p, "P")) for p in result.points("limit_point")]
     print(f"balloon, b = {b}: limit points at P = {', '.join(pressures) or 'none'}")
+
+# %%
 quick = {"cells": 32, "levels": 2}
 result = weakforms.solve("tube", model="fung", b=0.05, u_end=2.0, numerics=quick)
 tubes.plot(result.branch()["u_max"], result.branch()["p"])
 print(f"tube, b = 0.05: {len(result.points('limit_point'))} limit points")
 
+# %%
 balloons.set(xlabel="stretch", ylabel="pressure", title="balloon")
 balloons.legend(frameon=False)
 tubes.set(xlabel="displacement of the mid-plane", ylabel="pressure", title="tube, b = 0.05")

@@ -21,6 +21,7 @@ def number(point: SpecialPoint, name: str) -> weakforms.Quantity:
     return weakforms.Quantity(point.values[name], point.uncertainty[name])
 
 
+# %%
 figure = FigureCanvasAgg(Figure(figsize=(8, 3.6), layout="constrained")).figure
 curves, folds = figure.subplots(1, 2)
 for delta1 in (1.0, 1.1, 1.2):
@@ -31,12 +32,14 @@ for delta1 in (1.0, 1.1, 1.2):
         curves.plot(point.values["u_max"], point.values["p"], "ko", ms=4)
         print(f"delta1 = {delta1}: limit point {k} at p = {number(point, 'p')}")
 
+# %%
 fold = weakforms.solve("tube_fold", alpha=0.1, numerics=QUICK)
 (cusp,) = fold.points("cusp_point")
 folds.plot(fold.branch()["delta1"], fold.branch()["p"])
 folds.plot(cusp.values["delta1"], cusp.values["p"], "k*", ms=9)
 print(f"the limit points merge at delta1 = {number(cusp, 'delta1')}")
 
+# %%
 curves.set(xlabel="displacement of the mid-plane", ylabel="pressure p R/(C1 h)", title="dots: limit points")
 curves.legend(frameon=False)
 folds.set(xlabel="axial pre-stretch delta1", ylabel="pressure of the limit points", title="star: cusp")

@@ -2,8 +2,8 @@
 
 A liquid-filled tube whose membrane is narrower than it would be in plain tension wrinkles. Its lowest
 eigenvalue for n waves around the tube falls without end as n grows: tension-field theory gives the mean
-shape, but no length of the wrinkles. A bending stiffness beta, however small, adds a term that grows like n^4
-and makes short waves stable again: it chooses the length (paper 5).
+shape, but no length of the wrinkles. A bending stiffness beta, however small, adds a term that grows like
+n^4: the eigenvalue falls no further from some n on, and this n gives the length (paper 5).
 Run: ``./run shell -c "python3 examples/gallery/wrinkling.py wrinkling.svg"``.
 """
 
@@ -19,6 +19,7 @@ LEVEL = 5.0
 TUBE = {"M": 1.5, "delta": 3, "Af": 0.4362, "n": WAVES, "load_end": 5.2}
 QUICK = {"cells": 40, "levels": 2}
 
+# %%
 figure = FigureCanvasAgg(Figure(figsize=(6, 3.6), layout="constrained")).figure
 axes = figure.subplots()
 for beta in (0.0, 1e-6):
@@ -30,6 +31,8 @@ for beta in (0.0, 1e-6):
         f"{label}: lowest eigenvalue for "
         + ", ".join(f"n = {n}: {q}" for n, q in zip(WAVES, lowest, strict=True))
     )
+
+# %%
 axes.axhline(0, color="0.6", lw=0.8)
 axes.set(
     xlabel="waves around the tube", ylabel="lowest eigenvalue", title=f"fluid level {LEVEL:g}", xscale="log"

@@ -389,3 +389,41 @@ def test_interrupt_reaches_the_program(machine):
     assert process.stdout.readline() == "asleep\n"
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=10) == 130
+
+
+def test_a_notebook_has_an_image_and_a_port_of_its_own(machine):
+    machine.put("docker")
+    machine.environment["WEAKFORMS_PORT"] = "8899"
+    assert machine.run("notebook").returncode == 0
+    assert machine.tag().startswith("weakforms-notebook:")
+    call = machine.calls()[-1]
+    assert values(call, "-p") == ["127.0.0.1:8899:8899"], "only this machine may reach it"
+    assert values(call, "--port") == ["8899"]
+    assert values(call, "--ip") == ["0.0.0.0"]
+
+
+def test_a_port_that_is_no_number_is_bad_input(machine):
+    machine.environment["WEAKFORMS_PORT"] = "no"
+    done = machine.run("notebook")
+    assert done.returncode == 2
+    assert "WEAKFORMS_PORT" in done.stderr
+
+
+def test_no_other_command_opens_a_port(machine):
+    machine.put("docker")
+    machine.run("list")
+    assert values(machine.calls()[-1], "-p") == []
+
+
+def test_an_interrupt_before_the_program_has_begun_gives_no_traceback(machine):
+    machine.put_dolfinx()
+    slow = "import sys, time; print('importing', flush=True); time.sleep(30)\n"
+    (machine.tree / "weakforms" / "cli" / "__init__.py").write_text(slow)
+    pipe = subprocess.PIPE
+    process = subprocess.Popen(
+        [machine.tree / "run", "list"], env=machine.environment, stdout=pipe, stderr=pipe, text=True
+    )
+    assert process.stdout.readline() == "importing\n"
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=10) == 130
+    assert process.stderr.read() == ""

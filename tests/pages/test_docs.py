@@ -222,7 +222,8 @@ def test_markdown_has_formulas_and_leaves_dollars_of_commands(text, shown):
 
 
 @pytest.mark.parametrize("about", registry.abouts().values(), ids=lambda about: about.name)
-def test_every_problem_names_the_functions_that_define_it(about):
+def test_every_problem_has_an_example_and_names_the_functions_that_define_it(about):
+    assert about.example, "its page has no picture"
     assert about.forms
     for place in about.forms:
         module, _, function = place.partition(":")

@@ -41,13 +41,14 @@ def test_the_picture_of_the_readme_is_that_of_the_solved_states(tmp_path):
 
 
 def ran(name, tmp_path, *words):
-    """What a script prints; its picture must be there."""
+    """What a script prints; its picture must be there, with two curves or more."""
     path = tmp_path / f"{name}.svg"
     command = [sys.executable, GALLERY / f"{name}.py", path, *words]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
     assert done.returncode == 0, done.stderr
-    assert path.read_text("utf-8").count("<path") > 50
+    drawn = path.read_text("utf-8")
+    assert len(re.findall(r'<path d="[^"]{60,}" clip-path=', drawn)) >= 2
     return done.stdout
 
 
@@ -101,5 +102,56 @@ def test_bending_comes_before_the_limit_point(tmp_path):
 def test_only_a_bending_stiffness_gives_a_shortest_wave(tmp_path):
     without, beside = ran("wrinkling", tmp_path).splitlines()
     falling, turning = (numbers(line, r"n = \d+:") for line in (without, beside))
+    assert len(falling) == len(turning) == 5
     assert falling == sorted(falling, reverse=True)
     assert turning[-1] > min(turning)
+
+
+def notebooks():
+    return script("../notebooks/from_gallery")
+
+
+def code_of(found):
+    return ["".join(cell["source"]) for cell in found["cells"] if cell["cell_type"] == "code"]
+
+
+@pytest.mark.parametrize("name", notebooks().SCRIPTS)
+def test_a_notebook_has_the_code_of_its_script(name):
+    """Beside the imports, only the last line is another: the picture is shown, not stored."""
+    source = (GALLERY / f"{name}.py").read_text("utf-8")
+    found = notebooks().notebook(source)
+    assert "".join(found["cells"][0]["source"]).startswith("# ")
+    assert "Run:" not in "".join(found["cells"][0]["source"])
+    magic, *cells = code_of(found)
+    assert magic == "%matplotlib inline"
+    assert len(cells) > 2
+    for cell in cells:
+        compile(cell, name, "exec")
+    shown = [line for line in "\n".join(cells).splitlines() if line.strip()]
+    kept = [line for line in source.split('"""', 2)[2].splitlines() if line.strip() and line != "# %%"]
+    changed = {line for line in kept if line not in shown}
+    assert all(line.startswith(("import sys", "figure.savefig(", "bent = ")) for line in changed)
+    assert shown[-1] == "figure"
+    assert "sys." not in "\n".join(shown)
+    ids = [cell["id"] for cell in found["cells"]]
+    assert len(set(ids)) == len(ids)
+
+
+def test_notebooks_that_are_there_stay(tmp_path):
+    (tmp_path / "tube.ipynb").write_text("mine")
+    written = notebooks().write(tmp_path)
+    assert {path.stem for path in written} == set(notebooks().SCRIPTS) - {"tube"}
+    assert (tmp_path / "tube.ipynb").read_text() == "mine"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", notebooks().SCRIPTS)
+def test_a_notebook_runs_from_cell_to_cell(name):
+    """Without Jupyter: its cells one after another in one namespace; the last one's value is the picture."""
+    source = (GALLERY / f"{name}.py").read_text("utf-8")
+    space = {}
+    *cells, last = code_of(notebooks().notebook(source))[1:]
+    for cell in cells:
+        exec(cell, space)
+    exec(last.removesuffix("figure"), space)
+    assert sum(len(axes.lines) for axes in space["figure"].axes) >= 2

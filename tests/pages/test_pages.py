@@ -261,9 +261,16 @@ def test_every_panel_has_a_number_and_its_files(folder, readers):
     reader = readers["paper2.html"]
     assert "paper2.fig03, panel 1" in words(reader)
     offered = {v for tag, n, v in reader.attributes if (tag, n) == ("a", "href") and v.startswith("figures/")}
-    assert len(offered) == 6
+    assert len(offered) == 9
     kinds = set()
     for name in offered:
+        if name.endswith(".pdf"):
+            printed = (folder / name).read_bytes()
+            assert printed.startswith(b"%PDF")
+            assert printed.count(b"/Type /Page ") == 1
+            assert len(printed) > 3000, "the page is not blank"
+            assert b"CreationDate" not in printed, "the same at every run"
+            continue
         text = (folder / name).read_text("utf-8")
         if name.endswith(".svg"):
             assert text.startswith("<?xml")

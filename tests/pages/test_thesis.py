@@ -6,7 +6,13 @@ import pytest
 from canned_run import sample, verdict
 
 from weakforms.verification.cases.discovery import find_cases
-from weakforms.verification.judging.outcome import CaseOutcome, CurveOutcome, PanelOutcome, Verdict
+from weakforms.verification.judging.outcome import (
+    CaseOutcome,
+    CurveOutcome,
+    PanelOutcome,
+    PathOutcome,
+    Verdict,
+)
 from weakforms.verification.report import thesis
 
 CLAIM = Verdict("claim:c", "claim", True, "the tube grows")
@@ -67,12 +73,6 @@ def test_a_panel_with_a_curve_that_is_not_compared_is_not_held(verdicts, referen
     assert not row_of(outcome("paper2.fig05", verdicts, panel(*references))).held
 
 
-def test_a_panel_with_a_curve_that_no_case_draws_is_not_held():
-    row = row_of(outcome("paper3.fig04", checks("a"), panel("a", name="L_8")), paper=3, name="4")
-    assert (row.drawn, row.compared, row.held) == (1, 1, False)
-    assert "missing" in row.remark
-
-
 def test_a_table_is_held_by_its_statements():
     assert row_of(outcome("paper2.table1", [CLAIM]), name="table 1").held
     broken = [CLAIM, replace(CLAIM, check="claim:d", passed=False)]
@@ -94,3 +94,14 @@ def test_statements_are_listed_with_their_verdicts():
         ("paper2.fig05", True),
         ("paper2.fig06", False),
     ]
+
+
+@pytest.mark.parametrize("check", ["paths_a_0.25:rho", "states_a_0.5"])
+def test_a_path_counts_only_by_the_checks_of_its_point(check):
+    """Point 0.5 of the material is drawn; a check of another point or of a state says nothing about it."""
+    drawn = replace(panel("a"), paths=[PathOutcome(0.5, [0.0], [1.0])])
+    own = replace(verdict("paths_a_0.5"), reference="paths_profiles")
+    other = replace(verdict(check), reference="paths_profiles")
+    for found, compared in (([own, other], 2), ([other], 1)):
+        row = row_of(outcome("paper2.fig05", [*checks("a"), *found], drawn))
+        assert (row.drawn, row.compared) == (2, compared)
