@@ -6,11 +6,11 @@ import os
 import platform
 from pathlib import Path
 
+from weakforms.world import world
+
 
 def environment() -> dict[str, str]:
     """Versions of the stack, revision, machine, cores and memory as readable text."""
-    from mpi4py import MPI
-
     from weakforms.solvers.support.provenance import revision, versions
 
     return {
@@ -21,7 +21,7 @@ def environment() -> dict[str, str]:
         "processor": _processor(),
         "cores": str(os.cpu_count() or 1),
         "memory": _memory(),
-        "ranks": str(MPI.COMM_WORLD.size),
+        "ranks": str(world().size),
     }
 
 

@@ -7,7 +7,8 @@ A request asks for a solution (``problem``) or for a verdict on a curve (``case`
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import as_completed
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -20,6 +21,7 @@ from weakforms.errors import InputError, WeakformsError
 from weakforms.results.io import dumps, first_error, load_json, require_writable, write_atomically
 from weakforms.verification.crosscheck.convergence import RATIO
 from weakforms.verification.crosscheck.rows import EXIT_STATUS, FAILED, PASSED
+from weakforms.verification.run.workers import in_this_process, workers
 
 SCHEMA = "weakforms.request/1"
 ERROR_SCHEMA = "weakforms.error/1"
@@ -161,26 +163,38 @@ def run_batch(
     if out.resolve() == folder.resolve():
         raise InputError(f"answers have the names of their requests: {out} must be another folder")
     require_writable(out)
-    answers = []
-    for done, path in enumerate(requests):
-        report(path.name, done, len(requests))
-        target = out / path.name
-        kept = _kept(path, target) if resume else None
-        answers.append(kept or _answered(path, target, writes))
-    report("done", len(requests), len(requests))
-    return answers
+    answers = {path: _kept(path, out / path.name) if resume else None for path in requests}
+    todo = [path for path in requests if answers[path] is None]
+    done = len(requests) - len(todo)
+    report(todo[0].name if todo else "done", done, len(requests))
+    for path, found, text in _outcomes(todo):
+        if writes:
+            write_atomically(out / path.name, text, follow=False)
+        answers[path], done = found, done + 1
+        report(f"after {path.name}", done, len(requests))
+    return list(answers.values())
 
 
-def _answered(path: Path, target: Path, writes: bool) -> Answer:
+def _outcomes(paths: list[Path]) -> Iterator[tuple[Path, Answer, str]]:
+    """Each request with its answer, as they come, from this process or from an engine."""
+    if in_this_process(1):
+        yield from ((path, *_answered(path)) for path in paths)
+        return
+    with workers(1) as pool:
+        running = {pool.submit(_answered, path): path for path in paths}
+        for future in as_completed(running):
+            yield running[future], *future.result()
+
+
+def _answered(path: Path) -> tuple[Answer, str]:
+    """The answer to a request, and its file's text."""
     try:
         status, data = answer(read_request(path), path.parent)
         message = {0: "", 1: "out of bounds", 3: "not all converged", 5: "not judged"}[status]
     except WeakformsError as error:
         status, message = error.exit_status, str(error)
         data = {"schema": ERROR_SCHEMA, "exit_status": status, "message": message}
-    if writes:
-        write_atomically(target, dumps(data), follow=False)
-    return Answer(path.stem, status, message)
+    return Answer(path.stem, status, message), dumps(data)
 
 
 def _kept(path: Path, target: Path) -> Answer | None:

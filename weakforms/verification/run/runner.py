@@ -24,6 +24,8 @@ from weakforms.verification.run.machine import environment
 from weakforms.verification.run.plan import Plan, checks_of
 from weakforms.verification.run.solutions import Solutions
 from weakforms.verification.run.solving import Solver
+from weakforms.verification.run.workers import at_once
+from weakforms.world import world
 
 
 def judge_case(found: FoundCase, plan: Plan, solver: Solver) -> CaseOutcome:
@@ -130,8 +132,6 @@ def sole_writer(out: Path, writes: bool) -> Iterator[None]:
     Raises:
         InputError: On every rank, if another run uses the folder.
     """
-    from mpi4py import MPI
-
     with ExitStack() as held:
         refused = None
         if writes:
@@ -139,7 +139,7 @@ def sole_writer(out: Path, writes: bool) -> Iterator[None]:
                 held.enter_context(sole_use(out))
             except InputError as error:
                 refused = error
-        refused = MPI.COMM_WORLD.bcast(refused)
+        refused = world().bcast(refused)
         if refused is not None:
             raise refused
         yield
@@ -165,8 +165,9 @@ def verify(
     require_writable(out / "solutions")
     require_writable(out / "report")
     progress = progress or WorkProgress()
-    at_once = f", {jobs} at a time" if jobs > 1 else ""
-    progress.line(f"{plural(len(cases), 'case')}: {plural(len(plan.states), 'solution')} to solve{at_once}")
+    count = at_once(jobs)
+    together = f", {count} at a time" if count > 1 else ""
+    progress.line(f"{plural(len(cases), 'case')}: {plural(len(plan.states), 'solution')} to solve{together}")
     solver = Solver(out / "solutions", jobs, resume, writes)
     outcomes: dict[str, CaseOutcome] = {}
     missing = {found.id: set(plan.by_case[found.id]) for found in cases}

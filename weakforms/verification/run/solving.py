@@ -18,7 +18,7 @@ from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.judging.consistency import traces
 from weakforms.verification.run.effort import Effort
 from weakforms.verification.run.plan import Plan
-from weakforms.verification.run.workers import workers
+from weakforms.verification.run.workers import in_this_process, workers
 
 
 def solve_spec(spec: Spec, states: list[At]) -> Result:
@@ -63,6 +63,7 @@ ASIDE = (
     "terminal.py",
     "pytest_plugin.py",
     "__main__.py",
+    "world.py",
 )
 """Parts of the package that do not change solutions: judging, drawing and messages."""
 
@@ -178,7 +179,7 @@ class Solver:
         self.results[spec] = Result.from_json(json.loads(text))
 
     def _outcomes(self, todo: list, begin: Callable[[Spec], None]) -> Iterable[tuple[Spec, object]]:
-        if self.jobs == 1:
+        if in_this_process(self.jobs):
             for spec, states, _ in todo:
                 begin(spec)
                 try:

@@ -1,0 +1,100 @@
+"""`solve` at an accuracy: meshes as coarse as the bounds allow, and an answer that says which they were."""
+
+import numpy as np
+import pytest
+
+import weakforms
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.accuracy import at_accuracy, widest_bound
+from weakforms.problems.branch_problem import MeshNumerics
+from weakforms.results import Absence, Branch, Quantity, Result, SpecialPoint
+
+
+def result_with(spread, **more):
+    found = Result("tube", {}, {}, {}, {}, **more)
+    found.quantities["p"] = Quantity(2.0, spread)
+    return found
+
+
+def solving(order=4.0, at_default=1e-6, **more):
+    """A problem with 96 cells by default, whose uncertainty falls with an order."""
+    return lambda numerics: result_with(at_default * (96 / numerics.cells) ** order, **more)
+
+
+def test_the_meshes_are_as_coarse_as_the_bound_allows():
+    found = at_accuracy(1e-2, MeshNumerics(), solving())
+    assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24]]
+    assert found.numerics["accuracy"]["bound"] == pytest.approx(2.56e-4)
+    assert not found.failures
+
+
+def test_a_bound_above_a_tenth_of_the_accuracy_is_refined():
+    found = at_accuracy(2e-3, MeshNumerics(), solving())
+    assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [12, 24, 48]]
+
+
+def test_meshes_that_the_order_rules_out_are_skipped():
+    found = at_accuracy(1e-6, MeshNumerics(), solving())
+    assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [48, 96, 192]]
+    assert not found.failures
+
+
+def test_an_accuracy_that_is_not_reached_is_a_failure():
+    found = at_accuracy(1e-9, MeshNumerics(), solving())
+    assert found.numerics["accuracy"]["meshes"][-1] == [96, 192, 384]
+    assert [item.what for item in found.failures] == ["accuracy"]
+
+
+def test_what_fails_or_is_absent_on_coarse_meshes_is_tried_on_finer_ones():
+    def solve(numerics):
+        if numerics.cells == 24:
+            raise ConvergenceError("too coarse")
+        absent = [Absence("branch", "none")] if numerics.cells == 48 else []
+        return result_with(0.0, absent=absent)
+
+    found = at_accuracy(1e-3, MeshNumerics(), solve)
+    assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [12, 24, 48], [24, 48, 96]]
+
+
+def test_what_is_absent_on_the_default_meshes_is_absent():
+    found = at_accuracy(1e-3, MeshNumerics(), lambda _: result_with(0.0, absent=[Absence("branch", "none")]))
+    assert found.numerics["accuracy"]["meshes"][-1] == [24, 48, 96]
+
+
+def test_a_bound_that_is_no_number_is_never_small_enough():
+    found = at_accuracy(1e-3, MeshNumerics(), lambda _: result_with(float("nan")))
+    assert [item.what for item in found.failures] == ["accuracy"]
+
+
+def test_a_bound_is_relative_to_the_largest_value_of_its_column():
+    branch = Branch("primary", "p", {"p": np.array([0.0, 4.0])}, {"p": np.array([1e-8, 1e-6])})
+    point = SpecialPoint("limit_point", "primary", "p", {"p": 1e-3}, {"p": 2e-6})
+    found = Result("tube", {}, {}, {}, {}, branches=[branch], special_points=[point])
+    assert widest_bound(found) == (pytest.approx(1e-6), "p at a limit_point")
+
+
+@pytest.mark.parametrize("accuracy", [0.0, 1e-10, 0.5, float("nan")])
+def test_an_accuracy_out_of_range_is_refused(accuracy):
+    with pytest.raises(InputError, match="must lie between"):
+        weakforms.solve("tube", accuracy=accuracy)
+
+
+def test_cells_and_an_accuracy_exclude_each_other():
+    with pytest.raises(InputError, match="exclude each other"):
+        weakforms.solve("tube", accuracy=1e-6, numerics={"cells": 48})
+
+
+def test_a_problem_without_meshes_to_refine_refuses_an_accuracy():
+    with pytest.raises(InputError, match="no accuracy can be asked"):
+        weakforms.solve("material", accuracy=1e-6)
+
+
+def test_a_tube_has_the_accuracy_that_is_asked_of_it():
+    asked = 1e-3
+    found = weakforms.solve("tube", alpha=0.1, delta1=1.1, accuracy=asked)
+    usual = weakforms.solve("tube", alpha=0.1, delta1=1.1)
+    assert found.numerics["meshes"][-1] < usual.numerics["meshes"][-1]
+    assert not found.failures
+    for near, exact in zip(found.special_points, usual.special_points, strict=True):
+        for name, value in exact.values.items():
+            assert near.values[name] == pytest.approx(value, rel=asked / 10, abs=1e-9)
