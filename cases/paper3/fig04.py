@@ -9,12 +9,7 @@ LENGTHS, GAMMAS = (8, 24), (0.058, 0.116, 0.232)
 DENSITY = {g: {} if g == 0.116 else {"gamma": g} for g in GAMMAS}
 """Without the default value, so that figures share solutions."""
 TUBES = {(length, g): fluid_tube(L=length, delta=2, gamma=g) for length in LENGTHS for g in GAMMAS}
-BENT = {
-    key: fluid_tube(L=key[0], delta=2, secondary=True, **DENSITY[key[1]])
-    for key in TUBES
-    if key != (24, 0.232)
-}
-"""All but one, whose bifurcation is not found on the surface."""
+BENT = {key: fluid_tube(L=key[0], delta=2, secondary=True, **DENSITY[key[1]]) for key in TUBES}
 BENT_ASKED = {length: dict.fromkeys(("V", "r_mid", "r_mid_pi"), a) for length, a in ((8, 5e-7), (24, 1e-5))}
 
 
@@ -74,7 +69,6 @@ CASE = Case(
                     asked=BENT_ASKED[length],
                 )
                 for g in GAMMAS
-                if (length, g) in BENT
             ),
         )
         for length, low, high in ((8, 0.5, 5), (24, 0.6, 0.9))

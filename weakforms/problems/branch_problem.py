@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.problem import Numerics, Problem, StateRequest, Task, ended, sample_points
+from weakforms.problems.reach import BeyondEndError, farthest, limit_points_beyond
 from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
 from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.solvers.continuation.branch import EquilibriumBranch
@@ -20,6 +21,7 @@ from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State as Equilibrium
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.uncertainty.family import BranchFamily
 
 
 class MeshNumerics(Numerics):
@@ -41,6 +43,14 @@ class MeshNumerics(Numerics):
     def meshes(self) -> list[int]:
         """Number of cells of each mesh, coarse to fine."""
         return [self.cells // 2**k for k in reversed(range(self.levels))]
+
+    def scaled(self, factor: float) -> Self:
+        """The same with so many times as many cells.
+
+        Raises:
+            ValidationError: If there are no such meshes.
+        """
+        return type(self)(**self.model_dump() | {"cells": int(factor * self.cells)})
 
     def described(self) -> dict[str, Any]:
         """Entries of a result that describe the discretisation."""
@@ -153,18 +163,31 @@ class BranchProblem(Problem):
                 except ConvergenceError as error:
                     result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
                 except InputError as error:
-                    raise InputError(f"{error}{self._ending(result, wanted.branch)}") from error
+                    raise self._not_reached(str(error), result, wanted.branch) from error
         for name, family in families.items():
             self._solve_drawn(result, name, family, requests.drawn, default_points)
         for family in families.values():
             result.failures.extend(family.failures)
             result.absent.extend(family.absent)
+        if requests.ahead:  # last, so that no other number depends on it
+            result.branches[:] = [self._with_end(b, families[b.name], task) for b in result.branches]
 
-    def _ending(self, result: Result, name: str) -> str:
-        """Where and why a branch ends, for the message on a state that it does not have."""
+    def _not_reached(self, what: str, result: Result, name: str) -> InputError:
+        """The error of a state that a branch does not have, which says where and why the branch ends."""
+        branch = result.branch(name)
         parameters = self.parameters.model_validate(result.parameters)
-        end = ended(result.branch(name), self.ends(parameters, name), result)
-        return f"; the branch ends at {end}" if end else ""
+        end = branch.ended or ended(branch, self.ends(parameters, name), result)
+        return BeyondEndError(f"{what}; the branch ends at {end}", end.by) if end else InputError(what)
+
+    def _with_end(self, branch: Branch, family: Family, task: Task) -> Branch:
+        """A branch with its end, if it ends before a limit point."""
+        for end in self.ends(task.parameters, branch.name):
+            last = farthest(task.parameters, end)
+            found = ended(branch, [end], Result(self.name, {}, {}, {}, {}))
+            if found and end.largest and last is not None and isinstance(family, BranchFamily):
+                reason = limit_points_beyond(family.levels[0], end, last)
+                return replace(branch, ended=replace(found, reason=reason)) if reason else branch
+        return branch
 
     def _solve_drawn(
         self, result: Result, name: str, family: Family, count: int, default_points: np.ndarray

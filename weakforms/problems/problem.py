@@ -30,6 +30,10 @@ class Parameters(BaseModel):
     """Parameters that have an effect only with some values of others: for each name the alternatives, each
     of which gives the values that others must have; no values stand for any other than the default."""
 
+    movable: ClassVar[Mapping[str, Literal["le", "ge"]]] = {}
+    """Parameters that end a branch, and the side of their range towards which states that are asked for move
+    them, unless they are set."""
+
     @classmethod
     def further(cls) -> frozenset[str]:
         """Names that may be given in addition to the fields' names."""
@@ -79,7 +83,9 @@ class End:
     reason: str = ""
     """More about it, if no parameter ends the branch."""
     largest: bool = False
-    """Whether no state of the branch has a larger value, so that requests for one are refused."""
+    """Whether no state of the branch has a larger value."""
+    begins: bool = False
+    """Whether the branch begins there, so that it is another branch for another value."""
 
 
 class Numerics(Parameters):
@@ -113,6 +119,8 @@ class Requests:
     """Whether every point of the trace gets an uncertainty (needs a solve for each mesh and point)."""
     drawn: int = 0
     """Number of random points of each trace at which states are solved for in addition."""
+    ahead: bool = False
+    """Whether limit points are looked for beyond the end of a branch, up to the end of its range."""
 
 
 Progress = Callable[[str, int, int], None]
@@ -248,21 +256,6 @@ def check_requests(about: About, requests: Requests) -> None:
                 f"{about.name}: {wanted.name} = {wanted.value:g} must be a whole number from 1: "
                 "the number of the point along the branch"
             )
-
-
-def require_within(problem: Problem, parameters: Parameters, requests: Requests) -> None:
-    """Refuse requests for states beyond the end of a branch.
-
-    Raises:
-        InputError: With the parameter that ends the branch.
-    """
-    for wanted in requests.states:
-        for end in problem.ends(parameters, wanted.branch):
-            if end.largest and wanted.name == end.column and wanted.value > end.value:
-                raise InputError(
-                    f"{problem.name}: {wanted.name} = {wanted.value:g} lies beyond {end.by} = {end.value:g}; "
-                    f"raise {end.by}"
-                )
 
 
 NEAR = 1e-9

@@ -1,6 +1,6 @@
 """Paper 5, extended: a small bending stiffness removes the instability to all short waves.
 
-The paper asks for a modification that makes the model stable. A bending energy of the *incremental* curvature
+The paper asks for a modification that makes the model stable. A bending energy of the incremental curvature
 does not change the equilibrium. With a stiffness beta H^3 the unstable wave numbers form a finite band, which
 is empty above a critical beta. Model B1 contains the circumferential curvature only, model B2 the complete
 bending energy of a thin shell.

@@ -40,9 +40,11 @@ DENSER: dict[FluidTube, tuple[float, ...]] = {
     FluidTube(8, 2, 0.058): (11.9, 12.0, 12.1, 12.17),
     FluidTube(8, 2, 0.232): (5.2, 5.25, 5.29, 5.31),
     FluidTube(24, 2, 0.058): (11.8, 11.95, 12.05, 12.11),
+    FluidTube(24, 2, 0.232): (5.15, 5.25, 5.31, 5.36),
 }
 """Levels for other densities: near the bifurcation, where figure 4 shows the branch."""
-FINER = (FluidTube(8, 3),)  # bulges most: on the usual grids u of heights is 3e-6 near the bifurcation
+FINER = (FluidTube(8, 3), FluidTube(24, 2, 0.232))
+"""Tubes on finer grids: one bulges most, the liquid of the other is low. Else u of heights is 3e-6."""
 COMPRESSED = (FluidTube(24, 1.5),)  # T2 < 0 in the dry part: see COMPRESSED_NOTES
 OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch is left
 STEP = 0.08

@@ -1,6 +1,8 @@
 """The secondary branch of the fluid-loaded tube: structure, stability, slopes, profiles, files of shapes."""
 
 import json
+from contextlib import nullcontext
+from types import SimpleNamespace
 
 import meshio
 import numpy as np
@@ -10,9 +12,9 @@ from mpi4py import MPI
 from weakforms import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.liquid_tube.bent.bifurcation_point import position
-from weakforms.problems.liquid_tube.bent.family import THETAS, secondary_family
+from weakforms.problems.liquid_tube.bent.family import THETAS, SecondaryFamily, secondary_family
 from weakforms.problems.liquid_tube.bent.stability import SHIFT
-from weakforms.problems.liquid_tube.critical import PrimaryBranch, first_bifurcation
+from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.problem import Requests, silent, validated
 from weakforms.results import Field, Result
 from weakforms.shapes import shape_mesh, shown_state, surface, write_shape
@@ -63,7 +65,7 @@ def test_negative_eigenvalues_are_those_of_the_state_itself(family):
 
 def test_it_starts_at_the_axisymmetric_bifurcation(family):
     point = family.special_points()[0]
-    begin = first_bifurcation(MPI.COMM_SELF, 8.0, 2.0, np.linspace(0, LENGTH, 5))
+    begin = PrimaryBranch(MPI.COMM_SELF, 8.0, 2.0).bifurcation(np.linspace(0, LENGTH, 5))
     assert point.kind == "bifurcation_point"
     for name in ("zw", "V", "r_mid"):
         assert abs(point.values[name] - begin.values[name]) < 2 * point.uncertainty[name]
@@ -258,3 +260,18 @@ def test_eigenvalues_cannot_be_prescribed():
 
 def test_states_are_plain_numbers(state):
     assert json.loads(json.dumps(state.to_json()))["branch"] == "secondary"
+
+
+@pytest.mark.parametrize(
+    ("stiffened", "counts", "found"), [(None, [1, 7], 1), (None, [2, 1], 1), ((1, 2), [1, 3], 3)]
+)
+def test_a_count_that_differs_between_meshes_is_taken_at_the_state_itself(stiffened, counts, found):
+    """The last factor of Newton's method serves only if it agrees with the coarsest mesh and is regular."""
+    factor = SimpleNamespace(stiffened=stiffened, seen=counts[0])
+    factor.negative_count = lambda: factor.seen
+    factor.update = lambda: setattr(factor, "seen", counts[1])
+    fine = SimpleNamespace(
+        solver=SimpleNamespace(factor=factor), system=SimpleNamespace(at=lambda _: nullcontext())
+    )
+    point = SimpleNamespace(n_negative=1)
+    assert SecondaryFamily._negative_count(SimpleNamespace(fine=fine), point, None) == found

@@ -24,6 +24,7 @@ from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.problems.material_choice import Chosen
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -34,8 +35,11 @@ GAMMA, L, DELTA = 0.116, 8.0, 2.0
 ONE = MPI.COMM_SELF
 
 
-def data(cells=8, around=4, degree=3, full=False, uneven=0.0, alpha=0.0, front=None):
-    return SurfaceData(L, DELTA, GAMMA, alpha, cells, around, degree, full, uneven, front)
+TANGENTS = [f"{vector}_{name}" for vector in "ab" for name in "xyz"]
+
+
+def data(cells=8, around=4, degree=3, full=False, uneven=0.0, alpha=0.0, front=None, material=None):
+    return SurfaceData(L, DELTA, GAMMA, alpha, cells, around, degree, full, uneven, front, material)
 
 
 def fitted(cells=6, around=4, degree=4, front=3.5):
@@ -144,6 +148,25 @@ def test_potential_has_the_papers_first_variation(zw, full):
         own = model.system.residual()
     own[model.system.bc_dofs] = 0.0
     assert own == pytest.approx(model.copies * typed, abs=1e-2 * model.copies * abs(load).max())
+
+
+def test_another_law_replaces_the_constant_in_energy_and_resultants():
+    """Ogden's law with the exponents 2 and -2 is that of Mooney and Rivlin."""
+    alpha, found = 0.1, []
+    halves = {"mu2": -alpha, "alpha2": -2.0, "mu3": -alpha, "alpha3": -2.0}
+    ogden = Chosen("ogden", tuple({"mu1": 2.0, "alpha1": 2.0, **halves}.items()))
+    for given in ({"alpha": alpha}, {"material": ogden}):
+        model = SurfaceModel(ONE, data(front=3.5, cells=6, **given))
+        state = placed(model, 6.1)
+        with model.system.at(state):
+            values = np.array([[0.2], [0.1], [1.7], [0.3], [1.4], [-0.2]])
+            profile = dict(zip(TANGENTS, values, strict=True))
+            read = model.readings(dict.fromkeys("xyz", np.zeros(1)) | profile)
+            found.append((model.system.residual(), [read["T1"][0], read["T2"][0]], model.system.monitors()))
+    (one, read_one, columns), (other, read_other, others) = found
+    assert other == pytest.approx(one, abs=1e-12 * abs(one).max())
+    assert read_other == pytest.approx(read_one, rel=1e-13)
+    assert others == pytest.approx(columns, rel=1e-12)
 
 
 def test_volume_is_the_one_between_membrane_and_surface(model):

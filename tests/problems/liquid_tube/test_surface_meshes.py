@@ -53,3 +53,10 @@ def test_fitted_sheet_has_a_row_for_the_free_surface(front, rows):
     assert fitted_heights(24, 4.0, front)[0][::2] == pytest.approx(nodes)
     with pytest.raises(ValueError, match="multiple of 6"):
         fitted_heights(8, 4.0, front)
+
+
+@pytest.mark.parametrize("front", [0.5, 0.9, 1.3, 2.1, 3.5])
+def test_a_third_of_the_cells_lies_below_the_free_surface(front):
+    """Where the membrane bulges; with fewer cells the coarsest mesh of a long tube misses its bifurcation."""
+    nodes, (_, row, _) = fitted_heights(12, 4.0, front)
+    assert np.sum(nodes < row - 1e-12) >= 12 / 3

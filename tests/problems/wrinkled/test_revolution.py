@@ -267,6 +267,16 @@ def test_a_ring_bends_by_what_is_known(n):
     assert float(bent) == pytest.approx(-(n**2 - 1), abs=1e-14)
 
 
+def test_a_tilted_shell_is_rotated_and_not_bent():
+    """A rotation about a horizontal axis is one wave; on a curved, tapered meridian every term takes part."""
+    r, z, (r_s, z_s), (r_ss, z_ss) = 1.3, 0.7, (0.4, 0.9), (0.2, -0.3)
+    shell = axisymmetric(r, z, (r_s, z_s))
+    parts, slopes = (z, -z, -r), (z_s, -z_s, -r_s)
+    bent = revolution.meridional_bending(shell, parts, slopes, (r_ss, z_ss, z_ss, -r_ss), 1)
+    assert [float(k) for k in bent] == pytest.approx([0, 0, np.hypot(r_s, z_s)], abs=1e-14)
+    assert float(revolution.hoop_bending(shell, parts, slopes, 1)) == pytest.approx(0, abs=1e-14)
+
+
 def test_axisymmetric_eigenvalues_are_the_limit_of_very_long_waves():
     """The second variation in waves, with torsion, agrees with the equilibrium's tangent and mass."""
     with waves_at(cylinder(6.0)) as waves:

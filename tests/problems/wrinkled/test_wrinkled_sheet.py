@@ -6,6 +6,7 @@ import pytest
 
 from weakforms import solve
 from weakforms.errors import InputError
+from weakforms.problems import registry
 from weakforms.problems.wrinkled import critical
 
 pytestmark = pytest.mark.paper4
@@ -109,6 +110,9 @@ def test_the_patch_has_the_potential_of_equation_33_and_the_shape_it_says():
         "W_e": -b * (linear + 2 * e * square),
         "W_ee": -2 * b * square,
     }
+    about = registry.get("wrinkled_patch").about
+    declared = {column.name for column in (*about.columns, *about.numbers)}
+    assert set(state.quantities) <= declared | {"residual", "iterations"}
     for name, value in expected.items():
         found = state.quantities[name]
         assert abs(found.value - value) <= 2 * found.uncertainty + 1e-13, name

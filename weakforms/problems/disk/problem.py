@@ -80,6 +80,7 @@ class CircularParameters(MaterialChoice):
         "adhesion": [{"contact": ("adhesive",)}, {"phase": ("peeling",)}],
         **dict.fromkeys(("t_end", "M"), ({"contact": ("none",), "phase": ("inflation",)},)),
     }
+    movable: ClassVar = {"t_end": "le", "p_end": "le"}
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
@@ -152,8 +153,9 @@ class Circular(BranchProblem):
             ]
         if parameters.contact == "none":
             return [End("t_end", "t0", parameters.t_end, largest=True)]
-        highest = End("p_end", "p", parameters.p_end, largest=True)
-        if parameters.phase == "inflation":
+        begins = parameters.phase == "deflation"
+        highest = End("p_end", "p", parameters.p_end, largest=True, begins=begins)
+        if not begins:
             return [highest]
         empty = End("unloaded", "p", 0.0, "deflation ends without pressure")
         return [empty, End("slack", "t0", FIRST_T0, "the disk is slack"), highest]

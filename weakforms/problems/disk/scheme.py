@@ -14,6 +14,7 @@ whole of this small problem.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 import ufl
@@ -25,9 +26,10 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.disk.about import CIRCULAR_SCHEME
 from weakforms.problems.disk.model import FreeDisk
 from weakforms.problems.disk.phases import FIRST_T0, parabola
-from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
+from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.results import Result
 from weakforms.solvers.continuation.walk import walk
@@ -40,7 +42,7 @@ DEEPEST = 3.0
 """Height of the pole, over that of the substrate, up to which the scheme is followed."""
 
 
-class CircularSchemeParameters(Parameters):
+class CircularSchemeParameters(MaterialChoice):
     """The disk, its substrate, and where inflation ends: at most at :data:`DEEPEST` times its height.
 
     Beyond that, and on a substrate stiffer than ``k = 1000``, Newton's method alternates between states with
@@ -48,7 +50,9 @@ class CircularSchemeParameters(Parameters):
     ``circular``, whose mesh follows the front, has neither limit.
     """
 
-    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
+    ratio: ClassVar[str] = "alpha"
+
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
     k: float = Field(50.0, gt=0, le=1000, description="substrate stiffness K R_f^2/(C1 h)")
     l: float = Field(0.5, gt=0.06, le=5, description="height of the substrate L/R_f")  # noqa: E741
@@ -68,7 +72,7 @@ class FixedDisk(FreeDisk):
     def __init__(self, comm: MPI.Intracomm, given: CircularSchemeParameters, cells: int) -> None:
         mesh = Blocks([0.0, 1 / given.beta], cells, degree=1, quadrature=4)
         values = {"p": 0.0, "k": given.k, "l": given.l}
-        super().__init__(comm, mooney_rivlin_of(given.alpha), values, given.beta, mesh)
+        super().__init__(comm, given.material, values, given.beta, mesh)
         self.rigid = fem.Function(self.space)
         """Unit vertical displacement of the patch."""
         x = self.material(self.nodes(), {})
@@ -126,7 +130,7 @@ class FixedDisk(FreeDisk):
         """State of first contact, by free inflation to ``t0 = l``."""
         x, loads = np.empty(self.system.size), self.system.initial.loads
         x[self.order], x[self.order + 1] = self.x, self.x
-        u, p = parabola(x, mooney_rivlin_of(given.alpha), given.beta)
+        u, p = parabola(x, given.material, given.beta)
         state, _ = solver.solve(State(u, loads | {"p": p}), [Held("t0", FIRST_T0)])
 
         def solve(before: State, t0: float) -> State:
@@ -157,6 +161,7 @@ class CircularScheme(Problem):
             InputError: For a state, or an end below the substrate or far above it.
         """
         super().check(parameters, requests)
+        require_taut(self.name, parameters.material, parameters.beta, "beta")
         if parameters.t_end <= parameters.l:
             raise InputError(
                 f"circular_scheme: t_end = {parameters.t_end:g} must be above l = {parameters.l:g}"

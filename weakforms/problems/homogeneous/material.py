@@ -72,13 +72,15 @@ class MaterialProblem(Problem):
         result.quantities["state"] = Quantity(values["state"])
 
 
-def require_defined(problem: str, parameters: MaterialChoice, l1: float, l2: float, what: str) -> None:
-    """Refuse stretches at which the chosen law is not defined.
+def require_defined(
+    problem: str, parameters: MaterialChoice, l1: float, l2: float, what: str, energy: str = "full"
+) -> None:
+    """Refuse stretches at which the chosen law is not defined, or its energy with wrinkling is not.
 
     Raises:
         InputError: With a message that names them.
     """
-    values = evaluated(parameters.material, l1, l2)
+    values = evaluated(parameters.material, l1, l2, energy)
     if not all(np.isfinite(values[name]) for name in NAMES):
         raise InputError(
             f"{problem}: model = {parameters.model!r} is not defined at {what} = {l1:g}, {l2:g} "

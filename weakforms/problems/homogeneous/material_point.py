@@ -84,6 +84,13 @@ def evaluated(chosen: Chosen, l1: float, l2: float, energy: str = "full") -> dic
     return point_of(chosen.model)(chosen.constants, l1, l2, energy)
 
 
+def first_derivatives(chosen: Chosen, l1: np.ndarray | float, l2: np.ndarray | float) -> np.ndarray:
+    """``w,1`` and ``w,2`` of a law at many pairs of stretches, shape ``(2, ...)``."""
+    pairs = np.broadcast(l1, l2)
+    found = [evaluated(chosen, float(a), float(b)) for a, b in pairs]
+    return np.array([[at[name] for at in found] for name in ("W1", "W2")]).reshape(2, *pairs.shape)
+
+
 def stressed(chosen: Chosen, l1: float, l2: float) -> float:
     """The larger of ``|w,1|`` and ``|w,2|`` at two stretches, relative to ``w,11`` at rest."""
     here, rest = evaluated(chosen, l1, l2), evaluated(chosen, 1.0, 1.0)

@@ -103,6 +103,7 @@ class SphereParameters(MaterialChoice):
     """A balloon, and the constant in which its limit point is followed."""
 
     needs: ClassVar[Needs] = {"vary_end": [{"vary": ()}]}
+    movable: ClassVar = {"lam_end": "le"}
 
     lam_end: float = Field(4.0, gt=1.001, le=50, description="stretch at which inflation ends")
     vary: str = Field(
@@ -175,6 +176,8 @@ class Sphere(ClosedProblem):
 class InfiniteTubeParameters(MaterialChoice):
     """A long tube with closed ends."""
 
+    movable: ClassVar = {"lam_end": "le"}
+
     force: float = Field(0.0, ge=-5, le=100, description="axial force of the ends over 2 pi R_o h_o S")
     lam_end: float = Field(6.0, gt=1.001, le=50, description="hoop stretch at which inflation ends")
 
@@ -214,6 +217,8 @@ class InfiniteTube(ClosedProblem):
 
 class HomogeneousParameters(MaterialChoice):
     """A test piece and its law."""
+
+    movable: ClassVar = {"lam_end": "le"}
 
     loading: Literal["uniaxial", "equibiaxial", "pure_shear"] = Field("uniaxial", description="loading")
     lam_end: float = Field(

@@ -15,6 +15,7 @@ from mpi4py import MPI
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.branch import WIDEST, FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.problems.material_choice import Chosen
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.pieces import nth
 from weakforms.solvers.equilibrium.state import State
@@ -48,7 +49,8 @@ class PrimaryBranch:
         delta: Pre-stretch.
         gamma: ``rho g A^2/(mu H)``.
         alpha: Second Mooney-Rivlin constant over the first; 0 is neo-Hookean.
-        cells: Cells on each of the two parts of the mesh.
+        material: A law that replaces the Mooney-Rivlin law.
+        cells: Cells on each of the two parts of the mesh; 48 of degree 5 give ten digits.
         degree: Degree of the elements.
         n_max: Largest wave number whose eigenvalues are computed.
     """
@@ -60,11 +62,12 @@ class PrimaryBranch:
         delta: float,
         gamma: float = 0.116,
         alpha: float = 0.0,
+        material: Chosen | None = None,
         cells: int = 48,
         degree: int = 5,
         n_max: int = 1,
     ) -> None:
-        data = TubeData(L, delta, gamma, alpha, cells, degree)
+        data = TubeData(L, delta, gamma, alpha, cells, degree, material=material)
         self.path = FluidPath(comm, data, n_max)
 
     def bifurcation(self, points: np.ndarray, n: int = 1, order: int = 1) -> AxisymmetricState:
@@ -87,7 +90,7 @@ class PrimaryBranch:
         raise AbsentError(
             "bifurcation point",
             f"{has}, up to where its level has fallen to {self.path.zw_end:g} of the highest, or the tube is "
-            f"{WIDEST:g} radii wide; choose another delta or L, or a smaller alpha",
+            f"{WIDEST:g} radii wide; choose another delta or L, or another law",
         )
 
     def at(self, name: str, value: float, points: np.ndarray, crossing: int = 1) -> AxisymmetricState:
@@ -119,30 +122,3 @@ class PrimaryBranch:
         mode = np.array([found[name] for name in columns])
         sign = np.sign(mode[0][np.argmax(np.abs(mode[0]))])
         return AxisymmetricState(base.values, points, base.r, base.z, n, sign * mode)
-
-
-def first_bifurcation(
-    comm: MPI.Intracomm,
-    L: float,
-    delta: float,
-    points: np.ndarray,
-    gamma: float = 0.116,
-    alpha: float = 0.0,
-    cells: int = 48,
-) -> AxisymmetricState:
-    """The first n = 1 bifurcation point of the primary branch: state and mode at material points ``Z``.
-
-    Args:
-        comm: Ranks; all get the same arrays.
-        L: Length of the stretched tube over the radius.
-        delta: Pre-stretch; ``Z`` lies in ``[0, L/delta]``.
-        points: ``Z`` of the points for state and mode.
-        gamma: ``rho g A^2/(mu H)``.
-        alpha: Second Mooney-Rivlin constant over the first.
-        cells: Cells on each of the two parts of the mesh; 48 of degree 5 give ten digits.
-
-    Raises:
-        AbsentError: If there is none.
-        ConvergenceError: If it is not found.
-    """
-    return PrimaryBranch(comm, L, delta, gamma, alpha, cells).bifurcation(points)

@@ -48,11 +48,20 @@ class FluidTubeNumerics(MeshNumerics):
             )
         return self
 
+    def scaled(self, factor: float) -> Self:
+        """The same with so many times as many cells, also of the surface where it allows this."""
+        coarsest = 6 * 2 ** (self.secondary_levels - 1)
+        cells = {"secondary_cells": max(coarsest, int(factor * self.secondary_cells))}
+        if self.secondary_around is not None:
+            cells["secondary_around"] = max(coarsest // 3, int(factor * self.secondary_around))
+        return type(self)(**super().scaled(factor).model_dump() | cells)
+
 
 class FluidTubeParameters(MaterialChoice):
     """The tube and its liquid."""
 
     ratio: ClassVar[str] = "alpha"
+    movable: ClassVar = {"zw_end": "ge"}
 
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
     delta: float = Field(2.0, gt=1, le=10, description="axial pre-stretch")

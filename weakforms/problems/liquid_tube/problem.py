@@ -15,7 +15,7 @@ from weakforms.problems.liquid_tube.bent.family import secondary_family
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
-from weakforms.problems.material_choice import MOONEY_RIVLIN, require_model
+from weakforms.problems.material_choice import require_model
 from weakforms.problems.meridian.limits import require_bearable
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
 from weakforms.results import Absence, Failure, Result
@@ -50,8 +50,6 @@ class FluidTube(BranchProblem):
         super().check(parameters, requests)
         require_model(self.name, parameters, tuple(LAWS))
         require_bearable(self.name, parameters.material, parameters.delta, 1.0, "delta")
-        if parameters.secondary:
-            require_model(f"{self.name}: secondary = true", parameters, (MOONEY_RIVLIN,))
         for wanted in requests.states:
             if wanted.name == "zw" and wanted.value < 0:
                 raise InputError(f"fluid_tube: zw = {wanted.value:g} is below the tube; allowed: zw >= 0")
@@ -110,7 +108,7 @@ class FluidTube(BranchProblem):
                         what = f"state at {wanted.name} = {wanted.value:g}"
                         result.failures.append(Failure(what, f"{name} branch: {error}"))
             if len(missing) == len(names):
-                raise InputError(f"fluid_tube: {'; '.join(missing)}")
+                raise self._not_reached(f"fluid_tube: {'; '.join(missing)}", result, wanted.branch)
 
 
 def primary_family(

@@ -9,7 +9,7 @@ from typing import Any
 Values = Mapping[str, Any]
 """Parameters by name: numbers, or expressions of a form."""
 
-Held = tuple[float | None, float | None]
+EndPosition = tuple[float | None, float | None]
 """What the two unknowns are at an end; ``None`` where one is free."""
 
 
@@ -33,7 +33,7 @@ class Body:
     radius."""
     shape: Callable[[Any, Values], tuple[Any, Any]] = lambda _s, _q: (0.0, 0.0)
     """``(hoop, z0)``."""
-    held: tuple[Held, Held] = ((0.0, 0.0), (0.0, 0.0))
+    held: tuple[EndPosition, EndPosition] = ((0.0, 0.0), (0.0, 0.0))
     """The unknowns at the first and at the last end; at a pole the first one is free."""
     scales: Callable[[Values], tuple[Any, Any]] = lambda _q: (1.0, 1.0)
     """Factors of the stretches ``|dx/dS|`` and ``r/R``, if ``S`` or ``R`` belongs to a stretched surface."""

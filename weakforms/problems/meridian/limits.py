@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 import numpy as np
 
@@ -68,4 +69,51 @@ def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str)
         raise InputError(
             f"{problem}: {name} = {l1:g}: model = {law.model!r} has stresses of more than {LARGEST:g} times "
             f"its stiffness at rest; lower {name}, or the exponents"
+        )
+
+
+FARTHEST, STRETCHES, POINTS = 1e7, 2000, 400
+"""Largest stretch of a law whose force is looked at, number of stretches up to it, points along a tube."""
+
+
+@lru_cache(maxsize=256)
+def mean_stretch_limit(law: Chosen, M: float) -> float:
+    r"""Largest mean stretch of a tube of uneven thickness in uniaxial tension; infinite if a law locks.
+
+    Without load the force is the same along the tube. If the law's force per thickness
+    :math:`f(\lambda) = w_{,1}(\lambda, \lambda^{-1/2})` is bounded, the thinnest place limits the
+    force, and the stretch elsewhere follows from it (:math:`h` is linear from :math:`M` to :math:`2 - M`):
+
+    .. math:: \bar\lambda = \int_0^1 f^{-1}\left(\frac{h_{min}}{h(S)} \max f\right) \mathrm{d}S
+
+    Args:
+        law: An incompressible law.
+        M: Thickness at one end over its mean.
+    """
+    stretches = np.geomspace(1.0, FARTHEST, STRETCHES)
+    force = np.array([evaluated(law, l1, l1**-0.5)["W1"] for l1 in stretches])
+    if not np.all(np.isfinite(force)):
+        return float("inf")
+    force = np.maximum.accumulate(force)
+    thin, thick = sorted((M, 2.0 - M))
+    # With S = s^3 from the thin end the integrand is smooth where the stretch has no bound.
+    s = (np.arange(POINTS) + 0.5) / POINTS
+    thickness = thin + (thick - thin) * s**3
+    return float(np.mean(3 * s**2 * np.interp(force[-1] * thin / thickness, force, stretches)))
+
+
+def require_carried(problem: str, law: Chosen, delta: float, M: float) -> None:
+    """Refuse an axial pre-stretch that a tube of uneven thickness has at no force.
+
+    Raises:
+        InputError: With a message that names both parameters.
+    """
+    if law.model == MOONEY_RIVLIN:
+        return
+    most = mean_stretch_limit(law, M)
+    if delta > most:
+        raise InputError(
+            f"{problem}: delta = {delta:g}: with model = {law.model!r} and M = {M:g} the thin end gives way: "
+            f"no force stretches the membrane by more than {most:.4g} in the mean; lower delta, or bring M "
+            "closer to 1"
         )

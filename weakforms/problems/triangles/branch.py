@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -11,10 +11,16 @@ import numpy as np
 from weakforms.errors import ConvergenceError
 from weakforms.problems.triangles.model import SurfaceModel
 from weakforms.results import SpecialPoint
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, hermite
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord, residual_limit
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Mode, Stability
+
+LARGEST, PREDICTOR = 1.0, 2e-2
+"""Largest step along a branch that is followed by arc length, and target distance of its predictor (tangents
+jump when triangles change their state)."""
 
 HALVINGS = 8
 """Largest number of times that a step of the load is halved."""
@@ -71,6 +77,7 @@ class SurfaceRun:
         self._newton: ExtendedNewton | None = None
         self._begin = State(self.system.initial.u, dict(loads))
         self._known: list[Point] = []
+        self._limit: float | None = None
 
     # -- equilibria ------------------------------------------------------------------------------
 
@@ -86,6 +93,47 @@ class SurfaceRun:
         if nearest.load == load:
             return nearest
         return self._keep(self._towards(load, nearest, HALVINGS))
+
+    @property
+    def first(self) -> float:
+        """Load of the first known state."""
+        return self._known[0].load
+
+    def is_beyond(self, load: float) -> bool:
+        """Whether a load is beyond the limit load that :meth:`turn` found."""
+        return self._limit is not None and (load - self._limit) * (self._limit - self.first) > 0
+
+    def turn(self, towards: float) -> float | None:
+        """The limit load at which the branch turns back on the way from the first known state to a load.
+
+        The branch is followed by arc length. Known states beyond the turn belong to another branch and are
+        forgotten.
+
+        Returns:
+            The extreme of a cubic between the points about the turn; ``None`` if the branch reaches the load.
+
+        Raises:
+            ConvergenceError: If the branch cannot be followed.
+        """
+        name, first, sign = self.control, self._known[0], np.sign(towards - self.first)
+        solver = ExtendedNewton(self.system, (name,), prefix="weakforms_surface_")
+        solver.factor.use_pivoting()
+        continuation = Continuation(solver, control=StepControl(largest=LARGEST, predictor_error=PREDICTOR))
+
+        def ended(point: CurvePoint) -> bool:
+            return sign * (point.state.loads[name] - towards) > 0 or sign * point.tangent.loads[name] < 0
+
+        with self.system.at(first.symmetric), self.system.weighed_here():
+            begin = continuation.start(first.symmetric, Held(name, first.load), towards={name: sign})
+            *_, a, b = begin, *continuation.trace(begin, ended)
+        if sign * b.tangent.loads[name] >= 0:
+            return None
+        h = b.arclength - a.arclength
+        parts = a.state.loads[name], h * a.tangent.loads[name], b.state.loads[name], h * b.tangent.loads[name]
+        between = np.array([np.dot(hermite(float(x)), parts) for x in np.linspace(0, 1, 101)])
+        self._limit = float(sign * (sign * between).max())
+        self._known = [point for point in self._known if not self.is_beyond(point.load)]
+        return self._limit
 
     def _towards(self, load: float, start: Point, left: int) -> Point:
         try:
@@ -184,7 +232,7 @@ class SurfaceRun:
 
     # -- stability changes -----------------------------------------------------------------------
 
-    def changes(self, loads: np.ndarray, tolerance: float) -> Iterator[SpecialPoint]:
+    def changes(self, loads: Sequence[float], tolerance: float) -> Iterator[SpecialPoint]:
         """Loads between given ones where the first negative eigenvalue appears or the last disappears.
 
         They are bracketed by the inertia of the whole tangent, and the interval is halved down to
@@ -199,7 +247,7 @@ class SurfaceRun:
         Raises:
             ConvergenceError: If a state in an interval is not reached.
         """
-        for before, after in pairwise(self.at(float(load)) for load in loads):
+        for before, after in pairwise(self.at(load) for load in loads):
             if (before.n_negative > 0) != (after.n_negative > 0):
                 yield self._located(before, after, tolerance)
 

@@ -21,12 +21,20 @@ DEFAULTS: dict[str, dict[str, Any]] = {
 }
 """Parameters of each geometry with their default values, which are the paper's."""
 
-WALK = {
-    ("tube", "fluid"): (0.5, 0.5, 10.5),
-    ("tube", "gas"): (0.0, 0.0, 0.38),
-    ("hemisphere", "fluid"): (-0.6, -0.5, -0.95),
+WALK = {("tube", "fluid"): (0.5, 10.5), ("tube", "gas"): (0.0, 0.38), ("hemisphere", "fluid"): (-0.5, -0.95)}
+"""Default first and last load of the branch."""
+
+FIRST = {
+    ("tube", "fluid"): (0.5, 0.2, 0.1),
+    ("tube", "gas"): (0.0,),
+    ("hemisphere", "fluid"): (-0.6, -0.75, -0.9),
 }
-"""Load of the first solve, and default first and last load of the branch."""
+"""Loads of the first solve; the next one is tried if a heavy liquid has no state at the one before."""
+
+HANGING = 2.0, 6.0
+"""Smallest and largest weight of the liquid in a hemisphere, for a neo-Hookean law with ``C1 = 1``. A lighter
+one hardly stretches the membrane, whose wrinkles then have no stiffness; a heavier one has states at low
+levels only."""
 
 ALLOWED = {("tube", "fluid"): (0.0, 100.0), ("hemisphere", "fluid"): (-1.05, -0.48)}
 """Fluid levels of a hemisphere: it has no state above its limit point near -0.478, and is almost empty below
@@ -98,8 +106,8 @@ class SurfaceParameters(MaterialChoice):
 
     def filled(self) -> SurfaceParameters:
         """The same parameters with every default value."""
-        start = WALK.get((self.kind, self.load), (None, None, None))
-        own = DEFAULTS[self.kind] | {"load_start": start[1], "load_end": start[2]}
+        start, end = WALK.get((self.kind, self.load), (None, None))
+        own = DEFAULTS[self.kind] | {"load_start": start, "load_end": end}
         missing = {name: value for name, value in own.items() if getattr(self, name) is None}
         return self.model_copy(update=missing)
 

@@ -11,7 +11,9 @@ import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.homogeneous.material_point import evaluated
+from weakforms.problems.material_choice import mooney_rivlin_of, require_foldable
+from weakforms.problems.meridian.limits import require_carried
 from weakforms.problems.problem import End, Problem, Progress, Requests, StateRequest, Task
 from weakforms.problems.triangles.about import SURFACE
 from weakforms.problems.triangles.branch import Point, SurfaceRun
@@ -21,12 +23,13 @@ from weakforms.problems.triangles.parameters import (
     ALLOWED,
     CONTROL,
     DEFAULTS,
-    WALK,
+    FIRST,
+    HANGING,
     SurfaceNumerics,
     SurfaceParameters,
 )
 from weakforms.problems.triangles.symmetry import Meridian
-from weakforms.results import Branch, Failure, Quantity, Result, SpecialPoint, State
+from weakforms.results import Absence, Branch, Failure, Quantity, Result, SpecialPoint, State
 from weakforms.solvers.equilibrium.newton import STOPPING
 
 
@@ -46,6 +49,10 @@ class Surface(Problem):
         super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
         kind, full = parameters.kind, parameters.filled()
+        if kind == "tube":
+            require_carried(self.name, full.material, full.delta, full.M)
+        if kind == "hemisphere":
+            _require_hanging(full)
         for name in ("M", "delta", "L", "Af"):
             value = getattr(parameters, name)
             if value is not None and name not in DEFAULTS[kind]:
@@ -85,7 +92,7 @@ class Surface(Problem):
         progress("stability changes", 0, 1)
         try:
             tolerance = numerics.tolerance * max(1.0, abs(full.load_end))
-            result.special_points.extend(run.changes(loads[: len(reached)], tolerance))
+            result.special_points.extend(run.changes([point.load for point in reached], tolerance))
         except ConvergenceError as error:
             result.failures.append(Failure("special points", str(error)))
         result.quantities |= _quantities(run, result.special_points, full.control)
@@ -95,6 +102,17 @@ class Surface(Problem):
                 result.states.append(_state(run, wanted, result.special_points, numerics.eigenvalues))
             except ConvergenceError as error:
                 result.failures.append(Failure(f"state at {wanted.name} = {wanted.value:g}", str(error)))
+
+
+def _require_hanging(full: SurfaceParameters) -> None:
+    """Refuse a liquid that is too light or too heavy for a hemisphere of this law."""
+    stiffness = evaluated(full.material, 1.0, 1.0)["W11"] / evaluated(mooney_rivlin_of(0.0), 1.0, 1.0)["W11"]
+    low, high = (bound * stiffness for bound in HANGING)
+    if not low <= full.gamma <= high:
+        raise InputError(
+            f"surface: gamma = {full.gamma:g}: allowed with geometry = 'hemisphere' and this stiffness of "
+            f"the law: {low:.4g} to {high:.4g}"
+        )
 
 
 def _require_loads(full: SurfaceParameters, requests: Requests) -> None:
@@ -119,23 +137,47 @@ def _run(full: SurfaceParameters, comm: MPI.Intracomm) -> SurfaceRun:
     own |= {"c2": full.c2, "gamma": gamma, "rule": full.rule, "potential": full.potential}
     body = Body(full.triangles(), **own, material=full.other_law)
     run = SurfaceRun(SurfaceModel(comm, body), full.control, {"p": 0.0, "zw": 0.0})
-    run.at(WALK.get((full.kind, full.load), (full.load_start,))[0])
-    return run
+    for load in FIRST.get((full.kind, full.load), (full.load_start,)):
+        try:
+            run.at(float(load))
+            return run
+        except ConvergenceError as error:
+            failed = error
+    raise ConvergenceError(f"no first state at {full.control} = {load:g}: {failed}; choose another gamma")
 
 
 def _walk(run: SurfaceRun, loads: np.ndarray, result: Result, progress: Progress) -> list[Point]:
-    """States at the loads, as far as they can be reached."""
-    out = []
-    for i, load in enumerate(loads):
+    """States at the loads, as far as they can be reached; loads beyond a limit load are left out."""
+    out: list[Point] = []
+    for i, load in enumerate(loads.tolist()):
         progress("equilibria", i, len(loads))
+        if run.is_beyond(load):
+            continue
         try:
-            out.append(run.at(float(load)))
+            out.append(run.at(load))
         except ConvergenceError as error:
-            result.failures.append(Failure(f"branch primary, from {run.control} = {load:g}", str(error)))
-            break
-    if not out:
+            if not _is_explained(run, load, result):
+                result.failures.append(Failure(f"branch primary, from {run.control} = {load:g}", str(error)))
+                break
+            out = [point for point in out if not run.is_beyond(point.load)]
+    if not out and not result.absent:
         raise ConvergenceError(result.failures[-1].reason)
     return out
+
+
+def _is_explained(run: SurfaceRun, load: float, result: Result) -> bool:
+    """Whether there is a limit load before a load without a state; the result then says so."""
+    try:
+        turn = None if result.absent else run.turn(load)
+    except ConvergenceError:
+        turn = None
+    if turn is None:
+        return False
+    side = "below" if run.first < turn else "above"
+    why = f"on this mesh the branch turns back at its limit load, about {run.control} = {turn:.3g}"
+    why = f"surface: {why}; choose load_start and load_end {side} it"
+    result.absent.append(Absence("rest of branch primary", why))
+    return True
 
 
 def _branch(

@@ -43,6 +43,7 @@ class TubeParameters(MaterialChoice):
         "spring": [{"phase": ("deflation",)}],
         "u_end": [{"contact": ("none",)}],
     }
+    movable: ClassVar = {"u_end": "le", "p_end": "le"}
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")

@@ -67,8 +67,9 @@ class Tube(BranchProblem):
         """Where free inflation, contact and deflation end."""
         if parameters.contact == "none":
             return [End("u_end", "u_max", parameters.u_end, largest=True)]
-        highest = End("p_end", "p", parameters.p_end, largest=True)
-        if parameters.phase == "inflation":
+        begins = parameters.phase == "deflation"
+        highest = End("p_end", "p", parameters.p_end, largest=True, begins=begins)
+        if not begins:
             return [highest]
         empty = End("unloaded", "p", 0.0, "deflation ends without pressure")
         return [empty, End("slack", "u_max", FIRST_U, "the tube is slack"), highest]

@@ -15,16 +15,17 @@ problem.
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
 from weakforms.errors import InputError
-from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.problem import Numerics, Parameters, Problem, Task
+from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.tube.about import TUBE_SCHEME
 from weakforms.problems.tube.model import TubeModel, first_state
@@ -36,10 +37,12 @@ from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.roots import root
 
 
-class SchemeParameters(Parameters):
+class SchemeParameters(MaterialChoice):
     """Constrained tube and the scheme for its contact."""
 
-    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1")
+    ratio: ClassVar[str] = "alpha"
+
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch")
     lf: float = Field(6.0, ge=1, le=60, description="stretched length L_f/R_f")
     k: float = Field(20.0, ge=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h_o)")
@@ -65,7 +68,7 @@ class FixedMesh(TubeModel):
     def __init__(self, comm: MPI.Intracomm, given: SchemeParameters, cells: int) -> None:
         values, half = {"p": 0.0, "k": 0.0, "s": given.s, "delta1": given.delta1}, given.lf / 2
         mesh = Blocks([0.0, half], cells, degree=1, quadrature=6)
-        super().__init__(comm, mooney_rivlin_of(given.alpha), values, half, mesh)
+        super().__init__(comm, given.material, values, half, mesh)
         self.parameters = given
         self.radial = 2 * np.argsort(self.nodes())
         """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; the next one is
@@ -151,6 +154,15 @@ class TubeScheme(Problem):
     about = TUBE_SCHEME
     parameters = SchemeParameters
     numerics = SchemeNumerics
+
+    def check(self, parameters: SchemeParameters, requests: Requests) -> None:
+        """Refuse requests for states, and a pre-stretch at which the law has stresses without measure.
+
+        Raises:
+            InputError: For either.
+        """
+        super().check(parameters, requests)
+        require_bearable(self.name, parameters.material, parameters.delta1, 1.0, "delta1")
 
     def fill(self, result: Result, task: Task) -> None:
         """Run the scheme on two meshes (and numbers of steps); uncertainties assume first order."""

@@ -8,11 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
-from weakforms.problems.wrinkled.state import Held, solver_of
+from weakforms.problems.wrinkled.state import ZonedState, solver_of
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
 from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
 from weakforms.solvers.continuation.branch import FittedBranch
@@ -35,6 +35,29 @@ distance."""
 PREDICTOR = 2e-2
 """Target distance between predictor and solution on the plain mesh, where the tangent jumps when zones
 change."""
+
+
+STEP, VOLUME_END = 0.5, 30.0
+"""Default largest step of a branch, and volume over the unloaded one at which it ends."""
+
+
+def first_state(membrane: Membrane, load: float, volume_end: float = VOLUME_END) -> ZonedState:
+    """The state of the plain mesh at which the branch from no load first takes a load, with its zones.
+
+    Raises:
+        AbsentError: If the branch does not take it.
+        ConvergenceError: If the branch cannot be followed so far.
+    """
+    branch = WrinkledBranch(
+        membrane, load, volume_end, STEP, Readings(membrane, 2 * membrane.meshes[-1].degree)
+    )
+    try:
+        return membrane.plain(branch.near(membrane.control, load).state)
+    except InputError as error:
+        if branch.trace.stalled:
+            raise ConvergenceError(f"{error}: {branch.trace.stalled}") from error
+        searched = f"{error}, up to {volume_end:g} times the volume without load"
+        raise AbsentError(f"state at {membrane.control} = {load:g}", searched) from error
 
 
 class WrinkledBranch:
@@ -126,14 +149,14 @@ class WrinkledBranch:
         with self.membrane.weighed():
             return trace.at(name, value, crossing)
 
-    def _fitted(self, solved: Solved, name: str, fine_only: bool = False) -> list[Held]:
+    def _fitted(self, solved: Solved, name: str, fine_only: bool = False) -> list[ZonedState]:
         plain = self.membrane.plain(solved.state)
         return self.membrane.fitted(plain, fixed.Held(name, solved.values[name]), fine_only)
 
     # -- the branch ----------------------------------------------------------------------------
 
     @cached_property
-    def _fine(self) -> list[tuple[int, Held]]:
+    def _fine(self) -> list[tuple[int, ZonedState]]:
         """Fitted states at the points of the trace; a failed one is listed and left out."""
         kept = []
         for i, (solved, name) in enumerate(self._prescribed()):
@@ -145,7 +168,7 @@ class WrinkledBranch:
             raise ConvergenceError(f"branch {self.name}: no point could be solved for on fitted meshes")
         return kept
 
-    def _fine_state(self, solved: Solved, name: str, before: Held | None) -> Held:
+    def _fine_state(self, solved: Solved, name: str, before: ZonedState | None) -> ZonedState:
         """A state on the finest mesh, from that on the plain mesh or else from the state before it."""
         try:
             return self._fitted(solved, name, fine_only=True)[0]
@@ -183,10 +206,10 @@ class WrinkledBranch:
         columns = {n: values[kept] for n, values in columns.items()}
         return Branch(self.name, self.control, columns, spread)
 
-    def _all_columns(self, held: Held) -> dict[str, float]:
+    def _all_columns(self, held: ZonedState) -> dict[str, float]:
         return self.readings.without_fronts(held) | self.readings.eigenvalues(held)
 
-    def _levels(self, i: int, held: Held) -> list[Held]:
+    def _levels(self, i: int, held: ZonedState) -> list[ZonedState]:
         """A point of the branch on all meshes, without its thinnest zone if a coarse mesh needs that."""
         solved, name = self._prescribed()[i]
         try:
@@ -248,7 +271,7 @@ class WrinkledBranch:
             for held in event.levels
         ]
 
-    def _limit(self, turn: int) -> tuple[SpecialPoint, list[Held]]:
+    def _limit(self, turn: int) -> tuple[SpecialPoint, list[ZonedState]]:
         """The limit load after a point of the trace, on all meshes."""
         before, after = (self.trace.points[i].monitors["V"] for i in (turn, turn + 1))
         margin = MARGIN * (after - before)
@@ -256,7 +279,7 @@ class WrinkledBranch:
         found = [self._limit_from(start, before - margin, after + margin) for start in starts]
         return self._point([self.readings.without_fronts(held) for held in found], "limit_point"), found
 
-    def _limit_from(self, held: Held, low: float, high: float) -> Held:
+    def _limit_from(self, held: ZonedState, low: float, high: float) -> ZonedState:
         """The limit load between two volumes by arc length, with fronts and load as unknowns."""
         system, beyond = held.model.system, lambda point: point.monitors["V"] > high
         continuation = Continuation(
@@ -293,7 +316,7 @@ class WrinkledBranch:
         fields = () if profile is None else self.readings.fields(levels, profile)
         return State({name: value}, self.name, quantities, fields, crossing)
 
-    def _special_state(self, name: str, value: float) -> list[Held] | None:
+    def _special_state(self, name: str, value: float) -> list[ZonedState] | None:
         if name == "limit_point":
             found = [self._limit(i)[1] for i in self.trace.turns().tolist()]
         elif name in EVENTS:

@@ -14,7 +14,7 @@ from weakforms.problems.meridian.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.fitted import PLACE
 from weakforms.problems.wrinkled.membrane import WALK, Membrane
-from weakforms.problems.wrinkled.state import Held, Touch
+from weakforms.problems.wrinkled.state import Touch, ZonedState
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
 
@@ -109,7 +109,7 @@ def threshold(
         return {"M": Estimate(np.array(middle), np.array(half), np.array(0.0))}
 
 
-def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate]:
+def _touching(membrane: Membrane, held: ZonedState, degree: int) -> dict[str, Estimate]:
     """The threshold and its place, from a state close by."""
     first, s = held, np.linspace(0.0, membrane.length, SAMPLES)
     place = float(s[np.argmin(held.sampled(s)["gw"])])
@@ -128,11 +128,11 @@ def _touching(membrane: Membrane, held: Held, degree: int) -> dict[str, Estimate
     return {"M": replace(ratio, uncertainty=ratio.uncertainty + ROUND_OFF / growth), "Z": where}
 
 
-def _least(held: Held) -> float:
+def _least(held: ZonedState) -> float:
     return held.extreme("gw", -1)
 
 
-def _first_wrinkled(membrane: Membrane, level: int, towards: int) -> tuple[Held, float]:
+def _first_wrinkled(membrane: Membrane, level: int, towards: int) -> tuple[ZonedState, float]:
     """The taut state at a thickness ratio just beyond the threshold, or at the last ratio.
 
     Returns:
@@ -171,10 +171,12 @@ def natural_radius(delta: float) -> float:
     return delta**-0.5
 
 
-def _walked(membrane: Membrane, level: int, held: Held, name: str, goal: float, step: float) -> Held:
+def _walked(
+    membrane: Membrane, level: int, held: ZonedState, name: str, goal: float, step: float
+) -> ZonedState:
     """The taut state with one parameter at a goal, by steps that shorten where they do not converge."""
 
-    def solve(before: Held, value: float) -> Held:
+    def solve(before: ZonedState, value: float) -> ZonedState:
         membrane.values[name] = value
         return membrane.unloaded_from(level, TAUT, before)
 

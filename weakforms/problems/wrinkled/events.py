@@ -11,7 +11,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.membrane import Membrane
-from weakforms.problems.wrinkled.state import Held, Touch
+from weakforms.problems.wrinkled.state import Touch, ZonedState
 from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
 
@@ -39,11 +39,11 @@ class Event:
     """State of the zone: 1 taut, -1 wrinkled."""
     after: int
     """Index of the point of the branch before it."""
-    levels: tuple[Held, ...]
+    levels: tuple[ZonedState, ...]
     """The state on every mesh, coarse to fine; ``touched`` is the position of the zone."""
 
 
-def events(membrane: Membrane, points: Sequence[tuple[int, Held]]) -> tuple[list[Event], list[Failure]]:
+def events(membrane: Membrane, points: Sequence[tuple[int, ZonedState]]) -> tuple[list[Event], list[Failure]]:
     """All events between neighbours of a branch, in order, and the failures."""
     found: list[Event] = []
     failures: list[Failure] = []
@@ -58,12 +58,12 @@ def events(membrane: Membrane, points: Sequence[tuple[int, Held]]) -> tuple[list
     return found, failures
 
 
-def _fronts(held: Held) -> tuple[float, int]:
+def _fronts(held: ZonedState) -> tuple[float, int]:
     return held.zones.first, len(held.zones.fronts)
 
 
 def _between(
-    membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
+    membrane: Membrane, a: ZonedState, b: ZonedState, after: int, verge: np.ndarray, halvings: int
 ) -> list[Event]:
     """Events between two states, by halving until they differ by one zone."""
     if _fronts(a) == _fronts(b):
@@ -86,13 +86,13 @@ def _between(
     return _in_halves(membrane, a, b, after, verge, halvings)
 
 
-def _leaps(a: Held, b: Held, length: float) -> bool:
+def _leaps(a: ZonedState, b: ZonedState, length: float) -> bool:
     """Whether a front has moved so far that it may be another one: one zone opened and another closed."""
     return any(abs(x - y) > LARGE_MOVE * length for x, y in zip(a.zones.fronts, b.zones.fronts, strict=True))
 
 
 def _in_halves(
-    membrane: Membrane, a: Held, b: Held, after: int, verge: np.ndarray, halvings: int
+    membrane: Membrane, a: ZonedState, b: ZonedState, after: int, verge: np.ndarray, halvings: int
 ) -> list[Event]:
     """Events between two states, in one half of the load interval and then in the other."""
     low, high = (held.state.loads[membrane.control] for held in (a, b))
@@ -103,7 +103,9 @@ def _in_halves(
     ]
 
 
-def _at_both_ends(membrane: Membrane, absent: Held, present: Held, after: int, opening: bool) -> list[Event]:
+def _at_both_ends(
+    membrane: Membrane, absent: ZonedState, present: ZonedState, after: int, opening: bool
+) -> list[Event]:
     """Zones that open or close at both ends at once, as in a symmetric membrane."""
     fewer, more = absent.zones, present.zones
     if len(more.fronts) != len(fewer.fronts) + 2 or more.first == fewer.first:
@@ -144,8 +146,8 @@ def _extra_zone(absent: Zones, present: Zones, length: float) -> tuple[float, fl
 
 def _located(
     membrane: Membrane,
-    absent: Held,
-    present: Held,
+    absent: ZonedState,
+    present: ZonedState,
     zone: tuple[float, float, float],
     after: int,
     opening: bool,

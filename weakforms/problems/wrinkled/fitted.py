@@ -16,10 +16,10 @@ from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.state import (
     AtBreak,
-    Held,
     Layout,
     Mesh,
     Touch,
+    ZonedState,
     model_on,
     solver_of,
 )
@@ -86,7 +86,7 @@ class FittedMembrane:
         """Parameters that are results themselves, for each mesh, so that differences between meshes include
         their errors. Those of the finest mesh are also in ``values``."""
 
-    def fitted(self, start: Held, constraint: Constraint, fine_only: bool = False) -> list[Held]:
+    def fitted(self, start: ZonedState, constraint: Constraint, fine_only: bool = False) -> list[ZonedState]:
         """The state given by a constraint on the control, on every mesh, coarse to fine, or the finest.
 
         Raises:
@@ -103,7 +103,7 @@ class FittedMembrane:
                 last = error
         raise last
 
-    def others(self, fine: Held, constraint: Constraint) -> list[Held]:
+    def others(self, fine: ZonedState, constraint: Constraint) -> list[ZonedState]:
         """A state of the finest mesh on the coarser ones."""
         coarser = range(len(self.meshes) - 1)
         out = [self.fit(k, fine, fine.zones, (constraint,), same=True) for k in coarser]
@@ -114,7 +114,7 @@ class FittedMembrane:
             held.slivers = own if len(own) == len(fine.slivers) else nothing
         return out
 
-    def _pattern(self, start: Held, constraint: Constraint, thinnest: float, adapt: bool) -> Held:
+    def _pattern(self, start: ZonedState, constraint: Constraint, thinnest: float, adapt: bool) -> ZonedState:
         """Solve on the finest mesh with the zones of the last solution until they do not change."""
         held = self._adapted(start, constraint) if adapt else start
         wanted, last = self._thick(held.zones, thinnest), "none tried"
@@ -136,7 +136,7 @@ class FittedMembrane:
             wanted = found
         raise ConvergenceError(f"no pattern of zones agrees with its own solution ({last})")
 
-    def _adapted(self, start: Held, constraint: Constraint) -> Held:
+    def _adapted(self, start: ZonedState, constraint: Constraint) -> ZonedState:
         """A plain state solved again, with break points at the fronts of the last solution.
 
         This removes the error of a front inside a cell, except for the error of the front itself.
@@ -149,7 +149,7 @@ class FittedMembrane:
             marks = Marks(unmarked, unmarked if self.liquid else layout.marks.wet)
             guess = self.moved(held, model, layout.breaks, marks)
             state, record = solver_of(model, (self.control,)).solve(guess, [constraint])
-            held = Held(model, state, held.zones, record, (self.control,))
+            held = ZonedState(model, state, held.zones, record, (self.control,))
             held.zones = held.shown_zones(VERGE, self.liquid)
         return held
 
@@ -161,14 +161,14 @@ class FittedMembrane:
     def fit(
         self,
         level: int,
-        start: Held,
+        start: ZonedState,
         wanted: Zones,
         constraints: Sequence[Constraint],
         free: Sequence[str] | None = None,
         touch: Touch | None = None,
         same: bool = False,
         graded: bool = False,
-    ) -> Held:
+    ) -> ZonedState:
         """Solve on one mesh with its break points at the fronts and at the surface.
 
         Args:
@@ -218,9 +218,11 @@ class FittedMembrane:
         surface = None if layout.surface is None else float(breaks[layout.surface])
         found = Zones(wanted.first, fronts, surface, wanted.wet)
         touched = None if touch is None else float(breaks[node])
-        return Held(model, state, found, record, scalars, tuple(own), touched, layout)
+        return ZonedState(model, state, found, record, scalars, tuple(own), touched, layout)
 
-    def touching(self, start: Held, touch: Touch, free: Sequence[str] | None = None) -> list[Held]:
+    def touching(
+        self, start: ZonedState, touch: Touch, free: Sequence[str] | None = None
+    ) -> list[ZonedState]:
         """The state at which ``gw`` just touches 1 at a point, on every mesh, coarse to fine.
 
         Args:
@@ -231,14 +233,14 @@ class FittedMembrane:
         Raises:
             ConvergenceError: If it is not found on some mesh.
         """
-        found: list[Held] = []
+        found: list[ZonedState] = []
         for level in reversed(range(len(self.meshes))):
             start = self.fit(level, start, start.zones, (), free, touch, same=bool(found))
             touch = replace(touch, at=start.touched)
             found.append(start)
         return found[::-1]
 
-    def moved(self, start: Held, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
+    def moved(self, start: ZonedState, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
         """A state interpolated to another mesh with its marks."""
         loads = {k: v for k, v in start.state.loads.items() if not (k[0] == "b" and k[1:].isdigit())}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, model.blocks)}

@@ -22,7 +22,7 @@ from weakforms.problems.wrinkled import body
 from weakforms.problems.wrinkled.about import HEMISPHERE
 from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.membrane import Membrane
-from weakforms.problems.wrinkled.problem import PAPER_GAMMA, WrinkledNumerics
+from weakforms.problems.wrinkled.problem import PAPER_GAMMA, TREATMENT, Energy, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
 from weakforms.results import Result
@@ -59,6 +59,9 @@ class HemisphereParameters(MaterialChoice):
     gamma: float = Field(GAMMA, ge=1, le=8, description="weight of the liquid")
     c2: float = Field(
         0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean, as in the paper"
+    )
+    energy: Energy = Field(
+        "relaxed", description=f"{TREATMENT} (set low_end = -0.8 then: lower states are often not found)"
     )
     n: WaveNumbers = Field((), description="wave numbers for which stability is computed, such as 10,50")
     beta: float = Field(
@@ -150,5 +153,5 @@ def hemisphere_membrane(
     """The membrane for given parameters, for solving for single states."""
     values = {"c2": parameters.c2, "gamma": parameters.gamma}
     near = NEAR_FRONTS if parameters.n else ()
-    kind = "relaxed", near, parameters.other_law
+    kind = parameters.energy, near, parameters.other_law
     return Membrane(comm, body.HEMISPHERE, values, True, numerics.meshes, numerics.degree, *kind)

@@ -13,7 +13,7 @@ from weakforms.problems.meridian.model import BY_STATE, DRY, TAUT, WRINKLED, Mar
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.fitted import VERGE, FittedMembrane
 from weakforms.problems.wrinkled.model import WrinkledModel
-from weakforms.problems.wrinkled.state import BLOCKS, Held, model_on, solver_of
+from weakforms.problems.wrinkled.state import BLOCKS, ZonedState, model_on, solver_of
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.newton import SolveRecord
 from weakforms.solvers.equilibrium.state import State
@@ -128,13 +128,13 @@ class Membrane(FittedMembrane):
             state, _ = solver.solve(state)
         return state
 
-    def plain(self, state: State) -> Held:
+    def plain(self, state: State) -> ZonedState:
         """A state of the plain mesh with its zones."""
-        held = Held(self.plain_model, state, Zones(TAUT, ()), None)
+        held = ZonedState(self.plain_model, state, Zones(TAUT, ()), None)
         held.zones = held.shown_zones(VERGE, self.liquid)
         return held
 
-    def unloaded(self, level: int, state: float) -> Held:
+    def unloaded(self, level: int, state: float) -> ZonedState:
         """The unloaded membrane on one mesh, either completely taut or completely wrinkled.
 
         It starts from the body's easy parameters and takes steps of at most :data:`WALK`.
@@ -159,7 +159,7 @@ class Membrane(FittedMembrane):
             self.values |= goal
         return held
 
-    def unloaded_from(self, level: int, state: float, start: Held | None) -> Held:
+    def unloaded_from(self, level: int, state: float, start: ZonedState | None) -> ZonedState:
         """The same from a state of neighbouring parameters, or from the undisplaced one."""
         undisplaced = self.undisplaced()
         begin = self.plain(undisplaced)

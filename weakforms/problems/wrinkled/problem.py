@@ -18,7 +18,7 @@ from pydantic import BeforeValidator, Field
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.limits import require_bearable, require_carried
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE
 from weakforms.problems.wrinkled.body import CYLINDER
@@ -58,6 +58,10 @@ def _radius(value: object) -> object:
 Radius = Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=3)], BeforeValidator(_radius)]
 """Parameter ``Af``."""
 
+Energy = Literal["relaxed", "modified_gradient", "standard"]
+TREATMENT = "treatment of wrinkling: two forms of the same energy, or none"
+"""Parameter ``energy`` and what it says."""
+
 NEAR_FRONTS = (0.02, 0.1, 0.4)
 """Distances from fronts, over Ao, within which cells are smaller for short waves, which decay from the front
 into a taut zone over ``1/n``."""
@@ -87,9 +91,7 @@ class WrinkledParameters(MaterialChoice):
     )
     load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float | None = Field(None, gt=0, le=10, description="weight of the fluid; by default the paper's")
-    energy: Literal["relaxed", "modified_gradient", "standard"] = Field(
-        "relaxed", description="treatment of wrinkling: two forms of the same energy, or none"
-    )
+    energy: Energy = Field("relaxed", description=TREATMENT)
     load_end: float | None = Field(None, gt=0, le=100, description="load at which the branch ends")
     n: WaveNumbers = Field((), description="wave numbers for which stability is computed, such as 20,50")
     beta: float = Field(
@@ -125,6 +127,7 @@ class WrinkledTube(BranchProblem):
         require_foldable(self.name, parameters, bool(parameters.n))
         delta = parameters.delta
         require_bearable(self.name, parameters.material, delta, delta**-0.5, "delta")
+        require_carried(self.name, parameters.material, delta, parameters.M)
         control = parameters.control
         for wanted in requests.states:
             if wanted.name in LOAD.values() and wanted.name != control:

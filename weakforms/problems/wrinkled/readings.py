@@ -11,7 +11,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.meridian.model import WRINKLED
 from weakforms.problems.wrinkled.fitted import PLACE
 from weakforms.problems.wrinkled.membrane import Membrane
-from weakforms.problems.wrinkled.state import Held, solver_of
+from weakforms.problems.wrinkled.state import ZonedState, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
 from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import Solved
@@ -53,7 +53,7 @@ class Readings:
 
     # -- one mesh ------------------------------------------------------------------------------
 
-    def columns(self, held: Held) -> dict[str, float]:
+    def columns(self, held: ZonedState) -> dict[str, float]:
         """Columns of a state, including its fronts."""
         with held.lent() as meridian:
             monitors = held.model.system.monitors()
@@ -77,7 +77,7 @@ class Readings:
             **fronts,
         }
 
-    def without_fronts(self, held: Held) -> dict[str, float]:
+    def without_fronts(self, held: ZonedState) -> dict[str, float]:
         """Columns of a state without its fronts."""
         found = self.columns(held)
         return {name: value for name, value in found.items() if not self._is_front(name)}
@@ -85,7 +85,7 @@ class Readings:
     def _is_front(self, name: str) -> bool:
         return name.startswith(f"{self.abscissa}_front")
 
-    def eigenvalues(self, held: Held) -> dict[str, float]:
+    def eigenvalues(self, held: ZonedState) -> dict[str, float]:
         """The lowest eigenvalues of every wave number."""
         out: dict[str, float] = {}
         for n in self.waves:
@@ -94,7 +94,7 @@ class Readings:
             out |= {f"Lambda_n{n}_{k}": value for k, value in enumerate(found[:LOWEST], 1)}
         return out
 
-    def diagnostics(self, held: Held) -> dict[str, float]:
+    def diagnostics(self, held: ZonedState) -> dict[str, float]:
         """Number of negative eigenvalues in the symmetric space, and the record of the solve."""
         factor = solver_of(held.model, held.scalars).factor
         with held.lent():
@@ -138,7 +138,7 @@ class Readings:
         """The same as a quantity of a result."""
         return self.estimate(name, values, self._resolved(name)).quantity()
 
-    def quantities(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
+    def quantities(self, levels: Sequence[ZonedState], critical: float) -> dict[str, Quantity]:
         """All columns of a state, including its spectra.
 
         Args:
@@ -159,7 +159,7 @@ class Readings:
         waves = [self.eigenvalues(held) for held in levels]
         return found | {n: self.quantity(n, [v[n] for v in waves]) for n in waves[-1]}
 
-    def _sliver_error(self, held: Held, most: float) -> float:
+    def _sliver_error(self, held: ZonedState, most: float) -> float:
         """Error of the largest ``gw`` from thin zones, in which it is reached.
 
         In a thin zone without a block the law of the other state was used, so that only the order of ``gw -
@@ -171,7 +171,7 @@ class Readings:
         thinnest = np.diff([0.0, *held.zones.fronts, self.membrane.length]).min()
         return float(np.finfo(float).eps * held.model.cells / thinnest)
 
-    def _spectrum(self, levels: Sequence[Held], critical: float) -> dict[str, Quantity]:
+    def _spectrum(self, levels: Sequence[ZonedState], critical: float) -> dict[str, Quantity]:
         """Lowest eigenvalue at fixed load and number of negative ones (below ``-critical``).
 
         By SLEPc, and by inertia.
@@ -200,7 +200,7 @@ class Readings:
         spread = {n: u + left[n] for n, u in point.uncertainty.items()}
         return replace(point, uncertainty=spread | dict.fromkeys(exact, 0.0))
 
-    def fronts(self, levels: Sequence[Held], branch: str) -> list[SpecialPoint]:
+    def fronts(self, levels: Sequence[ZonedState], branch: str) -> list[SpecialPoint]:
         """Fronts of a state as special points."""
         values = [self.columns(held) for held in levels]
         out, control = [], self.membrane.control
@@ -211,14 +211,14 @@ class Readings:
 
     # -- fields --------------------------------------------------------------------------------
 
-    def fields(self, levels: Sequence[Held], points: np.ndarray) -> tuple[Field, ...]:
+    def fields(self, levels: Sequence[ZonedState], points: np.ndarray) -> tuple[Field, ...]:
         """The profile, and the lowest mode of every wave number except 0."""
         shown = levels[-1].model.system.formulation.profile
         profile = self._field("profile", [held.sampled(points) for held in levels], shown, points)
         modes = (self._modes(n, levels, points) for n in self.waves if n)
         return profile, *modes
 
-    def _modes(self, n: int, levels: Sequence[Held], points: np.ndarray) -> Field:
+    def _modes(self, n: int, levels: Sequence[ZonedState], points: np.ndarray) -> Field:
         samples = []
         for held in levels:
             with waves_at(held) as waves:

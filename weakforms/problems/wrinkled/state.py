@@ -94,8 +94,8 @@ def solver_of(model: WrinkledModel, scalars: tuple[str, ...], stol: float = 1e-1
 
 
 @dataclass
-class Held:
-    """A state with its model, which many states share: it is read inside of :meth:`lent`."""
+class ZonedState:
+    """A state with its zones and its model, which many states share: it is read inside of :meth:`lent`."""
 
     model: WrinkledModel
     state: State

@@ -62,12 +62,6 @@ class Edge:
         y = [self.patch.rho, self.height, self.slope, -self.dip, *([0.0, 0.0] if totals else [])]
         return shoot(self.disk, self.p, False, y, [self.patch.x, *x], self.how.rtol, totals)
 
-    def potential(self) -> float:
-        """Pi/(2 pi) of membrane, gas and springs."""
-        _, _, _, _, volume, energy = self.outside([self.disk.length], totals=True)[-1]
-        gas = self.p * (self.patch.moment + volume)
-        return self.patch.energy + energy - gas + self.patch.spring(self.disk, self.height)
-
     @property
     def volume(self) -> float:
         """Enclosed volume per 2 pi."""

@@ -63,7 +63,8 @@ def secondary_family(
         AbsentError: If the primary branch has no ``n = 1`` bifurcation point.
         ConvergenceError: If no branch is found there.
     """
-    primary = PrimaryBranch(comm, parameters.L, parameters.delta, parameters.gamma, parameters.alpha)
+    given = parameters.L, parameters.delta, parameters.gamma, parameters.alpha
+    primary = PrimaryBranch(comm, *given, parameters.other_law)
     begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
 
     made: list[SecondaryBranch] = []
@@ -72,14 +73,12 @@ def secondary_family(
         progress("secondary branch", level, numerics.secondary_levels)
         coarser = 2 ** (numerics.secondary_levels - 1 - level)
         data = SurfaceData(
-            parameters.L,
-            parameters.delta,
-            parameters.gamma,
-            parameters.alpha,
+            *given,
             numerics.secondary_cells // coarser,
             around(numerics) // coarser,
             numerics.secondary_degree,
             front=free_surface(begin),
+            material=parameters.other_law,
         )
         step, end = numerics.secondary_step, numerics.secondary_end
         below = made[-1].trend if made else None

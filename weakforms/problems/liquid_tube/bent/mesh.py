@@ -21,7 +21,7 @@ TOP = 0.4
 """Grading of the upper half of a sheet: the last cell is smaller than the mean by this."""
 
 
-SHARES = {1: (1, 2, 1, 2), 2: (2, 1, 1, 2), 3: (2, 2, 1, 1)}
+SHARES = {1: (2, 1, 1, 2), 2: (2, 1, 1, 2), 3: (2, 2, 1, 1)}
 """Cells, in sixths, between the ends, a quarter and half of the length, and the free surface, by the number
 of these other rows below it."""
 

@@ -39,6 +39,7 @@ from weakforms.forms.fluid import (
     strain_energy,
     submerged_flux,
 )
+from weakforms.problems.homogeneous.material_point import first_derivatives
 from weakforms.problems.liquid_tube.bent.edge_points import EdgePoints
 from weakforms.problems.liquid_tube.bent.edge_tangents import EdgeTangents
 from weakforms.problems.liquid_tube.bent.front import HalfSystem
@@ -83,6 +84,7 @@ class SurfaceModel(MaterialSurface):
         self._fixed = {
             name: fem.Constant(self.mesh, float(getattr(data, name))) for name in ("L", "gamma", "alpha")
         }
+        self._law = data.material.surface_law(self.mesh) if data.material else self._fixed["alpha"]
         self.copies = 1 if data.full else 2
         self.unknown.interpolate(self._over(_cylinder(data.delta)))
         self._rings = fem.Function(self.space)
@@ -139,7 +141,7 @@ class SurfaceModel(MaterialSurface):
     def energy(self, position: Expr) -> ufl.Form:
         """The part of ``Pi`` that depends on the position; doubled on half the circumference."""
         at, fixed = self.surface(position), self._fixed
-        membrane = strain_energy(at.a, at.b, fixed["alpha"]) * self._stretch * self.dx
+        membrane = strain_energy(at.a, at.b, self._law) * self._stretch * self.dx
         liquid = fixed["gamma"] * submerged_flux(at, self.zw, 2) * self._stretch * self._wet
         return self.copies * membrane + self.copies * liquid
 
@@ -236,6 +238,9 @@ class SurfaceModel(MaterialSurface):
 
     def _resultants(self, lam1: np.ndarray | float, lam2: np.ndarray | float) -> dict[str, np.ndarray]:
         """Principal Cauchy resultants ``T1`` and ``T2``."""
+        if self.data.material:
+            stresses = first_derivatives(self.data.material, lam1, lam2)
+            return {"T1": stresses[0] / 2 / lam2, "T2": stresses[1] / 2 / lam1}
         out = {}
         for name, own, other in (("T1", lam1, lam2), ("T2", lam2, lam1)):
             first = own - own**-3 / other**2

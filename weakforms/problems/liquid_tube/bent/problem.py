@@ -7,7 +7,7 @@ same zero and the same secondary branch. A mesh that is not uniform around split
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 from mpi4py import MPI
@@ -15,12 +15,15 @@ from numpy.polynomial import chebyshev
 from pydantic import Field, model_validator
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.liquid_tube.bent.about import FLUID_TUBE_SURFACE
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS, displacement, position, turned
 from weakforms.problems.liquid_tube.bent.model import SurfaceModel
 from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
-from weakforms.problems.problem import Numerics, Parameters, Problem, Requests, Task
+from weakforms.problems.material_choice import MaterialChoice, require_model
+from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held, Plane
@@ -55,13 +58,15 @@ class WholeNumerics(Numerics):
         return self
 
 
-class WholeParameters(Parameters):
+class WholeParameters(MaterialChoice):
     """The tube, its liquid, and how much of the circumference is modelled."""
+
+    ratio: ClassVar[str] = "alpha"
 
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
     delta: float = Field(2.0, gt=1, le=10, description="axial pre-stretch")
     gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
-    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1; 0 is neo-Hookean")
+    alpha: float = Field(0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     extent: Literal["half", "full"] = Field(
         "full", description="mirror-symmetric half, or the full circumference"
     )
@@ -88,11 +93,13 @@ class FluidTubeSurface(Problem):
     numerics = WholeNumerics
 
     def check(self, parameters: WholeParameters, requests: Requests) -> None:
-        """Refuse requests for states, which do not exist, and an uneven mesh on the mirror-symmetric half.
+        """Refuse requests for states, which do not exist, and what the ranges of single parameters cannot.
 
         Raises:
-            InputError: For either.
+            InputError: For any of these.
         """
+        require_model(self.name, parameters, tuple(LAWS))
+        require_bearable(self.name, parameters.material, parameters.delta, 1.0, "delta")
         if requests.states:
             raise InputError("fluid_tube_surface: it has no states; its numbers are quantities of any solve")
         if parameters.uneven and parameters.extent == "half":
@@ -129,9 +136,9 @@ class WholeRun:
         self.amplitude = parameters.amplitude
         self.full = parameters.extent == "full"
         given = parameters.L, parameters.delta, parameters.gamma, parameters.alpha
-        self.primary = PrimaryBranch(comm, *given)
+        self.primary = PrimaryBranch(comm, *given, parameters.other_law)
         given = (*given, numerics.cells, numerics.cells // 2, numerics.degree)
-        data = SurfaceData(*given, self.full, parameters.uneven)
+        data = SurfaceData(*given, self.full, parameters.uneven, material=parameters.other_law)
         self.model = SurfaceModel(comm, data)
         self.system = self.model.system
         self.begin = self.primary.bifurcation(np.linspace(0, data.length, READINGS))

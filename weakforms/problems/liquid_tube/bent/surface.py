@@ -15,6 +15,7 @@ from ufl.core.expr import Expr
 from weakforms.forms.fluid import Surface
 from weakforms.problems.liquid_tube.bent.front import FrontMap
 from weakforms.problems.liquid_tube.bent.mesh import fitted_heights, flat_sheet, heights, polygon, prism
+from weakforms.problems.material_choice import Chosen
 
 Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """A position, or displacement, of shape ``(3, n)`` at material points ``Z``, ``Theta``."""
@@ -39,6 +40,8 @@ class SurfaceData:
     uneven: float = 0.0
     front: float | None = None
     """On half the circumference: approximate position of the free surface, which the mesh follows."""
+    material: Chosen | None = None
+    """A law that replaces the Mooney-Rivlin law with ``alpha``."""
 
     @property
     def length(self) -> float:

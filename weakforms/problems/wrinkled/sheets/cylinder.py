@@ -20,19 +20,20 @@ from mpi4py import MPI
 from pydantic import Field
 from ufl.core.expr import Expr
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
 from weakforms.forms.wrinkling import surface_tension_field
 from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.meridian.limits import require_carried
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.wrinkled.body import CYLINDER, SHARED
-from weakforms.problems.wrinkled.branch import WrinkledBranch
+from weakforms.problems.wrinkled.branch import first_state
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets.about import WRINKLED_SHEET
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.results import Absence, Result
-from weakforms.solvers.equilibrium.constraints import Held as Prescribed
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import System
@@ -63,7 +64,7 @@ class Sheet:
     around: int
     along: int
     degree: int
-    start: Held
+    start: ZonedState
     """Axisymmetric state at the load."""
 
     def solve(self, comm: MPI.Intracomm) -> dict[str, float]:
@@ -183,22 +184,19 @@ class WrinkledSheet(Problem):
         """Refuse requests for states, because there is only one, and laws without a two-dimensional form."""
         super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
+        require_carried(self.name, parameters.material, parameters.delta, parameters.M)
 
     def fill(self, result: Result, task: Task) -> None:
         """Solve on two meshes, starting from the axisymmetric state with its fronts, if there is one."""
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
-        branch = WrinkledBranch(membrane, parameters.at_load, parameters.volume_end, 0.5, 12)
         try:
-            plain = membrane.plain(branch.near(membrane.control, parameters.at_load).state)
-        except InputError as error:
-            if branch.trace.stalled:
-                raise ConvergenceError(f"{self.name}: {error}: {branch.trace.stalled}") from error
-            searched = f"{error}, up to {parameters.volume_end:g} times the volume without load"
-            reason = f"{self.name}: {searched}; lower at_load, or raise volume_end"
-            result.absent.append(Absence("state at at_load", reason))
+            plain = first_state(membrane, parameters.at_load, parameters.volume_end)
+        except AbsentError as error:
+            reason = f"{self.name}: {error}; lower at_load, or raise volume_end"
+            result.absent.append(Absence(error.what, reason))
             return
-        (start,) = membrane.fitted(plain, Prescribed(membrane.control, parameters.at_load), fine_only=True)
+        (start,) = membrane.fitted(plain, Held(membrane.control, parameters.at_load), fine_only=True)
 
         def run(coarser: int) -> dict[str, float]:
             cells = numerics.around // coarser, numerics.along // coarser

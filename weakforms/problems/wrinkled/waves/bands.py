@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.solvers.support.roots import root
 
@@ -26,7 +26,7 @@ AROUND, NODES = 0.05, 9
 class Bands:
     """Real wave numbers at one state, with a bending stiffness."""
 
-    held: Held
+    held: ZonedState
     beta: float = 0.0
 
     def lowest(self, n: float, beta: float | None = None) -> float:

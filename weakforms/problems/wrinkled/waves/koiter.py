@@ -15,7 +15,7 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.revolution import hoop_bending, meridional_bending
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import Waves, waves_of
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.stability.modes import SecondVariation
@@ -82,7 +82,7 @@ def _shell_of(model: WrinkledModel) -> ShellWaves:
     return ShellWaves(model)
 
 
-def shell_eigenvalue(held: Held, n: float, beta: float) -> float:
+def shell_eigenvalue(held: ZonedState, n: float, beta: float) -> float:
     """Lowest eigenvalue for ``n`` waves with the shell's bending stiffness ``beta H^3``."""
     with held.lent():
         return _shell_of(held.model).lowest(n, beta)

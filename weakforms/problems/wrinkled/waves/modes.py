@@ -25,7 +25,7 @@ from weakforms.forms.fluid import axisymmetric
 from weakforms.problems.meridian.blocks import LOWER, UPPER
 from weakforms.problems.wrinkled.fields import Meridian
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation, judged
@@ -206,7 +206,7 @@ def waves_of(model: WrinkledModel) -> Waves:
 
 
 @contextmanager
-def waves_at(held: Held) -> Iterator[Waves]:
+def waves_at(held: ZonedState) -> Iterator[Waves]:
     """Context in which the model belongs to a state; gives the waves of the state."""
     with held.lent():
         yield waves_of(held.model)

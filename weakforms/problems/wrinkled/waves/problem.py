@@ -13,21 +13,23 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.meridian.limits import require_carried
 from weakforms.problems.problem import Problem, Requests, Task
+from weakforms.problems.wrinkled.branch import first_state
 from weakforms.problems.wrinkled.problem import (
     WrinkledNumerics,
     WrinkledParameters,
     wrinkled_membrane,
 )
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.about import WRINKLED_BENDING, WRINKLED_LINEAR
 from weakforms.problems.wrinkled.waves.bands import Bands
 from weakforms.problems.wrinkled.waves.koiter import shell_eigenvalue
 from weakforms.problems.wrinkled.waves.numbers import MOST_WAVES
 from weakforms.problems.wrinkled.waves.trial import trial_form
-from weakforms.results import Failure, Quantity, Result
+from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.equilibrium import constraints as fixed
 from weakforms.solvers.uncertainty.refinement import estimate
 
@@ -74,6 +76,7 @@ class AtLevel(Problem):
         """Refuse requests for states, because there is only one, and laws without a form for waves."""
         super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
+        require_carried(self.name, parameters.material, parameters.delta, parameters.M)
 
     def fill(self, result: Result, task: Task) -> None:
         """Solve for the state at the level on all meshes, and compute the quantities."""
@@ -83,23 +86,33 @@ class AtLevel(Problem):
             levels = _states(parameters, numerics, comm)
             progress("waves", 0, 1)
             result.quantities |= self._quantities(levels, parameters, 2 * numerics.degree)
+        except AbsentError as error:
+            result.absent.append(Absence(error.what, f"{self.name}: {error}"))
         except ConvergenceError as error:
             hint = "; a lower zw, which may be above its limit, or a smaller Af may give a state"
             result.failures.append(Failure(f"zw = {parameters.zw:g}", f"{error}{hint}"))
 
-    def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
+    def _quantities(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
         raise NotImplementedError
 
 
-def _states(parameters: LevelParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> list[Held]:
+def _states(parameters: LevelParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> list[ZonedState]:
     given = {name: getattr(parameters, name) for name in ("model", "M", "delta", "L", "Af", "gamma")}
     given |= {"c2": parameters.c2} if parameters.other_law is None else dict(parameters.constants)
     membrane = wrinkled_membrane(WrinkledParameters(**given, n=(1,)), numerics, comm)
-    state, _ = membrane.by_homotopy(parameters.zw)
-    return membrane.fitted(membrane.plain(state), fixed.Held("zw", parameters.zw))
+    try:
+        plain = membrane.plain(membrane.by_homotopy(parameters.zw)[0])
+    except ConvergenceError:  # from no load to a high level at once is too far
+        try:
+            plain = first_state(membrane, parameters.zw)
+        except AbsentError as error:
+            raise AbsentError(error.what, f"{error}; lower zw") from error
+    return membrane.fitted(plain, fixed.Held("zw", parameters.zw))
 
 
-def _on_all(levels: list[Held], value: Callable[[Held], float], cap: float, left: float) -> Quantity:
+def _on_all(
+    levels: list[ZonedState], value: Callable[[ZonedState], float], cap: float, left: float
+) -> Quantity:
     """A number of the state from its values on all meshes."""
     return estimate([value(held) for held in levels], cap).quantity(left)
 
@@ -110,7 +123,7 @@ class WrinkledLinear(AtLevel):
     about = WRINKLED_LINEAR
     parameters = LinearParameters
 
-    def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
+    def _quantities(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
         trials = [trial_form(held, parameters.f) for held in levels]
         names = ("A", "B", "B_exact", "n_star", "curved")
         out = {}
@@ -131,7 +144,7 @@ class WrinkledBending(AtLevel):
     about = WRINKLED_BENDING
     parameters = BendingParameters
 
-    def _quantities(self, levels: list[Held], parameters: Any, cap: float) -> dict[str, Quantity]:
+    def _quantities(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
         n, beta = parameters.n, parameters.beta
         out = {}
         for name, stiffness in (("Lambda_membrane", 0.0), ("Lambda_B1", beta)):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from weakforms.errors import ConvergenceError
 from weakforms.problems.wrinkled.events import SLACK, Event
 from weakforms.problems.wrinkled.membrane import Membrane
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
@@ -36,7 +36,7 @@ class Sample:
 
     value: float
     """Value of the prescribed column."""
-    held: Held
+    held: ZonedState
     lowest: float
 
 
@@ -49,9 +49,9 @@ class Change:
     """1 if the eigenvalue becomes negative along the branch, -1 if it becomes positive."""
     after: int
     """Index of the point of the branch before it."""
-    levels: tuple[Held, ...]
+    levels: tuple[ZonedState, ...]
     """The state on every mesh, coarse to fine."""
-    beside: Held | None = None
+    beside: ZonedState | None = None
     """The finest mesh's state of smallest magnitude, if ``levels`` belong to a zone's event close to it."""
 
 
@@ -75,12 +75,12 @@ class StabilityChanges:
         self.membrane, self.n, self.beta, self._events = membrane, n, beta, events
         self.failures: list[Failure] = []
 
-    def lowest(self, held: Held) -> float:
+    def lowest(self, held: ZonedState) -> float:
         """The lowest eigenvalue."""
         with waves_at(held) as waves:
             return waves.spectrum(self.n, 1, self.beta).eigenvalues[0]
 
-    def between(self, points: Sequence[tuple[int, str, float, Held]]) -> list[Change]:
+    def between(self, points: Sequence[tuple[int, str, float, ZonedState]]) -> list[Change]:
         """All changes between neighbours of a branch, in order.
 
         Args:
@@ -100,7 +100,7 @@ class StabilityChanges:
     # -- intervals ------------------------------------------------------------------------------
 
     def _brackets(
-        self, points: Sequence[tuple[int, str, float, Held]], values: Sequence[float], j: int
+        self, points: Sequence[tuple[int, str, float, ZonedState]], values: Sequence[float], j: int
     ) -> list[tuple[Sample, Sample]]:
         """Intervals between two neighbours in which the eigenvalue changes its sign once."""
         name = points[j + 1][1]
@@ -113,7 +113,7 @@ class StabilityChanges:
         return self._around_a_dip(*ends, name, dip)
 
     @staticmethod
-    def _value(point: tuple[int, str, float, Held], name: str) -> float:
+    def _value(point: tuple[int, str, float, ZonedState], name: str) -> float:
         _, own, value, held = point
         if own == name:
             return value
@@ -135,7 +135,7 @@ class StabilityChanges:
 
     # -- roots ---------------------------------------------------------------------------------
 
-    def _at(self, name: str, value: float, start: Held) -> Sample:
+    def _at(self, name: str, value: float, start: ZonedState) -> Sample:
         """The state of the finest mesh at a value of a column."""
         (held,) = self.membrane.fitted(start, fixed.Held(name, value), fine_only=True)
         return Sample(value, held, self.lowest(held))
@@ -154,7 +154,7 @@ class StabilityChanges:
 
     def _on_all(
         self, tried: Sequence[Sample], name: str, sides: tuple[Sample, Sample] | None
-    ) -> tuple[Held, ...]:
+    ) -> tuple[ZonedState, ...]:
         """The root on every mesh, starting from the root on the finest one."""
         if sides is not None:
             before, beyond = sides
@@ -217,7 +217,7 @@ class StabilityChanges:
                 last = error
         raise last
 
-    def _on_mesh(self, level: int, held: Held, name: str, value: float, slope: float) -> Held:
+    def _on_mesh(self, level: int, held: ZonedState, name: str, value: float, slope: float) -> ZonedState:
         """The root on a coarser mesh by secants, starting from the root on the finest one."""
         last = None
         for _ in range(MOST_SECANTS):

@@ -14,11 +14,11 @@ from dolfinx import fem
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError
 from weakforms.forms.revolution import second_order
 from weakforms.problems.meridian.model import TAUT
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
-from weakforms.problems.wrinkled.state import Held
+from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import waves_of
 
 PROBES = (10.0, 20.0, 30.0)
@@ -74,7 +74,7 @@ def _trial_of(model: WrinkledModel, power: int) -> Trial:
     return Trial(model, power)
 
 
-def trial_form(held: Held, power: int) -> dict[str, float]:
+def trial_form(held: ZonedState, power: int) -> dict[str, float]:
     """``A``, ``B`` (fitted and in closed form), ``n_star = A/(-B)``, and how nonlinear ``n`` enters.
 
     Args:
@@ -82,12 +82,13 @@ def trial_form(held: Held, power: int) -> dict[str, float]:
         power: Power of the sine.
 
     Raises:
-        InputError: If there is no wrinkled wet part.
+        AbsentError: If there is no wrinkled wet part.
     """
     if held.zones.first == TAUT or (held.zones.surface is None and not held.zones.wet):
-        raise InputError(
-            "wrinkled_linear: the lower end is dry or taut, there is no wrinkled wet part to be perturbed; a "
-            "smaller Af or a larger M or delta wrinkles it, a higher zw wets it"
+        raise AbsentError(
+            "wrinkled wet part",
+            "the lower end is dry or taut, there is no wrinkled wet part to be perturbed; a smaller Af or a "
+            "larger M or delta wrinkles it, a higher zw wets it",
         )
     trial = _trial_of(held.model, power)
     ends = [float(held.model.breaks_of(held.state.loads)[-1]), *held.zones.fronts[:1]]
