@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from weakforms.errors import EnvironmentLackError, InputError, not_among
 from weakforms.results import Result
+from weakforms.world import world
 
 States = Mapping[str, float] | Iterable[tuple[str, float]]
 """Requested states: a column and its value, or a kind of special point and its number."""
@@ -24,7 +25,7 @@ def require_environment() -> Any:
         import petsc4py
 
         # This comes first: a .petscrc in the current folder, written by anybody, could load a library.
-        petsc4py.init(["weakforms", "-skip_petscrc"])
+        petsc4py.init(["weakforms", "-skip_petscrc"], comm=world())
         from weakforms.problems import registry
 
         registry.problems()
@@ -52,6 +53,7 @@ def solve(
     crossing: int | Literal["all"] = 1,
     branch: str = "primary",
     numerics: Mapping[str, Any] | None = None,
+    accuracy: float | None = None,
     progress: Any = None,
     **parameters: Any,
 ) -> Result:
@@ -64,19 +66,21 @@ def solve(
         crossing: Which crossing of these values along the branch, from 1, or ``"all"``.
         branch: Name of the branch with these states.
         numerics: Meshes and degree, if not the defaults.
+        accuracy: Use meshes on which the bound of every number is at most a tenth of this, relative to the
+            largest magnitude of its column; they are coarser or finer than the default ones.
         progress: Called with the current step, the amount of work done and the total amount.
         **parameters: Parameters of the problem; those not given keep their defaults.
 
     Returns:
-        Branch, special points and states, every number with its uncertainty. A parameter without effect is a
-        Python warning, and listed in ``warnings`` of the result.
+        Branch, special points and states, every number with its uncertainty. A parameter without effect, or
+        one that was changed to reach a state, is a Python warning, and listed in ``warnings`` of the result.
 
     Raises:
         InputError: For an unknown problem or parameter, or a value out of range; nothing was solved.
         ConvergenceError: If no branch could be started.
         EnvironmentLackError: If dolfinx is missing.
     """
-    result = prepare(problem, parameters, numerics or {}, at, crossing, branch)(progress)
+    result = prepare(problem, parameters, numerics or {}, at, crossing, branch, accuracy)(progress)
     for text in result.warnings:
         warnings.warn(f"{problem}: {text}", UserWarning, stacklevel=2)
     return result
@@ -89,6 +93,7 @@ def prepare(
     at: States,
     crossing: int | Literal["all"] = 1,
     branch: str = "primary",
+    accuracy: float | None = None,
 ) -> Callable[[Any], Result]:
     """Do everything that :func:`solve` does before solving.
 
@@ -109,7 +114,7 @@ def prepare(
         raise InputError(f"{problem}: crossing = {crossing} must be 1 or more, or 'all'")
     wanted = at.items() if isinstance(at, Mapping) else at
     states = [StateRequest(name, state_value(name, v), crossing, branch, profile=()) for name, v in wanted]
-    return prepared(problem, parameters, numerics, states)
+    return prepared(problem, parameters, numerics, states, ahead=True, accuracy=accuracy)
 
 
 def solve_requests(
@@ -134,30 +139,46 @@ def prepared(
     states: Iterable[Any],
     branch_uncertainty: bool = True,
     drawn: int = 0,
+    ahead: bool = False,
+    accuracy: float | None = None,
 ) -> Callable[[Any], Result]:
     """Do everything that :func:`solve_requests` does before solving, as :func:`prepare` does.
 
     Raises:
-        InputError: For an unknown problem, parameter or branch, or a value out of range.
+        InputError: For an unknown problem, parameter or branch, or a value out of range; for an accuracy of a
+            problem whose meshes cannot be refined.
         EnvironmentLackError: If dolfinx is missing.
     """
     registry = require_environment()
-    from mpi4py import MPI
-
-    from weakforms.problems.problem import Requests, ended, require_within, silent, validated
+    from weakforms.problems.accuracy import at_accuracy, require_accuracy
+    from weakforms.problems.problem import Requests, ended, silent, validated
+    from weakforms.problems.reach import reached, within
 
     chosen = registry.get(problem)
     values = validated(chosen.parameters, dict(parameters), problem)
     meshes = validated(chosen.numerics, dict(numerics), f"{problem} numerics")
-    requests = Requests(tuple(states), branch_uncertainty, drawn)
+    requests = Requests(tuple(states), branch_uncertainty, drawn, ahead)
     chosen.check(values, requests)
-    require_within(chosen, values, requests)
+    within(chosen, values, requests)
+    if accuracy is not None:
+        require_accuracy(accuracy, problem, meshes)
+
+    def on(given: Any, numerics: Any, progress: Any) -> Result:
+        return chosen.solve(given, numerics, requests, world(), progress or silent)
+
+    def solve_with(given: Any, progress: Any) -> Result:
+        if accuracy is None:
+            result = on(given, meshes, progress)
+        else:
+            default = chosen.resolving(given, meshes)
+            result = at_accuracy(accuracy, default, lambda numerics: on(given, numerics, progress))
+        for k, branch in enumerate(result.branches):
+            end = branch.ended or ended(branch, chosen.ends(given, branch.name), result)
+            result.branches[k] = replace(branch, ended=end)
+        return result
 
     def run(progress: Any) -> Result:
-        result = chosen.solve(values, meshes, requests, MPI.COMM_WORLD, progress or silent)
-        for k, branch in enumerate(result.branches):
-            end = ended(branch, chosen.ends(values, branch.name), result)
-            result.branches[k] = replace(branch, ended=end)
+        result = reached(chosen, values, requests, lambda given: solve_with(given, progress))
         result.warnings.extend(values.without_effect())
         return result
 

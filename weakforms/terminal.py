@@ -19,6 +19,7 @@ import typer
 from rich.console import Console
 
 from weakforms.errors import InputError, WeakformsError, lacking, not_among
+from weakforms.world import world
 
 _LACKS = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO),
@@ -107,20 +108,17 @@ def once(option: str, given: list[str] | None) -> dict[str, str]:
 def rank() -> int:
     """The rank of this process; 0 without MPI."""
     try:
-        from mpi4py import MPI
+        return world().rank
     except ImportError:
         return 0
-    return MPI.COMM_WORLD.rank
 
 
 def free_cores() -> int:
     """Default number of processes: one for each core, or one if MPI ranks share the work already."""
     try:
-        from mpi4py import MPI
+        ranks = world().size
     except ImportError:
         ranks = 1
-    else:
-        ranks = MPI.COMM_WORLD.size
     return min(len(os.sched_getaffinity(0)), 64) if ranks == 1 else 1
 
 
@@ -251,6 +249,18 @@ def complain(text: str) -> None:
     if len(line) > LONGEST_MESSAGE:
         line = f"{line[: LONGEST_MESSAGE // 2]} ... {line[-LONGEST_MESSAGE // 4 :]}"
     sys.stderr.write(f"weakforms: {line}\n")
+
+
+def require_one_rank(verb: str) -> None:
+    """Refuse to run a verb on several ranks, each of which would do all of its work.
+
+    Raises:
+        InputError: In a run on several ranks.
+    """
+    from mpi4py import MPI
+
+    if MPI.COMM_WORLD.size > 1:
+        raise InputError(f"{verb} runs on one rank, not on {MPI.COMM_WORLD.size}: start it without mpirun")
 
 
 def _abort_other_ranks() -> None:

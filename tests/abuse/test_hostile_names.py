@@ -116,7 +116,7 @@ def harmless(page: str) -> None:
             assert not name.startswith("on"), (tag, name)
             if name in ("href", "src", "action", "xlink:href"):
                 assert re.match(
-                    r"(#|data:,$|https://fenicsproject\.org|[\w./-]*\.(html|json|xml|vtu|svg|csv)(#|$)|$)",
+                    r"(#|data:,$|https://fenicsproject\.org|[\w./-]*\.(html|json|xml|vtu|svg|csv|pdf)(#|$)|$)",
                     value,
                 ), value
     assert not re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f]", page)

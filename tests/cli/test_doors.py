@@ -3,10 +3,12 @@
 import json
 import os
 import string
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mpi4py import MPI
 
 from weakforms.verification.cases import references
 from weakforms.verification.judging.outcome import Printed, Verdict
@@ -239,3 +241,27 @@ CASE = {
     "seconds": 1.0,
     "solutions": [{"spec": "tube()", "provenance": {"dolfinx": "0"}}],
 }
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("faults", "--only", "load-stiffness-dropped"),
+        ("faults", "--random", "1"),
+        ("faults", "--measure", "-k", "bounds"),
+        ("audit", "--problem", "tube"),
+        ("coverage", "--sets", "1"),
+    ],
+)
+def test_what_starts_processes_of_its_own_is_refused_on_several_ranks(
+    weakforms, words, tmp_path, monkeypatch
+):
+    ended = []
+    two = SimpleNamespace(size=2, rank=0, Get_rank=lambda: 0, Get_size=lambda: 2, Abort=ended.append)
+    monkeypatch.setattr(MPI, "COMM_WORLD", two)
+    called = weakforms(*words, "--out", tmp_path / "out")
+    monkeypatch.undo()
+    assert called.status == 2
+    assert "runs on one rank, not on 2: start it without mpirun" in called.err
+    assert not ended, "every rank refuses it by itself"
+    assert not list(tmp_path.iterdir())

@@ -206,7 +206,9 @@ def test_nothing_is_written_when_nothing_converged(weakforms, tmp_path, monkeypa
 def test_a_state_that_is_not_there_is_named_with_the_range(weakforms):
     called = weakforms(*TUBE, *SHORT, "--at", "u_max=99")
     assert (called.status, called.out, called.err.count("\n")) == (2, "", 1)
-    assert called.err == "weakforms: tube: u_max = 99 lies beyond u_end = 0.5; raise u_end\n"
+    assert (
+        called.err == "weakforms: tube: u_max = 99 lies beyond u_end = 0.5; raise u_end (allowed: up to 10)\n"
+    )
     called = weakforms(*TUBE, *SHORT, "--at", "u_max=0.4", "--crossing", 2)
     assert (called.status, called.out, called.err.count("\n")) == (2, "", 1)
     assert "u_max = 0.4 is crossed 1 times on this branch, not 2; u_max ranges over" in called.err

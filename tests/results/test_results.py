@@ -9,6 +9,7 @@ import pytest
 
 from weakforms.errors import InputError
 from weakforms.results import (
+    Absence,
     Branch,
     Failure,
     Field,
@@ -22,6 +23,7 @@ from weakforms.results import (
     write_atomically,
 )
 from weakforms.results.io import branch_csv, dumps, require_place_for, require_writable
+from weakforms.results.tables import csv_text, other_rows
 
 VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "1")
 
@@ -128,6 +130,19 @@ def test_what_is_not_finite_is_never_written():
     data["quantities"]["p"]["value"] = float("nan")
     with pytest.raises(ValueError, match="not JSON compliant"):
         dumps(data)
+
+
+def test_other_rows_hold_quantities_ends_and_what_is_missing():
+    result = full()
+    result.absent.append(Absence("cusp", "looked for between 1 and 3"))
+    quantities, end, absent, failed = other_rows(result)
+    assert quantities == {"what": "quantities", "count": 3, "p": 0.1, "p_uncertainty": 1e-9}
+    assert (end["what"], end["branch"], end["n_negative"]) == ("end", "primary", 1)
+    assert absent == {"what": "not there", "reason": "cusp: looked for between 1 and 3"}
+    lines = csv_text([quantities, failed]).split("\n")
+    assert lines[0] == "what,count,p,p_uncertainty,reason"
+    assert len(lines) == 4, "one line end a row, on every system"
+    assert failed == {"what": "failed", "reason": "state at p = 9: not there"}
 
 
 def test_csv_has_every_branch_and_column():

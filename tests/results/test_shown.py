@@ -62,6 +62,8 @@ def result():
         (0.0, 1e-3, "0.0000(10)"),
         (3.2e-9, 1.5e-10, "3.20(15)e-09"),
         (2.5e7, 1e3, "2.50000(10)e+07"),
+        (1.001e6, 1e3, "1.0010(10)e+06"),
+        (0.999e6, 1e3, "999000(1000)"),
         (1.0, 1e-30, "1.00000000000000(1)"),
         (1.0, 0.0, "1"),
         (2 / 3, None, "0.666666666667"),
@@ -154,6 +156,10 @@ def test_unstable_parts_are_dashed_and_special_points_marked(result):
     assert solid.get_xdata()[-1] == dashed.get_xdata()[0] == 2.5
     assert [2.5] in [list(line.get_xdata()) for line in axes.get_lines() if line.get_marker() == "o"]
     assert [text.get_text() for text in axes.texts] == ["u_max = 5 (u_end)"]
+    assert [
+        [*line.get_xdata(), *line.get_ydata()] for line in axes.get_lines() if line.get_marker() == "|"
+    ] == [[5.0, 0.0]]
+    assert axes.texts[0].xy == (5.0, 0.0)
     assert "limit point" in [text.get_text() for text in axes.get_legend().get_texts()]
 
 

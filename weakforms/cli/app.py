@@ -60,6 +60,14 @@ Jobs = Annotated[
         help="Number of parallel processes.",
     ),
 ]
+Engine = Annotated[
+    str,
+    typer.Option(
+        "--executor",
+        metavar="processes|mpi|dask:ADDRESS",
+        help="What solves: processes of this machine (-j), the other ranks of mpirun, a Dask cluster.",
+    ),
+]
 Resume = Annotated[bool, typer.Option("--resume", help="Keep what an interrupted run stored.")]
 
 

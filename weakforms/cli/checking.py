@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from weakforms.cli.app import Jobs, Out, Resume, app, examples
+from weakforms.cli.app import Engine, Jobs, Out, Resume, app, examples
 from weakforms.errors import InputError
 
 
@@ -19,13 +19,17 @@ def check(
     jobs: Jobs,
     out: Out = Path("out"),
     resume: Resume = False,
+    engine: Engine = "processes",
 ) -> None:
     """Solve and check single cases."""
     from weakforms.verification.cases.discovery import get_case
     from weakforms.verification.run import verbs
+    from weakforms.verification.run.executors import executor
 
     names = list(dict.fromkeys(names))
-    verbs.verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
+    with executor(engine) as first:
+        if first:
+            verbs.verify([get_case(name) for name in names], out, "full", " ".join(names), jobs, resume)
 
 
 @app.command(
@@ -33,6 +37,7 @@ def check(
         "weakforms verify --profile quick",
         "weakforms verify --paper 2 -j 2",
         "weakforms verify -k 'fig03 or fig04' --resume",
+        "weakforms verify --executor dask:tcp://localhost:8786",
     )
 )
 def verify(
@@ -44,10 +49,12 @@ def verify(
     profile: Annotated[str, typer.Option(help="quick or full.")] = "full",
     resume: Resume = False,
     out: Out = Path("out"),
+    engine: Engine = "processes",
 ) -> None:
     """Solve and check all cases, then write the report."""
     from weakforms.verification.cases.discovery import select
     from weakforms.verification.run import verbs
+    from weakforms.verification.run.executors import executor
 
     if profile not in ("quick", "full"):
         raise InputError(f"--profile {profile!r}: allowed are quick and full")
@@ -58,7 +65,9 @@ def verify(
             raise InputError("none of the selected cases is in the quick profile")
     words = [f"paper {paper}"] if paper else []
     words += [f"-k {expression!r}"] if expression else []
-    verbs.verify(cases, out, profile, ", ".join(words) or "all cases", jobs, resume)
+    with executor(engine) as first:
+        if first:
+            verbs.verify(cases, out, profile, ", ".join(words) or "all cases", jobs, resume)
 
 
 @app.command(epilog=examples("weakforms report out", "weakforms report out --pdf --other out/elsewhere"))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from weakforms.cli.app import Json, Resume, app, examples
+from weakforms.cli.app import Engine, Json, Resume, app, examples
 from weakforms.errors import InputError
 from weakforms.terminal import console, once, plain, print_json, progress_bar, rank
 
@@ -129,15 +129,19 @@ def batch(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder of request files, *.json.")],
     out: Annotated[Path | None, typer.Option(help="Folder for the answers; default: DIR/results.")] = None,
     resume: Resume = False,
+    engine: Engine = "processes",
 ) -> None:
     """Answer a folder of requests: solutions and verdicts, one file each.
 
     The exit status is the largest of all requests (0 within bounds, 1 out of bounds, 2 bad input, 3 a solve
     did not converge, 4 something is not installed, 5 not judged).
     """
+    from weakforms.verification.run.executors import executor
     from weakforms.verification.run.requests import run_batch
 
-    with progress_bar() as progress:
+    with executor(engine) as first, progress_bar() as progress:
+        if not first:
+            return
         answers = run_batch(folder, out, resume, rank() == 0, progress)
     for found in answers if rank() == 0 else ():
         console().print(plain(f"{found.name}: {found.status} {found.message}".rstrip()), soft_wrap=True)

@@ -1,4 +1,4 @@
-"""The verb that writes the documentation: docs."""
+"""The verbs that write what is published: docs, archive."""
 
 from __future__ import annotations
 
@@ -26,3 +26,19 @@ def docs(
     with progress_bar() as progress:
         page = write_docs(out, jobs, pictures, progress)
     console().print(f"documentation: {plain(page)}", soft_wrap=True)
+
+
+@app.command(epilog=examples("weakforms archive --out weakforms-0.1.0.zip"))
+def archive(
+    out: Annotated[Path, typer.Option("--out", help="The zip file.")] = Path("out/weakforms.zip"),
+) -> None:
+    """Write the committed tree as a zip file for a data repository that gives it a DOI.
+
+    It contains the checksum of every file (SHA256SUMS), the metadata of a repository (.zenodo.json,
+    from CITATION.cff), and the licences of code and data. The same commit gives the same file.
+    """
+    from weakforms.archive import write_archive
+    from weakforms.verification.cases.references import ROOT
+
+    digest = write_archive(ROOT, out)
+    console().print(f"archive: {plain(out)}\nsha256: {digest}", soft_wrap=True)

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from weakforms.cli.app import Jobs, Json, Resume, app, examples, problem_names
+from weakforms.cli.app import Engine, Jobs, Json, Resume, app, examples, problem_names
 from weakforms.errors import InputError
 from weakforms.results import Result
 from weakforms.terminal import (
@@ -70,6 +70,7 @@ def show(
         "weakforms solve tube delta1=1.1 --at p=1.9 --crossing all --out r.json",
         "weakforms solve circular contact=adhesive k=50 --at p=2 --json > r.json",
         "weakforms solve sphere model=ogden --format csv --out branch.csv",
+        "weakforms solve tube alpha=0.2 --accuracy 1e-6",
     )
 )
 def solve(  # noqa: PLR0913, PLR0917  (one an option)
@@ -103,6 +104,12 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
         Path | None,
         typer.Option(metavar="FILE.json", help="Request file with parameters, at, numerics."),
     ] = None,
+    accuracy: Annotated[
+        float | None,
+        typer.Option(
+            metavar="A", help="Choose meshes on which the bound of every number is at most a tenth of A."
+        ),
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="File for the result.")] = None,
     form: Annotated[
         str | None, typer.Option("--format", help="json or csv (csv: the branches only).")
@@ -124,7 +131,7 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
     if as_json and form == "csv":
         raise InputError("--json and --format csv exclude each other")
     given = request(spec, [*(words or []), *(sets or [])], at, mesh)
-    solve_it = api.prepare(problem, **given, crossing=_crossing(crossing), branch=branch)
+    solve_it = api.prepare(problem, **given, crossing=_crossing(crossing), branch=branch, accuracy=accuracy)
     if out is not None:
         require_place_for(out)
     with progress_bar() as progress:
@@ -173,7 +180,7 @@ def _crossing(text: str) -> int | Literal["all"]:
         "weakforms sweep tube delta1=1:1.2:0.1 alpha=0.1:0.3:0.1 lf=8 --at u_max=1 --resume",
     )
 )
-def sweep(
+def sweep(  # noqa: PLR0913, PLR0917  (one an option)
     problem: Annotated[
         str, typer.Argument(help="Name of the problem; see: weakforms list.", autocompletion=problem_names)
     ],
@@ -196,6 +203,7 @@ def sweep(
     ] = None,
     out: Annotated[Path, typer.Option(help="Folder for the table and all solutions.")] = Path("out/sweep"),
     resume: Resume = False,
+    engine: Engine = "processes",
 ) -> None:
     """Solve a problem at all combinations of parameters; a table of special points and chosen states.
 
@@ -206,13 +214,16 @@ def sweep(
     from weakforms.cli.screen import print_sweep
     from weakforms.verification.cases.specs import At
     from weakforms.verification.run import sweep as sweeps
+    from weakforms.verification.run.executors import executor
 
     given = once("parameter", words)
     ranges = {name: sweeps.span(value) for name, value in given.items()}
     parameters = {name: ranges[name] or value for name, value in given.items()}
     states = [At(n, state_value(n, v), _crossing(crossing), branch=branch) for n, v in pairs("--at", at)]
     try:
-        with progress_bar() as progress:
+        with executor(engine) as first, progress_bar() as progress:
+            if not first:
+                return
             done = sweeps.sweep(
                 problem,
                 out,

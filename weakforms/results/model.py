@@ -108,7 +108,7 @@ class Ended:
     value: float
     """This value: the parameter's, or that of the last point."""
     reason: str = ""
-    """More about it, if no parameter ends the branch."""
+    """More about it: why, if no parameter ends the branch, or what lies beyond."""
 
     def __str__(self) -> str:
         why = self.by if not self.reason else f"{self.by}: {self.reason}"

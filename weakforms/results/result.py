@@ -32,7 +32,7 @@ class Result:
     failures: list[Failure] = field(default_factory=list)
     absent: list[Absence] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
-    """What was asked for and changes nothing, such as a parameter without effect."""
+    """A parameter that was set and has no effect, or one that was changed to reach a requested state."""
 
     def branch(self, name: str = "primary") -> Branch:
         """The branch of that name.

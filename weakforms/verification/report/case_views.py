@@ -15,13 +15,13 @@ from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import part
 from weakforms.verification.judging.outcome import CaseOutcome, Convergence, PanelOutcome, Verdict
 from weakforms.verification.report import summary, wording
-from weakforms.verification.report.figures import convergence_figure, panel_figure
+from weakforms.verification.report.figures import Picture, convergence_figure, panel_picture
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.manual import manual, references
 from weakforms.verification.report.surface_figures import surface_figure
 from weakforms.verification.report.svg import standalone
 from weakforms.verification.report.wording import anchor, file_name, unused
-from weakforms.verification.run.workers import workers
+from weakforms.verification.run.workers import in_this_process, workers
 
 FOLDED = 30
 """If a case has more passed checks than this, they are folded under their summary."""
@@ -30,13 +30,15 @@ FOLDED = 30
 def draw(shown: Sequence[dict[str, Any]], jobs: int) -> None:
     """Replace calls by the pictures that they draw."""
     calls = [entry["svg"] for entry in shown]
-    if jobs == 1:
+    if in_this_process(jobs):
         drawn = map(call, calls)
     else:
         with workers(jobs) as pool:
             drawn = list(pool.map(call, calls, chunksize=4))
     for entry, picture in zip(shown, drawn, strict=True):
-        entry["svg"] = Markup(picture)
+        if isinstance(picture, Picture):
+            entry["pdf"] = picture.pdf
+        entry["svg"] = Markup(picture.svg if isinstance(picture, Picture) else picture)
 
 
 def case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> dict[str, Any]:
@@ -82,9 +84,9 @@ def _figures(case: CaseOutcome, top: str, taken: set[str], shapes: Mapping[int, 
     figures = []
     for panel in case.panels:
         ident = anchor(f"{top}:panel-{panel.name}", taken)
-        drawing = partial(panel_figure, panel, anchor("f", taken), case.verdicts)
+        drawing = partial(panel_picture, panel, anchor("f", taken), case.verdicts)
         stem = unused(f"figures/{file_name(f'{case.id}-{panel.name}')}", taken)
-        files = [f"{stem}.csv", f"{stem}.svg"]
+        files = [f"{stem}.csv", f"{stem}.svg", f"{stem}.pdf"]
         figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": None, "files": files})
     for surface in case.surfaces:
         ident = anchor(f"{top}:surface-{surface.name}", taken)
@@ -95,13 +97,12 @@ def _figures(case: CaseOutcome, top: str, taken: set[str], shapes: Mapping[int, 
     return figures
 
 
-def figure_files(views: Iterable[dict[str, Any]]) -> dict[str, str]:
-    """Every panel as files by name: its numbers as CSV, its picture as SVG."""
-    files = {}
-    for view in views:
-        for item in view["figures"]:
-            for name in item["files"]:
-                files[name] = panel_csv(item["panel"]) if name.endswith(".csv") else standalone(item["svg"])
+def figure_files(views: Iterable[dict[str, Any]]) -> dict[str, str | bytes]:
+    """Every panel as files by name: its numbers as CSV, its picture as SVG and as PDF."""
+    files: dict[str, str | bytes] = {}
+    for item in (item for view in views for item in view["figures"] if item["files"]):
+        numbers, drawing, printed = item["files"]
+        files |= {numbers: panel_csv(item["panel"]), drawing: standalone(item["svg"]), printed: item["pdf"]}
     return files
 
 

@@ -10,18 +10,24 @@ import math
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from io import StringIO
+from dataclasses import dataclass
+from functools import cache
+from io import BytesIO, StringIO
 from itertools import pairwise
 from typing import Any
 
 import matplotlib.style
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.mathtext import MathTextParser
+from matplotlib.text import Text
+from matplotlib.textpath import TextToPath
 from matplotlib.ticker import FixedLocator, LogLocator, NullLocator
+from matplotlib.transforms import Bbox
 
 from weakforms.verification.judging.outcome import Convergence, CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.report.junit import clean
@@ -45,16 +51,31 @@ SIDES = ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
 DASHED, ASKED = (0, (4, 2)), (0, (6, 2, 1, 2))
 
 
+@dataclass(frozen=True)
+class Picture:
+    """A drawing for a page, and the same for print."""
+
+    svg: str
+    """An ``<svg>`` element."""
+    pdf: bytes = b""
+    """A file, if it was asked for."""
+
+
 def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = ()) -> str:
+    """One panel as an ``<svg>`` element; the arguments are those of :func:`panel_picture`."""
+    return panel_picture(panel, ident, verdicts, printed=False).svg
+
+
+def panel_picture(
+    panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = (), printed: bool = True
+) -> Picture:
     """One panel on the printed axes, with the residuals of its curves below, if there are any.
 
     Args:
         panel: Curves, references and special points.
         ident: Identifier of the figure on its page.
         verdicts: Checks of the case; those on the panel's references give the asked accuracy.
-
-    Returns:
-        An ``<svg>`` element.
+        printed: Whether a PDF is wanted too.
     """
     residuals = any(len(curve.residual) for curve in panel.curves)
     lower = 1.97 if residuals else 0.0
@@ -75,7 +96,8 @@ def panel_figure(panel: PanelOutcome, ident: str, verdicts: Sequence[Verdict] = 
         if residuals:
             _draw_residuals(_axes(figure, FOOT, 1.12), panel, verdicts)
         title = plain_tex(panel.title or panel.name)
-        return svg(figure, ident, title, describe(panel, verdicts))
+        shown = svg(figure, ident, title, describe(panel, verdicts))
+        return Picture(shown, _pdf(figure, title) if printed else b"")
 
 
 def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
@@ -106,6 +128,18 @@ def convergence_figure(records: Sequence[Convergence], ident: str) -> str:
         return svg(figure, ident, f"Convergence of {quantity}", describe_histories(records))
 
 
+LETTERS = TextToPath()
+"""Sets every text and formula once; each renderer of matplotlib would begin with nothing."""
+
+
+class Pen(RendererSVG):
+    """Draws or measures a figure of 72 dots an inch."""
+
+    def __init__(self, width: float, height: float, stream: StringIO) -> None:
+        super().__init__(width, height, stream)
+        self._text2path = LETTERS
+
+
 @contextmanager
 def drawing(ident: str) -> Iterator[None]:
     """Context with the style of the report, without warnings about missing glyphs."""
@@ -118,11 +152,24 @@ def drawing(ident: str) -> Iterator[None]:
 def svg(figure: Figure, ident: str, title: str, description: str) -> str:
     """The figure as an ``<svg>`` element with a title, a description and the colours of the page."""
     buffer = StringIO()
-    figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
+    for part in (figure, *figure.axes):
+        part.patch.set(facecolor="none", edgecolor="none")
+    pen = Pen(*figure.bbox.size, buffer)
+    figure.draw(pen)
+    pen.finalize()
     colours = {value: f"--f-{name}" for name, value in LOOK["light"].items()}
     return inline_svg(buffer.getvalue(), ident, title, description, colours)
 
 
+def _pdf(figure: Figure, title: str) -> bytes:
+    """The figure as a file for papers, the same at every run."""
+    buffer = BytesIO()
+    facts = {"CreationDate": None, "Title": clean(title)}
+    figure.savefig(buffer, format="pdf", transparent=True, metadata=facts)
+    return buffer.getvalue()
+
+
+@cache
 def as_math(text: str) -> str:
     """Text for a figure: TeX between dollars if matplotlib can set it, else the plain text."""
     text = typeset(" ".join(clean(text).split()))
@@ -160,23 +207,46 @@ def _with_legend(
     groups: list[list[Line2D]], width: float, above: float, below: float
 ) -> tuple[Figure, float]:
     """A figure with its legend under the first axes, and the height of the legend."""
-    figure = FigureCanvasAgg(Figure(figsize=(width, above + below))).figure
+    figure = FigureCanvasSVG(Figure(figsize=(width, above + below))).figure
+    ruler = _ruler(figure)
     keyed, legends = 0.0, []
     for keys in filter(None, groups):
-        for columns in range(min(6, len(keys)), 0, -1):
-            by_rows = [key for column in range(columns) for key in keys[column::columns]]
-            legend = figure.legend(handles=by_rows, ncols=columns, loc="upper left")
-            extent = legend.get_window_extent()
-            if columns == 1 or extent.width <= figure.dpi * (width - LEFT + 0.05):
-                break
-            legend.remove()
+        wide = [_key_width(figure, key, ruler) for key in keys]
+        columns = min(6, len(keys))
+        while columns > 1 and _legend_width(wide, columns) > figure.dpi * (width - LEFT + 0.05):
+            columns -= 1
+        legend = figure.legend(handles=_by_rows(keys, columns), ncols=columns, loc="upper left")
         legends.append((legend, above + keyed))
-        keyed += extent.height / figure.dpi + 0.03
+        keyed += legend.get_window_extent(ruler).height / figure.dpi + 0.03
     total = 0.06 + above + keyed + below + 0.06 * bool(legends)
     figure.set_size_inches(width, total)
     for legend, top in legends:
         legend.set_bbox_to_anchor((LEFT / width, 1 - (top + 0.08) / total), figure.transFigure)
     return figure, total - above - below - 0.06
+
+
+def _ruler(figure: Figure) -> Pen:
+    """Measures text as it will be drawn, in points; it draws nothing."""
+    return Pen(*figure.bbox.size, StringIO())
+
+
+def _key_width(figure: Figure, key: Line2D, ruler: Pen) -> float:
+    """Width of a legend entry: its line, its text and their distance, in points."""
+    text = Text(text=key.get_label(), size=rcParams["legend.fontsize"])
+    text.set_figure(figure)
+    line = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"]
+    return text.get_window_extent(ruler).width + line * text.get_size()
+
+
+def _by_rows(entries: list[Any], columns: int) -> list[Any]:
+    """The entries in the order in which a legend, filled by columns, shows them by rows."""
+    return [entry for column in range(columns) for entry in entries[column::columns]]
+
+
+def _legend_width(entries: list[float], columns: int) -> float:
+    """Width of a legend whose entries have these widths."""
+    widest = [max(column) for column in np.array_split(_by_rows(entries, columns), columns)]
+    return sum(widest) + (columns - 1) * rcParams["legend.columnspacing"] * rcParams["legend.fontsize"]
 
 
 def _axes(figure: Figure, bottom: float, height: float, x: str = "", y: str = "") -> Axes:
@@ -234,33 +304,41 @@ def _draw_points(axes: Axes, panel: PanelOutcome) -> None:
     tracks += [np.column_stack(_columns(c.reference_x, c.reference_y)) for c in panel.curves]
     tracks.append(np.array([[point.x, point.y] for point in panel.markers]).reshape(-1, 2))
     taken = axes.transData.transform(np.vstack(tracks))
-    frame = axes.get_window_extent()
-    boxes: list[Any] = []
+    frame, ruler = axes.get_window_extent(), _ruler(axes.figure)
+    boxes: list[Bbox] = []
     for point in panel.markers:
-        if not frame.padded(4).contains(*axes.transData.transform((point.x, point.y))):
+        if not frame.padded(1).contains(*axes.transData.transform((point.x, point.y))):
             continue
         size = 9 if point.kind == "cusp_point" else 5.5
         axes.plot(point.x, point.y, POINTS.get(point.kind, "d"), color=INK, ms=size, zorder=4)
         if point.label and len(panel.markers) <= 12:
-            boxes.append(_label(axes, (point.x, point.y), as_math(point.label), taken, boxes))
+            boxes.append(_label(axes, (point.x, point.y), as_math(point.label), taken, boxes, ruler))
 
 
-def _label(axes: Axes, at: tuple[float, float], text: str, taken: np.ndarray, boxes: list) -> Any:
+def _label(
+    axes: Axes,
+    at: tuple[float, float],
+    text: str,
+    taken: np.ndarray,
+    boxes: list[Bbox],
+    ruler: Pen,
+) -> Bbox:
     """Write a label beside a point, on the side where it covers least; returns its box."""
-    frame = axes.get_window_extent()
+    frame, place = axes.get_window_extent(), axes.transData.transform(at)
+    note = axes.annotate(text, at, (0, 0), textcoords="offset points")
+    size = note.get_window_extent(ruler).size
     options = []
-    for step, (right, up) in enumerate(SIDES * 2):
-        far = 7 if step < len(SIDES) else 18
-        note = axes.annotate(text, at, (far * right, far * up * 0.8), textcoords="offset points")
-        note.set(ha=("right", "center", "left")[right + 1], va=("top", "center", "bottom")[up + 1])
-        box = note.get_window_extent().padded(6)
+    for step, side in enumerate(np.array(SIDES * 2)):
+        away = (7 if step < len(SIDES) else 18) * side * (1, 0.8)
+        corner = place + away + size * (side - 1) / 2
+        box = Bbox([corner, corner + size]).padded(1.5)
         hits = float(np.sum(np.all((taken >= box.min) & (taken <= box.max), axis=1)))
         hits += 500 * sum(box.overlaps(other) for other in boxes) + 0.1 * step
         hits += 2000 * (not (frame.contains(*box.min) and frame.contains(*box.max)))
-        options.append((hits, step, note, box))
-        note.set_visible(False)
-    *_, note, box = min(options, key=lambda option: option[:2])
-    note.set_visible(True)
+        options.append((hits, step, away, side, box))
+    *_, away, (right, up), box = min(options, key=lambda option: option[:2])
+    note.set_position(away)
+    note.set(ha=("right", "center", "left")[right + 1], va=("top", "center", "bottom")[up + 1])
     return box
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from statistics import quantiles
 from typing import Any
 
@@ -113,7 +114,7 @@ def render_with_files(
     jobs: int = 1,
     audited: Audited | None = None,
     covered: Covered | None = None,
-) -> tuple[dict[str, str], dict[str, str]]:
+) -> tuple[dict[str, str], dict[str, str | bytes]]:
     """The pages of :func:`render`, and the files that they offer: every panel as CSV and as SVG."""
     facts = _facts(run, seeded, others, jobs, audited, covered)
     pages = {
@@ -153,6 +154,7 @@ def template(name: str) -> Template:
     return _environment().get_template(name)
 
 
+@cache
 def _environment() -> Environment:
     environment = Environment(
         loader=FileSystemLoader(TEMPLATES),

@@ -79,7 +79,7 @@ def _drawn(
     audited: Audited,
     covered: Covered,
     jobs: int,
-) -> dict[str, str]:
+) -> dict[str, str | bytes]:
     """Shapes and pages by name, ``index.html`` last."""
     shapes = {name: vtu(surface) for name, surface in shape_files(run)}
     pages, files = render_with_files(run, seeded, others, jobs, audited, covered)
@@ -93,7 +93,7 @@ def _redrawn(
     audited: Audited,
     covered: Covered,
     jobs: int,
-) -> dict[str, str]:
+) -> dict[str, str | bytes]:
     """The same for a stored run, whose numbers may come from anywhere."""
     try:
         return _drawn(run, seeded, others, audited, covered, jobs)
@@ -103,11 +103,11 @@ def _redrawn(
         raise InputError(f"the stored run cannot be drawn: {type(error).__name__}: {error}") from error
 
 
-def _write(folder: Path, texts: Mapping[str, str]) -> None:
+def _write(folder: Path, contents: Mapping[str, str | bytes]) -> None:
     """Write files, each under its name only when complete."""
-    for name, text in texts.items():
+    for name, content in contents.items():
         (folder / name).parent.mkdir(exist_ok=True)
-        _replace(folder / name, text)
+        _replace(folder / name, content)
 
 
 def _sweep(folder: Path, kept: set[str]) -> None:
@@ -115,7 +115,8 @@ def _sweep(folder: Path, kept: set[str]) -> None:
     for path in folder.glob("*.html"):
         if path.name not in kept and path.is_file() and OURS in path.read_text("utf-8", "replace")[:2000]:
             path.unlink(missing_ok=True)
-    for path in (*folder.glob("shapes/*.vtu"), *folder.glob("figures/*.csv"), *folder.glob("figures/*.svg")):
+    pictures = (path for kind in ("csv", "svg", "pdf") for path in folder.glob(f"figures/*.{kind}"))
+    for path in (*folder.glob("shapes/*.vtu"), *pictures):
         if f"{path.parent.name}/{path.name}" not in kept:
             path.unlink(missing_ok=True)
     (folder / "report.pdf").unlink(missing_ok=True)
@@ -173,12 +174,12 @@ def _plain(value: Any) -> Any:
     return value if value is None or isinstance(value, (str, int)) else str(value)
 
 
-def _replace(path: Path, text: str) -> None:
+def _replace(path: Path, content: str | bytes) -> None:
     """Write a file under its final name only when it is complete."""
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        with partial.open("w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
+        with partial.open("wb") as stream:
+            stream.write(content.encode() if isinstance(content, str) else content)
             stream.flush()
             os.fsync(stream.fileno())
         os.replace(partial, path)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
@@ -38,7 +38,7 @@ def surface_figure(surface: SurfaceOutcome, ident: str) -> str:
     """
     colours = LOOK["light"]
     with drawing(ident):
-        figure = FigureCanvasAgg(Figure(figsize=SIZE)).figure
+        figure = FigureCanvasSVG(Figure(figsize=SIZE)).figure
         axes: Axes3D = figure.add_axes(FRAME, projection="3d", computed_zorder=False)
         axes.view_init(elev=14, azim=-62)
         x, y, z = (np.asarray(part, float) for part in surface.position)

@@ -47,17 +47,11 @@ COMPRESSED = (
 REMARKS = {
     (3, "2b"): COMPRESSED,
     (3, "3b"): COMPRESSED,
-    (
-        3,
-        "4",
-    ): "the aspect ratio is not printed; of L = 24 with the densest liquid the secondary branch is missing",
+    (3, "4"): "the aspect ratio is not printed; both of figure 2 are shown",
 }
 
 CURVES = ("curve", "field")
 """Kinds of verdicts on curves and profiles."""
-
-INCOMPLETE = {(3, "4")}
-"""Panels of which the thesis shows a curve that no case draws: they are held in part."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +84,7 @@ class Row:
     @property
     def held(self) -> bool:
         """Whether it is held as a whole."""
-        if not self.run or self.failed or (self.paper, self.name) in INCOMPLETE:
+        if not self.run or self.failed:
             return False
         return self.compared == self.drawn if self.compared else bool(self.statements)
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from weakforms.errors import InputError
-from weakforms.terminal import plain, print_json, progress_bar
+from weakforms.terminal import plain, print_json, progress_bar, require_one_rank
 from weakforms.verification.audit.any_parameters.outcome import NAME, print_audit
 
 
@@ -28,10 +27,7 @@ def audit_verb(
     Raises:
         InputError: For an unknown problem, or in a run on several ranks.
     """
-    from mpi4py import MPI
-
-    if MPI.COMM_WORLD.size > 1:
-        raise InputError("audit: runs on one rank")
+    require_one_rank("audit")
     from weakforms import api
 
     registry = api.require_environment()

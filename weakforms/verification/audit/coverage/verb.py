@@ -14,7 +14,7 @@ from rich.console import Console
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.about import Family
 from weakforms.results.io import dumps, require_writable, write_atomically
-from weakforms.terminal import plain, print_json
+from weakforms.terminal import plain, print_json, require_one_rank
 from weakforms.verification.audit.coverage.families import FAMILIES
 from weakforms.verification.audit.coverage.families import SEED as TUNED_SEED
 from weakforms.verification.audit.coverage.judged import Judged, judged
@@ -50,10 +50,7 @@ def coverage_verb(
     Raises:
         InputError: For an unknown family, a folder that cannot be written, or a run on several ranks.
     """
-    from mpi4py import MPI
-
-    if MPI.COMM_WORLD.size > 1:
-        raise InputError("coverage: runs on one rank")
+    require_one_rank("coverage")
     from weakforms import api
 
     api.require_environment()
