@@ -1,10 +1,14 @@
 """What figures reckon about their texts before they are drawn agrees with what is drawn."""
 
+import re
+
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 from matplotlib.transforms import Bbox
 
-from weakforms.verification.report import figures
+from weakforms.verification.report import figures, svg
 
 LABELS = (r"$\lambda_{1,\mathrm{mid}} = 1.5$", "path of a material point", "a", "$p$", "reference (exact)")
 
@@ -34,3 +38,40 @@ def test_a_label_stands_in_the_box_that_was_chosen(covered):
         drawn = axes.texts[-1].get_window_extent(pen).padded(1.5)
         assert np.allclose(Bbox(box).get_points(), drawn.get_points(), atol=1e-6)
         assert not np.any(np.all((taken >= box.min) & (taken <= box.max), axis=1))
+
+
+def followed(path):
+    """The points of a path, one list for each part, in hundredths."""
+    parts, here = [], (0, 0)
+    for command, numbers in re.findall("([MlLz])([^MlLz]*)", path):
+        values = [round(100 * float(text)) for text in re.findall(r"-?(?:\d+\.?\d*|\.\d+)", numbers)]
+        for x, y in zip(values[::2], values[1::2], strict=True):
+            here = (here[0] + x, here[1] + y) if command == "l" else (x, y)
+            if command == "M":
+                parts.append([])
+            if parts[-1][-1:] != [here] or len(parts[-1]) == 1:
+                parts[-1].append(here)
+        if command == "z":
+            here = parts[-1][0]
+            parts[-1].append("closed")
+    return parts
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.lists(st.tuples(st.floats(-900, 900), st.floats(-900, 900)), min_size=2, max_size=9),
+            st.booleans(),
+        ),
+        min_size=1,
+        max_size=3,
+    )
+)
+@example([([(0.0, 0.0), (0.0, 0.0)], False), ([(1.5, -0.01), (1.5, 0.0), (1.5, 0.0), (-2.0, 3.0)], True)])
+def test_short_paths_have_the_points_of_the_long_ones(parts):
+    text = " ".join(
+        "M " + " L ".join(f"{x:.6f} {y:.6f}" for x, y in points) + " z" * closed for points, closed in parts
+    )
+    short = svg._differences(text)
+    assert followed(short) == followed(text)
+    assert len(short) < len(text) * 0.8

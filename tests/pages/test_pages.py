@@ -52,7 +52,7 @@ def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder)
         "figures",
     }
     assert expected | {"paper2.html"} < set(os.listdir(folder))
-    assert len(os.listdir(folder)) == 11, "with one page for the hostile group and the folder of figures"
+    assert len(os.listdir(folder)) == 13, "with two pages for each of two groups, and the folder of figures"
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
 
 
@@ -247,14 +247,25 @@ def test_empty_runs_say_so(cases, said):
     ET.fromstring(junit_xml(sample(*cases)).encode())
 
 
-def test_many_checks_are_folded():
+def test_many_checks_have_a_page_of_their_own():
     checks = [verdict(f"bulk_{i}:p") for i in range(600)] + [verdict("broken:p", passed=False)]
     case = CaseOutcome("paper2.bulk", "Many", "", "", "failed", checks)
-    page = render(sample(case))["paper2.html"]
+    pages = render(sample(case))
+    page, listed = pages["paper2.html"], pages["paper2-checks.html"]
     assert "600 checks that hold" in page
-    assert all(f"<code>bulk_{i}:p</code>" in page for i in range(600))
-    section = page.index('id="paper2.bulk"')
-    assert page.index("broken:p", section) < page.index("<details", section)
+    assert "broken:p" in page
+    assert "<code>bulk_" not in page
+    assert 'href="paper2-checks.html#paper2.bulk--checks"' in page
+    assert 'id="paper2.bulk--checks"' in listed
+    assert all(f"<code>bulk_{i}:p</code>" in listed for i in range(600))
+    assert "<code>broken:p</code>" not in listed
+    assert 'href="paper2-checks.html#paper2.bulk:bulk_0:p"' in pages["index.html"], "the sharpest bound"
+
+
+def test_the_page_for_printing_has_the_folded_checks_too():
+    checks = [verdict(f"bulk_{i}:p") for i in range(40)]
+    page = render_whole(sample(CaseOutcome("paper2.bulk", "Many", "", "", "passed", checks)))
+    assert all(f"<code>bulk_{i}:p</code>" in page for i in range(40))
 
 
 def test_every_panel_has_a_number_and_its_files(folder, readers):

@@ -1,4 +1,7 @@
-"""The pages of the report: an overview, one page for each group of cases, and one page for printing.
+"""The pages of the report: an overview, two pages for each group of cases, and one page for printing.
+
+The first page of a group has its figures and what did not hold, the second one the long tables: checks that
+hold, and solutions.
 
 A group is the part of a case's id before the dot: a paper, or a folder of cases such as ``materials``.
 """
@@ -121,6 +124,9 @@ def render_with_files(
         group["page"]: share_letters(template("group.html").render(facts, group=group, here=group["page"]))
         for group in facts["groups"]
     }
+    for group in (group for group in facts["groups"] if group["long"]):
+        page = template("group_checks.html").render(facts, group=group, here=group["checks"])
+        pages[group["checks"]] = share_letters(page)
     for name in ("thesis.html", "faults.html", "audit.html", "coverage.html"):
         pages[name] = template(name).render(facts, here=name)
     pages["index.html"] = template("index.html").render(facts, here="index.html")
@@ -257,11 +263,13 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
         rows = [row["verdict"] for view in members for row in view["rows"]]
         group = {
             "page": f"{stem}.html",
+            "checks": f"{unused(f'{stem}-checks', taken)}.html",
             "anchor": f"group-{stem}",
             "name": name,
             "title": title,
             "source": source,
             "views": members,
+            "long": [view for view in members if view["case"].solutions or view["folded"]],
             "verdicts": rows,
             "passed": sum(verdict.passed for verdict in rows),
             "status": min((v["status"] for v in members), key=lambda status: summary.ORDER.get(status, 0)),

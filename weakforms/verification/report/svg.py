@@ -74,14 +74,48 @@ def _rewritten(key: str, value: str, ident: str, colours: Mapping[str, str]) -> 
         return f"{ident}--{value}"
     if key == "href":
         return value.replace("#", f"#{ident}--")
+    if key == "d" and not re.search("[^MLz0-9. -]", value):
+        return _differences(value)
     if key in ("d", "x", "y"):
         return " ".join(re.sub(r"(\.\d\d)\d+", r"\1", value).split())
+    if key == "transform":
+        return re.sub(r"translate\([^)]*\)", lambda hit: re.sub(r"-?\d+\.\d+", _rounded, hit[0]), value)
     value = value.replace("url(#", f"url(#{ident}--")
     return re.sub(
         "#[0-9a-f]{6}",
         lambda hit: f"var({colours[hit[0]]},{hit[0]})" if hit[0] in colours else hit[0],
         value,
     )
+
+
+def _differences(lines: str) -> str:
+    """Straight lines written by their differences in hundredths of a point, without repeated points."""
+    text, first, here, letter = "", (0, 0), (0, 0), ""
+    for command, numbers in re.findall("([MLz])([^MLz]*)", lines):
+        if command == "z":
+            text, here, letter = f"{text}z", first, "z"
+            continue
+        x, y = (round(100 * float(number)) for number in numbers.split())
+        step = (x, y) if command == "M" else (x - here[0], y - here[1])
+        if command == "L" and step == (0, 0) and letter == "l":
+            continue
+        if command == "M":
+            first, text = (x, y), f"{text}M"
+        else:
+            text += "l" if letter != "l" else "" if step[0] < 0 else " "
+        text += _hundredths(step[0]) + ("" if step[1] < 0 else " ") + _hundredths(step[1])
+        here, letter = (x, y), command.lower()
+    return text
+
+
+def _rounded(found: re.Match[str]) -> str:
+    return _hundredths(round(100 * float(found[0])))
+
+
+def _hundredths(number: int) -> str:
+    """A number of hundredths as a decimal fraction, as short as possible."""
+    text = f"{abs(number) / 100:g}"
+    return "-" * (number < 0) + (text.removeprefix("0") if text != "0" else text)
 
 
 def _with_markers(root: ET.Element) -> None:
