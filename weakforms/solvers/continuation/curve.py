@@ -22,6 +22,9 @@ DIAGNOSTICS = ("n_negative", "residual", "iterations")
 FAR = 0.1
 """Distance along a curve, relative to its length, within which a point of another mesh's curve is sought."""
 
+BISECTIONS = 6
+"""Number of bisections of an interval before a change of stability is solved for in it."""
+
 BETWEEN = (0.25, 0.5, 0.75)
 """Fractions of the interval between two points of a trace at which eigenvalues are counted again."""
 
@@ -113,8 +116,8 @@ class SolutionCurve:
                 f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
             )
         i = int(hits[crossing - 1])
-        solved = self._solve(self._between(i, self._fraction(i, name, value)), Held(name, value))
-        self._require_within(i, solved, f"state at {name} = {value:g}")
+        solved = self._solve(self.between(i, self._fraction(i, name, value)), Held(name, value))
+        self.require_within(i, solved, f"state at {name} = {value:g}")
         return solved
 
     def near(self, guess: State, name: str, value: float) -> Solved:
@@ -128,7 +131,7 @@ class SolutionCurve:
             if abs(left) <= ROUND_OFF * abs(value):
                 return share
         if name in self.loads:
-            return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
+            return root(lambda x: self.between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
         return before / (before - after)
 
     def crossings(self, name: str, value: float) -> np.ndarray:
@@ -158,7 +161,7 @@ class SolutionCurve:
         # This curve may end just before the plane, which may cut it a second time far from there.
         i = int(np.argmin(np.where(crossed & (apart <= FAR * arclengths[-1]), apart - arclengths[-1], apart)))
         span = places[i + 1] - places[i]
-        guess = self._between(i, (target - places[i]) / span if span else 0.5)
+        guess = self.between(i, (target - places[i]) / span if span else 0.5)
         return self._solve(guess, MonitorPlane(rates, target))
 
     def _over_points(self, name: str) -> np.ndarray:
@@ -169,9 +172,13 @@ class SolutionCurve:
 
     def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
         state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
+        return self.solved(state, kind)
+
+    def solved(self, state: State, kind: str = "") -> Solved:
+        """A state that was solved for, with its columns."""
         return Solved(self._values(state), state, kind)
 
-    def _between(self, i: int, fraction: float) -> State:
+    def between(self, i: int, fraction: float) -> State:
         """Cubic interpolation between two neighbours of the trace."""
         a, b = self.points[i], self.points[i + 1]
         h, (v0, s0, v1, s1) = b.arclength - a.arclength, hermite(fraction)
@@ -184,7 +191,25 @@ class SolutionCurve:
         }
         return State(u, {**a.state.loads, **loads}, a.state.marks)
 
-    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+    def narrowed(self, i: int, count: Callable[[State], int], before: int, after: int) -> float:
+        """Fraction of an interval close to where an eigenvalue changes sign, where it is negative.
+
+        Args:
+            i: Index of the point before it.
+            count: Number of negative eigenvalues of a state; here, of interpolated ones.
+            before: The number at the first point of the interval.
+            after: The number at the second one.
+        """
+        low, high = 0.0, 1.0
+        for _ in range(BISECTIONS):
+            middle = (low + high) / 2
+            if count(self.between(i, middle)) == before:
+                low = middle
+            else:
+                high = middle
+        return high if after > before else low
+
+    def require_within(self, i: int, solved: Solved, what: str) -> None:
         """Refuse a solution outside of the interval in which Newton's method should find it."""
         a, b = self.points[i], self.points[i + 1]
         length = b.arclength - a.arclength
@@ -199,12 +224,12 @@ class SolutionCurve:
         last: list[Solved] = []
 
         def value(fraction: float) -> float:
-            guess = self._between(i, fraction)
+            guess = self.between(i, fraction)
             last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
             return function(last[-1])
 
         value(root(value, 0.0, 1.0, f"{kind} in {self.control}", xtol=1e-13, rtol=1e-13))
-        self._require_within(i, last[-1], f"{kind} in {self.control}")
+        self.require_within(i, last[-1], f"{kind} in {self.control}")
         return last[-1]
 
     def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
@@ -253,7 +278,7 @@ class SolutionCurve:
         """
         for i in np.flatnonzero(np.diff(counts) == 0).tolist():
             for fraction in BETWEEN:
-                guess = self._between(i, fraction)
+                guess = self.between(i, fraction)
                 if count(guess) == counts[i]:
                     continue
                 solved = self._solve(guess, self.continuation.plane(guess, self.points[i].tangent))
@@ -271,4 +296,4 @@ class SolutionCurve:
 
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
-        return self._between(i, ra / (ra - rb))
+        return self.between(i, ra / (ra - rb))

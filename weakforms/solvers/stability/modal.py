@@ -20,9 +20,6 @@ from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.stability.spectra import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
-BISECTIONS = 6
-"""Number of bisections of an interval before the extended system is solved in it."""
-
 
 class Modes(Protocol):
     """Quantities computed along a branch, at the state that the system is lent to."""
@@ -189,21 +186,14 @@ class ModalBranch(FittedBranch):
         The interval is narrowed by the inertia of interpolated states. The mode comes from the side where the
         eigenvalue is negative: there it is the highest negative one, even if the family has other soft modes.
         """
-        low, high = 0.0, 1.0
-        before = self._count_at(self.points[i].state, n)
-        after = self._count_at(self.points[i + 1].state, n)
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            if self._count_at(self._between(i, middle), n) == before:
-                low = middle
-            else:
-                high = middle
-        guess = self._between(i, high if after > before else low)
+        count, ends = partial(self._count_at, n=n), self.points[i : i + 2]
+        before, after = (count(point.state) for point in ends)
+        guess = self.between(i, self.narrowed(i, count, before, after))
         with self.system.at(guess):
             variation = self.modes.variation(n)
             border = variation.mass_times(variation.highest_negative().vector)
         solved = self._solve(guess, Singular(lambda: self.modes.variation(n), border), "bifurcation_point")
-        self._require_within(i, solved, f"bifurcation of n = {n}")
+        self.require_within(i, solved, f"bifurcation of n = {n}")
         return replace(solved, values=solved.values | {"n": float(n)})
 
     def null_vector(self, solved: Solved) -> np.ndarray:
