@@ -116,6 +116,20 @@ def test_a_symmetry_breaking_point_is_a_state_of_the_half_tube_and_has_a_null_ve
     assert outwards == pytest.approx(-outwards[::-1], abs=1e-8)
 
 
+def test_a_state_is_solved_for_at_the_value_of_its_lowest_eigenvalue():
+    """It is zero at a limit point; elsewhere the state is that at its pressure."""
+    result = solve("tube", delta1=1.1, at={"eigenvalue_1": 0.0}, crossing=2, numerics=COARSE)
+    limit, (state,) = result.points("limit_point")[1], result.states
+    assert state.quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-10)
+    assert state.quantities["u_max"].value == pytest.approx(limit.values["u_max"], abs=1e-6)
+    given = {"contact": "frictionless", "delta1": 1.2, "p_end": 1.5, "numerics": COARSE}
+    (state,) = solve("tube", at={"eigenvalue_1": 4.0}, **given).states
+    found = state.quantities["p"]
+    assert 0 < found.uncertainty < 1e-6
+    (same,) = solve("tube", at={"p": found.value}, **given).states
+    assert same.quantities["eigenvalue_1"].value == pytest.approx(4.0, abs=1e-9)
+
+
 # -- laws that give way, laws that lock, and fold lines that begin elsewhere --------------------------
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.equilibrium.constraints import Held, MonitorPlane
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.modes import judged
+from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.roots import root
 
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
@@ -56,6 +58,9 @@ class SolutionCurve:
 
     ended: str | None = None
 
+    computed: Sequence[str] = ("eigenvalue_1",)
+    """Columns that need a solve of their own; a state has a value of one by root finding."""
+
     def __init__(
         self,
         continuation: Continuation,
@@ -68,6 +73,7 @@ class SolutionCurve:
         self.control = control
         self.loads = continuation.solver.scalars
         self.points: list[CurvePoint] = []
+        self._observed: dict[int, tuple[CurvePoint, dict[str, float]]] = {}
         self.stalled: str | None = None
         try:
             for point in continuation.trace(start, stop):
@@ -99,6 +105,19 @@ class SolutionCurve:
         with self.system.at(state):
             return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
 
+    def observe(self) -> dict[str, float]:
+        """The computed columns at the state that the system is lent to."""
+        with self.system.weighed_here():
+            spectrum = judged(Stability(self.system), self.system.state(), 1)
+        return {"eigenvalue_1": spectrum.eigenvalues[0]}
+
+    def observed(self, point: CurvePoint) -> dict[str, float]:
+        """The computed columns at a point of the trace, once."""
+        if id(point) not in self._observed:
+            with self.system.at(point.state):
+                self._observed[id(point)] = point, self.observe()
+        return self._observed[id(point)][1]
+
     # -- states on demand --------------------------------------------------------------------
 
     def at(self, name: str, value: float, crossing: int = 1) -> Solved:
@@ -110,12 +129,14 @@ class SolutionCurve:
         """
         hits = self.crossings(name, value)
         if len(hits) < crossing:
-            column = self._over_points(name)
+            column = self.over_points(name)
             raise InputError(
                 f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
                 f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
             )
         i = int(hits[crossing - 1])
+        if name in self.computed:
+            return replace(self._root(i, lambda solved: self._computed(solved, name) - value, name), kind="")
         solved = self._solve(self.between(i, self._fraction(i, name, value)), Held(name, value))
         self.require_within(i, solved, f"state at {name} = {value:g}")
         return solved
@@ -140,10 +161,10 @@ class SolutionCurve:
         Raises:
             InputError: If the column cannot be prescribed.
         """
-        if name not in (*self.loads, *self.system.formulation.monitors):
-            known = ", ".join((*self.loads, *self.system.formulation.monitors))
-            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
-        return crossings(self._over_points(name), value)
+        known = (*self.loads, *self.system.formulation.monitors, *self.computed)
+        if name not in known:
+            raise InputError(f"cannot ask for a state at {name!r}; allowed: {', '.join(known)}")
+        return crossings(self.over_points(name), value)
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
         """Solve for the state of this mesh in the plane across the branch through a point of another mesh.
@@ -164,11 +185,18 @@ class SolutionCurve:
         guess = self.between(i, (target - places[i]) / span if span else 0.5)
         return self._solve(guess, MonitorPlane(rates, target))
 
-    def _over_points(self, name: str) -> np.ndarray:
+    def over_points(self, name: str) -> np.ndarray:
+        """A column, also a computed one, over the points of the trace."""
         return np.array([self._column(point, name) for point in self.points])
 
     def _column(self, point: CurvePoint, name: str) -> float:
+        if name in self.computed:
+            return self.observed(point)[name]
         return point.state.loads[name] if name in self.loads else point.monitors[name]
+
+    def _computed(self, solved: Solved, name: str) -> float:
+        with self.system.at(solved.state):
+            return self.observe()[name]
 
     def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
         state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
