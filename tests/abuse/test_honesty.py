@@ -141,8 +141,8 @@ def test_a_jump_to_a_parallel_branch_is_refused(gap, step, monkeypatch):
 
 def test_a_state_found_elsewhere_is_refused(monkeypatch):
     branch = branch_of(points(lambda u, load: (u**2 / 2 - load) ** 2 / 2), 1.0, 2.0)
-    right = branch._between
-    monkeypatch.setattr(branch, "_between", lambda i, x: mirrored(right(i, x)))
+    right = branch.between
+    monkeypatch.setattr(branch, "between", lambda i, x: mirrored(right(i, x)))
     with pytest.raises(ConvergenceError, match="away from where it was bracketed"):
         branch.at("load", 1.0)
 

@@ -17,7 +17,8 @@ class Canned(EquilibriumBranch):
         self.loads = ("p",)
         self.system = SimpleNamespace(formulation=SimpleNamespace(monitors={}))
 
-    def _over_points(self, _name):
+    def over_points(self, _name):
+        """The column."""
         return self.values.copy()
 
 

@@ -13,6 +13,7 @@ from small_systems import COMM, system_of
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -58,6 +59,39 @@ def test_a_bifurcation_is_where_the_eigenvalue_is_zero():
     (point,) = branch.special()
     assert point.kind == "bifurcation_point"
     assert point.values["load"] == pytest.approx(-(np.pi**2), rel=1e-6)
+
+
+def crossed(energy):
+    """The bifurcation point of the curve ``u1 = 0`` of an energy of two unknowns, and its system."""
+    system = system_of(
+        lambda u, v, load: ufl.derivative(energy(u, load) * ufl.dx, u, v).integrals()[0].integrand(),
+        shape=(2,),
+    )
+    continuation = Continuation(ExtendedNewton(system, ["load"]), control=StepControl(0.4, 0.4))
+    first = continuation.start(system.initial, Held("load", 0.0), towards={"load": 1.0})
+    branch = EquilibriumBranch(continuation, "load", first, lambda p: p.state.loads["load"] > 1)
+    (point,) = branch.special()
+    return point, system
+
+
+@pytest.mark.parametrize("skew", [0.0, 1.0])
+def test_a_crossing_is_solved_for_with_and_without_symmetry(skew):
+    """``u0 = sin(load)``; the stiffness of ``u1`` is ``1/2 - u0``, zero at ``load = pi/6``."""
+    point, system = crossed(
+        lambda u, load: (
+            (u[0] - ufl.sin(load)) ** 2 / 2 + (0.5 - u[0]) * u[1] ** 2 / 2 + skew * u[1] ** 3 / 3 + u[1] ** 4
+        )
+    )
+    assert point.state.loads["load"] == pytest.approx(np.pi / 6, abs=1e-12)
+    with system.at(point.state):
+        assert np.abs(system.residual()).max() < 1e-12
+
+
+def test_a_stiffness_that_vanishes_where_no_branch_crosses_is_refused(monkeypatch):
+    """With a force on ``u1`` the curve passes beside the crossing."""
+    monkeypatch.setattr(Crossing, "_conditions", lambda self, x: self._state(x).u * 0 + x - [0.5, 0.1])
+    with pytest.raises(ConvergenceError, match="no branch crosses here"):
+        crossed(lambda u, load: (u[0] - load) ** 2 / 2 + (0.5 - u[0]) * u[1] ** 2 / 2 + u[1] ** 4)
 
 
 @pytest.mark.parametrize(

@@ -165,7 +165,11 @@ class Problem:
         Raises:
             InputError: For a state that no solution has; subclasses refuse more.
         """
-        check_requests(self.about, requests)
+        check_requests(self.about, requests, self.computed(parameters))
+
+    def computed(self, _parameters: Any) -> Sequence[str]:
+        """Names besides the columns by which a state can be requested; eigenvalues, for instance."""
+        return ()
 
     def resolving(self, _parameters: Any, numerics: Any) -> Any:
         """Numerics that resolve the problem at its parameters, if the default does not."""
@@ -230,13 +234,19 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
         raise InputError(f"{what}: " + "; ".join(parts)) from error
 
 
-def check_requests(about: About, requests: Requests) -> None:
+def check_requests(about: About, requests: Requests, computed: Sequence[str] = ()) -> None:
     """Refuse requests for states that no solution of the problem has.
+
+    Args:
+        about: The problem in words.
+        requests: The requests.
+        computed: Further names by which a state can be requested.
 
     Raises:
         InputError: If a column or branch is unknown, a crossing is below one, or a value is not a number.
     """
-    allowed = [*(column.name for column in about.columns if not column.derived), *about.special_points]
+    columns = (column.name for column in about.columns if not column.derived)
+    allowed = [*columns, *computed, *about.special_points]
     for wanted in requests.states:
         if wanted.name not in allowed:
             raise InputError(

@@ -15,6 +15,7 @@ from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.results import Result, validate
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.spectra import Stability
 from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.run.runner import verify
 
@@ -94,6 +95,39 @@ def test_the_whole_tube_meets_a_symmetry_breaking_point_the_half_does_not_see():
     assert [p.kind for p in half.special_points] == ["limit_point"]
     assert whole.branch().columns["n_negative"].max() == 2
     assert half.branch().columns["n_negative"].max() == 1
+
+
+def test_a_symmetry_breaking_point_is_a_state_of_the_half_tube_and_has_a_null_vector():
+    """The branch is solved for there to round-off, although another one crosses it."""
+    mesh = TubeMesh(32, 3, 0.6, full=True)
+    tube = TubeModel.free(MPI.COMM_SELF, mooney_rivlin_of(0.0), 1.0, 6.0, mesh)
+    whole = free_branch(tube.system, 1.0, 2.0, 0.3)
+    _, found = whole.special()
+    half = solve("tube", alpha=0, numerics=COARSE, u_end=2.0, at={"u_max": found.values["u_max"]})
+    for name in ("p", "lam1_mid"):
+        assert half.states[0].quantities[name].value == pytest.approx(found.values[name], abs=1e-8)
+    system = whole.system
+    with system.at(found.state):
+        assert np.abs(system.residual()).max() < 1e-12
+    nearest = Stability(system).modes(found.state, 1)[0]
+    assert abs(nearest.eigenvalue) < 1e-9
+    rho = np.argsort(whole.system.unknown.function_space.tabulate_dof_coordinates()[:, 0])
+    outwards = nearest.vector[::2][rho]
+    assert outwards == pytest.approx(-outwards[::-1], abs=1e-8)
+
+
+def test_a_state_is_solved_for_at_the_value_of_its_lowest_eigenvalue():
+    """It is zero at a limit point; elsewhere the state is that at its pressure."""
+    result = solve("tube", delta1=1.1, at={"eigenvalue_1": 0.0}, crossing=2, numerics=COARSE)
+    limit, (state,) = result.points("limit_point")[1], result.states
+    assert state.quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-10)
+    assert state.quantities["u_max"].value == pytest.approx(limit.values["u_max"], abs=1e-6)
+    given = {"contact": "frictionless", "delta1": 1.2, "p_end": 1.5, "numerics": COARSE}
+    (state,) = solve("tube", at={"eigenvalue_1": 4.0}, **given).states
+    found = state.quantities["p"]
+    assert 0 < found.uncertainty < 1e-6
+    (same,) = solve("tube", at={"p": found.value}, **given).states
+    assert same.quantities["eigenvalue_1"].value == pytest.approx(4.0, abs=1e-9)
 
 
 # -- laws that give way, laws that lock, and fold lines that begin elsewhere --------------------------

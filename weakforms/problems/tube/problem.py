@@ -63,6 +63,10 @@ class Tube(BranchProblem):
         if parameters.contact != "none" and parameters.extent != "half":
             raise InputError("tube: contact is solved on the half tube; allowed: extent = 'half'")
 
+    def computed(self, _parameters: TubeParameters) -> tuple[str]:
+        """The lowest eigenvalue."""
+        return ("eigenvalue_1",)
+
     def ends(self, parameters: TubeParameters, _branch: str) -> list[End]:
         """Where free inflation, contact and deflation end."""
         if parameters.contact == "none":

@@ -13,6 +13,7 @@ from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
 from weakforms.problems.wrinkled.state import ZonedState, solver_of
+from weakforms.problems.wrinkled.waves.numbers import EIGENVALUE
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
 from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
 from weakforms.solvers.continuation.branch import FittedBranch
@@ -245,14 +246,21 @@ class WrinkledBranch:
     @cached_property
     def changes(self) -> list[Change]:
         """Points where waves appear or disappear, for each wave number."""
-        prescribed = self._prescribed()
-        points = [(i, prescribed[i][1], prescribed[i][0].values[prescribed[i][1]], h) for i, h in self._fine]
         found = []
         for n in self.readings.waves:
-            located = StabilityChanges(self.membrane, n, self.readings.beta, lambda: self._events)
-            found += located.between(points)
-            self._failures += located.failures
+            passages = self._passages(n)
+            found += passages.between(self._points)
+            self._failures += passages.failures
         return found
+
+    @property
+    def _points(self) -> list[tuple[int, str, float, ZonedState]]:
+        """Number, name and value of the prescribed column, and state of each point of the branch."""
+        prescribed = self._prescribed()
+        return [(i, prescribed[i][1], prescribed[i][0].values[prescribed[i][1]], h) for i, h in self._fine]
+
+    def _passages(self, n: int, k: int = 1, value: float = 0.0) -> StabilityChanges:
+        return StabilityChanges(self.membrane, n, self.readings.beta, lambda: self._events, k, value)
 
     @cached_property
     def _events(self) -> list[Event]:
@@ -309,7 +317,11 @@ class WrinkledBranch:
             ConvergenceError: If the solve fails on some mesh.
         """
         levels = self._special_state(name, value)
-        if levels is None:
+        eigenvalue = EIGENVALUE.fullmatch(name)
+        if eigenvalue:
+            passages = self._passages(int(eigenvalue[1]), int(eigenvalue[2]), value)
+            levels = passages.passage(self._points, crossing)
+        elif levels is None:
             levels = self._fitted(self.near(name, value, crossing), name)
         quantities = self.readings.quantities(levels, CRITICAL if name == "limit_point" else 0.0)
         self.fronts.extend(self.readings.fronts(levels, self.name))

@@ -24,7 +24,7 @@ from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA, TREATMENT, Energy, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
+from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import SolutionCurve
@@ -109,6 +109,7 @@ class Hemisphere(BranchProblem):
         Raises:
             InputError: For a state that cannot exist.
         """
+        require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
         for wanted in requests.states:
@@ -120,6 +121,10 @@ class Hemisphere(BranchProblem):
                 raise InputError(
                     f"hemisphere: zw = {wanted.value:g}; allowed: from {LOWEST_LEVEL} to below 0, the equator"
                 )
+
+    def computed(self, parameters: HemisphereParameters) -> list[str]:
+        """The lowest eigenvalues of each wave number."""
+        return [name for n in parameters.n for name in eigenvalue_names(n)]
 
     def ends(self, parameters: HemisphereParameters, _branch: str) -> list[End]:
         """A level a little below the highest one, or the equator."""

@@ -26,7 +26,7 @@ from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.problems.wrinkled.waves.numbers import WaveNumbers
+from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
 from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.uncertainty.refinement import estimate
@@ -123,6 +123,7 @@ class WrinkledTube(BranchProblem):
         Raises:
             InputError: For a state that cannot exist, or a load that the membrane does not have.
         """
+        require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
         delta = parameters.delta
@@ -145,6 +146,10 @@ class WrinkledTube(BranchProblem):
             raise InputError(
                 f"wrinkled_tube: gamma = {parameters.gamma:g} is for a fluid; allowed with load = 'fluid'"
             )
+
+    def computed(self, parameters: WrinkledParameters) -> list[str]:
+        """The lowest eigenvalues of each wave number."""
+        return [name for n in parameters.n for name in eigenvalue_names(n)]
 
     def ends(self, parameters: WrinkledParameters, _branch: str) -> list[End]:
         """The last load, or a volume, or a load that has decreased from its highest value."""

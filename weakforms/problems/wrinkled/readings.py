@@ -13,6 +13,7 @@ from weakforms.problems.wrinkled.fitted import PLACE
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import ZonedState, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
+from weakforms.problems.wrinkled.waves.numbers import LOWEST, eigenvalue_names
 from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.stability.spectra import same_count, spectrum_of
@@ -25,9 +26,6 @@ ROUND_OFF = 1e-10
 EVENTS = ("zone_opening", "zone_closing")
 
 VALUES = ("V", "Pi", "N")
-
-LOWEST = 3
-"""Number of eigenvalues in results for each wave number."""
 
 POLE = ("z_pole", "lam_pole", "gw_max")
 """Columns that are values at the pole, if the body has one; ``gw`` is largest there."""
@@ -91,7 +89,7 @@ class Readings:
         for n in self.waves:
             with waves_at(held) as waves:
                 found = waves.spectrum(n, LOWEST, self.beta).eigenvalues
-            out |= {f"Lambda_n{n}_{k}": value for k, value in enumerate(found[:LOWEST], 1)}
+            out |= dict(zip(eigenvalue_names(n), found, strict=False))
         return out
 
     def diagnostics(self, held: ZonedState) -> dict[str, float]:

@@ -8,15 +8,11 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.equilibrium.constraints import Fold, Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.stability.spectra import Stability
-from weakforms.solvers.support.roots import polynomial_through, root
-
-NODES = 8
-"""Number of states from which a bifurcation point is interpolated."""
 
 AWAY = 1e-6
 """Shift of the inertia on a line of folds: its critical eigenvalue, which is zero, does not count."""
@@ -48,7 +44,7 @@ class EquilibriumBranch(SolutionCurve):
 
         Limit points are bracketed where ``dλ/ds`` changes sign; there the inertia must also change by one.
         The extended system of :class:`Fold` locates them. Where the inertia changes without a limit point,
-        another branch crosses.
+        another branch crosses: :class:`Crossing` locates it.
 
         Raises:
             ConvergenceError: If slope and inertia disagree, or the solve for a point does not converge.
@@ -66,7 +62,7 @@ class EquilibriumBranch(SolutionCurve):
                 f"several eigenvalues change sign between neighbours (after points {changes}): "
                 "shorter steps are needed to tell them apart"
             )
-        return [self._fold(i) if i in turns else self._bifurcation(i) for i in changes]
+        return [self._fold(i) if i in turns else Crossing(self, i).located() for i in changes]
 
     def require_nothing_between(self) -> None:
         """Check the eigenvalues of ``K`` as in the base class."""
@@ -83,37 +79,8 @@ class EquilibriumBranch(SolutionCurve):
         a, b = self.points[i], self.points[i + 1]
         border = self.system.mass_times(a.tangent.u + b.tangent.u)
         solved = self._solve(self._turn_guess(i), Fold(self.control, border), "limit_point")
-        self._require_within(i, solved, f"limit point of {self.control}")
+        self.require_within(i, solved, f"limit point of {self.control}")
         return solved
-
-    def _bifurcation(self, i: int) -> Solved:
-        """The point where the eigenvalue that changes sign is zero, interpolated from states on both sides.
-
-        At the point even the bordered matrix is singular, because the null vector breaks the symmetry of the
-        branch. Nothing is therefore solved there. Eigenvalue, columns and state are smooth along the branch,
-        and are interpolated from :data:`NODES` states at Chebyshev nodes.
-        """
-        stability, tangent = Stability(self.system), self.points[i].tangent
-        index = min(self.points[i].n_negative, self.points[i + 1].n_negative)
-        nodes = (1 - np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)) / 2
-        solved, eigenvalues = [], []
-        for fraction in nodes:
-            guess = self._between(i, float(fraction))
-            solved.append(self._solve(guess, self.continuation.plane(guess, tangent)))
-            eigenvalues.append(stability.nearest_by_index(solved[-1].state, index))
-        along = polynomial_through(nodes, np.array(eigenvalues))
-        zero = root(lambda x: float(along(x)), 0.0, 1.0, "a change of stability", xtol=1e-14)
-
-        def at_root(values: list) -> np.ndarray:
-            return polynomial_through(nodes, np.array(values))(zero)
-
-        names = solved[0].values
-        loads = {k: float(at_root([s.state.loads[k] for s in solved])) for k in solved[0].state.loads}
-        return Solved(
-            {name: float(at_root([s.values[name] for s in solved])) for name in names},
-            State(at_root([s.state.u for s in solved]), loads, solved[0].state.marks),
-            "bifurcation_point",
-        )
 
 
 class FoldLine(SolutionCurve):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.equilibrium.constraints import Held, MonitorPlane
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.modes import judged
+from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.support.roots import root
 
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
@@ -21,6 +23,9 @@ DIAGNOSTICS = ("n_negative", "residual", "iterations")
 
 FAR = 0.1
 """Distance along a curve, relative to its length, within which a point of another mesh's curve is sought."""
+
+BISECTIONS = 6
+"""Number of bisections of an interval before a change of stability is solved for in it."""
 
 BETWEEN = (0.25, 0.5, 0.75)
 """Fractions of the interval between two points of a trace at which eigenvalues are counted again."""
@@ -53,6 +58,9 @@ class SolutionCurve:
 
     ended: str | None = None
 
+    computed: Sequence[str] = ("eigenvalue_1",)
+    """Columns that need a solve of their own; a state has a value of one by root finding."""
+
     def __init__(
         self,
         continuation: Continuation,
@@ -65,6 +73,7 @@ class SolutionCurve:
         self.control = control
         self.loads = continuation.solver.scalars
         self.points: list[CurvePoint] = []
+        self._observed: dict[int, tuple[CurvePoint, dict[str, float]]] = {}
         self.stalled: str | None = None
         try:
             for point in continuation.trace(start, stop):
@@ -96,6 +105,19 @@ class SolutionCurve:
         with self.system.at(state):
             return {**{name: state.loads[name] for name in self.loads}, **self.system.monitors()}
 
+    def observe(self) -> dict[str, float]:
+        """The computed columns at the state that the system is lent to."""
+        with self.system.weighed_here():
+            spectrum = judged(Stability(self.system), self.system.state(), 1)
+        return {"eigenvalue_1": spectrum.eigenvalues[0]}
+
+    def observed(self, point: CurvePoint) -> dict[str, float]:
+        """The computed columns at a point of the trace, once."""
+        if id(point) not in self._observed:
+            with self.system.at(point.state):
+                self._observed[id(point)] = point, self.observe()
+        return self._observed[id(point)][1]
+
     # -- states on demand --------------------------------------------------------------------
 
     def at(self, name: str, value: float, crossing: int = 1) -> Solved:
@@ -107,14 +129,16 @@ class SolutionCurve:
         """
         hits = self.crossings(name, value)
         if len(hits) < crossing:
-            column = self._over_points(name)
+            column = self.over_points(name)
             raise InputError(
                 f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
                 f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
             )
         i = int(hits[crossing - 1])
-        solved = self._solve(self._between(i, self._fraction(i, name, value)), Held(name, value))
-        self._require_within(i, solved, f"state at {name} = {value:g}")
+        if name in self.computed:
+            return replace(self._root(i, lambda solved: self._computed(solved, name) - value, name), kind="")
+        solved = self._solve(self.between(i, self._fraction(i, name, value)), Held(name, value))
+        self.require_within(i, solved, f"state at {name} = {value:g}")
         return solved
 
     def near(self, guess: State, name: str, value: float) -> Solved:
@@ -128,7 +152,7 @@ class SolutionCurve:
             if abs(left) <= ROUND_OFF * abs(value):
                 return share
         if name in self.loads:
-            return root(lambda x: self._between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
+            return root(lambda x: self.between(i, x).loads[name] - value, 0.0, 1.0, f"{name} = {value:g}")
         return before / (before - after)
 
     def crossings(self, name: str, value: float) -> np.ndarray:
@@ -137,10 +161,10 @@ class SolutionCurve:
         Raises:
             InputError: If the column cannot be prescribed.
         """
-        if name not in (*self.loads, *self.system.formulation.monitors):
-            known = ", ".join((*self.loads, *self.system.formulation.monitors))
-            raise InputError(f"cannot ask for a state at {name!r}; allowed: {known}")
-        return crossings(self._over_points(name), value)
+        known = (*self.loads, *self.system.formulation.monitors, *self.computed)
+        if name not in known:
+            raise InputError(f"cannot ask for a state at {name!r}; allowed: {', '.join(known)}")
+        return crossings(self.over_points(name), value)
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
         """Solve for the state of this mesh in the plane across the branch through a point of another mesh.
@@ -158,20 +182,31 @@ class SolutionCurve:
         # This curve may end just before the plane, which may cut it a second time far from there.
         i = int(np.argmin(np.where(crossed & (apart <= FAR * arclengths[-1]), apart - arclengths[-1], apart)))
         span = places[i + 1] - places[i]
-        guess = self._between(i, (target - places[i]) / span if span else 0.5)
+        guess = self.between(i, (target - places[i]) / span if span else 0.5)
         return self._solve(guess, MonitorPlane(rates, target))
 
-    def _over_points(self, name: str) -> np.ndarray:
+    def over_points(self, name: str) -> np.ndarray:
+        """A column, also a computed one, over the points of the trace."""
         return np.array([self._column(point, name) for point in self.points])
 
     def _column(self, point: CurvePoint, name: str) -> float:
+        if name in self.computed:
+            return self.observed(point)[name]
         return point.state.loads[name] if name in self.loads else point.monitors[name]
+
+    def _computed(self, solved: Solved, name: str) -> float:
+        with self.system.at(solved.state):
+            return self.observe()[name]
 
     def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
         state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
+        return self.solved(state, kind)
+
+    def solved(self, state: State, kind: str = "") -> Solved:
+        """A state that was solved for, with its columns."""
         return Solved(self._values(state), state, kind)
 
-    def _between(self, i: int, fraction: float) -> State:
+    def between(self, i: int, fraction: float) -> State:
         """Cubic interpolation between two neighbours of the trace."""
         a, b = self.points[i], self.points[i + 1]
         h, (v0, s0, v1, s1) = b.arclength - a.arclength, hermite(fraction)
@@ -184,7 +219,25 @@ class SolutionCurve:
         }
         return State(u, {**a.state.loads, **loads}, a.state.marks)
 
-    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+    def narrowed(self, i: int, count: Callable[[State], int], before: int, after: int) -> float:
+        """Fraction of an interval close to where an eigenvalue changes sign, where it is negative.
+
+        Args:
+            i: Index of the point before it.
+            count: Number of negative eigenvalues of a state; here, of interpolated ones.
+            before: The number at the first point of the interval.
+            after: The number at the second one.
+        """
+        low, high = 0.0, 1.0
+        for _ in range(BISECTIONS):
+            middle = (low + high) / 2
+            if count(self.between(i, middle)) == before:
+                low = middle
+            else:
+                high = middle
+        return high if after > before else low
+
+    def require_within(self, i: int, solved: Solved, what: str) -> None:
         """Refuse a solution outside of the interval in which Newton's method should find it."""
         a, b = self.points[i], self.points[i + 1]
         length = b.arclength - a.arclength
@@ -199,12 +252,12 @@ class SolutionCurve:
         last: list[Solved] = []
 
         def value(fraction: float) -> float:
-            guess = self._between(i, fraction)
+            guess = self.between(i, fraction)
             last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
             return function(last[-1])
 
         value(root(value, 0.0, 1.0, f"{kind} in {self.control}", xtol=1e-13, rtol=1e-13))
-        self._require_within(i, last[-1], f"{kind} in {self.control}")
+        self.require_within(i, last[-1], f"{kind} in {self.control}")
         return last[-1]
 
     def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
@@ -253,7 +306,7 @@ class SolutionCurve:
         """
         for i in np.flatnonzero(np.diff(counts) == 0).tolist():
             for fraction in BETWEEN:
-                guess = self._between(i, fraction)
+                guess = self.between(i, fraction)
                 if count(guess) == counts[i]:
                     continue
                 solved = self._solve(guess, self.continuation.plane(guess, self.points[i].tangent))
@@ -271,4 +324,4 @@ class SolutionCurve:
 
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
-        return self._between(i, ra / (ra - rb))
+        return self.between(i, ra / (ra - rb))

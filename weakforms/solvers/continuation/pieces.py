@@ -99,8 +99,8 @@ class PiecewiseFamily:
                 return sum(point.kind == name for point in family.special_points())
             if name in piece.fixed:
                 return 0
-            columns = family.fine.columns()[name]
-            ranges.extend([columns.min(), columns.max()])
+            column = family.fine.over_points(name)
+            ranges.extend([column.min(), column.max()])
             return len(family.fine.crossings(name, value))
 
         found = nth(self.pieces, count, value if special else crossing)

@@ -84,6 +84,8 @@ class ExtendedNewton:
             would have to depend on its round-off, which grows like ``cells^1.5``.
         max_iterations: Largest number of Newton iterations.
         line_search: PETSc's name: ``basic`` takes full steps, ``bt`` backtracks.
+        unfolding: A force ``b``, whose amplitude is one more unknown: ``R(U; λ) + μ b = 0``. Where another
+            branch crosses, the system is regular with it and one more constraint, and ``μ`` is zero.
         prefix: PETSc options prefix; options such as ``-{prefix}snes_monitor`` work.
     """
 
@@ -94,10 +96,14 @@ class ExtendedNewton:
         stol: float = 1e-10,
         max_iterations: int = 25,
         line_search: str = "basic",
+        unfolding: np.ndarray | None = None,
         prefix: str = "weakforms_",
     ) -> None:
         self.system = system
         self.scalars = tuple(scalars)
+        self._forces = [] if unfolding is None else [unfolding]
+        self.unfolded: list[float] = []
+        """Amplitude of the unfolding force at the last evaluation, if there is one."""
         self.factor = Factorization(system, prefix + "factor_")
         self.constraints: Sequence[Constraint] = ()
         self.bordered: BorderedMatrix | None = None
@@ -116,7 +122,7 @@ class ExtendedNewton:
         self._renew()
 
     def _renew(self) -> None:
-        extra = len(self.scalars) if self._rooted else 0
+        extra = len(self.scalars) + len(self._forces) if self._rooted else 0
         self._x = PETSc.Vec().createMPI((self._size + extra, None), comm=self.system.comm)
         self._made: dict[bool, PETSc.SNES] = {}
 
@@ -176,13 +182,18 @@ class ExtendedNewton:
 
     def _put(self, x: PETSc.Vec) -> None:
         u, scalars = self._split(x)
-        self.system.rewrite(u, dict(zip(self.scalars, scalars, strict=True)))
+        count = len(self.scalars)
+        self.unfolded = scalars[count:]
+        self.system.rewrite(u, dict(zip(self.scalars, scalars[:count], strict=True)))
 
     def _residual(self, _snes: PETSc.SNES, x: PETSc.Vec, out: PETSc.Vec) -> None:
         def work() -> None:
             self._put(x)
             values = [c.value(self) for c in self.constraints]
-            self._join(out, self.system.residual(), values)
+            forces = self.system.residual()
+            for amplitude, force in zip(self.unfolded, self._forces, strict=True):
+                forces += amplitude * force
+            self._join(out, forces, values)
 
         self._callbacks.run(work, lambda: out.set(np.nan))
 
@@ -211,9 +222,10 @@ class ExtendedNewton:
 
     def border(self, constraints: Sequence[Constraint]) -> BorderedMatrix:
         """Bordered tangent at the state that the system is lent to, with ``K`` factorised already."""
-        columns = [self.system.load_derivative(name) for name in self.scalars]
+        columns = [self.system.load_derivative(name) for name in self.scalars] + self._forces
         gradients = [c.gradient(self) for c in constraints]
-        corner = np.array([[loads.get(n, 0.0) for n in self.scalars] for _, loads in gradients])
+        names = [*self.scalars, *([""] * len(self._forces))]
+        corner = np.array([[loads.get(n, 0.0) for n in names] for _, loads in gradients])
         rows = [self._free(row) for row, _ in gradients]
         return BorderedMatrix(self.factor, columns, rows, corner.reshape(len(rows), len(columns)))
 
@@ -231,7 +243,7 @@ class ExtendedNewton:
 
         Args:
             guess: First guess; its loads that are not unknowns are kept.
-            constraints: One for each scalar unknown.
+            constraints: One for each scalar unknown, the amplitude of an unfolding force included.
             chord: Keep the first factorisation for all iterations (after a good predictor that converges
                 as fast, at the price of one factorisation).
 
@@ -239,15 +251,17 @@ class ExtendedNewton:
             ConvergenceError: If the solve diverges, needs too many iterations or meets a number that is not
                 finite.
         """
-        if len(constraints) != len(self.scalars):
-            raise ValueError(f"{len(self.scalars)} scalar unknowns, {len(constraints)} constraints")
+        unknowns = len(self.scalars) + len(self._forces)
+        if len(constraints) != unknowns:
+            raise ValueError(f"{unknowns} scalar unknowns, {len(constraints)} constraints")
         self.constraints = constraints
         with self.system.at(guess):
             return self._solve(guess, chord)
 
     def _solve(self, guess: State, chord: bool) -> tuple[State, SolveRecord]:
         system, before = self.system, self.factor.count
-        self._join(self._x, guess.u, [guess.loads[name] for name in self.scalars])
+        scalars = [guess.loads[name] for name in self.scalars] + [0.0] * len(self._forces)
+        self._join(self._x, guess.u, scalars)
         snes = self._snes(chord)
         snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
         try:

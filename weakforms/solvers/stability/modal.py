@@ -11,7 +11,6 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Quantity, SpecialPoint
-from weakforms.results.model import crossings
 from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import Solved
@@ -19,9 +18,6 @@ from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.stability.spectra import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
-
-BISECTIONS = 6
-"""Number of bisections of an interval before the extended system is solved in it."""
 
 
 class Modes(Protocol):
@@ -62,7 +58,6 @@ class ModalBranch(FittedBranch):
         hidden: Sequence[str] = (),
     ) -> None:
         self.modes, self.hidden = modes, tuple(hidden)
-        self._observed: dict[int, tuple[CurvePoint, dict[str, float]]] = {}
         self._limits: list[tuple[CurvePoint, Solved]] = []
         super().__init__(continuation, control, start, stop)
         self._insert_limits()
@@ -92,12 +87,14 @@ class ModalBranch(FittedBranch):
 
     # -- columns -------------------------------------------------------------------------------
 
-    def observed(self, point: CurvePoint) -> dict[str, float]:
-        """Additional columns at a point of the trace, computed once."""
-        if id(point) not in self._observed:
-            with self.system.at(point.state):
-                self._observed[id(point)] = point, self.modes.observe()
-        return self._observed[id(point)][1]
+    @property
+    def computed(self) -> Sequence[str]:
+        """The additional columns."""
+        return self.modes.columns
+
+    def observe(self) -> dict[str, float]:
+        """The additional columns at the state that the system is lent to."""
+        return self.modes.observe()
 
     def columns(self) -> dict[str, np.ndarray]:
         """Every column over the points of the trace, including the additional ones."""
@@ -113,7 +110,7 @@ class ModalBranch(FittedBranch):
     def complete(self, solved: Solved) -> Solved:
         """The state with the additional columns."""
         with self.system.at(solved.state):
-            return replace(solved, values=solved.values | self.modes.observe())
+            return replace(solved, values=solved.values | self.observe())
 
     # -- states --------------------------------------------------------------------------------
 
@@ -124,17 +121,7 @@ class ModalBranch(FittedBranch):
             InputError: If the column is unknown or does not take the value that often.
             ConvergenceError: If the state was bracketed but Newton's method did not converge to it.
         """
-        if name not in self.modes.columns:
-            return self.complete(super().at(name, value, crossing))
-        hits = self.crossings(name, value)
-        if len(hits) < crossing:
-            raise InputError(
-                f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}"
-            )
-        found = self._root(
-            int(hits[crossing - 1]), lambda solved: self.complete(solved).values[name] - value, name
-        )
-        return self.complete(replace(found, kind=""))
+        return self.complete(super().at(name, value, crossing))
 
     def crossings(self, name: str, value: float) -> np.ndarray:
         """Indices of the points after which a column crosses a value.
@@ -144,9 +131,7 @@ class ModalBranch(FittedBranch):
         """
         if name in self.hidden:
             return np.empty(0, dtype=int)
-        if name not in self.modes.columns:
-            return super().crossings(name, value)
-        return crossings(np.array([self.observed(point)[name] for point in self.points]), value)
+        return super().crossings(name, value)
 
     def at_position(self, like: CurvePoint, rates: dict[str, float], near: float) -> Solved:
         """As for any branch, with the additional columns."""
@@ -189,21 +174,14 @@ class ModalBranch(FittedBranch):
         The interval is narrowed by the inertia of interpolated states. The mode comes from the side where the
         eigenvalue is negative: there it is the highest negative one, even if the family has other soft modes.
         """
-        low, high = 0.0, 1.0
-        before = self._count_at(self.points[i].state, n)
-        after = self._count_at(self.points[i + 1].state, n)
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            if self._count_at(self._between(i, middle), n) == before:
-                low = middle
-            else:
-                high = middle
-        guess = self._between(i, high if after > before else low)
+        count, ends = partial(self._count_at, n=n), self.points[i : i + 2]
+        before, after = (count(point.state) for point in ends)
+        guess = self.between(i, self.narrowed(i, count, before, after))
         with self.system.at(guess):
             variation = self.modes.variation(n)
             border = variation.mass_times(variation.highest_negative().vector)
         solved = self._solve(guess, Singular(lambda: self.modes.variation(n), border), "bifurcation_point")
-        self._require_within(i, solved, f"bifurcation of n = {n}")
+        self.require_within(i, solved, f"bifurcation of n = {n}")
         return replace(solved, values=solved.values | {"n": float(n)})
 
     def null_vector(self, solved: Solved) -> np.ndarray:

@@ -110,11 +110,7 @@ class SecondVariation(System):
         Raises:
             ConvergenceError: If none is found.
         """
-        for count in (4, 16):
-            for mode in self.stability.modes(self._at_rest(), count):
-                if mode.eigenvalue < 0:
-                    return mode
-        raise ConvergenceError("stability: no negative eigenvalue is found near zero")
+        return self.stability.highest_negative(self._at_rest())
 
     def negative_count(self) -> int:
         """Number of negative eigenvalues at the state of the base system, by inertia."""

@@ -205,6 +205,18 @@ class Stability:
             found = self._near(self._solver(count), count, self._pairs)
             return sorted(found, key=lambda mode: abs(mode.eigenvalue))
 
+    def highest_negative(self, state: State) -> Mode:
+        """The negative eigenvalue nearest to zero, with its mode.
+
+        Raises:
+            ConvergenceError: If none is found.
+        """
+        for count in (4, 16):
+            for mode in self.modes(state, min(count, self.system.matrix.getSize()[0])):
+                if mode.eigenvalue < 0:
+                    return mode
+        raise ConvergenceError("stability: no negative eigenvalue is found near zero")
+
     def mode_at(self, state: State, eigenvalue: float) -> Mode:
         """The mode of a known eigenvalue, such as the lowest.
 

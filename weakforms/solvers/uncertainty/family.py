@@ -204,7 +204,8 @@ class BranchFamily:
         held = self.located_by.get(name, "") if special else name
         quantities = self._columns(solved, held, orders)
         if profile is not None or self.judges_points:
-            quantities |= self._diagnostics(solved, CRITICAL if special else 0.0)
+            zero = name in self.fine.computed and abs(value) < CRITICAL
+            quantities |= self._diagnostics(solved, CRITICAL if special or zero else 0.0)
         quantities = self._widened_if_unresolved(quantities, orders)
         fields = () if profile is None else (self._profile(solved, profile),)
         return State({name: value}, self.name, quantities, fields, crossing)

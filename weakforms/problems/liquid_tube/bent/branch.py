@@ -190,12 +190,12 @@ class SecondaryBranch(EquilibriumBranch):
         state = self.fitting.solve(guess, [*self.continuation.fixed, constraint])
         return Solved(self._values(state), state, kind)
 
-    def _require_within(self, i: int, solved: Solved, what: str) -> None:
+    def require_within(self, i: int, solved: Solved, what: str) -> None:
         """As for any curve, on the mesh of the trace."""
         on_trace = self.points[i].state
         state = self.fitting.moved(solved.state, on_trace)
         with self.system.at(on_trace):
-            super()._require_within(i, Solved(solved.values, state), what)
+            super().require_within(i, Solved(solved.values, state), what)
 
     def special(self) -> list[Solved]:
         """The bifurcation point at its start, then special points as of any branch."""

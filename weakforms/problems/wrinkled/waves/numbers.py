@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from typing import Annotated
 
 from pydantic import BeforeValidator, Field
+
+from weakforms.errors import InputError
 
 MOST_WAVES = 400
 """Largest wave number that can be requested; larger ones were not tested on the default meshes."""
@@ -24,6 +28,38 @@ def _waves(value: object) -> object:
             raise ValueError(wanted)
         found.append(int(number))
     return tuple(dict.fromkeys(found))
+
+
+LOWEST = 3
+"""Number of eigenvalues in results for each wave number."""
+
+EIGENVALUE = re.compile(r"Lambda_n(\d+)_(\d+)")
+
+
+def eigenvalue_names(n: int) -> list[str]:
+    """Names of the lowest eigenvalues of a wave number."""
+    return [f"Lambda_n{n}_{k}" for k in range(1, LOWEST + 1)]
+
+
+def require_waves(problem: str, n: tuple[int, ...], wanted: Iterable[str]) -> None:
+    """Refuse eigenvalues of wave numbers that are not computed.
+
+    Args:
+        problem: Name of the problem.
+        n: Wave numbers that are computed.
+        wanted: Names by which states are requested.
+
+    Raises:
+        InputError: For a name that is none of theirs.
+    """
+    known = [name for waves in n for name in eigenvalue_names(waves)]
+    for name in wanted:
+        if EIGENVALUE.fullmatch(name) and name not in known:
+            listed = ", ".join(known) or "none"
+            raise InputError(
+                f"{problem}: cannot ask for a state at {name!r}; allowed eigenvalues: {listed} "
+                f"(n = {','.join(map(str, n)) or '()'} sets the wave numbers)"
+            )
 
 
 WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], BeforeValidator(_waves)]

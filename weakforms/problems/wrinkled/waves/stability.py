@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.wrinkled.events import SLACK, Event
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import ZonedState
@@ -63,6 +63,8 @@ class StabilityChanges:
         n: Wave number.
         beta: Additional bending stiffness against waves.
         events: Gives the zones that open or close along the branch; called if an eigenvalue jumps.
+        k: Which eigenvalue, in ascending order.
+        value: The value that it passes.
     """
 
     def __init__(
@@ -71,14 +73,18 @@ class StabilityChanges:
         n: int,
         beta: float = 0.0,
         events: Callable[[], Sequence[Event]] = tuple,
+        k: int = 1,
+        value: float = 0.0,
     ) -> None:
+        self._wanted = k, value
         self.membrane, self.n, self.beta, self._events = membrane, n, beta, events
         self.failures: list[Failure] = []
 
     def lowest(self, held: ZonedState) -> float:
-        """The lowest eigenvalue."""
+        """The eigenvalue, by default the lowest, minus the value that it passes."""
+        k, value = self._wanted
         with waves_at(held) as waves:
-            return waves.spectrum(self.n, 1, self.beta).eigenvalues[0]
+            return waves.spectrum(self.n, k, self.beta).eigenvalues[k - 1] - value
 
     def between(self, points: Sequence[tuple[int, str, float, ZonedState]]) -> list[Change]:
         """All changes between neighbours of a branch, in order.
@@ -96,6 +102,31 @@ class StabilityChanges:
                     what = f"change of stability, n = {self.n}, after {points[j][1]} = {a.value:.6g}"
                     self.failures.append(Failure(what, str(error)))
         return found
+
+    def passage(
+        self, points: Sequence[tuple[int, str, float, ZonedState]], crossing: int
+    ) -> list[ZonedState]:
+        """The state on every mesh at which the eigenvalue has the value for the ``crossing``-th time.
+
+        Raises:
+            InputError: If it does not take the value that often.
+            ConvergenceError: If it jumps over the value where a zone opens or closes, or is not found.
+        """
+        found, (k, value) = self.between(points), self._wanted
+        name = f"Lambda_n{self.n}_{k}"
+        if len(found) < crossing:
+            if self.failures:
+                raise ConvergenceError(f"{self.failures[0].what}: {self.failures[0].reason}")
+            over = [self.lowest(held) + value for *_, held in points]
+            raise InputError(
+                f"{name} = {value:g} is crossed {len(found)} times on this branch, not {crossing}; "
+                f"{name} ranges over [{min(over):.6g}, {max(over):.6g}]"
+            )
+        change, control = found[crossing - 1], self.membrane.control
+        if change.beside is not None:
+            at = f"{control} = {change.levels[-1].state.loads[control]:.9g}"
+            raise ConvergenceError(f"{name} jumps over {value:g} at {at}, where a zone opens or closes")
+        return list(change.levels)
 
     # -- intervals ------------------------------------------------------------------------------
 
