@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Table, steps
+from reference_data.solvers.core.tables import Column, Table, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import text
 from reference_data.solvers.paper1.cases import Case
@@ -51,9 +51,8 @@ def positions(case: Case) -> Array:
     return steps(0.02, np.floor((case.reach - 0.005) * 50) / 50, 0.02)
 
 
-def adhesive(name: str, case: Case, source: str, adhesion: str) -> Table:
-    """Adhesive inflation over the front position."""
-    X = positions(case)
+def adhesive_columns(name: str, case: Case, X: Array, adhesion: str) -> list[Column]:
+    """Columns of adhesive inflation at front positions, by both methods."""
     x = X / case.disk.beta
     if adhesion == "locked":
         a = [
@@ -74,6 +73,11 @@ def adhesive(name: str, case: Case, source: str, adhesion: str) -> Table:
             rc.radial_rows(run.at(x), float(run.onset.y[0][0, 0, 0, 2]))
             for run in (dc.radial_b(case, i) for i in dc.BOTH)
         ]
+    return [dc.given("X_contact", X), *dc.columns(name, ADHESIVE, a, b)]
+
+
+def adhesive(name: str, case: Case, source: str, adhesion: str) -> Table:
+    """Adhesive inflation over the front position."""
     parameters = case.disk.parameters | {"contact": "adhesive", "adhesion": adhesion, "phase": "inflation"}
     notes = text.LOCKED if adhesion == "locked" else text.RADIAL
     return dc.table(
@@ -81,24 +85,29 @@ def adhesive(name: str, case: Case, source: str, adhesion: str) -> Table:
         f"Adhesive inflation, {case.title}",
         source,
         parameters,
-        [dc.given("X_contact", X), *dc.columns(name, ADHESIVE, a, b)],
-        notes=f"{notes} The pole keeps the stretch of first contact (table disk_contact_onset).",
+        adhesive_columns(name, case, positions(case), adhesion),
+        notes=f"{notes} {text.FROZEN_POLE}",
         model=adhesion,
     )
+
+
+def deflation_columns(name: str, case: Case, p: Array) -> list[Column]:
+    """Columns of adhesive deflation at rising pressures, by both methods."""
+    falling, a, b = p[::-1], [], []
+    for i in dc.BOTH:
+        lam = dc.onset_a(case.disk, i).lam
+        a.append(dc.rows_of([rs.edge_row(e, lam) for e in dc.deflated_a(case, falling, i)][::-1]))
+        x, states = dc.deflated_b(case, falling, i)
+        patch = dc.inflation_b(case, i).history.patch(np.array([x]))
+        lam = float(dc.onset_b(case.disk, i).y[0][0, 0, 0, 2])
+        b.append(rc.patch_rows(cs.joined(states[::-1]), patch, lam))
+    return [dc.given("p", p), *dc.columns(name, DEFLATION, a, b)]
 
 
 def deflation(name: str, case: Case, source: str) -> Table:
     """Adhesive deflation over the pressure (rows by rising p)."""
     p = np.append(steps(LOWEST, 10.0, 0.2), case.p_end)
-    p = np.unique(p[p <= case.p_end])[::-1]
-    a, b = [], []
-    for i in dc.BOTH:
-        lam = dc.onset_a(case.disk, i).lam
-        a.append(dc.rows_of([rs.edge_row(e, lam) for e in dc.deflated_a(case, p, i)][::-1]))
-        x, states = dc.deflated_b(case, p, i)
-        patch = dc.inflation_b(case, i).history.patch(np.array([x]))
-        lam = float(dc.onset_b(case.disk, i).y[0][0, 0, 0, 2])
-        b.append(rc.patch_rows(cs.joined(states[::-1]), patch, lam))
+    p = np.unique(p[p <= case.p_end])
     parameters = case.disk.parameters | {
         "contact": "adhesive",
         "adhesion": "locked",
@@ -110,7 +119,7 @@ def deflation(name: str, case: Case, source: str) -> Table:
         f"Adhesive deflation from p = {case.p_end:g}, {case.title}",
         source,
         parameters,
-        [dc.given("p", p[::-1]), *dc.columns(name, DEFLATION, a, b)],
+        deflation_columns(name, case, p),
         notes=f"{text.LOCKED} {text.DEFLATION}",
         model="locked",
     )

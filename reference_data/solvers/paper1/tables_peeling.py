@@ -9,7 +9,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from reference_data.solvers.core.tables import DisagreementError, Table, round_up, steps
+from reference_data.solvers.core.tables import Column, DisagreementError, Table, round_up, steps
 from reference_data.solvers.paper1 import cases as dc
 from reference_data.solvers.paper1 import peeling as peel
 from reference_data.solvers.paper1 import text
@@ -56,13 +56,12 @@ def radii(case: Case, p: float) -> Array:
     return known[known > start(case, p)[-1][0] + 2e-3]
 
 
-def curve(name: str, case: Case, p: float, source: str) -> Table:
-    """G over the contact radius at fixed p.
+def rates(name: str, case: Case, p: float, rho: Array) -> tuple[list[Column], dict[str, object]]:
+    """Columns of G over contact radii at fixed p by both methods, and how far the potential's quotient is.
 
     Raises:
         DisagreementError: If the closed form is not the difference quotient of the potential.
     """
-    rho = radii(case, p)
     a = [
         {"G": peel.rates_a(case, p, i)(rho), "X_contact": case.disk.beta * peel.fronts_a(case, rho, i)}
         for i in dc.BOTH
@@ -78,6 +77,12 @@ def curve(name: str, case: Case, p: float, source: str) -> Table:
             f"table {name}: closed form and difference of the potential differ by {worst:.1e}"
         )
     columns = [dc.given("rho_contact", rho), *dc.columns(name, ("G", "X_contact"), a, b)]
+    return columns, {"largest_difference_to_potential_quotient": round_up(worst)}
+
+
+def curve(name: str, case: Case, p: float, source: str) -> Table:
+    """G over the contact radius at fixed p."""
+    columns, extra = rates(name, case, p, radii(case, p))
     return dc.table(
         name,
         f"Energy release rate at p = {p:g}, {case.title}",
@@ -86,7 +91,7 @@ def curve(name: str, case: Case, p: float, source: str) -> Table:
         columns,
         notes=f"{text.LOCKED} {SAID}",
         model="locked",
-        extra={"largest_difference_to_potential_quotient": round_up(worst)},
+        extra=extra,
     )
 
 
@@ -103,13 +108,12 @@ def keyed(pairs: list[tuple[Case, float]]) -> list[object]:
     return [dc.given(c, [v[c] for v in values]) for c in KEYS]
 
 
-def pull_off(name: str) -> Table:
-    """Minimum of G over the contact radius, for pressures below first contact.
+def pull_off_columns(name: str, pairs: list[tuple[Case, float]]) -> list[Column]:
+    """Minima of G over the contact radius by both methods, one row for each case and pressure.
 
     Raises:
         DisagreementError: If a curve has no interior minimum.
     """
-    pairs = [(case, p) for case, p in every() if p < dc.touching(case.disk)]
     sides = []
     for rates, points in ((peel.rates_a, 11), (peel.rates_b, 13)):
         side = []
@@ -122,7 +126,13 @@ def pull_off(name: str) -> Table:
             X = [c.disk.beta * place(c, np.array([r]), i)[0] for (c, _), r in zip(pairs, rho, strict=True)]
             side.append({"rho_contact": rho, "G": rate, "X_contact": np.array(X)})
         sides.append(side)
-    columns = [*keyed(pairs), *dc.columns(name, ("rho_contact", "G", "X_contact"), *sides)]
+    return dc.columns(name, ("rho_contact", "G", "X_contact"), *sides)
+
+
+def pull_off(name: str) -> Table:
+    """Minimum of G over the contact radius, for pressures below first contact."""
+    pairs = [(case, p) for case, p in every() if p < dc.touching(case.disk)]
+    columns = [*keyed(pairs), *pull_off_columns(name, pairs)]
     return dc.table(
         name,
         "Pull-off points",

@@ -40,6 +40,7 @@ LOCKED = (
 DEFLATION = (
     "The patch acquired at p_end moves as a rigid body and does not peel; its springs act in tension too."
 )
+FROZEN_POLE = "The pole keeps the stretch of first contact (table disk_contact_onset)."
 RADIAL = "Model N: in the patch rho(x) is frozen, eta in vertical equilibrium."
 SLIDING = "Before first contact the states are those of free inflation (table disk_contact_onset)."
 

@@ -26,10 +26,11 @@ P_END = 3.0
 
 @dataclass(frozen=True)
 class Case:
-    """A tube and its substrate."""
+    """A tube, its substrate, and the pressure at which inflation ends and deflation starts."""
 
     tube: Tube
     substrate: Substrate
+    p_end: float = P_END
 
     @property
     def label(self) -> str:
@@ -60,7 +61,7 @@ differences do not resolve the traction at its edge well enough for a table of a
 @lru_cache(maxsize=4)
 def histories(case: Case) -> tuple[hist.Inflation, ...]:
     """Adhesive inflation by collocation at both resolutions."""
-    return tuple(hist.Inflation(case.tube, case.substrate, how, P_END) for how in st.RESOLUTIONS)
+    return tuple(hist.Inflation(case.tube, case.substrate, how, case.p_end) for how in st.RESOLUTIONS)
 
 
 @lru_cache(maxsize=64)
@@ -91,7 +92,7 @@ def adhesive(case: Case, p: float) -> tuple[State, ...]:
 
 def deflated(case: Case, spring: str, p: Array) -> list[list[State]]:
     """Adhesive deflation at falling pressures by collocation, at both resolutions."""
-    starts = adhesive(case, P_END)
+    starts = adhesive(case, case.p_end)
     if spring == "bilateral":
         return [hist.bilateral(start, p) for start in starts]
     return [hist.unilateral(s, how, p) for s, how in zip(starts, st.RESOLUTIONS, strict=True)]
@@ -99,7 +100,8 @@ def deflated(case: Case, spring: str, p: Array) -> list[list[State]]:
 
 def deflated_fd(case: Case, spring: str, p: Array, step: float = 0.05) -> list[list[defl.Stuck]]:
     """The same by finite differences, on every grid."""
-    starts = [defl.fitted(case.tube, case.substrate, n, P_END) for n in defl.GRIDS]
+    given, p_end = (case.tube, case.substrate), case.p_end
+    starts = [defl.fitted(*given, n, p_end, known=p_end) for n in defl.GRIDS]
     return [defl.deflation(start, p, spring, step) for start in starts]
 
 
@@ -107,7 +109,7 @@ def interpolated(case: Case, p: Array) -> list[list[dict[str, float]]]:
     """Columns of adhesive inflation by finite differences: per grid, per pressure."""
     out = []
     for n in defl.GRIDS:
-        run = defl.followed(case.tube, case.substrate, n, P_END)
+        run = defl.followed(case.tube, case.substrate, n, case.p_end)
         known: dict[int, dict[str, float]] = {}
         rows = []
         for target in p:

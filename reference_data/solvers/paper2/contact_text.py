@@ -35,6 +35,7 @@ SPRING = {
 DEFLATION_NOTES = (
     "Deflation from p_end at the end of adhesive inflation; the patch acquired there does not peel."
 )
+BEFORE = "Before first contact the states are those of free inflation (table contact_onset)."
 ONSET_NOTES = "First touch of free inflation, rho(0) = s; same for frictionless and adhesive contact."
 
 COLUMNS: dict[str, tuple[str, str]] = tube_text.COLUMNS | {

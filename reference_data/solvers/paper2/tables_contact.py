@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from reference_data.solvers.core.mooney_rivlin import Tube
-from reference_data.solvers.core.tables import Table, agreed, steps
+from reference_data.solvers.core.tables import Array, Column, Table, agreed, steps
 from reference_data.solvers.paper2 import contact_cases as cc
 from reference_data.solvers.paper2 import contact_text as text
 from reference_data.solvers.paper2.collocation import states as st
@@ -46,51 +46,56 @@ SLACK_NOTES = (
 )
 
 
-def inflation(name: str, case: Case, contact: str, source: str) -> Table:
-    """Inflation in contact over p."""
-    p = cc.pressures(case)
+def inflation_columns(name: str, case: Case, contact: str, p: Array) -> list[Column]:
+    """Columns of inflation in contact at rising pressures, by both methods."""
     columns = text.SERIES[contact].keys(p=p)
     if contact == "frictionless":
         coarse = cfd.walk(case.tube, case.substrate, p)
         per_state = [[cfd.summary(s) for s in cfd.on_grids(state)] for state in coarse]
         a = [list(rows) for rows in zip(*per_state, strict=True)]
         b = [[st.summary(s) for s in states] for states in cc.frictionless(case, p)]
-        columns += cc.both(name, CURVE, a, b, (2, 3, 4))
-    else:
-        a = cc.interpolated(case, p)
-        b = [[st.summary(s) | cc.tractions(s) for s in map(h.at, p)] for h in cc.histories(case)]
-        columns += cc.both(name, (*CURVE, "traction_front"), a, b, defl.POWERS)
+        return columns + cc.both(name, CURVE, a, b, (2, 3, 4))
+    a = cc.interpolated(case, p)
+    b = [[st.summary(s) | cc.tractions(s) for s in map(h.at, p)] for h in cc.histories(case)]
+    return columns + cc.both(name, (*CURVE, "traction_front"), a, b, defl.POWERS)
+
+
+def inflation(name: str, case: Case, contact: str, source: str) -> Table:
+    """Inflation in contact over p."""
+    columns = inflation_columns(name, case, contact, cc.pressures(case))
     parameters = case.parameters | {"phase": "inflation", "p_end": P_END}
     title = f"{contact.capitalize()} inflation against a substrate, {case.title}"
-    notes = "Before first contact the states are those of free inflation (table contact_onset)."
-    return cc.table(contact, name, title, source, parameters, columns, notes=notes)
+    return cc.table(contact, name, title, source, parameters, columns, notes=text.BEFORE)
 
 
-def deflation(name: str, case: Case, spring: str, source: str, low: bool = False) -> Table:
-    """Adhesive deflation over p (rows by rising p); ``low``: a slack tube below the main table.
+def deflation_columns(
+    name: str, case: Case, spring: str, p: Array, last: int, wanted: tuple[str, ...], step: float = 0.05
+) -> list[Column]:
+    """Columns of adhesive deflation at the ``last`` of falling pressures (rows by rising p), by both methods.
 
     Raises:
         RuntimeError: If a method does not find all states.
     """
+    found = [states[-last:] for states in cc.deflated(case, spring, p) if len(states) == len(p)]
+    by_grid = [states[-last:] for states in cc.deflated_fd(case, spring, p, step) if len(states) == len(p)]
+    if (len(found), len(by_grid)) != (2, len(defl.GRIDS)):
+        raise RuntimeError(f"table {name}: not all states found down to p = {p[-1]:g}")
+    a = [[defl.summary(s) for s in states[::-1]] for states in by_grid]
+    b = [[st.summary(s) | st.at_edge(s) | cc.tractions(s) for s in states[::-1]] for states in found]
+    columns = text.SERIES["adhesive"].keys(p=p[-last:][::-1])
+    return columns + cc.both(name, wanted, a, b, defl.POWERS, irregular=spring == "unilateral", amplified=16)
+
+
+def deflation(name: str, case: Case, spring: str, source: str, low: bool = False) -> Table:
+    """Adhesive deflation over p (rows by rising p); ``low``: a slack tube below the main table."""
     slack = spring == "unilateral" and case.tube.delta1 == 1
     p = steps(LOWEST_SLACK if slack else 0.0, P_END, 0.1)[::-1]
     if spring == "unilateral":
         p = p[np.abs(p - JUST_BELOW) > 1e-9]
     rows = steps(*LOW)[::-1] if low else p
     p = np.append(p, rows) if low else p
-    found = [states[-len(rows) :] for states in cc.deflated(case, spring, p) if len(states) == len(p)]
-    by_grid = [
-        states[-len(rows) :]
-        for states in cc.deflated_fd(case, spring, p, 0.005 if low else 0.05)
-        if len(states) == len(p)
-    ]
-    if (len(found), len(by_grid)) != (2, len(defl.GRIDS)):
-        raise RuntimeError(f"table {name}: not all states found down to p = {p[-1]:g}")
-    a = [[defl.summary(s) for s in states[::-1]] for states in by_grid]
-    b = [[st.summary(s) | st.at_edge(s) | cc.tractions(s) for s in states[::-1]] for states in found]
     wanted = ("u_max", "t1_mid", "lam1_mid") if low else DEFLATION[:-1] if slack else DEFLATION
-    columns = text.SERIES["adhesive"].keys(p=rows[::-1])
-    columns += cc.both(name, wanted, a, b, defl.POWERS, irregular=spring == "unilateral", amplified=16)
+    columns = deflation_columns(name, case, spring, p, len(rows), wanted, 0.005 if low else 0.05)
     notes = f"{text.DEFLATION_NOTES} {text.SPRING[spring]}{SLACK_NOTES if slack else ''}"
     parameters = case.parameters | {"phase": "deflation", "spring": spring, "p_end": P_END}
     title = f"Adhesive deflation, {spring} spring, {case.title}"

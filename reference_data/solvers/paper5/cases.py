@@ -17,6 +17,7 @@ from reference_data.solvers.paper4.methods.collocation import State
 from reference_data.solvers.paper4.methods.shooting_newton import Solution
 from reference_data.solvers.paper5 import text
 from reference_data.solvers.paper5.hemisphere import states as hem
+from reference_data.solvers.paper5.hemisphere.body import BODY, Hemisphere
 from reference_data.solvers.paper5.waves import cylinder as cyl
 from reference_data.solvers.paper5.waves import shots as sht
 from reference_data.solvers.paper5.waves.second_variation import Quadratic
@@ -68,15 +69,16 @@ def cylinder(membrane: Membrane, load: float) -> Spectrum:
 
 
 @dataclass
-class Hemisphere:
-    """The hemisphere at a level, by both methods."""
+class Filled:
+    """A hemisphere at a level, by both methods."""
 
     zw: float
+    body: Hemisphere = BODY
 
     @cached_property
     def tracked(self) -> list[State]:
         """States by collocation."""
-        coarse = hem.LEVELS.at(self.zw)
+        coarse = hem.levels(self.body).at(self.zw)
         return [coarse, hem.fine(coarse, "load", self.zw)]
 
     @cached_property
@@ -96,9 +98,9 @@ class Hemisphere:
 
 
 @cache
-def hemisphere(zw: float) -> Hemisphere:
-    """The hemisphere at a level."""
-    return Hemisphere(zw)
+def hemisphere(zw: float, body: Hemisphere = BODY) -> Filled:
+    """A hemisphere at a level."""
+    return Filled(zw, body)
 
 
 @dataclass

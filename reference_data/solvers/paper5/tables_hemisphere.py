@@ -16,6 +16,7 @@ from reference_data.solvers.paper4.methods.shooting import local
 from reference_data.solvers.paper4.methods.shooting_newton import Solution
 from reference_data.solvers.paper5 import cases as rel
 from reference_data.solvers.paper5 import text
+from reference_data.solvers.paper5.cases import Filled
 from reference_data.solvers.paper5.hemisphere import limit as lim
 from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, KAPPA
 from reference_data.solvers.registry import Builder
@@ -34,6 +35,7 @@ CHANGES: dict[int, tuple[tuple[float, float], ...]] = {
     100: ((-0.78, -0.76),),
 }
 SAMPLES = 80
+FRONT_NOTES = "Taut below the first and above the second front."
 DATA: dict[str, object] = {"c2": 0.0, "Ao": 0.1, "H": 1e-4, "kappa": KAPPA}
 
 
@@ -145,21 +147,25 @@ def of_shot(found: Solution) -> dict[str, float]:
     }
 
 
-def branch(name: str) -> Table:
-    """The branch up to the limit point, with prescribed level."""
-    found = [rel.hemisphere(x) for x in BRANCH_LOADS]
+def branch_columns(name: str, found: list[Filled]) -> list[Column]:
+    """Columns of states with prescribed level, by both methods."""
     a = [[of_state(x) for x in f.tracked] for f in found]
     b = [[of_shot(x) for x in f.shots] for f in found]
-    columns = text.SERIES.keys(zw=BRANCH_LOADS)
+    columns = text.SERIES.keys(zw=[f.zw for f in found])
     for key in ("z_pole", "lam_pole", "V", "t_level"):
         columns.append(paired(name, key, [[y[key] for y in x] for x in a], [[y[key] for y in x] for x in b]))
+    return columns
+
+
+def branch(name: str) -> Table:
+    """The branch up to the limit point, with prescribed level."""
+    columns = branch_columns(name, [rel.hemisphere(x) for x in BRANCH_LOADS])
     return make(name, "The hemisphere up to its limit point", "section 3.3", columns)
 
 
-def fronts(name: str) -> Table:
-    """Fronts of the wrinkled zone."""
-    found = [rel.hemisphere(x) for x in FRONT_LOADS]
-    columns = text.SERIES.keys(zw=FRONT_LOADS)
+def front_columns(name: str, found: list[Filled]) -> list[Column]:
+    """Columns of the fronts of one wrinkled zone at prescribed levels, by both methods."""
+    columns = text.SERIES.keys(zw=[f.zw for f in found])
     for k in (0, 1):
         about = ("rad", f"{('lower', 'upper')[k]} end of the wrinkled zone: material angle")
         pairs = (
@@ -167,13 +173,14 @@ def fronts(name: str) -> Table:
             Pair(*np.array([[x.shot.fronts[k] for x in f.shots] for f in found]).T, 1e-12),
         )
         columns.append(cas.agreed(name, f"t_front_{k + 1}", *pairs, about))
-    return make(
-        name,
-        "Wrinkled zone of the hemisphere",
-        "section 3.3 and figure 9",
-        columns,
-        notes="Taut below the first and above the second front.",
-    )
+    return columns
+
+
+def fronts(name: str) -> Table:
+    """Fronts of the wrinkled zone."""
+    columns = front_columns(name, [rel.hemisphere(x) for x in FRONT_LOADS])
+    title = "Wrinkled zone of the hemisphere"
+    return make(name, title, "section 3.3 and figure 9", columns, notes=FRONT_NOTES)
 
 
 def past(name: str) -> Table:

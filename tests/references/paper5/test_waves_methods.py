@@ -205,7 +205,7 @@ def test_linearised_theory():
 
 def test_hemisphere_first_integrals():
     """Constant tension in wrinkled zones, a straight meridian in dry ones; a front near the equator."""
-    state = hem.LEVELS.at(-0.9)
+    state = hem.levels().at(-0.9)
     t, y = state.s, state.y
     tension = np.sin(t) * wri.relaxed_slope(y[..., 2], 0.0)
     for zone, (tense, wet) in enumerate(zip(state.pattern.tense, state.pattern.wet, strict=True)):
@@ -219,11 +219,11 @@ def test_hemisphere_first_integrals():
 
 
 def test_hemisphere_at_high_levels_is_tense_and_stable():
-    found = hem.LEVELS.at(-0.52)
+    found = hem.levels().at(-0.52)
     assert found.pattern.signature == (True,)
     f = quadratic(found)
     assert min(f.first(n) for n in (0, 1, 2, 10, 50)) > 0
-    low = quadratic(hem.LEVELS.at(-0.9))
+    low = quadratic(hem.levels().at(-0.9))
     assert low.first(10) > 0 > low.first(50)
 
 

@@ -71,13 +71,15 @@ def followed(tube: Tube, substrate: Substrate, n: int, p_end: float) -> Inflatio
 
 
 @lru_cache(maxsize=64)
-def fitted(tube: Tube, substrate: Substrate, n: int, p_end: float) -> Stuck:
+def fitted(tube: Tube, substrate: Substrate, n: int, p_end: float, known: float = 3.0) -> Stuck:
     """State of the inflation with a node touching at p_end.
+
+    The first guess is read from an inflation up to the pressure ``known``, or p_end if that is larger.
 
     Raises:
         RuntimeError: If the grid cannot be adjusted.
     """
-    first = followed(tube, substrate, n, max(p_end, 3.0))
+    first = followed(tube, substrate, n, max(p_end, known))
     x, _ = first.position(p_end)
     where = float(first.glued.grid.fraction(x / n))
     j = cfd.numerator(where)

@@ -1,7 +1,8 @@
 """The hanging hemisphere under liquid, paper 5 of the thesis, section 3.3: data and ends.
 
-Neo-Hookean (c2 = 0), R = sin s, s in [0, pi/2] the angle from the lowest point, thickness 1, clamped at the
-equator, where z = 0; liquid up to the level zw < 0. The methods of paper 4 apply to it.
+Neo-Hookean (c2 = 0) if no other law is given, R = sin s, s in [0, pi/2] the angle from the lowest point,
+thickness 1, clamped at the equator, where z = 0; liquid up to the level zw < 0. The methods of paper 4 apply
+to it.
 """
 
 from __future__ import annotations
@@ -21,14 +22,19 @@ KAPPA = 100 * GAMMA  # rho g Ao^2/(C1 h) with Ao = 0.1 m instead of 0.01 m
 
 @dataclass(frozen=True)
 class Hemisphere:
-    """A body, as :class:`paper4.material.Body` describes it."""
+    """A body, as :class:`paper4.material.Body` describes it.
 
+    Attributes:
+        c2: C2/C1, or another law.
+        weight: rho g Ao^2/(C1 h) of the liquid.
+    """
+
+    c2: float = 0.0
+    weight: float = KAPPA
     L: ClassVar[float] = EQUATOR
-    c2: ClassVar[float] = 0.0
     energy: ClassVar[str] = "relaxed"
     load: ClassVar[str] = "fluid"
     control: ClassVar[str] = "zw"
-    weight: ClassVar[float] = KAPPA
     pole: ClassVar[bool] = True
     longest: ClassVar[float] = 0.2
     cautious: ClassVar[float] = 0.02
@@ -51,7 +57,7 @@ class Hemisphere:
 
     def pressure(self, z: Any, load: Any, wet: Any) -> Any:
         """Pressure of the liquid up to a level, on the wet part."""
-        return np.where(wet, KAPPA * (load - z), 0.0)
+        return np.where(wet, self.weight * (load - z), 0.0)
 
     def decided(self, _load: float) -> bool:
         """Whether the sign of gw - 1 is not needed."""
@@ -70,7 +76,7 @@ class Hemisphere:
         lam, z0 = given[..., 0], given[..., 1]
         w = mat.slope(lam, lam, self.c2)
         w11, w12 = mat.curvature(lam, lam, self.c2), mat.mixed(lam, lam, self.c2)
-        c = KAPPA * (load - z0) * lam**2 / (2 * w)
+        c = self.weight * (load - z0) * lam**2 / (2 * w)
         shift = lam * (c * c - 1) / 2  # alpha = 3 beta + shift
         beta = (w * (1 - c * c) / 2 - (3 * w11 - w12) * shift) / (8 * w11)
         l1, l2 = lam + (3 * beta + shift) * s**2, lam + beta * s**2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 
@@ -12,16 +13,16 @@ from reference_data.solvers.paper4.methods.collocation import Rule, State
 from reference_data.solvers.paper4.methods.shooting_measures import starts_of
 from reference_data.solvers.paper4.methods.shooting_newton import Solution, solve
 from reference_data.solvers.paper4.methods.states import from_grid, moved_to, polished
-from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR
+from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, Hemisphere
 
 RULES = (Rule(16, 0.16), Rule(18, 0.12))
 CELLS = 120
 
 
-def start(zw: float = -0.6) -> State:
+def start(zw: float = -0.6, body: Hemisphere = BODY) -> State:
     """The state at a high level, from central differences that begin with a sphere lowered by a fiftieth."""
     s = np.linspace(0, EQUATOR, CELLS + 1)
-    grid = fd.newton(fd.Grid(BODY, np.sin(s), -1.02 * np.cos(s), zw), zw, 200)
+    grid = fd.newton(fd.Grid(body, np.sin(s), -1.02 * np.cos(s), zw), zw, 200)
     return polished(from_grid(grid, RULES[0]), "load", zw)
 
 
@@ -46,11 +47,13 @@ class Walk:
     Attributes:
         control: The load, or the height of the pole.
         first: Where the walk begins, from the state at the level -0.6.
+        body: The hemisphere.
         known: States computed so far.
     """
 
     control: str
     first: float
+    body: Hemisphere = BODY
     known: dict[float, State] = field(default_factory=dict)
 
     def at(self, target: float) -> State:
@@ -60,7 +63,7 @@ class Walk:
             RuntimeError: If a step fails.
         """
         if not self.known:
-            self.known[self.first] = polished(start(-0.6), self.control, self.first)
+            self.known[self.first] = polished(start(-0.6, self.body), self.control, self.first)
         here = min(self.known, key=lambda x: abs(x - target))
         longest = 0.01 if self.control == "load" and max(here, target) > -0.6 else 0.03
         state = self.known[here]
@@ -70,7 +73,13 @@ class Walk:
         return state
 
 
-LEVELS, POLES = Walk("load", -0.6), Walk("z_pole", -1.33)
+POLES = Walk("z_pole", -1.33)
+
+
+@cache
+def levels(body: Hemisphere = BODY) -> Walk:
+    """States of a hemisphere by their level."""
+    return Walk("load", -0.6, body)
 
 
 def shots(state: State, control: str, target: float) -> list[Solution]:
@@ -79,5 +88,5 @@ def shots(state: State, control: str, target: float) -> list[Solution]:
     for steps in STEPS:
         starts = starts_of(state, steps)
         starts[0] = state.y[0, 0, 2], state.y[0, 0, 1], 0.0, 0.0
-        out.append(solve(BODY, starts, state.load, control, target, steps))
+        out.append(solve(state.membrane, starts, state.load, control, target, steps))
     return out
