@@ -69,20 +69,21 @@ def cylinder(membrane: Membrane, load: float) -> Spectrum:
 
 @dataclass
 class Hemisphere:
-    """The hemisphere at a level, by both methods."""
+    """The hemisphere at a level or at a gas pressure, by both methods."""
 
-    zw: float
+    load: float
+    walk: hem.Walk
 
     @cached_property
     def tracked(self) -> list[State]:
         """States by collocation."""
-        coarse = hem.LEVELS.at(self.zw)
-        return [coarse, hem.fine(coarse, "load", self.zw)]
+        coarse = self.walk.at(self.load)
+        return [coarse, hem.fine(coarse, "load", self.load)]
 
     @cached_property
     def shots(self) -> list[Solution]:
         """States by shooting."""
-        return hem.shots(self.tracked[0], "load", self.zw)
+        return hem.shots(self.tracked[0], "load", self.load)
 
     @cached_property
     def spectrum(self) -> Spectrum:
@@ -98,7 +99,13 @@ class Hemisphere:
 @cache
 def hemisphere(zw: float) -> Hemisphere:
     """The hemisphere at a level."""
-    return Hemisphere(zw)
+    return Hemisphere(zw, hem.LEVELS)
+
+
+@cache
+def gas_hemisphere(p: float) -> Hemisphere:
+    """The hemisphere at a gas pressure."""
+    return Hemisphere(p, hem.PRESSURES)
 
 
 @dataclass
