@@ -202,6 +202,8 @@ HEMISPHERE = About(
     tuned=(
         Family(FILLINGS, **BLOCKS, at=(("zw", -0.9),)),
         Family(FILLINGS, **BLOCKS, fixed={"n": [2, 10]}, at=(("zw", -0.9),), label="waves"),
+    ),
+    held_out=(
         Family(
             {"c2": (0.0, 0.2)},
             **BLOCKS,
