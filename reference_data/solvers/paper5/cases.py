@@ -70,21 +70,21 @@ def cylinder(membrane: Membrane, load: float) -> Spectrum:
 
 @dataclass
 class Filled:
-    """A hemisphere at a level, by both methods."""
+    """A hemisphere at a level or at a gas pressure, by both methods."""
 
-    zw: float
-    body: Hemisphere = BODY
+    load: float
+    walk: hem.Walk
 
     @cached_property
     def tracked(self) -> list[State]:
         """States by collocation."""
-        coarse = hem.levels(self.body).at(self.zw)
-        return [coarse, hem.fine(coarse, "load", self.zw)]
+        coarse = self.walk.at(self.load)
+        return [coarse, hem.fine(coarse, "load", self.load)]
 
     @cached_property
     def shots(self) -> list[Solution]:
         """States by shooting."""
-        return hem.shots(self.tracked[0], "load", self.zw)
+        return hem.shots(self.tracked[0], "load", self.load)
 
     @cached_property
     def spectrum(self) -> Spectrum:
@@ -100,7 +100,13 @@ class Filled:
 @cache
 def hemisphere(zw: float, body: Hemisphere = BODY) -> Filled:
     """A hemisphere at a level."""
-    return Filled(zw, body)
+    return Filled(zw, hem.levels(body))
+
+
+@cache
+def gas_hemisphere(p: float) -> Filled:
+    """The hemisphere at a gas pressure."""
+    return Filled(p, hem.PRESSURES)
 
 
 @dataclass

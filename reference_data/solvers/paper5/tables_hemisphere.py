@@ -18,7 +18,7 @@ from reference_data.solvers.paper5 import cases as rel
 from reference_data.solvers.paper5 import text
 from reference_data.solvers.paper5.cases import Filled
 from reference_data.solvers.paper5.hemisphere import limit as lim
-from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, KAPPA
+from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, KAPPA, Hemisphere
 from reference_data.solvers.registry import Builder
 
 LEVELS = (-1.1, -0.9, -0.7, -0.6, -0.52)
@@ -81,12 +81,12 @@ def wrinkling(name: str, zw: float) -> Table:
     )
 
 
-def shot_wrinkling(found: Solution, t: Array) -> Array:
+def shot_wrinkling(found: Solution, t: Array, body: Hemisphere = BODY) -> Array:
     """Wrinkling function of a shot; the pole's from its stretch."""
     out = np.full(len(t), found.starts[0, 0] ** 1.5)
     beyond = t >= found.shot.parts[0].s
     s, y, tense, _ = smsr.inside(found.shot, *smsr.located(found.shot, t[beyond]))
-    out[beyond] = 1 + local(BODY, s, y, tense)[1]
+    out[beyond] = 1 + local(body, s, y, tense)[1]
     return out
 
 
@@ -126,35 +126,32 @@ def changes(name: str) -> Table:
 def of_state(state: State) -> dict[str, float]:
     """Scalars of a tracked state."""
     _, z, stretch, _ = state.y[0, 0]
-    return {
-        "zw": state.load,
-        "z_pole": z,
-        "lam_pole": stretch,
-        "V": state.volume,
-        "t_level": state.pattern.surface,
-    }
+    level = {"t_level": state.pattern.surface} if "surface" in state.pattern.kinds else {}
+    control = state.membrane.control
+    return {control: state.load, "z_pole": z, "lam_pole": stretch, "V": state.volume} | level
 
 
 def of_shot(found: Solution) -> dict[str, float]:
     """Scalars of a shot."""
     stretch, z = found.starts[0, :2]
-    return {
-        "zw": found.load,
-        "z_pole": z,
-        "lam_pole": stretch,
-        "V": found.volume,
-        "t_level": found.shot.surface,
-    }
+    level = {"t_level": found.shot.surface} if found.membrane.crossed(found.load) else {}
+    control = found.membrane.control
+    return {control: found.load, "z_pole": z, "lam_pole": stretch, "V": found.volume} | level
+
+
+def scalars(name: str, keys: tuple[str, ...], a: list[list[State]], b: list[list[Solution]]) -> list[Column]:
+    """Columns of scalars by both methods."""
+    one, other = [[of_state(x) for x in f] for f in a], [[of_shot(x) for x in f] for f in b]
+    return [
+        paired(name, k, [[y[k] for y in x] for x in one], [[y[k] for y in x] for x in other]) for k in keys
+    ]
 
 
 def branch_columns(name: str, found: list[Filled]) -> list[Column]:
     """Columns of states with prescribed level, by both methods."""
-    a = [[of_state(x) for x in f.tracked] for f in found]
-    b = [[of_shot(x) for x in f.shots] for f in found]
-    columns = text.SERIES.keys(zw=[f.zw for f in found])
-    for key in ("z_pole", "lam_pole", "V", "t_level"):
-        columns.append(paired(name, key, [[y[key] for y in x] for x in a], [[y[key] for y in x] for x in b]))
-    return columns
+    keys = ("z_pole", "lam_pole", "V", "t_level")
+    values = scalars(name, keys, [f.tracked for f in found], [f.shots for f in found])
+    return [*text.SERIES.keys(zw=[f.load for f in found]), *values]
 
 
 def branch(name: str) -> Table:
@@ -185,29 +182,30 @@ def fronts(name: str) -> Table:
 
 def past(name: str) -> Table:
     """The branch around and past the limit point, with prescribed height of the pole."""
-    a = [[of_state(x) for x in lim.held(z)] for z in PAST]
-    b = [[of_shot(x) for x in lim.shots(z)] for z in PAST]
-    columns = text.SERIES.keys(z_pole=PAST)
-    for key in ("zw", "lam_pole", "V"):
-        columns.append(paired(name, key, [[y[key] for y in x] for x in a], [[y[key] for y in x] for x in b]))
+    a, b = [list(lim.held(z)) for z in PAST], [lim.shots(z) for z in PAST]
+    columns = [*text.SERIES.keys(z_pole=PAST), *scalars(name, ("zw", "lam_pole", "V"), a, b)]
     return make(name, "The hemisphere past its limit point", "section 3.3; beyond the paper", columns)
 
 
-def limit(name: str) -> Table:
-    """The limit point."""
-    found = lim.limit()
+def turned(name: str, found: lim.Limit, load: str) -> list[Column]:
+    """Load, height of the pole and volume at a limit point."""
     columns = []
-    for i, key in ((1, "zw"), (0, "z_pole"), (2, "V")):
+    for i, key in ((1, load), (0, "z_pole"), (2, "V")):
         pairs = (
             Pair(*(np.array([x[i]]) for x in found.collocation), 1e-11),
             Pair(*(np.array([x[i]]) for x in found.shooting), 1e-11),
         )
         columns.append(cas.agreed(name, key, *pairs, text.COLUMNS[key]))
+    return columns
+
+
+def limit(name: str) -> Table:
+    """The limit point."""
     return make(
         name,
         "Limit point of the hemisphere: the largest level",
         "section 3.3; not in the paper",
-        columns,
+        turned(name, lim.limit(), "zw"),
         notes="By shooting: maximum of the quartic through five levels at heights 0.02 and 0.01 apart.",
     )
 

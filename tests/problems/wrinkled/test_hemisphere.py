@@ -1,10 +1,12 @@
-"""The hemisphere that holds a liquid: the numbers of one state are consistent."""
+"""The hemisphere that holds a liquid or a gas: the numbers of one state are consistent."""
 
 import numpy as np
 import pytest
 
 from weakforms.api import solve_requests
-from weakforms.problems.problem import StateRequest
+from weakforms.errors import InputError
+from weakforms.problems.problem import StateRequest, validated
+from weakforms.problems.wrinkled.hemisphere import HemisphereParameters
 
 COARSE = {"cells": 8, "degree": 3}
 
@@ -35,3 +37,67 @@ def test_the_full_energy_is_unstable_against_waves_where_a_wrinkled_hemisphere_i
     assert found["modified_gradient"] == pytest.approx(found["relaxed"], rel=1e-9)
     assert found["standard"]["V"] > 1.05 * found["relaxed"]["V"]
     assert found["standard"]["Lambda_n10_1"] < 0 < found["relaxed"]["Lambda_n10_1"]
+
+
+@pytest.mark.parametrize(
+    ("law", "limits"),
+    [({}, 1), ({"c2": 0.3, "volume_end": 8.0}, 0), ({"model": "gent", "volume_end": 4.0}, 1)],
+    ids=["neo-Hookean", "Mooney-Rivlin", "Gent"],
+)
+def test_a_gas_inflates_the_hemisphere_of_any_law(law, limits):
+    """Virtual work on the branch, a taut membrane, and the limit point where n_negative changes."""
+    coarse = {"cells": 4, "degree": 4, "levels": 2}
+    wanted = [StateRequest("p", 0.5, profile=())]
+    result = solve_requests("hemisphere", {"load": "gas"} | law, coarse, wanted, branch_uncertainty=False)
+    columns = result.branch().columns
+    assert columns["p"][0] == pytest.approx(0.01, rel=1e-12)
+    assert columns["V"][0] == pytest.approx(1 / 3, rel=2e-3)
+    assert np.diff(columns["V"]).min() > 0
+    assert columns["gw_min"].min() > 1
+    assert "t_level" not in columns
+    assert "zw" not in columns
+    found = [point for point in result.special_points if point.kind == "limit_point"]
+    assert len(found) == limits
+    counts = np.array(columns["n_negative"])
+    past = columns["V"] > (found[0].values["V"] if found else np.inf)
+    np.testing.assert_array_equal(counts, past.astype(int))
+    state = result.states[0]
+    field, spread = state.fields[0].columns, state.fields[0].uncertainty
+    assert np.abs(field["axial"]).max() <= 2 * spread["axial"]
+    assert spread["axial"] < 1e-4
+    assert state.quantities["lam_pole"].value == pytest.approx(field["lam1"][0], rel=1e-9)
+    assert result.failures == []
+
+
+@pytest.mark.parametrize(
+    ("given", "asked", "message"),
+    [
+        ({"load": "gas"}, ("zw", -0.9), "with load = 'gas' there is no zw; the load is p"),
+        ({}, ("p", 0.5), "with load = 'fluid' there is no p; the load is zw"),
+        ({"load": "gas"}, ("p", 0.001), "p = 0.001; allowed: from 0.002 to below 100"),
+        ({}, ("zw", 0.1), "zw = 0.1; allowed: from -1.18 to below 0, the equator"),
+    ],
+    ids=["level of a gas", "pressure of a liquid", "too small", "above the equator"],
+)
+def test_a_load_that_the_hemisphere_does_not_have_is_refused(given, asked, message):
+    with pytest.raises(InputError, match=message):
+        solve_requests("hemisphere", given, {}, [StateRequest(*asked)])
+
+
+def test_parameters_of_the_other_load_are_said_to_have_no_effect():
+    gas = validated(HemisphereParameters, {"load": "gas", "gamma": 3.0, "low_end": -1.0}, "hemisphere")
+    assert [text.split(" has")[0] for text in gas.without_effect()] == ["gamma = 3.0", "low_end = -1.0"]
+    fluid = validated(HemisphereParameters, {"load_end": 2.0, "volume_end": 4.0}, "hemisphere")
+    assert [text.split(" has")[0] for text in fluid.without_effect()] == [
+        "load_end = 2.0",
+        "volume_end = 4.0",
+    ]
+
+
+def test_a_small_pressure_below_the_start_is_reached():
+    """The growth of the sphere, p/24 to first order, at the pole."""
+    (state,) = solve_requests(
+        "hemisphere", {"load": "gas"}, {"levels": 2}, [StateRequest("p", 0.002)], branch_uncertainty=False
+    ).states
+    lam = state.quantities["lam_pole"].value
+    assert 4 * (1 / lam - 1 / lam**7) == pytest.approx(0.002, rel=1e-7)

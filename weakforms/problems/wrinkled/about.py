@@ -156,19 +156,25 @@ FILLINGS = {"c2": (0.0, 0.2), "gamma": (1.5, 4.0)}
 
 HEMISPHERE = About(
     name="hemisphere",
-    title="Wrinkling and stability of a hemispherical membrane that holds a liquid",
+    title="Wrinkling and stability of a hemispherical membrane that holds a liquid or a gas",
     paper=5,
     source=PAPER5,
     energy="Pi/(2 pi C1 h Ao^2) = int_0^{pi/2} [ R W - Phi r r' ] dt,  R = sin t,  "
-    "Phi = gamma max(zw - z, 0)^2/2;  "
+    "Phi = gamma max(zw - z, 0)^2/2,  or with -p r^2 z'/2 under gas;  "
     "W = w(lam1, lam2) where gw = lam2 sqrt(lam1) > 1, else w(lam1, lam1^(-1/2));  "
     "w = I1 - 3 + c2 (I2 - 3) or of another model (its S for C1),  lam1 = sqrt(r'^2 + z'^2),  lam2 = r/R",
-    control="zw, from low levels up to its maximum; past that compare over V, which increases",
+    control="zw (load = fluid) or p (gas), from low loads up to the maximum; past that compare over V, which "
+    "increases",
     unknown="(r, z) over the arc of the hemisphere, held at its equator",
-    forms=("forms.revolution:strain_energy", "forms.revolution:liquid_energy"),
+    forms=(
+        "forms.revolution:strain_energy",
+        "forms.revolution:liquid_energy",
+        "forms.revolution:gas_energy",
+    ),
     units=UNITS,
     columns=(
         Column("zw", "level of the liquid above the equator's plane over {length}: negative"),
+        column.PRESSURE,
         Column("V", "volume between the membrane and the equator's plane over {volume}"),
         column.POTENTIAL,
         Column("N", "meridional tension per reference angle around the axis at the equator over {force}"),
@@ -185,7 +191,7 @@ HEMISPHERE = About(
         *numbers(
             length="Ao, radius of the undeformed hemisphere",
             low_end="level at which the branch starts",
-            past="decrease of the level below its maximum at the end of the branch",
+            past="decrease of the load below its maximum at the end of the branch",
             t="angle from the pole in the reference, rad",
             t_front_1="front 1 from the pole (and so on): reference angle where gw = 1",
         ),
@@ -196,6 +202,15 @@ HEMISPHERE = About(
     tuned=(
         Family(FILLINGS, **BLOCKS, at=(("zw", -0.9),)),
         Family(FILLINGS, **BLOCKS, fixed={"n": [2, 10]}, at=(("zw", -0.9),), label="waves"),
+    ),
+    held_out=(
+        Family(
+            {"c2": (0.0, 0.2)},
+            **BLOCKS,
+            fixed={"load": "gas", "load_end": 1.5},
+            at=(("p", 1.0),),
+            label="gas",
+        ),
     ),
     missed={
         "t": "of an event: where on the meridian it is, without a profile there",

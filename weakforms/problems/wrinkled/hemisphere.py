@@ -1,14 +1,18 @@
-"""Problem ``hemisphere`` (Paper 5): a membrane that hangs from its equator and holds a liquid.
+"""Problem ``hemisphere`` (Paper 5): a membrane that hangs from its equator and holds a liquid or a gas.
 
 Patil, Nordmark & Eriksson (2016), J. Mech. Phys. Solids 94, 298-315. Lengths are divided by the radius
 ``Ao``, energies by ``2 pi C1 h Ao^2``; ``t`` in ``[0, pi/2]`` is the reference angle from the pole, heights
 are measured upwards from the plane of the equator, so that the level ``zw`` is negative.
+
+Under gas the hemisphere is taut at every pressure. Its middle becomes a part of a larger sphere; the equator
+does not grow, so that there is a layer of width ``sqrt(p/12)`` at small pressures ``p``, in which the
+meridional tension bends the meridian outwards.
 """
 
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from mpi4py import MPI
@@ -22,7 +26,7 @@ from weakforms.problems.wrinkled import body
 from weakforms.problems.wrinkled.about import HEMISPHERE
 from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.membrane import Membrane
-from weakforms.problems.wrinkled.problem import PAPER_GAMMA, TREATMENT, Energy, WrinkledNumerics
+from weakforms.problems.wrinkled.problem import LOAD, PAPER_GAMMA, TREATMENT, Energy, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
@@ -33,12 +37,19 @@ from weakforms.solvers.equilibrium import constraints as fixed
 GAMMA = 100 * PAPER_GAMMA
 """The paper's weight of the liquid: ten times the cylinder's radius, with all other data the same."""
 
-START = -0.8
-"""Level at which the trace starts, in a stable range."""
+START, GAS_EASY = -0.8, 0.5
+"""Level, and gas pressure, at which the trace starts, in a stable range."""
 
 LOWEST_LEVEL, LOW_END = -1.18, -1.1
 """Lowest level that can be requested, and default level at which the branch starts. The empty sheet can hang
 as a cone of depth ``sqrt(pi^2/4 - 1) = 1.2114``, whose taut zone is a point at the pole."""
+
+GAS_START, GAS_LEAST = 0.01, 0.002
+"""Gas pressure at which the branch starts, and the lowest one that can be requested: then the layer at the
+equator is as wide as a cell of the coarsest mesh there."""
+
+ALLOWED = {"zw": (LOWEST_LEVEL, 0.0, ", the equator"), "p": (GAS_LEAST, 100.0, "")}
+"""Loads that can be requested, and what is at their upper bound."""
 
 NEAR_FRONTS = (0.004, 0.02, 0.08)
 """Distances from fronts, in ``Ao``, within which cells are smaller."""
@@ -51,11 +62,18 @@ class HemisphereNumerics(WrinkledNumerics):
 
 
 class HemisphereParameters(MaterialChoice):
-    """The membrane and its liquid."""
+    """The membrane and its liquid or gas."""
 
     ratio: ClassVar[str] = "c2"
-    needs: ClassVar[Needs] = {"beta": [{"n": ()}]}
+    needs: ClassVar[Needs] = {
+        "beta": [{"n": ()}],
+        "gamma": [{"load": ("fluid",)}],
+        "low_end": [{"load": ("fluid",)}],
+        "load_end": [{"load": ("gas",)}],
+        "volume_end": [{"load": ("gas",)}],
+    }
 
+    load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float = Field(GAMMA, ge=1, le=8, description="weight of the liquid")
     c2: float = Field(
         0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean, as in the paper"
@@ -70,26 +88,37 @@ class HemisphereParameters(MaterialChoice):
     low_end: float = Field(LOW_END, ge=LOWEST_LEVEL, le=START, description="level at which the branch starts")
 
     past: float = Field(
-        0.01, ge=0.002, le=0.3, description="decrease of the level below its maximum at the end of the branch"
+        0.01, ge=0.002, le=0.3, description="decrease of the load below its maximum at the end of the branch"
     )
+    load_end: float = Field(
+        10.0, gt=GAS_START, le=100, description="gas pressure at which the branch ends at the latest"
+    )
+    volume_end: float = Field(
+        30.0, gt=1, le=1000, description="volume over the first one at which the branch ends at the latest"
+    )
+
+    @property
+    def control(self) -> str:
+        """Name of the load."""
+        return LOAD[self.load]
 
 
 class HemisphereBranch(WrinkledBranch):
-    """Branch from a low level through the highest one, a limit point, to an end shortly after it."""
+    """Branch from a low load through the highest one, a limit point, to an end shortly after it."""
 
     def _start(self, continuation: Continuation) -> CurvePoint:
         """The low end, reached along the branch from a level at which the membrane is easy to solve for."""
-        low = self.low_end
-        state = self.membrane.by_gas(START)
-        begin = continuation.start(state, fixed.Held(self.control, START), towards={self.control: -1.0})
+        low, easy = self.low_end, START if self.membrane.liquid else GAS_EASY
+        state = self.membrane.by_gas(easy)
+        begin = continuation.start(state, fixed.Held(self.control, easy), towards={self.control: -1.0})
         way = SolutionCurve(continuation, self.control, begin, lambda p: p.state.loads[self.control] < low)
-        lowest = way.at(self.control, low) if low < START else way.points[0]
+        lowest = way.at(self.control, low) if low < easy else way.points[0]
         return continuation.start(lowest.state, fixed.Held(self.control, low), towards={self.control: 1.0})
 
     low_end = LOW_END
-    """Level at which the branch starts."""
+    """Load at which the branch starts."""
     past = 0.01
-    """Decrease of the level below its maximum at the end of the branch."""
+    """Decrease of the load below its maximum at the end of the branch."""
 
     def _is_past_limit(self, load: float, peak: float) -> bool:
         """Whether the load has decreased so far."""
@@ -97,7 +126,7 @@ class HemisphereBranch(WrinkledBranch):
 
 
 class Hemisphere(BranchProblem):
-    """A hemisphere of uniform thickness, clamped at its equator, under the liquid in it."""
+    """A hemisphere of uniform thickness, clamped at its equator, under the liquid or gas in it."""
 
     about = HEMISPHERE
     parameters = HemisphereParameters
@@ -112,14 +141,21 @@ class Hemisphere(BranchProblem):
         require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
+        load = parameters.control
+        least, most, what = ALLOWED[load]
         for wanted in requests.states:
+            if wanted.name in LOAD.values() and wanted.name != load:
+                raise InputError(
+                    f"hemisphere: with load = {parameters.load!r} there is no {wanted.name}; "
+                    f"the load is {load}"
+                )
             if wanted.name == "front":
                 raise InputError(
                     "hemisphere: a front cannot be requested; request a state, which has its fronts"
                 )
-            if wanted.name == "zw" and not LOWEST_LEVEL <= wanted.value < 0:
+            if wanted.name == load and not least <= wanted.value < most:
                 raise InputError(
-                    f"hemisphere: zw = {wanted.value:g}; allowed: from {LOWEST_LEVEL} to below 0, the equator"
+                    f"hemisphere: {load} = {wanted.value:g}; allowed: from {least} to below {most:g}{what}"
                 )
 
     def computed(self, parameters: HemisphereParameters) -> list[str]:
@@ -127,10 +163,16 @@ class Hemisphere(BranchProblem):
         return [name for n in parameters.n for name in eigenvalue_names(n)]
 
     def ends(self, parameters: HemisphereParameters, _branch: str) -> list[End]:
-        """A level a little below the highest one, or the equator."""
+        """A load a little below the highest one; the equator for a liquid, a pressure or a volume for gas."""
+        load = parameters.control
+        past = End("past", load, lambda columns: max(columns[load]) - parameters.past)
+        if load == "zw":
+            return [past, End("full", load, 0.0, "the liquid reaches the equator")]
         return [
-            End("past", "zw", lambda columns: max(columns["zw"]) - parameters.past),
-            End("full", "zw", 0.0, "the liquid reaches the equator"),
+            past,
+            End("load_end", load, parameters.load_end),
+            End("volume_end", "V", lambda columns: parameters.volume_end * columns["V"][0]),
+            End("at", load, None, "extended to the states that were asked for"),
         ]
 
     def families(self, task: Task) -> dict[str, Family]:
@@ -138,9 +180,12 @@ class Hemisphere(BranchProblem):
         parameters, numerics, requests, comm = task.parameters, task.numerics, task.requests, task.comm
         membrane = hemisphere_membrane(parameters, numerics, comm)
         readings = Readings(membrane, 2 * numerics.degree, parameters.n, "t", parameters.beta)
-        branch = HemisphereBranch(membrane, 0.0, math.inf, numerics.step, readings)
-        lower = [r.value for r in requests.states if r.name == "zw"]
-        branch.low_end, branch.past = min([parameters.low_end, *lower]), parameters.past
+        wanted = [r.value for r in requests.states if r.name == parameters.control]
+        low, end, volume = parameters.low_end, 0.0, math.inf
+        if not membrane.liquid:
+            low, end, volume = GAS_START, max([parameters.load_end, *wanted]), parameters.volume_end
+        branch = HemisphereBranch(membrane, end, volume, numerics.step, readings)
+        branch.low_end, branch.past = min([low, *wanted]), parameters.past
         return {"primary": branch}
 
     def points(self, _parameters: HemisphereParameters) -> np.ndarray:
@@ -156,7 +201,8 @@ def hemisphere_membrane(
     parameters: HemisphereParameters, numerics: HemisphereNumerics, comm: MPI.Intracomm
 ) -> Membrane:
     """The membrane for given parameters, for solving for single states."""
-    values = {"c2": parameters.c2, "gamma": parameters.gamma}
+    liquid = parameters.load == "fluid"
+    values = {"c2": parameters.c2, "gamma": parameters.gamma if liquid else 0.0}
     near = NEAR_FRONTS if parameters.n else ()
     kind = parameters.energy, near, parameters.other_law
-    return Membrane(comm, body.HEMISPHERE, values, True, numerics.meshes, numerics.degree, *kind)
+    return Membrane(comm, body.HEMISPHERE, values, liquid, numerics.meshes, numerics.degree, *kind)

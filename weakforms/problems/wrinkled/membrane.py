@@ -113,9 +113,9 @@ class Membrane(FittedMembrane):
         return state, record
 
     def by_gas(self, load: float) -> State:
-        """State of the plain mesh at a level, from the body's shape, which a gas first keeps taut.
+        """State of the plain mesh at a load, from the body's shape, which a gas keeps taut.
 
-        The liquid replaces the gas step by step, because without both the membrane has no stiffness.
+        A liquid replaces the gas step by step, because without both the membrane has no stiffness.
 
         Raises:
             ConvergenceError: If a step does not converge.
@@ -123,6 +123,8 @@ class Membrane(FittedMembrane):
         state = self.undisplaced()
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
+        if not self.liquid:
+            return solver.solve(state)[0]
         for gas, liquid in GAS_TO_LIQUID:
             state.loads |= {"p": gas, "gamma": liquid * self.values["gamma"]}
             state, _ = solver.solve(state)

@@ -63,7 +63,7 @@ class Readings:
         zones = held.all_zones(self.membrane.length)
         fronts = {f"{self.abscissa}_front_{i}": z for i, z in enumerate(zones.fronts, 1)}
         of_pole = {name: monitors[name] for name in ("z_pole", "lam_pole") if name in monitors}
-        if of_pole:
+        if of_pole and self.membrane.liquid:
             full = self.membrane.length if zones.wet else 0.0
             of_pole[f"{self.abscissa}_level"] = full if zones.surface is None else zones.surface
         return {

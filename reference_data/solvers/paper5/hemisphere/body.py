@@ -76,7 +76,7 @@ class Hemisphere:
         lam, z0 = given[..., 0], given[..., 1]
         w = mat.slope(lam, lam, self.c2)
         w11, w12 = mat.curvature(lam, lam, self.c2), mat.mixed(lam, lam, self.c2)
-        c = self.weight * (load - z0) * lam**2 / (2 * w)
+        c = self.pressure(z0, load, True) * lam**2 / (2 * w)
         shift = lam * (c * c - 1) / 2  # alpha = 3 beta + shift
         beta = (w * (1 - c * c) / 2 - (3 * w11 - w12) * shift) / (8 * w11)
         l1, l2 = lam + (3 * beta + shift) * s**2, lam + beta * s**2

@@ -14,16 +14,17 @@ from reference_data.solvers.paper4.methods.shooting_measures import starts_of
 from reference_data.solvers.paper4.methods.shooting_newton import Solution, solve
 from reference_data.solvers.paper4.methods.states import from_grid, moved_to, polished
 from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, Hemisphere
+from reference_data.solvers.paper5.hemisphere.gas import GAS
 
 RULES = (Rule(16, 0.16), Rule(18, 0.12))
 CELLS = 120
 
 
-def start(zw: float = -0.6, body: Hemisphere = BODY) -> State:
-    """The state at a high level, from central differences that begin with a sphere lowered by a fiftieth."""
+def start(body: Hemisphere, load: float) -> State:
+    """The state at an easy load, from central differences that begin with a sphere lowered by a fiftieth."""
     s = np.linspace(0, EQUATOR, CELLS + 1)
-    grid = fd.newton(fd.Grid(body, np.sin(s), -1.02 * np.cos(s), zw), zw, 200)
-    return polished(from_grid(grid, RULES[0]), "load", zw)
+    grid = fd.newton(fd.Grid(body, np.sin(s), -1.02 * np.cos(s), load), load, 200)
+    return polished(from_grid(grid, RULES[0]), "load", load)
 
 
 def steps_to(here: float, there: float, longest: float) -> list[float]:
@@ -46,14 +47,18 @@ class Walk:
 
     Attributes:
         control: The load, or the height of the pole.
-        first: Where the walk begins, from the state at the level -0.6.
+        first: Where the walk begins, from the state at an easy load.
         body: The hemisphere.
+        easy: That load.
+        steps: Longest steps below and above ``first``.
         known: States computed so far.
     """
 
     control: str
     first: float
     body: Hemisphere = BODY
+    easy: float = -0.6
+    steps: tuple[float, float] = (0.03, 0.01)
     known: dict[float, State] = field(default_factory=dict)
 
     def at(self, target: float) -> State:
@@ -63,9 +68,9 @@ class Walk:
             RuntimeError: If a step fails.
         """
         if not self.known:
-            self.known[self.first] = polished(start(-0.6, self.body), self.control, self.first)
+            self.known[self.first] = polished(start(self.body, self.easy), self.control, self.first)
         here = min(self.known, key=lambda x: abs(x - target))
-        longest = 0.01 if self.control == "load" and max(here, target) > -0.6 else 0.03
+        longest = self.steps[max(here, target) > self.first]
         state = self.known[here]
         for value in steps_to(here, target, longest):
             state = polished(state, self.control, value)
@@ -73,7 +78,9 @@ class Walk:
         return state
 
 
-POLES = Walk("z_pole", -1.33)
+POLES = Walk("z_pole", -1.33, steps=(0.03, 0.03))
+PRESSURES = Walk("load", 0.5, GAS, 0.5, (0.05, 0.1))
+GAS_POLES = Walk("z_pole", -1.03, GAS, 0.5, (0.05, 0.05))
 
 
 @cache

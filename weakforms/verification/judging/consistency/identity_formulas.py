@@ -122,15 +122,19 @@ def weight_of(result: Result) -> float:
     return PAPER_GAMMA if given is None else given
 
 
+def pressure_on(result: Result, state: State, c: Columns) -> np.ndarray | float:
+    """Pressure of the gas, or of the liquid at the heights of a profile."""
+    q = state.quantities
+    return q["p"].value if "p" in q else weight_of(result) * np.maximum(q["zw"].value - c["z"], 0.0)
+
+
 def axial_under_liquid(result: Result, state: State, c: Columns) -> np.ndarray:
     """Axial force a reference angle: the tension's part along the axis less the pressure's on the section."""
-    q = state.quantities
-    pressure = q["p"].value if "p" in q else weight_of(result) * np.maximum(q["zw"].value - c["z"], 0.0)
     # A membrane that sags hangs down below its ring; where it turns the samples do not tell which way it
     # runs.
     steps = np.sign(np.diff(c["z"], prepend=2 * c["z"][0] - c["z"][1], append=2 * c["z"][-1] - c["z"][-2]))
     upwards = np.where(steps[1:] == steps[:-1], steps[1:], np.nan)
-    return upwards * c["tension"] / np.hypot(1, c["slope"]) - pressure * c["r"] ** 2 / 2
+    return upwards * c["tension"] / np.hypot(1, c["slope"]) - pressure_on(result, state, c) * c["r"] ** 2 / 2
 
 
 def sphere_tension(result: Result, _: State, c: Columns) -> np.ndarray:
@@ -146,8 +150,7 @@ def meridional_slope(_: Result, __: State, ___: Columns, r: np.ndarray, z: np.nd
 
 def axial_by_slopes(result: Result, state: State, c: Columns, _: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Axial force a reference angle, with the direction of the meridian by derivatives."""
-    pressure = weight_of(result) * np.maximum(state.quantities["zw"].value - c["z"], 0.0)
-    return c["tension"] * z / c["lam1"] - pressure * c["r"] ** 2 / 2
+    return c["tension"] * z / c["lam1"] - pressure_on(result, state, c) * c["r"] ** 2 / 2
 
 
 def maxwell() -> Identity:

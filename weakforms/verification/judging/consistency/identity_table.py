@@ -61,6 +61,14 @@ def _of_paper(given: Given) -> bool:
     return "model" not in given
 
 
+def _gas(given: Given) -> bool:
+    return given.get("load") == "gas"
+
+
+def _liquid(given: Given) -> bool:
+    return not _gas(given)
+
+
 def _over(identity: Identity, over: Any) -> Identity:
     return Identity(identity.name, identity.statement, identity.look, over)
 
@@ -129,7 +137,8 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     ),
     "hemisphere": (
         stable(),
-        rate("zw", wetted("r", "z", 0.5), formulas.weight_of),
+        _over(work("p", lambda _, c: -c["V"]), _gas),
+        _over(rate("zw", wetted("r", "z", 0.5), formulas.weight_of), _liquid),
         read("V", "volume within the profile", enclosed("r", "z", 0.5)),
         read("N", "tension at the equator", end("tension", -1)),
         read("z_pole", "height of the pole", end("z", 0)),
@@ -151,11 +160,8 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     ),
     "wrinkled_tube": (
         stable(),
-        _over(work("p", lambda _, c: -c["V"]), lambda given: given.get("load") == "gas"),
-        _over(
-            rate("zw", wetted("r", "z", 0.5), formulas.weight_of),
-            lambda given: given.get("load", "fluid") == "fluid",
-        ),
+        _over(work("p", lambda _, c: -c["V"]), _gas),
+        _over(rate("zw", wetted("r", "z", 0.5), formulas.weight_of), _liquid),
         read("V", "volume within the profile", enclosed("r", "z", 0.5)),
         read("N", "tension at the lower end", end("tension", 0)),
         read("r_max", "largest radius of the profile", extreme(LARGEST, "r")),
