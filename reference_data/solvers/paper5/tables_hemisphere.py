@@ -162,7 +162,7 @@ def branch(name: str) -> Table:
 
 def front_columns(name: str, found: list[Filled]) -> list[Column]:
     """Columns of the fronts of one wrinkled zone at prescribed levels, by both methods."""
-    columns = text.SERIES.keys(zw=[f.zw for f in found])
+    columns = text.SERIES.keys(zw=[f.load for f in found])
     for k in (0, 1):
         about = ("rad", f"{('lower', 'upper')[k]} end of the wrinkled zone: material angle")
         pairs = (
