@@ -192,8 +192,11 @@ def test_a_bifurcation_of_the_whole_surface_that_is_not_near():
     told = bare(whole_surface.WholeRun, full=False, begin=SimpleNamespace(values={"V": 5.0}))
     told._near = lambda volume: (volume, np.array([volume - 5.001]), 1.0)
     assert told.critical()["V_bifurcation"] == pytest.approx(5.001)
-    told._near = lambda volume: (volume, np.array([volume]), 1.0)
-    refused(r"^the n = 1 eigenvalue is not zero within 0\.01 of V = 5$", told.critical)
+    told._near = lambda volume: (volume, np.array([volume**2 - 5.2**2]), 1.0)
+    assert told.critical()["V_bifurcation"] == pytest.approx(5.2)
+    for far in (lambda volume: volume, lambda volume: volume - 6, lambda _volume: 1.0):
+        told._near = lambda volume, far=far: (volume, np.array([far(volume)]), 1.0)
+        refused(r"^the n = 1 eigenvalue is not zero within 0\.1 of V = 5$", told.critical)
 
 
 @pytest.mark.parametrize(("overlaps", "fits"), [((0.9, 0.1), True), ((0.4, 0.4), False)])

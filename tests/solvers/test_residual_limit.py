@@ -5,6 +5,7 @@ import pytest
 from small_systems import system_of
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium import newton
 from weakforms.solvers.equilibrium.newton import OF_FORCES, RESIDUAL_LIMIT, ExtendedNewton, residual_limit
 
 SIZES = [1e-9, 1.0, 1e9]
@@ -43,6 +44,30 @@ def test_round_off_is_accepted_whatever_the_forces(size):
     with system.at(state):
         left = np.sqrt(system.dot(system.residual(), system.residual()))
         assert left < 0.2 * residual_limit(system)
+
+
+@pytest.mark.parametrize("refused", ["residuals above round-off", "long steps"])
+def test_round_off_is_accepted_if_it_lasts_and_moves_little(refused, monkeypatch):
+    """With a tolerance that no step meets, and different round-off in every evaluation."""
+    system = bar(1.0)
+    right, solver = system.residual, ExtendedNewton(system, stol=1e-18)
+    exact, _ = solved(system)
+    noise = np.random.default_rng(1).standard_normal(system.size)
+    noise[system.bc_dofs] = 0.0
+    calls = iter(range(10_000))
+    with system.at(exact):
+        system.tangent()
+        shift = 0.1 * OF_FORCES[0] * system.force_size() * noise / np.linalg.norm(noise)
+    system.residual = lambda: right() + shift * (-1) ** next(calls)
+    state, record = solver.solve(system.initial)
+    assert record.reason == "DIVERGED_MAX_IT"
+    assert np.allclose(state.u, exact.u, atol=1e-10)
+    if refused == "long steps":
+        monkeypatch.setattr(newton, "AT_ROUND_OFF", (newton.AT_ROUND_OFF[0], 1e-30))
+    else:
+        shift *= 100  # far below the limit of unit forces
+    with pytest.raises(ConvergenceError, match="DIVERGED_MAX_IT"):
+        solver.solve(system.initial)
 
 
 @pytest.mark.parametrize("size", SIZES)

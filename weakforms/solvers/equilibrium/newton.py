@@ -38,9 +38,14 @@ KEPT = 1e-3
 then converges about as fast again, at a small part of the price; the error that is left is this fraction of
 the last step."""
 
+AT_ROUND_OFF = 10, 1e-8
+"""Near a bifurcation point, round-off in the forces alone may cause steps above the tolerance. A state is
+then accepted if this number of residuals in a row were round-off (the smallest limit), and the last relative
+step is below the second number."""
+
 STOPPING = (
-    "relative Newton step 1e-10; residual norm below 1e-8, but not below 1e-15 nor above 1e-10 of the nodal "
-    "forces before they balance, |K| |U|"
+    "relative Newton step 1e-10 (1e-8 if the residual is round-off); residual norm below 1e-8, but not below "
+    "1e-15 nor above 1e-10 of the nodal forces before they balance, |K| |U|"
 )
 """Text on these tolerances in results."""
 
@@ -272,12 +277,23 @@ class ExtendedNewton:
         finally:
             record = solve_record(snes, self.factor.count - before)
             self.left, self.last = record.norms[-1] if record.norms else np.inf, system.state()
-        if snes.getConvergedReason() <= 0 or not self._is_balanced(snes):
+        ended = snes.getConvergedReason() > 0 or self._is_at_round_off(snes, record)
+        if not ended or not self._is_balanced(snes):
             raise ConvergenceError(
                 f"SNES ended with {record.reason} after {record.iterations} iterations, "
                 f"residual {self.left:.1e}"
             )
         return system.state(), record
+
+    def _is_at_round_off(self, snes: PETSc.SNES, record: SolveRecord) -> bool:
+        """Whether no iteration can improve the state, and round-off moves it very little."""
+        last, step = AT_ROUND_OFF
+        if snes.getConvergedReason() != PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT:
+            return False
+        self._put(self._x)
+        low = OF_FORCES[0] * self.system.force_size()
+        moved = snes.getSolutionUpdate().norm()
+        return max(record.norms[-last:]) <= low and moved <= step * self._x.norm()
 
     def _is_balanced(self, snes: PETSc.SNES) -> bool:
         """Whether the remaining residuals of forces and constraints are within their limits."""

@@ -37,6 +37,10 @@ NODES, SPAN = 6, 0.01
 """Number of volumes over which the zero is interpolated, and the relative half width of their Chebyshev
 grid."""
 
+FARTHEST = 0.1
+"""The bifurcation of a mesh is sought up to this relative difference of its volume from that of the
+axisymmetric branch's bifurcation."""
+
 LOOKED_AT = 12
 """Number of eigenvalues near zero among which those of the ``n = 1`` modes are searched."""
 
@@ -167,18 +171,14 @@ class WholeRun:
 
     def critical(self) -> dict[str, float]:
         """The point where the (mean) eigenvalue of the ``n = 1`` modes is zero, and the pair there."""
-        at_zero = self.begin.values["V"]
+        at_zero, rows = self._around_zero()
         x = chebyshev.chebpts1(NODES)
-        rows = [self._near(at_zero * (1 + SPAN * s)) for s in x]
-        means = [np.mean(row[1]) for row in rows]
         fits = {
-            "mean": chebyshev.chebfit(x, means, NODES - 1),
+            "mean": chebyshev.chebfit(x, [np.mean(row[1]) for row in rows], NODES - 1),
             "zw": chebyshev.chebfit(x, [row[0] for row in rows], NODES - 1),
             "pair": chebyshev.chebfit(x, np.array([row[1] for row in rows]), NODES - 1),
             "next": chebyshev.chebfit(x, [row[2] for row in rows], NODES - 1),
         }
-        if np.sign(means[0]) == np.sign(means[-1]):
-            raise ConvergenceError(f"the n = 1 eigenvalue is not zero within {SPAN:g} of V = {at_zero:g}")
         zero = root(lambda s: chebyshev.chebval(s, fits["mean"]), -1, 1, "the bifurcation", xtol=1e-14)
         pair = np.sort(np.atleast_1d(chebyshev.chebval(zero, fits["pair"])))
         other = float(chebyshev.chebval(zero, fits["next"]))
@@ -191,6 +191,20 @@ class WholeRun:
         if self.full:
             out |= {"Lambda_pair_2": float(pair[1]), "Lambda_split": float(pair[1] - pair[0])}
         return out
+
+    def _around_zero(self) -> tuple[float, list[tuple[float, np.ndarray, float]]]:
+        """A volume, and states within :data:`SPAN` of it, among which the eigenvalue changes sign.
+
+        The bifurcation of a coarse mesh is sought from the axisymmetric one; a chord leads to it.
+        """
+        begin = centre = self.begin.values["V"]
+        while abs(centre / begin - 1) < FARTHEST:
+            rows = [self._near(centre * (1 + SPAN * s)) for s in chebyshev.chebpts1(NODES)]
+            first, last = (float(np.mean(rows[k][1])) for k in (0, -1))
+            if np.sign(first) != np.sign(last):
+                return centre, rows
+            centre *= 1 + SPAN * (first + last) / (first - last) if first != last else 2
+        raise ConvergenceError(f"the n = 1 eigenvalue is not zero within {FARTHEST:g} of V = {begin:g}")
 
     def _near(self, volume: float) -> tuple[float, np.ndarray, float]:
         """At an axisymmetric state: ``zw``, eigenvalues of the ``n = 1`` modes, magnitude of the next one."""
