@@ -31,7 +31,7 @@ BOTH = ("limit_point", "bifurcation_point")
 SIDES = ("0", "pi")
 BENT_ASKED = {
     **dict.fromkeys(("V", "r_mid", "r_mid_pi"), 1e-5),
-    **{f"{name}_quarter_{side}": 5e-5 for name in "xz" for side in SIDES},
+    **{f"{name}_quarter_{side}": 2e-5 for name in "xz" for side in SIDES},
     **{f"{name}_quarter_{side}": 1e-4 for name in ("T1", "T2") for side in SIDES},
     "Pi": 1e-6,
 }

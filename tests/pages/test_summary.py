@@ -49,6 +49,7 @@ def test_accuracies_asked_far_beyond_what_is_delivered_are_named():
             verdict("a:u", bound=1e-13, widest=1e-12),
             verdict("b:V", bound=1e-12, passed=False),
             verdict("c:V", bound=0.0),
+            replace(verdict("trace:tube:N", bound=1e-12), kind="trace"),
         ],
     )
     found = summary.accuracies(sample(case))

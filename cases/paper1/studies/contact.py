@@ -104,7 +104,7 @@ CASE = Case(
             circular(contact="adhesive", phase="deflation"),
             ("alpha", "beta", "p_end"),
             FLAT,
-            {"p": 1e-6, "t0": 1e-6, "lam1_contact_outer": 1e-6},
+            {"p": 1e-6, "t0": 1e-6, "lam1_contact_outer": 2e-7},
         ),
         Claim(
             "no_release",

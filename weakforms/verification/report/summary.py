@@ -133,11 +133,14 @@ LOOSE = 100
 
 
 def accuracies(run: RunOutcome) -> list[Accuracy]:
-    """The accuracies that every case asks of a column, with its widest bounds, in descending ratio."""
+    """The accuracies that every case asks of a column, with its widest bounds, in descending ratio.
+
+    Checks of one result against itself are left out: other programs' curves are not judged by them.
+    """
     widest: dict[tuple[str, str, float], float] = {}
     for case, verdict in verdicts_of(run):
         bound = verdict.bound if verdict.widest is None else verdict.widest
-        if verdict.passed and verdict.asked and bound:
+        if verdict.passed and verdict.asked and bound and verdict.kind != "trace":
             key = (case.id, verdict.check.rpartition(":")[2], verdict.asked)
             widest[key] = max(widest.get(key, 0.0), bound)
     found = [Accuracy(*key, bound) for key, bound in widest.items()]
