@@ -12,7 +12,8 @@ from weakforms.solvers.equilibrium.state import State
 
 def moved(model: PatchModel, state: State, front: float) -> State:
     """The same membrane on a differently divided mesh, by splines through nodal values."""
-    new = State(state.u.copy(), state.loads | {"front": front})
+    fronts = {name: sign * front for name, (_, sign) in model.edges.items()}
+    new = State(state.u.copy(), state.loads | fronts)
     old, wanted = (np.repeat(model.material(model.nodes(), s.loads), 2) for s in (state, new))
     for component in (slice(0, None, 2), slice(1, None, 2)):
         parts = model.mesh.comm.allgather((old[component], state.u[component]))
@@ -28,11 +29,13 @@ def stick_guess(model: PatchModel, slipped: Solved) -> State:
     What sticks is not an unknown. Outside, it is measured from its own value at the front, not from that of
     the series, which differs and would cause a jump.
     """
-    s = np.repeat(model.nodes(), 2)
+    x = np.repeat(model.nodes() - model.centre, 2)
+    s = np.abs(x)
     u = slipped.state.u.copy()
     stuck, outside = np.arange(len(u)) % 2 == model.stuck, s > 1 + 1e-12
     u[stuck & ~outside] = 0.0
-    u[stuck & outside] -= model.at_front(slipped) * (2 - s[stuck & outside])
+    away = stuck & outside
+    u[away] -= np.sign(x[away]) * model.at_front(slipped) * (2 - s[away])
     if model.bond.rigid:  # the other unknown is the height of the edge
         u[~stuck & ~outside] = model.data.touch
     return State(u, dict(slipped.state.loads))

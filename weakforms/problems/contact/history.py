@@ -54,7 +54,7 @@ class History:
         self.model, self.span = model, model.bond.span
         self.fronts = self.span * (1 + t) / 2
         self._frozen, self._weights = frozen, weights
-        self._solver = ExtendedNewton(model.system, ["p", "front"])
+        self._solver = ExtendedNewton(model.system, ["p", *model.edges])
 
     # -- what depends on the body --------------------------------------------------------------
 
@@ -95,7 +95,11 @@ class History:
         )
 
     def _held(self, front: float) -> list[Held]:
-        return [Held("gap", 0.0), Held("front", float(front))]
+        return [*(Held(gap, 0.0) for gap in self._gaps), Held("front", float(front))]
+
+    @property
+    def _gaps(self) -> list[str]:
+        return [gap for gap, _ in self.model.edges.values()]
 
     def _outside(self) -> np.ndarray:
         """The functionals of the conditions at every front, with the current series."""
@@ -108,7 +112,8 @@ class History:
 
     def _sensitivity(self, x: np.ndarray) -> np.ndarray:
         """Derivative of the defects: at each front a linear solve for every frozen value."""
-        count, system, names = len(self.fronts), self.model.system, (*self.conditions, "gap")
+        count, system, gaps = len(self.fronts), self.model.system, len(self._gaps)
+        names = (*self.conditions, *self._gaps)
 
         def observed(x: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
             self.write(x)
@@ -127,7 +132,7 @@ class History:
                 rows = [system.monitor_gradient(name, self._solver.scalars) for name in self.conditions]
             for m, there in enumerate(moved):
                 force, direct = ((b - a) / DIFFERENCE for a, b in zip(here[j], there[j], strict=True))
-                u, loads = bordered.solve(-force, [-direct[-1], 0.0])
+                u, loads = bordered.solve(-force, [*-direct[-gaps:], 0.0])
                 for i, (row, rates) in enumerate(rows):
                     scalars = zip(self._solver.scalars, loads, strict=True)
                     by_loads = sum(rates.get(name, 0.0) * float(value) for name, value in scalars)

@@ -10,7 +10,7 @@ import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError, WeakformsError
 from weakforms.problems.contact.model import PatchModel
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch
+from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, MirroredBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
@@ -160,12 +160,13 @@ class Inflation:
         return self._follow(self.slip, self.small_patch())
 
     def _follow(self, model: PatchModel, state: State) -> FittedBranch:
-        solver, length = ExtendedNewton(model.system, ["p", "front"]), self.data.length
+        solver, length = ExtendedNewton(model.system, ["p", *model.edges]), self.data.length
+        signs = {name: sign for name, (_, sign) in model.edges.items()}
         continuation = Continuation(
             solver,
-            [Held("gap", 0.0)],
+            [Held(gap, 0.0) for gap, _ in model.edges.values()],
             self.steps(16),
-            allowed=lambda state: 0 < state.loads["front"] < length,
+            allowed=lambda state: all(0 < sign * state.loads[n] < length for n, sign in signs.items()),
         )
         first = Held("front", self.first_front * length)
         start = continuation.start(state, first, towards={"front": 1.0})
@@ -186,7 +187,8 @@ class Inflation:
         def stop(point: CurvePoint) -> bool:
             return point.state.loads["p"] > self.p_end or bool(ends(point))
 
-        branch = FittedBranch(continuation, "p", start, stop)
+        kind = FittedBranch if len(signs) == 1 else MirroredBranch
+        branch = kind(continuation, "p", start, stop)
         end = branch.points[-1]
         reached = end.state.loads["p"]
         if reached < self.p_end:

@@ -42,13 +42,18 @@ class Substrate(Protocol):
 class PatchModel(Protocol):
     """A model whose mesh follows the front of the patch in contact.
 
-    Loads of its system: the pressure ``p``, the ``front``, and the stiffness ``k``, which is 0 for the free
-    membrane. Functional ``gap``: distance from the substrate at the front.
+    Loads of its system: the pressure ``p``, the fronts, and the stiffness ``k``, which is 0 for the free
+    membrane.
     """
 
     data: Substrate
     bond: Bond | None
     """What sticks; ``None`` without friction."""
+    edges: Mapping[str, tuple[str, float]]
+    """For each front the functional that is its distance from the substrate, and the front's sign. The first
+    one is ``front``; a body with a mid-plane has a second, negative one."""
+    centre: int
+    """Mesh coordinate of the pole or mid-plane."""
     stuck: int
     """Component of the unknown that a bond determines."""
     series: Mapping[str, Series]

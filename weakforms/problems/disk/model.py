@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import ufl
@@ -116,6 +117,8 @@ class DiskModel(FreeDisk):
     the sum over the springs.
     """
 
+    edges: ClassVar[Mapping[str, tuple[str, float]]] = {"front": ("gap", 1.0)}
+    centre = 0
     stuck = 0
     """Component of the unknown that a bond determines: the circumferential stretch."""
 
@@ -137,9 +140,9 @@ class DiskModel(FreeDisk):
         """``x`` and its derivative in the mesh coordinate: linear in the patch, a power outside."""
         inside, width = super().place()
         left, _, t = self.block
-        ratio = ufl.ln((left + width) / self.in_first(1.0, left))
+        ratio = ufl.ln((left + width) / self.in_patch(1.0, left))
         outside = left * ufl.exp(t * ratio)
-        return self.in_first(inside, outside), self.in_first(width, outside * ratio)
+        return self.in_patch(inside, outside), self.in_patch(width, outside * ratio)
 
     def position(self, s: np.ndarray, loads: Mapping[str, float]) -> np.ndarray:
         """Mesh coordinates of ``X = beta x`` for a state's front."""
@@ -167,11 +170,11 @@ class DiskModel(FreeDisk):
         if self.rigid:
             depth, depth_slope = self.series["depth"](along)
             deepest, _ = self.series["depth"](self.front)
-            eta = self.in_first(eta + deepest - depth, eta)
-            eta_x = self.in_first(-depth_slope, eta_x)
+            eta = self.in_patch(eta + deepest - depth, eta)
+            eta_x = self.in_patch(-depth_slope, eta_x)
         return (
-            self.in_first(locked, lam2 + at_front * (1 - t)),
-            self.in_first(locked_slope, lam2_x - at_front / width),
+            self.in_patch(locked, lam2 + at_front * (1 - t)),
+            self.in_patch(locked_slope, lam2_x - at_front / width),
             eta,
             eta_x,
         )
@@ -180,7 +183,7 @@ class DiskModel(FreeDisk):
 
     def touching(self) -> Expr:
         """The patch."""
-        return self.in_first(1.0, 0.0)
+        return self.in_patch(1.0, 0.0)
 
     def functional(self) -> ufl.Form:
         """The functional that is made stationary.
@@ -195,7 +198,7 @@ class DiskModel(FreeDisk):
         at_front, moment = (ufl.avg(self.series[name](self.front)[0]) for name in ("lam2", "moment"))
         above, front = ufl.avg(eta) - q["l"], ufl.avg(self.front)
         springs = q["k"] * ((front * at_front) ** 2 * above**2 / 4 + moment * above)
-        return self.in_first(eta.dx(0) ** 2 / 2, potential) * self.dx + springs * self.inner(BREAK)
+        return self.in_patch(eta.dx(0) ** 2 / 2, potential) * self.dx + springs * self.inner(BREAK)
 
     def mass(self) -> ufl.Form:
         """``int |dx|^2 x dx``; a rigid patch has the mass of its area at its edge."""
@@ -205,7 +208,7 @@ class DiskModel(FreeDisk):
         x, width = self.expressions["radius"], self.expressions["width"]
         outside = (x**2 * u * v + w * y) * x * width
         vertex = ufl.avg(w) * ufl.avg(y) * ufl.avg(self.front) ** 2 / 2
-        return self.in_first(0.0, outside) * self.dx + vertex * self.inner(BREAK)
+        return self.in_patch(0.0, outside) * self.dx + vertex * self.inner(BREAK)
 
     def conditions(self) -> list[fem.DirichletBC]:
         """The clamp, and what a bond determines."""
@@ -216,7 +219,7 @@ class DiskModel(FreeDisk):
         e, ends, given = self.expressions, self.ends, super().formulation()
         lam1, lam2 = e["lam1"], e["lam2"]
         t1, t2 = self.resultants
-        sigma = self.in_first(-self.q["k"] * (e["z"] - self.q["l"]), 0.0)
+        sigma = self.in_patch(-self.q["k"] * (e["z"] - self.q["l"]), 0.0)
         return replace(
             given,
             monitors={

@@ -142,7 +142,7 @@ class TubeModel(MeridianModel):
         return axisymmetric(self.radius, self.height, (slope[0], self.q["delta"] + slope[1]))
 
     def _wet(self) -> Expr:
-        return self.in_first(self.q["low"], self.q["high"])
+        return self.in_patch(self.q["low"], self.q["high"])
 
     def _work(self, at: Surface, v: Surface) -> Expr:
         """First variation per ``Z`` and ``Theta``."""

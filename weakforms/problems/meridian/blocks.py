@@ -10,7 +10,7 @@ from dolfinx import mesh as dmesh
 from mpi4py import MPI
 
 LOWER, UPPER, BREAK = 1, 2, 3
-"""Tags of the first end, of the last one, and of all vertices between blocks."""
+"""Tags of the first end, of the last one, and of the first vertex between blocks; the others follow."""
 
 
 @dataclass(frozen=True)
@@ -56,16 +56,20 @@ def both_ends(grading: float) -> Callable[[np.ndarray], np.ndarray]:
     return lambda t: t - grading * np.sin(2 * np.pi * t) / (2 * np.pi)
 
 
+def mirrored(grading: Callable[[np.ndarray], np.ndarray]) -> Callable[[np.ndarray], np.ndarray]:
+    """The grading of the mirror image of a block."""
+    return lambda t: 1 - grading(1 - t)
+
+
 def tags_of(mesh: dmesh.Mesh, blocks: int) -> dmesh.MeshTags:
     """Tags of the ends and of the vertices between blocks."""
     mesh.topology.create_connectivity(0, mesh.topology.dim)  # needed to locate the conditions
     found = {
         LOWER: dmesh.locate_entities(mesh, 0, lambda x: np.abs(x[0]) < 1e-9),
         UPPER: dmesh.locate_entities(mesh, 0, lambda x: np.abs(x[0] - blocks) < 1e-9),
-        BREAK: dmesh.locate_entities(
-            mesh, 0, lambda x: (np.abs(x[0] - np.round(x[0])) < 1e-9) & (x[0] > 0.5) & (x[0] < blocks - 0.5)
-        ),
     }
+    for k in range(1, blocks):
+        found[BREAK + k - 1] = dmesh.locate_entities(mesh, 0, lambda x, k=k: np.abs(x[0] - k) < 1e-9)
     vertices = np.concatenate(list(found.values())).astype(np.int32)
     tags = np.concatenate([np.full(len(v), tag) for tag, v in found.items()]).astype(np.int32)
     order = np.argsort(vertices)

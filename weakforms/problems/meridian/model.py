@@ -82,6 +82,7 @@ class MeridianModel:
     """
 
     name = "membrane"
+    patch = 0, 1  # first block of the patch in contact, or of what is wet, and the block after it
 
     def __init__(
         self,
@@ -177,29 +178,28 @@ class MeridianModel:
         left, width, t = self.block
         return left + width * t, width
 
-    def in_first(self, inside: Expr | float, outside: Expr | float) -> Expr:
-        """One value in the first block, another one elsewhere.
-
-        The choice is made by cell, because at a break point the coordinate does not tell the sides.
-        """
-        return ufl.conditional(ufl.lt(self._by_cell["block"], 0.5), inside, outside)
+    def in_patch(self, inside: Expr | float, outside: Expr | float) -> Expr:
+        """One value in the patch, another elsewhere; by cell: a break point's coordinate has no side."""
+        (low, high), block = self.patch, self._by_cell["block"]
+        within = ufl.conditional(ufl.lt(block, high - 0.5), inside, outside)
+        return within if low == 0 else ufl.conditional(ufl.gt(block, low - 0.5), within, outside)
 
     def beside(self, value: Expr, first: bool) -> Expr:
-        """Value at the first break point, from the first block or from the other side, for :attr:`inner`."""
-        seen = self.in_first(value, 0.0) if first else self.in_first(0.0, value)
+        """Value at the patch's edge, from inside (``first``) or from the other side, for :attr:`inner`."""
+        seen = self.in_patch(value, 0.0) if first else self.in_patch(0.0, value)
         return seen("+") + seen("-")
 
     @property
     def front(self) -> Expr:
-        """``S`` at the first break point, from either side of it."""
+        """``S`` at the patch's upper edge, from either side of it."""
         left, width, _ = self.block
-        return self.in_first(left + width, left)
+        return self.in_patch(left + width, left)
 
     def frozen(self, component: int) -> fem.DirichletBC:
-        """Zero for a component of the unknown in the first block, where something else determines it."""
+        """Zero for a component of the unknown in the patch, where something else determines it."""
         self.mesh.topology.create_connectivity(1, 1)  # needed to locate the conditions
-        cells = dmesh.locate_entities(self.mesh, 1, lambda x: x[0] <= 1 + 1e-12)
-        part = self.space.sub(component)
+        low, high, part = *self.patch, self.space.sub(component)
+        cells = dmesh.locate_entities(self.mesh, 1, lambda x: (low <= x[0] + 1e-9) & (x[0] < high + 1e-9))
         return fem.dirichletbc(np.array(0.0), fem.locate_dofs_topological(part, 1, cells), part)
 
     # -- kinematics ----------------------------------------------------------------------------

@@ -11,8 +11,8 @@ FREE = (
     Column("u_max", "radial displacement of the mid-plane over {length}", "u_{max}"),
     Column("lam1_mid", "meridional stretch at the mid-plane, 1"),
     Column("t1_mid", "meridional Cauchy resultant at the mid-plane over {resultant}"),
-    Column("V", "enclosed volume of the half tube over {volume}", "V"),
-    Column("Pi", "total potential of the half tube over {energy}"),
+    Column("V", "enclosed volume of the half tube (extent = full: of the whole one) over {volume}", "V"),
+    Column("Pi", "total potential of the same over {energy}"),
 )
 CONTACT = (
     Column("Z_front", "Z of the contact front", dimension="length"),
@@ -71,7 +71,7 @@ TUBE = About(
     title="Inflation of a pre-stretched cylindrical membrane",
     **SHARED,
     control="p (past a limit point compare over u_max, which increases along the whole branch)",
-    unknown="(rho, eta) over half the tube, held at the disk and symmetric at mid-length",
+    unknown="(rho, eta) over half the tube, held at the disk and symmetric at mid-length, or over all of it",
     forms=(
         "forms.kinematics:revolution_stretches",
         "forms.loads:gas_potential",

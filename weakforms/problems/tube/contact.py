@@ -19,7 +19,7 @@ from ufl.core.expr import Expr
 from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.series import Series
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, one_end
+from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, mirrored, one_end
 from weakforms.problems.tube.model import TubeModel
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
@@ -46,6 +46,8 @@ class ContactData:
     grading: float
     unilateral: bool = False
     """Whether the spring only pushes."""
+    full: bool = False
+    """Whether the tube is the whole one, with a front on either side of the mid-plane."""
 
     @property
     def length(self) -> float:
@@ -61,7 +63,8 @@ class ContactData:
 class ContactModel(TubeModel):
     """Weak form of the tube with a front-fitted mesh.
 
-    Loads: ``p``, ``front`` (``z_f``), ``k``, ``s`` and ``delta1``; ``k = 0`` is the free tube.
+    Loads: ``p``, ``front`` (``z_f``), ``k``, ``s`` and ``delta1``; ``k = 0`` is the free tube. A whole tube
+    has ``front_lower`` too, which is negative.
     """
 
     stuck = 1
@@ -69,15 +72,18 @@ class ContactModel(TubeModel):
 
     def __init__(self, comm: MPI.Intracomm, data: ContactData, bond: Bond | None = None) -> None:
         self.data, self.bond = data, bond
-        mesh = Blocks(
-            [0.0, FIRST_FRONT * data.length, data.length],
-            data.cells,
-            data.degree,
-            UNILATERAL_QUADRATURE if data.unilateral else 2 * data.degree + 4,
-            fronts={"front": 1},
-            # On the free part both ends are refined: the front's boundary layer and the disk's.
-            grading=[one_end(data.grading), both_ends(data.grading)],
-        )
+        # On the free part both ends are refined: the front's boundary layer and the disk's.
+        grading = [one_end(data.grading), both_ends(data.grading)]
+        breaks, fronts = [0.0, FIRST_FRONT * data.length, data.length], {"front": 1}
+        self.edges = {"front": ("gap", 1.0)}
+        self.centre = 0
+        if data.full:
+            grading = [*(mirrored(block) for block in reversed(grading)), *grading]
+            breaks = [-at for at in breaks[:0:-1]] + breaks
+            fronts, self.patch, self.centre = {"front": 3, "front_lower": 1}, (1, 3), 2
+            self.edges["front_lower"] = "gap_lower", -1.0
+        quadrature = UNILATERAL_QUADRATURE if data.unilateral else 2 * data.degree + 4
+        mesh = Blocks(breaks, data.cells, data.degree, quadrature, fronts, grading)
         values = {"p": 0.0, "k": 0.0, "s": data.s, "delta1": data.delta1}
         super().__init__(comm, data.law, values, data.length, mesh)
         terms, span = (bond.terms, bond.span) if bond else (0, 1.0)
@@ -89,24 +95,41 @@ class ContactModel(TubeModel):
         """Axial position of the front of a frictionless state."""
         return slipped.values["contact_length"] / 2
 
+    @property
+    def _side(self) -> Expr | float:
+        """1 above the mid-plane, -1 below it."""
+        if not self.data.full:
+            return 1.0
+        return ufl.conditional(ufl.gt(self._by_cell["block"], self.centre - 0.5), 1.0, -1.0)
+
+    @property
+    def front(self) -> Expr:
+        """``S`` at the edge of the patch on the side of each point, from either side of the edge."""
+        if not self.data.full:
+            return super().front
+        left, width, _ = self.block
+        lower = self.in_patch(left, left + width)
+        return ufl.conditional(ufl.gt(self._by_cell["block"], self.centre - 0.5), super().front, lower)
+
     def displaced(self, along: Expr, width: Expr) -> tuple[Expr, Expr, Expr, Expr]:
         """``rho`` and ``eta`` with their derivatives; in a stuck patch ``eta`` from the history."""
         rho, rho_z, eta, eta_z = super().displaced(along, width)
         if self.bond is None:
             return rho, rho_z, eta, eta_z
-        _, _, t = self.block
-        (at_front, _), (inside, _) = (self.series["position"](z) for z in (self.front, along))
-        slope, _ = self.series["slope"](along)
+        (_, _, t), side = self.block, self._side
+        (at_front, _), (inside, _) = (self.series["position"](side * z) for z in (self.front, along))
+        slope, _ = self.series["slope"](side * along)
+        to_disk = ufl.conditional(ufl.gt(side, 0.0), 1 - t, t) if self.data.full else 1 - t
         return (
             rho,
             rho_z,
-            self.in_first(inside, eta + at_front * (1 - t)),
-            self.in_first(slope, eta_z - at_front / width),
+            self.in_patch(side * inside, eta + side * at_front * to_disk),
+            self.in_patch(slope, eta_z - at_front / width),
         )
 
     def touching(self) -> Expr | float:
         """The patch, or where a unilateral spring pushes in it."""
-        contact = self.in_first(1.0, 0.0)
+        contact = self.in_patch(1.0, 0.0)
         if self.data.unilateral:
             contact = contact * super().touching()
         return contact
@@ -117,7 +140,7 @@ class ContactModel(TubeModel):
 
     def formulation(self) -> Formulation:
         """The weak form with forces of the substrate, and one-sided values at the front."""
-        e, q, given = self.expressions, self.q, super().formulation()
+        e, q, given, data = self.expressions, self.q, super().formulation(), self.data
         rho, lam1, lam2, cos_beta, width = (e[n] for n in ("r", "lam1", "lam2", "cos_beta", "width"))
         p, k, s, contact = q["p"], q["k"], q["s"], self.touching()
         t1, t2 = self.resultants
@@ -129,7 +152,9 @@ class ContactModel(TubeModel):
         f_k = -k * contact * cos_beta * spring
         pressure = p - k * contact * spring
         kappa = (t2 * lam1 * cos_beta - pressure * rho * lam1) / (ufl.sqrt(q["delta1"]) * t1 * lam2 * lam1)
-        at = self.inner(BREAK)
+        at, lower = (self.inner(BREAK + k - 1) for k in (self.fronts["front"], 1))
+        other = {"gap_lower": ufl.avg(rho - s) * lower} if data.full else {}
+        length = ufl.avg(e["z"]) * at - ufl.avg(e["z"]) * lower if data.full else 2 * ufl.avg(e["z"]) * at
         return replace(
             given,
             monitors={
@@ -143,7 +168,8 @@ class ContactModel(TubeModel):
                 "kappa": self.beside(kappa, first=False) * at,
                 "Z_front": ufl.avg(self.front) * at,
                 "gap": ufl.avg(rho - s) * at,
-                "contact_length": 2 * ufl.avg(e["z"]) * at,
+                "contact_length": length,
+                **other,
             },
             maxima={"spring_max": abs(f_k), "t2_max_negative": -t2},
             # |f_t| is largest at the front. Its one-sided value there is used, not the maximum over all
@@ -157,8 +183,8 @@ class ContactModel(TubeModel):
                 "t2_min": lambda v: -v["t2_max_negative"],
             },
             internal=(
-                "front",
-                "gap",
+                *self.edges,
+                *(gap for gap, _ in self.edges.values()),
                 "jump",
                 "membrane_jump",
                 "f_t_front",
@@ -166,7 +192,7 @@ class ContactModel(TubeModel):
                 "slope_outside",
                 "resistance",
             ),
-            profile=given.profile | {"f_t": self.in_first(f_t, 0.0), "f_k": f_k, "F_axial": force},
+            profile=given.profile | {"f_t": self.in_patch(f_t, 0.0), "f_k": f_k, "F_axial": force},
         )
 
     def _jump(self, value: Expr) -> Expr:

@@ -104,5 +104,6 @@ def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: M
         degree=numerics.degree,
         grading=numerics.grading,
         unilateral=parameters.phase == "deflation" and parameters.spring == "unilateral",
+        full=parameters.extent == "full",
     )
     return TubePhases(comm, data, parameters.p_end, numerics.step, FIRST_TERMS + MORE_TERMS * level)

@@ -24,7 +24,7 @@ from weakforms.errors import InputError
 from weakforms.forms.loads import substrate_potential
 from weakforms.forms.wrinkling import Law
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, one_end
+from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, mirrored, one_end
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.limits import LEAST_RESISTANCE
 from weakforms.problems.meridian.model import MeridianModel
@@ -105,7 +105,7 @@ class TubeModel(MeridianModel):
         half, disk = lf / 2, one_end(at.grading)
         grading, breaks = [disk], [0.0, half]
         if at.full:
-            grading, breaks = [lambda t: 1 - disk(1 - t), disk], [-half, 0.0, half]
+            grading, breaks = [mirrored(disk), disk], [-half, 0.0, half]
         values = {"p": 0.0, "delta1": delta1}
         mesh = Blocks(breaks, at.cells, at.degree, 2 * at.degree + 2, grading=grading)
         return cls(comm, material, values, half, mesh)
@@ -128,7 +128,8 @@ class TubeModel(MeridianModel):
 
     def at_middle(self, value: Expr) -> ufl.Form:
         """Value at ``Z = 0`` as a form, so that every rank gets it like an integral."""
-        return ufl.avg(value) * self.inner(BREAK) if self.breaks[0] < 0 else value * self.ends(LOWER)
+        middle = BREAK + self.blocks // 2 - 1
+        return ufl.avg(value) * self.inner(middle) if self.breaks[0] < 0 else value * self.ends(LOWER)
 
     def axial_force(self) -> Expr:
         r"""Of the membrane, :math:`r_0 w_{,1}\cos\beta`."""

@@ -60,8 +60,6 @@ class Tube(BranchProblem):
                 f"bulge in the middle of so long a tube; allowed: lf up to {LONGEST_WHOLE:g}, or "
                 "extent = 'half'"
             )
-        if parameters.contact != "none" and parameters.extent != "half":
-            raise InputError("tube: contact is solved on the half tube; allowed: extent = 'half'")
 
     def computed(self, _parameters: TubeParameters) -> tuple[str]:
         """The lowest eigenvalue."""

@@ -95,7 +95,8 @@ class WrinkledModel(MeridianModel):
     def point(self, value: Expr) -> ufl.Form:
         """Value at the point chosen by :meth:`look_at`, as a form, so that every rank gets it."""
         seen = self._by_cell["here"] * value
-        return (seen("+") + seen("-")) * self.inner(BREAK) + seen * ufl.Measure("ds", self.mesh)
+        breaks = tuple(range(BREAK, BREAK + self.blocks - 1))
+        return (seen("+") + seen("-")) * self.inner(breaks) + seen * ufl.Measure("ds", self.mesh)
 
     @cached_property
     def expressions(self) -> dict[str, Expr]:

@@ -83,6 +83,17 @@ class EquilibriumBranch(SolutionCurve):
         return solved
 
 
+class MirroredBranch(FittedBranch, EquilibriumBranch):
+    """States with a mirror symmetry, with a front on either side: other branches may cross them."""
+
+    def special(self) -> list[Solved]:
+        """Limit points and bifurcation points in order, as on a branch without fronts."""
+        return EquilibriumBranch.special(self)
+
+    def _fold(self, i: int) -> Solved:
+        return self._root(i, self._control_rate(i), "limit_point")
+
+
 class FoldLine(SolutionCurve):
     """Limit points in one load, followed over a second load, the control."""
 

@@ -61,6 +61,16 @@ def end(field: str, index: int) -> Reading:
     return lambda _, __, profile: (float(profile.columns[field][index]), profile.uncertainty[field])
 
 
+def origin(field: str) -> Reading:
+    """A profile's value where its coordinate is zero, which is one of its points."""
+
+    def reading(_: Result, __: State, profile: Field) -> quadrature.Estimated:
+        x = next(iter(profile.columns.values()))
+        return float(profile.columns[field][np.argmin(np.abs(x))]), profile.uncertainty[field]
+
+    return reading
+
+
 def extreme(pick: Callable[[np.ndarray], int], *fields: str, factor: float = 1.0) -> Reading:
     """The largest or smallest value of some columns of the profile."""
 
