@@ -5,6 +5,7 @@ Patil, Nordmark & Eriksson, Proc. R. Soc. A 471 (2015) 20150016, figures 2, 3, 6
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
 
@@ -50,6 +51,7 @@ OFFSETS = np.array([0.05, 0.1, 0.15])  # of the centroid, with which the branch 
 STEP = 0.08
 
 
+Grids = tuple[Surface, Surface, Surface]
 Sizes = tuple[tuple[int, int, int, int], ...]
 
 
@@ -60,27 +62,27 @@ def series(grids: Sizes, nets: Sizes = bent.NETS) -> Series:
 
 
 @cache
-def start(tube: FluidTube) -> tuple[State, Shape]:
-    """The first n = 1 bifurcation by collocation and by Galerkin's method."""
+def start(tube: FluidTube, stop: float | None = None) -> tuple[State, Shape]:
+    """The first n = 1 bifurcation by collocation and by Galerkin's method, searched up to a volume."""
     how = RESOLUTIONS[1]
-    near = zeros(tube, (PAPER | DENSITY)[tube][1], 4.0, (1,))[1]
+    near = zeros(tube, stop or (PAPER | DENSITY)[tube][1], 4.0, (1,))[1]
     state = critical_point(near.moved_to(how.partial if near.partial else how.full), how, 1).state
     return state, galerkin_critical(state, how, 1)
 
 
 @cache
-def followed(tube: FluidTube) -> branch.Secondary:
-    """The secondary branch on the coarsest grid, over the levels of the table."""
-    line = branch.Secondary(start(tube)[1], 0)
+def followed(tube: FluidTube, stop: float | None = None, lowest: float | None = None) -> branch.Secondary:
+    """The secondary branch on the coarsest grid, down to a level: by default the lowest one of the table."""
+    line = branch.Secondary(start(tube, stop)[1], 0)
     line.leave(OFFSETS)
-    line.to_level((LEVELS | DENSER)[tube][0], STEP)
+    line.to_level(lowest or (LEVELS | DENSER)[tube][0], STEP)
     return line
 
 
 @cache
-def on_levels(tube: FluidTube, zw: float) -> tuple[Surface, Surface, Surface]:
+def on_levels(tube: FluidTube, zw: float, stop: float | None = None, lowest: float | None = None) -> Grids:
     """The state at a level on the three grids."""
-    coarse = followed(tube).at_level(zw)
+    coarse = followed(tube, stop, lowest).at_level(zw)
     middle = raised(coarse, branch.grid(coarse.partial, 1))
     return coarse, middle, raised(middle, branch.grid(coarse.partial, 2))
 
@@ -92,14 +94,18 @@ def compared(tube: FluidTube, found: tuple[Surface, ...]) -> tuple[Surface, Surf
     return found[-2], found[-1]
 
 
-def curve(name: str, tube: FluidTube) -> Table:
-    """Secondary branch over the level."""
-    levels = (LEVELS | DENSER)[tube]
+def curve_columns(
+    name: str, tube: FluidTube, levels: tuple[float, ...], solved: Callable[[FluidTube, float], Grids]
+) -> tuple[list[Column], dict[str, object]]:
+    """Columns of the secondary branch over the level by both methods, and the rotation's eigenvalue.
+
+    ``solved`` gives the state of a level on the three grids.
+    """
     rows: tuple[Rows, ...] = ([], [], [], [])  # Galerkin's method coarse and fine, collocation likewise
     eigen: tuple[Rows, ...] = ([], [], [], [])
     spin = 0.0
     for zw in levels:
-        found = on_levels(tube, zw)
+        found = solved(tube, zw)
         finest = compared(tube, found)
         pair = finest if tube in bent.STEEP else found[:2]  # for the eigenvalues
         first = states.stability(pair[0])
@@ -117,9 +123,14 @@ def curve(name: str, tube: FluidTube) -> Table:
         for k in names:
             values = [np.array([row[k] for row in part]) for part in found]
             columns.append(bent.paired(name, k, tuple(values[:2]), tuple(values[2:])))
+    return columns, {"rotation_eigenvalue": round_up(spin)}
+
+
+def curve(name: str, tube: FluidTube) -> Table:
+    """Secondary branch over the level."""
+    columns, extra = curve_columns(name, tube, (LEVELS | DENSER)[tube], on_levels)
     notes = text.SECONDARY_NOTES + (text.COMPRESSED_NOTES if tube in COMPRESSED else "")
     title = f"Secondary branch, L = {tube.L:g}, delta = {tube.delta:g}, gamma = {tube.gamma:g}"
-    extra = {"rotation_eigenvalue": round_up(spin)}
     about = series(branch.GRIDS[2:] if tube in FINER else branch.GRIDS[:3], bent.chosen(tube))
     source = "figure 4" if tube in DENSER else "figures 2 and 3"
     return about.table(name, title, source, given(tube), columns, notes=notes, extra=extra)
@@ -135,9 +146,9 @@ def state(name: str, tube: FluidTube, zw: float, across: Array, around: Array, s
         x, a, b = surface.evaluate(at, around)
         if isinstance(surface, Surface):
             lam = weak.stretches(a, b)
-            principal = *lam, *weak.resultants(*lam)
+            principal = *lam, *weak.resultants(*lam, tube.law)
         else:
-            principal = balance.principal(a, b)
+            principal = balance.principal(a, b, tube.law)
         fields.append([v.ravel() for v in (x[..., 0], x[..., 1], x[..., 2], *principal)])
     columns = text.SERIES.keys(Z=np.repeat(at, len(around)), Theta=np.tile(np.round(around, 12), len(at)))
     for i, c in enumerate(("x", "y", "z", "lam1", "lam2", "T1", "T2")):

@@ -23,6 +23,7 @@ from reference_data.solvers.core.law_metric import shear_modulus
 
 Array = np.ndarray
 STEP = 1e-30
+TINY = 1e-32
 
 
 def dot(a: Any, b: Any) -> Any:
@@ -31,12 +32,18 @@ def dot(a: Any, b: Any) -> Any:
 
 
 def fluxes(a: Any, b: Any, law: Any = None) -> tuple[Any, Any]:
-    """Factors f_a, f_b of v_,Z and v_,Theta; of another law to first order in g12."""
+    r"""Factors f_a, f_b of v_,Z and v_,Theta.
+
+    Of another law, with :math:`f_i = w_i/(2 l_i)` and :math:`f_y = (f_1 - f_2)/(l_1^2 - l_2^2)`, the tensor
+    of the energy's derivatives by the metric G is :math:`f_y G + [(f_1 + f_2)/2 - f_y\,\mathrm{tr}\,G/2] I`.
+    """
     g11, g22, g12 = (dot(*pair)[..., None] for pair in ((a, a), (b, b), (a, b)))
     if law is not None:
-        l1, l2 = np.sqrt(g11), np.sqrt(g22)
-        shear = shear_modulus(law, l1, l2) * g12
-        return law.slope(l1, l2) / l1 * a / 2 + shear * b, law.slope(l2, l1) / l2 * b / 2 + shear * a
+        l1, l2 = (x[..., None] for x in stretches(a, b))
+        shear = shear_modulus(law, l1, l2)
+        mean = (law.slope(l1, l2) / l1 + law.slope(l2, l1) / l2) / 4
+        half = shear * (g11 - g22) / 2
+        return (mean + half) * a + shear * g12 * b, (mean - half) * b + shear * g12 * a
     square = (g11 * g22 - g12 * g12) ** 2
     return a - (g22 * a - g12 * b) / square, b - (g11 * b - g12 * a) / square
 
@@ -62,7 +69,7 @@ def tangent(a: Array, b: Array, pressure: Array, slope: Array, law: Any = None) 
         b: x_,Theta.
         pressure: P.
         slope: dP/dz, -gamma in the fluid.
-        law: Another law than the neo-Hookean one; g12 = 0 then.
+        law: Another law than the neo-Hookean one.
     """
     out = np.zeros((*a.shape[:-1], 9, 9))
     for i in range(3):
@@ -77,9 +84,9 @@ def tangent(a: Array, b: Array, pressure: Array, slope: Array, law: Any = None) 
 
 
 def energy_density(a: Array, b: Array, law: Any = None) -> Array:
-    """Strain energy (g11 + g22 + 1/J - 3)/2 per reference area, or that of another law where g12 = 0."""
+    """Strain energy (g11 + g22 + 1/J - 3)/2 per reference area, or that of another law."""
     if law is not None:
-        return law.energy(np.sqrt(dot(a, a)), np.sqrt(dot(b, b))) / 2
+        return law.energy(*stretches(a, b)) / 2
     g11, g22, g12 = dot(a, a), dot(b, b), dot(a, b)
     return (g11 + g22 + 1 / (g11 * g22 - g12 * g12) - 3) / 2
 
@@ -92,7 +99,8 @@ def flux_of_radius(x: Array, a: Array, b: Array) -> Array:
 def stretches(a: Array, b: Array) -> tuple[Array, Array]:
     """Principal stretches; the first one belongs to the direction nearer to the meridian."""
     g11, g22, g12 = dot(a, a), dot(b, b), dot(a, b)
-    half = np.sqrt((g11 - g22) ** 2 + 4 * g12 * g12) / 2
+    square = (g11 - g22) ** 2 + 4 * g12 * g12
+    half = np.sqrt(np.where(square == 0, TINY, square)) / 2  # complex steps need a slope there
     half = np.where(g11 >= g22, half, -half)
     mean = (g11 + g22) / 2
     return np.sqrt(mean + half), np.sqrt(mean - half)
@@ -110,7 +118,9 @@ def cut_resultants(a: Array, b: Array, law: Any = None) -> tuple[Array, Array]:
     return force[0] / STEP / l2, force[1] / STEP / l1
 
 
-def resultants(lam1: Any, lam2: Any) -> tuple[Any, Any]:
+def resultants(lam1: Any, lam2: Any, law: Any = None) -> tuple[Any, Any]:
     """Principal Cauchy stress resultants T1, T2 (per current length)."""
+    if law is not None:
+        return law.slope(lam1, lam2) / (2 * lam2), law.slope(lam2, lam1) / (2 * lam1)
     cube = (lam1 * lam2) ** 3
     return lam1 / lam2 - 1 / cube, lam2 / lam1 - 1 / cube

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reference_data.solvers.core.laws import law
 from reference_data.solvers.core.tables import DisagreementError
 from reference_data.solvers.paper3 import modes, path, weak
 from reference_data.solvers.paper3 import tables_secondary as secondary
@@ -71,6 +72,33 @@ def test_principal_resultants_are_those_of_the_principal_stretches():
         assert found == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.parametrize("model", ["neo_hookean", "ogden", "gent", "arruda_boyce"])
+def test_forces_of_any_law_by_both_methods_are_the_gradient_of_its_energy(model):
+    """Singular values and the metric; for the neo-Hookean law also the closed forms."""
+    own = law(model)
+    a, b = (
+        np.eye(3)[0] + 0.3 * RNG.standard_normal((20, 3)),
+        np.eye(3)[1] + 0.3 * RNG.standard_normal((20, 3)),
+    )
+    one = np.concatenate(strong.forces(a, b, own), -1)
+    assert one == pytest.approx(np.concatenate(weak.fluxes(a, b, own), -1), rel=1e-11, abs=1e-11)
+    for j, e in enumerate(1e-30j * np.eye(6)):
+        derivative = np.imag(weak.energy_density(a + e[:3], b + e[3:], own)) / 1e-30
+        assert one[:, j] == pytest.approx(derivative, rel=1e-11, abs=1e-11)
+    if model == "neo_hookean":
+        assert one == pytest.approx(np.concatenate(strong.forces(a, b), -1), rel=1e-11, abs=1e-11)
+
+
+@pytest.mark.parametrize("model", ["neo_hookean", "ogden", "gent", "arruda_boyce"])
+def test_rates_of_any_law_by_both_methods_are_the_same(model):
+    own, none = law(model), np.zeros(5)
+    a, b = np.eye(3)[0] + 0.3 * RNG.standard_normal((5, 3)), np.eye(3)[1] + 0.3 * RNG.standard_normal((5, 3))
+    a[0], b[0] = (1.2, 0, 0), (0, 1.2, 0)  # equal stretches, where a quotient has a limit
+    tangent = weak.tangent(a, b, none, none, own)[:, :6, :6]
+    found = strong.rates(a, b, own).reshape(5, 6, 6)
+    assert found == pytest.approx(tangent, rel=1e-9, abs=1e-9)
+
+
 def test_matrix_is_the_derivative_of_the_balance(pair):
     state = pair[1]
     now = strong.Balance(state)
@@ -111,7 +139,7 @@ def test_a_wrong_load_or_force_does_not_agree(pair, monkeypatch):
     wrong = balance.quantities(strong.newton(lighter, OFFSET))
     assert abs(wrong["V"] - right["V"]) > 1e-2
     original = strong.forces
-    monkeypatch.setattr(strong, "forces", lambda a, b: (original(a, b)[0], 1.01 * original(a, b)[1]))
+    monkeypatch.setattr(strong, "forces", lambda a, b, _: (original(a, b)[0], 1.01 * original(a, b)[1]))
     wrong = balance.quantities(strong.newton(pair[1], OFFSET))
     assert abs(wrong["V"] - right["V"]) > 1e-2
 

@@ -231,7 +231,7 @@ class Assembly:
     def _vectors(self, p: Points, at: Array, width: float) -> None:
         surface, el = self.surface, self.surface.grid.elements
         load = surface.tube.gamma * (surface.zw - p.x[..., 2]) * p.wet
-        f = weak.residual(p.a, p.b, load).reshape(*load.shape, 3, 3)
+        f = weak.residual(p.a, p.b, load, surface.tube.law).reshape(*load.shape, 3, 3)
         f = np.einsum("qj,qjat,qjac->qjtc", p.weight, p.mapping(), f)
         gradient = p.weight[..., None] * np.cross(p.b, p.a) * p.wet
         slopes, place = el.deriv / width, 0
@@ -247,7 +247,8 @@ class Assembly:
     def _tangent(self, p: Points, width: float) -> Array:
         surface, el = self.surface, self.surface.grid.elements
         load = surface.tube.gamma * (surface.zw - p.x[..., 2]) * p.wet
-        d = weak.tangent(p.a, p.b, load, np.full_like(load, -surface.tube.gamma * p.wet))
+        slope = np.full_like(load, -surface.tube.gamma * p.wet)
+        d = weak.tangent(p.a, p.b, load, slope, surface.tube.law)
         m = p.mapping()
         d = d.reshape(*load.shape, 3, 3, 3, 3) * p.weight[..., None, None, None, None]
         d = np.einsum("qjat,qjacbd,qjbu->tucdqj", m, d, m, optimize=True)

@@ -28,7 +28,8 @@ def integrals(surface: Surface) -> tuple[float, float]:
         flux = weak.flux_of_radius(p.x, p.a, p.b) * p.wet
         load = surface.tube.gamma * (surface.zw - p.x[..., 2])
         volume += 2 * float(np.sum(p.weight * flux))
-        potential += 2 * float(np.sum(p.weight * (weak.energy_density(p.a, p.b) - load * flux)))
+        strain = weak.energy_density(p.a, p.b, surface.tube.law)
+        potential += 2 * float(np.sum(p.weight * (strain - load * flux)))
     return volume, potential
 
 
@@ -58,14 +59,14 @@ def smallest_resultant(surface: Surface) -> float:
     """Smallest principal stress resultant on a net of 240 by 60 points of the half tube."""
     at, theta = np.linspace(0, surface.tube.length, 241), np.linspace(0, np.pi, 61)
     _, a, b = surface.evaluate(at, theta)
-    return float(min(t.min() for t in weak.resultants(*weak.stretches(a, b))))
+    return float(min(t.min() for t in weak.resultants(*weak.stretches(a, b), surface.tube.law)))
 
 
 def quantities(surface: Surface) -> dict[str, float]:
     """Columns of the secondary branch, without the eigenvalues."""
     length, ends = surface.tube.length, np.array([0.0, np.pi])
     x, a, b = surface.evaluate(np.array([length / 2, length / 4]), ends)
-    t1, t2 = weak.resultants(*weak.stretches(a, b))
+    t1, t2 = weak.resultants(*weak.stretches(a, b), surface.tube.law)
     r = np.hypot(x[0, :, 0], x[0, :, 1])
     volume, potential = integrals(surface)
     out = {"zw": surface.zw, "V": volume, "r_mid": float(r[0]), "r_mid_pi": float(r[1])}

@@ -13,13 +13,15 @@ and the balance of forces of an element between the material curves s = const an
 collocated at the inner nodes; the force f_a - Z_,Theta f_b is continuous between elements, among them the
 free surface, which is the curve s = 1. Unknowns are positions at Chebyshev-Lobatto nodes in s and at
 Theta_j = 2 pi j/(2 M + 1), 0 <= j <= M (the other half by mirror symmetry). Nothing is integrated, there
-are no test functions, and no formula of the metric is used.
+are no test functions, and no formula of the metric is used. The forces of another law are those of
+:mod:`strong.principal`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +29,7 @@ from reference_data.solvers.core.collocation import lagrange
 from reference_data.solvers.core.newton import newton as iterate
 from reference_data.solvers.paper3.bent.newton import Factor, Kept
 from reference_data.solvers.paper3.data import FluidTube
+from reference_data.solvers.paper3.strong import principal
 from reference_data.solvers.paper3.strong.net import EVEN, ODD, Array, Net, waves
 
 SYMMETRIC = (EVEN, ODD, EVEN)  # parities of x, y, z about Theta = 0 and pi
@@ -42,15 +45,19 @@ def spun(u: Array) -> Array:
     return np.einsum("ijk,...j->...ik", CROSS, u)
 
 
-def forces(a: Array, b: Array) -> tuple[Array, Array]:
+def forces(a: Array, b: Array, law: Any = None) -> tuple[Array, Array]:
     """Forces on cuts Z = const and Theta = const, per material length, shapes (..., 3)."""
+    if law is not None:
+        return principal.forces(a, b, law)
     c = np.cross(a, b)
     fourth = np.sum(c * c, axis=-1, keepdims=True) ** 2
     return a - np.cross(b, c) / fourth, b - np.cross(c, a) / fourth
 
 
-def rates(a: Array, b: Array) -> Array:
+def rates(a: Array, b: Array, law: Any = None) -> Array:
     """Derivative of the forces by (a, b), shape (..., 2, 3, 2, 3)."""
+    if law is not None:
+        return principal.rates(a, b, law)
     c, one = np.cross(a, b), np.eye(3)
     square = np.sum(c * c, axis=-1)[..., None, None]
     dc = -spun(b), spun(a)  # of c by a and by b
@@ -175,7 +182,7 @@ class Balance:
         _, d = net.element(e)
         z_s, z_theta = (m[..., None] for m in bent.mapping(e))
         a, b = bent.tangents(e)
-        fa, fb = forces(a, b)
+        fa, fb = forces(a, b, bent.tube.law)
         through = fa - z_theta * fb
         normal = np.cross(b, a) * z_s * bent.tube.gamma * (e < net.wet)
         out = np.einsum("im,mjc->ijc", d, through) + (bent.zw - bent.x[e][..., 2:]) * normal
@@ -194,7 +201,7 @@ class Balance:
         _, d = net.element(e)
         z_s, z_theta = (m[..., None, None] for m in bent.mapping(e))
         a, b = bent.tangents(e)
-        r = rates(a, b)
+        r = rates(a, b, bent.tube.law)
         # by x_,s and x_,Theta at fixed s, of the force through s = const and of Z_,s f_b
         by = lambda f: ((f[..., 0, :] - z_theta * f[..., 1, :]) / z_s, f[..., 1, :])  # noqa: E731
         through = by(r[..., 0, :, :, :] - z_theta[..., None] * r[..., 1, :, :, :])

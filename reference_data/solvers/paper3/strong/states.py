@@ -7,6 +7,8 @@ cuts, eigenvalues are those of the linearised balance of forces, which is not sy
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse.linalg as sla
 
@@ -26,10 +28,10 @@ COUNT = 8  # eigenvalues nearest to the shift, from which the lowest are taken
 REAL = 1e-6  # imaginary part, over the distance from the shift, above which an eigenvalue is not believed
 
 
-def principal(a: Array, b: Array) -> tuple[Array, Array, Array, Array]:
+def principal(a: Array, b: Array, law: Any = None) -> tuple[Array, Array, Array, Array]:
     """Stretches and Cauchy resultants lam1, lam2, T1, T2; the first belongs to the direction nearer to Z."""
     left, lam, right = np.linalg.svd(np.stack([a, b], axis=-1), full_matrices=False)
-    force = np.stack(forces(a, b), axis=-1)
+    force = np.stack(forces(a, b, law), axis=-1)
     # the force on a cut that a unit of material length crosses, per current length of that cut
     pull = np.einsum("...ci,...cd,...id->...i", left, force, right) / lam[..., ::-1]
     first = np.abs(right[..., 0, 0]) >= np.abs(right[..., 1, 0])
@@ -49,6 +51,11 @@ def surface_area(bent: Bent) -> float:
     return float(np.sum((edge[:, 0] * turned[1] - edge[:, 1] * turned[0]) * bent.net.around)) / 2
 
 
+def density(l1: Array, l2: Array, law: Any) -> Array:
+    """Twice the strain energy per reference area."""
+    return l1**2 + l2**2 + (l1 * l2) ** -2 - 3 if law is None else law.energy(l1, l2)
+
+
 def integrals(bent: Bent) -> tuple[float, float]:
     """Fluid volume and total potential energy of the whole tube, fluxes through membrane and lid."""
     net, zw, gamma = bent.net, bent.zw, bent.tube.gamma
@@ -61,7 +68,7 @@ def integrals(bent: Bent) -> tuple[float, float]:
         a, b = bent.tangents(e)
         area = w[:, None] * widths[e] * bent.mapping(e)[0] * net.around
         lam = np.linalg.svd(np.stack([a, b], axis=-1), compute_uv=False)
-        strain += float(np.sum(area * (np.sum(lam**2, axis=-1) + np.prod(lam, axis=-1) ** -2 - 3))) / 2
+        strain += float(np.sum(area * density(lam[..., 0], lam[..., 1], bent.tube.law))) / 2
         if e < net.wet:
             up, z = area * np.cross(b, a)[..., 2], bent.x[e][..., 2]
             volume += float(np.sum(up * z))
@@ -86,7 +93,7 @@ def quantities(bent: Bent) -> dict[str, float]:
     """Columns of the secondary branch, without the eigenvalues."""
     length, ends = bent.tube.length, np.array([0.0, np.pi])
     x, a, b = bent.evaluate(np.array([length / 2, length / 4]), ends)
-    *_, t1, t2 = principal(a, b)
+    *_, t1, t2 = principal(a, b, bent.tube.law)
     volume, potential = integrals(bent)
     r = np.hypot(x[0, :, 0], x[0, :, 1])
     out = {"zw": bent.zw, "V": volume, "r_mid": float(r[0]), "r_mid_pi": float(r[1])}
@@ -95,7 +102,7 @@ def quantities(bent: Bent) -> dict[str, float]:
         values = (x[1, i, 0], x[1, i, 2], t1[1, i], t2[1, i])
         out |= {k: float(v) for k, v in zip(names, values, strict=True)}
     net = bent.evaluate(np.linspace(0, length, 241), np.linspace(0, np.pi, 61))[1:]
-    smallest = min(float(t.min()) for t in principal(*net)[2:])
+    smallest = min(float(t.min()) for t in principal(*net, bent.tube.law)[2:])
     return out | {"z_min": lowest_point(bent), "T_min": smallest, "Pi": potential}
 
 
