@@ -56,7 +56,11 @@ def test_a_small_table_of_every_function_comes_first(monkeypatch):
         f"table {name}" for name in ("near0", "inner", "far0", "near1", "far1", "near2", "far2")
     ]
     monkeypatch.setattr(tables, "MOST", 3)
-    assert watching(file, 5, {file: 0, "near": 1, "far": 2}, known) == ["table near0", "table inner", "table far0"]
+    assert watching(file, 5, {file: 0, "near": 1, "far": 2}, known) == [
+        "table near0",
+        "table inner",
+        "table far0",
+    ]
     here = {f"{tables.SOLVERS}near": 0}
     known = [Source(s.name, f"{tables.SOLVERS}{s.file}", s.first, s.last, s.size) for s in known]
     assert watching(f"{tables.SOLVERS}near", 33, here, known)[0] == "table inner"
