@@ -103,6 +103,12 @@ def hemisphere(zw: float) -> Hemisphere:
 
 
 @cache
+def uneven_hemisphere(zw: float) -> Hemisphere:
+    """The hemisphere of uneven thickness at a level."""
+    return Hemisphere(zw, hem.UNEVEN_LEVELS)
+
+
+@cache
 def gas_hemisphere(p: float) -> Hemisphere:
     """The hemisphere at a gas pressure."""
     return Hemisphere(p, hem.PRESSURES)

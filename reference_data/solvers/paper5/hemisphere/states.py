@@ -14,6 +14,7 @@ from reference_data.solvers.paper4.methods.shooting_newton import Solution, solv
 from reference_data.solvers.paper4.methods.states import from_grid, moved_to, polished
 from reference_data.solvers.paper5.hemisphere.body import BODY, EQUATOR, Hemisphere
 from reference_data.solvers.paper5.hemisphere.gas import GAS
+from reference_data.solvers.paper5.hemisphere.uneven import UNEVEN
 
 RULES = (Rule(16, 0.16), Rule(18, 0.12))
 CELLS = 120
@@ -78,6 +79,7 @@ class Walk:
 
 
 LEVELS, POLES = Walk("load", -0.6), Walk("z_pole", -1.33, steps=(0.03, 0.03))
+UNEVEN_LEVELS = Walk("load", -0.6, UNEVEN)
 PRESSURES = Walk("load", 0.5, GAS, 0.5, (0.05, 0.1))
 GAS_POLES = Walk("z_pole", -1.03, GAS, 0.5, (0.05, 0.05))
 
