@@ -49,6 +49,8 @@ def test_values_are_not_evaluated(mark, number):
     for option in ("--set", "--at", "--mesh"):
         for name in ("alpha", text):
             orderly(call("solve", "tube", option, f"{name}={text}"), 2)
+    for problem in ("circular", "hemisphere", "wrinkled_tube", "wrinkled_sheet"):
+        orderly(call("solve", problem, "--set", f"thickness={text}"), 2)
     for words in (
         ("verify", f"-k={text}"),
         ("show", "--", text),

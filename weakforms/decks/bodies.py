@@ -143,9 +143,9 @@ LAWS = {"mooney_rivlin", "neo_hookean"}
 
 ONLY = {
     "tube": {"contact": "none", "phase": "inflation", "extent": "half"},
-    "circular": {"contact": "none", "phase": "inflation"},
+    "circular": {"contact": "none", "phase": "inflation", "thickness": None},
     "sphere": {"vary": ""},
-    "wrinkled_tube": {},
+    "wrinkled_tube": {"thickness": None},
 }
 """Parameters without which a deck would be of another body."""
 

@@ -174,6 +174,11 @@ class Membrane:
         """Derivative of eta with respect to s."""
         return 2 * (1 - self.M) / self.L
 
+    @property
+    def thinnest(self) -> float:
+        """Least thickness over the mean."""
+        return min(self.M, 2 - self.M)
+
     @cached_property
     def radius(self) -> float:
         """Radius of the disks, Af/Ao."""
@@ -237,9 +242,9 @@ def uniaxial_tension(membrane: Membrane) -> float:
 
 
 def critical_radius(membrane: Membrane) -> float:
-    """Largest Af with gw <= 1 everywhere at zero load: lam1^(-1/2) at the thin end."""
-    thin = min(membrane.M, 2 - membrane.M)
-    return float(uniaxial_stretch(np.array(uniaxial_tension(membrane) / thin), membrane.c2)) ** -0.5
+    """Largest Af with gw <= 1 everywhere at zero load: lam1^(-1/2) at the thinnest place."""
+    force = np.array(uniaxial_tension(membrane) / membrane.thinnest)
+    return float(uniaxial_stretch(force, membrane.c2)) ** -0.5
 
 
 def critical_radius_by_parts(membrane: Membrane) -> float:

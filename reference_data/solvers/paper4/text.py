@@ -24,6 +24,7 @@ TOLERANCE = "Newton takes one more step after the first one below 1e-8: rounding
 
 COLUMNS: dict[str, tuple[str, str]] = {
     "p": ("P Ao/(C1 h)", "gas pressure"),
+    "t0": ("1/R_f", "height of the pole of a disk"),
     "zw": ("1/Ao", "fluid level above the lower end"),
     "V": ("V/(2 pi Ao^3)", "volume of the membrane's whole inside per 2 pi, int_0^L r^2 z'/2 ds"),
     "r_max": ("1/Ao", "largest radius, the disks included"),

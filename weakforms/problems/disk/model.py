@@ -12,8 +12,9 @@ known: see :class:`DiskModel`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -27,8 +28,9 @@ from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.series import Series
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks
-from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.body import Body, Values
 from weakforms.problems.meridian.model import MeridianModel
+from weakforms.problems.meridian.thickness import Thickness
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
 
@@ -45,6 +47,14 @@ class DiskData:
     degree: int
     M: float = 1.0
     """Thickness at the pole over the mean of pole and clamp."""
+    given: Thickness | None = None
+    """Thickness given as text, instead of ``M``."""
+
+    def thickness(self, x: Expr, q: Values) -> Expr | float:
+        """Thickness over ``h``."""
+        if self.given is not None:
+            return self.given(self.beta * x, q)
+        return 1.0 if self.M == 1 else self.M + 2 * (1 - self.M) * self.beta * x
 
     @property
     def length(self) -> float:
@@ -73,14 +83,14 @@ class FreeDisk(MeridianModel):
         beta: float,
         mesh: Blocks,
         energy: str = "standard",
-        M: float = 1.0,
+        thickness: Callable[[Expr, Values], Expr | float] = lambda _x, _q: 1.0,
     ) -> None:
         body = Body(
             name="disk",
             parameters=(),
             length=lambda _q: 1 / beta,
             radius=lambda x, _q: x,
-            thickness=lambda x, _q: 1.0 if M == 1 else M + 2 * (1 - M) * beta * x,
+            thickness=thickness,
             held=((None, None), (beta, 0.0)),
             upwards=-1.0,
             pole=True,
@@ -91,6 +101,13 @@ class FreeDisk(MeridianModel):
     def touching(self) -> Expr:
         """Indicator of contact with the substrate."""
         return ufl.conditional(ufl.gt(self.expressions["z"], self.q["l"]), 1.0, 0.0)
+
+    @cached_property
+    def resultants(self) -> tuple[Expr, Expr]:
+        """Cauchy resultants ``t1, t2`` over ``C1 h``, of the local thickness."""
+        thickness = self.body.thickness(self.expressions["S"], self.q)
+        t1, t2 = super().resultants
+        return thickness * t1, thickness * t2
 
     def foundation(self) -> Expr:
         """The bed of springs."""
@@ -127,7 +144,7 @@ class DiskModel(FreeDisk):
         values = {"p": 0.0, "k": 0.0, "l": data.l}
         breaks, quadrature = [0.0, data.length / 2, data.length], 2 * data.degree + 4
         mesh = Blocks(breaks, data.cells, data.degree, quadrature, fronts={"front": 1})
-        super().__init__(comm, data.law, values, data.beta, mesh, M=data.M)
+        super().__init__(comm, data.law, values, data.beta, mesh, thickness=data.thickness)
         terms, span = (bond.terms, bond.span) if bond else (1, 1.0)
         # The moment is a product of the other two series.
         lengths = {"lam2": terms + 1, "depth": terms + 1, "moment": 2 * terms}

@@ -19,6 +19,7 @@ from weakforms.problems.disk.peeling import SMALLEST_FRONT, PeelingBranch, Peeli
 from weakforms.problems.disk.phases import FIRST_T0, HIGHEST_P, DiskPhases
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.branch import EquilibriumBranch
@@ -78,7 +79,7 @@ class CircularParameters(MaterialChoice):
     needs: ClassVar[Needs] = {
         **dict.fromkeys(("k", "l", "p_end"), ({"contact": TOUCHES}, {"phase": ("peeling",)})),
         "adhesion": [{"contact": ("adhesive",)}, {"phase": ("peeling",)}],
-        **dict.fromkeys(("t_end", "M"), ({"contact": ("none",), "phase": ("inflation",)},)),
+        **dict.fromkeys(("t_end", "M", "thickness"), ({"contact": ("none",), "phase": ("inflation",)},)),
     }
     movable: ClassVar = {"t_end": "le", "p_end": "le"}
 
@@ -98,7 +99,16 @@ class CircularParameters(MaterialChoice):
     M: float = Field(
         1.0, gt=0, lt=2, description="thickness at the pole over h, linear to 2 - M at the clamp; free only"
     )
+    thickness: text_over("X") = Field(  # type: ignore[valid-type]
+        None,
+        description="thickness over h by the radius X, such as '1 + 0.2*cos(pi*X)'; replaces M; free only",
+    )
     t_end: float = Field(2.0, gt=0.06, le=10, description="pole height at which free inflation ends")
+
+    @property
+    def own_thickness(self) -> Thickness | None:
+        """The thickness, if it is given as text."""
+        return None if self.thickness is None else Thickness(self.thickness, "X")
 
 
 class Circular(BranchProblem):
@@ -117,6 +127,7 @@ class Circular(BranchProblem):
         """
         super().check(parameters, requests)
         require_taut(self.name, parameters.material, parameters.beta, "beta")
+        require_thickness(self.name, parameters.own_thickness, 1.0, "M" in parameters.model_fields_set)
         if parameters.phase == "deflation" and parameters.contact != "adhesive":
             raise InputError(
                 "circular: phase = 'deflation' needs a patch that sticks; allowed with contact = 'adhesive'"
@@ -170,7 +181,7 @@ class Circular(BranchProblem):
         runs = [
             inflation(
                 comm.py2f(),
-                DiskData(*disk, cells // 2, degree, parameters.M),
+                DiskData(*disk, cells // 2, degree, parameters.M, parameters.own_thickness),
                 parameters.adhesion,
                 parameters.p_end,
                 numerics.step,

@@ -10,6 +10,7 @@ import numpy as np
 from weakforms.errors import InputError
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
+from weakforms.problems.meridian.thickness import PLACES, Thickness
 
 LEAST_RESISTANCE = 0.02
 """Lower limit of ``lam1 w,11 / w,1``; below it no mesh resolves the meridional stretch."""
@@ -72,12 +73,15 @@ def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str)
         )
 
 
+Uneven = float | tuple[Thickness, float]
+"""A thickness: ``M`` of a linear one, or one given as text and the length of the meridian."""
+
 FARTHEST, STRETCHES, POINTS = 1e7, 2000, 400
 """Largest stretch of a law whose force is looked at, number of stretches up to it, points along a tube."""
 
 
 @lru_cache(maxsize=256)
-def mean_stretch_limit(law: Chosen, M: float) -> float:
+def mean_stretch_limit(law: Chosen, thickness: Uneven) -> float:
     r"""Largest mean stretch of a tube of uneven thickness in uniaxial tension; infinite if a law locks.
 
     Without load the force is the same along the tube. If the law's force per thickness
@@ -88,21 +92,26 @@ def mean_stretch_limit(law: Chosen, M: float) -> float:
 
     Args:
         law: An incompressible law.
-        M: Thickness at one end over its mean.
+        thickness: Thickness at one end over its mean, between which it is linear; or any, with the length.
     """
     stretches = np.geomspace(1.0, FARTHEST, STRETCHES)
     force = np.array([evaluated(law, l1, l1**-0.5)["W1"] for l1 in stretches])
     if not np.all(np.isfinite(force)):
         return float("inf")
     force = np.maximum.accumulate(force)
-    thin, thick = sorted((M, 2.0 - M))
-    # With S = s^3 from the thin end the integrand is smooth where the stretch has no bound.
     s = (np.arange(POINTS) + 0.5) / POINTS
-    thickness = thin + (thick - thin) * s**3
-    return float(np.mean(3 * s**2 * np.interp(force[-1] * thin / thickness, force, stretches)))
+    if isinstance(thickness, tuple):
+        own, length = thickness
+        found, weight = own.at(length * s, L=length), 1.0
+        thin = float(own.at(np.linspace(0.0, length, PLACES), L=length).min())
+    else:
+        thin, thick = sorted((thickness, 2.0 - thickness))
+        # With S = s^3 from the thin end the integrand is smooth where the stretch has no bound.
+        found, weight = thin + (thick - thin) * s**3, 3 * s**2
+    return float(np.mean(weight * np.interp(force[-1] * thin / found, force, stretches)))
 
 
-def require_carried(problem: str, law: Chosen, delta: float, M: float) -> None:
+def require_carried(problem: str, law: Chosen, delta: float, thickness: Uneven) -> None:
     """Refuse an axial pre-stretch that a tube of uneven thickness has at no force.
 
     Raises:
@@ -110,10 +119,13 @@ def require_carried(problem: str, law: Chosen, delta: float, M: float) -> None:
     """
     if law.model == MOONEY_RIVLIN:
         return
-    most = mean_stretch_limit(law, M)
+    most = mean_stretch_limit(law, thickness)
     if delta > most:
+        linear = not isinstance(thickness, tuple)
+        uneven = f"M = {thickness:g}" if linear else f"thickness = {thickness[0].text!r}"
+        thin, even = ("end", "bring M closer to 1") if linear else ("place", "choose a more even thickness")
         raise InputError(
-            f"{problem}: delta = {delta:g}: with model = {law.model!r} and M = {M:g} the thin end gives way: "
-            f"no force stretches the membrane by more than {most:.4g} in the mean; lower delta, or bring M "
-            "closer to 1"
+            f"{problem}: delta = {delta:g}: with model = {law.model!r} and {uneven} the thin {thin} gives "
+            f"way: no force stretches the membrane by more than {most:.4g} in the mean; lower delta, "
+            f"or {even}"
         )

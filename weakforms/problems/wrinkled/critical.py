@@ -10,6 +10,7 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
+from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.fitted import PLACE
@@ -46,10 +47,11 @@ def critical_radii(
     cells: Sequence[int],
     degree: int,
     material: Chosen | None = None,
+    body: Body = CYLINDER,
 ) -> list[float]:
     r"""Largest radius of the disks with ``gw <= 1`` everywhere at zero load, on each mesh.
 
-    .. math:: (A_f)_c = \lambda_1(\text{thin end})^{-1/2}
+    .. math:: (A_f)_c = \lambda_1(\text{thinnest place})^{-1/2}
 
     The meridional stretch of the unloaded, wrinkled membrane does not depend on the radius, so that a small
     radius is used (Patil, Nordmark & Eriksson 2015, section 4.1 and table 2).
@@ -58,13 +60,14 @@ def critical_radii(
         ConvergenceError: If the unloaded state is not found.
     """
     membrane = Membrane(
-        comm, CYLINDER, {**values, "Af": WRINKLED_RADIUS}, False, cells, degree, "relaxed", (), material
+        comm, body, {**values, "Af": WRINKLED_RADIUS}, False, cells, degree, "relaxed", (), material
     )
     found = []
     for level in range(len(cells)):
         held = membrane.unloaded(level, WRINKLED)
-        ends = held.sampled(np.array([0.0, membrane.length]))
-        found.append(WRINKLED_RADIUS / ends["gw"].max())
+        ends = held.sampled(np.array([0.0, membrane.length]))["gw"].max()
+        inside = 0.0 if body is CYLINDER else held.extreme("gw", 1)  # a linear thickness is least at an end
+        found.append(WRINKLED_RADIUS / max(ends, inside))
     return found
 
 

@@ -21,6 +21,7 @@ from pydantic import Field
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wrinkled import body
 from weakforms.problems.wrinkled.about import HEMISPHERE
@@ -78,6 +79,9 @@ class HemisphereParameters(MaterialChoice):
     c2: float = Field(
         0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean, as in the paper"
     )
+    thickness: text_over("t") = Field(  # type: ignore[valid-type]
+        None, description="thickness over h by the angle t from the pole, such as '1 + 0.2*cos(2*t)'"
+    )
     energy: Energy = Field(
         "relaxed", description=f"{TREATMENT} (set low_end = -0.8 then: lower states are often not found)"
     )
@@ -101,6 +105,11 @@ class HemisphereParameters(MaterialChoice):
     def control(self) -> str:
         """Name of the load."""
         return LOAD[self.load]
+
+    @property
+    def own_thickness(self) -> Thickness | None:
+        """The thickness, if it is given as text."""
+        return None if self.thickness is None else Thickness(self.thickness, "t")
 
 
 class HemisphereBranch(WrinkledBranch):
@@ -126,7 +135,7 @@ class HemisphereBranch(WrinkledBranch):
 
 
 class Hemisphere(BranchProblem):
-    """A hemisphere of uniform thickness, clamped at its equator, under the liquid or gas in it."""
+    """A hemisphere, clamped at its equator, under the liquid or gas in it."""
 
     about = HEMISPHERE
     parameters = HemisphereParameters
@@ -141,6 +150,7 @@ class Hemisphere(BranchProblem):
         require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
+        require_thickness(self.name, parameters.own_thickness, math.pi / 2)
         load = parameters.control
         least, most, what = ALLOWED[load]
         for wanted in requests.states:
@@ -203,6 +213,7 @@ def hemisphere_membrane(
     """The membrane for given parameters, for solving for single states."""
     liquid = parameters.load == "fluid"
     values = {"c2": parameters.c2, "gamma": parameters.gamma if liquid else 0.0}
+    shape = body.hemisphere(parameters.own_thickness)
     near = NEAR_FRONTS if parameters.n else ()
     kind = parameters.energy, near, parameters.other_law
-    return Membrane(comm, body.HEMISPHERE, values, liquid, numerics.meshes, numerics.degree, *kind)
+    return Membrane(comm, shape, values, liquid, numerics.meshes, numerics.degree, *kind)

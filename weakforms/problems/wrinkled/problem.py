@@ -19,9 +19,10 @@ from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.meridian.limits import require_bearable, require_carried
+from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE
-from weakforms.problems.wrinkled.body import CYLINDER
+from weakforms.problems.wrinkled.body import cylinder
 from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.membrane import Membrane
@@ -82,6 +83,9 @@ class WrinkledParameters(MaterialChoice):
     needs: ClassVar[Needs] = {"beta": [{"n": ()}]}
 
     M: float = Field(0.5, gt=0, lt=2, description="thickness at the lower end over its mean")
+    thickness: text_over("Z", "L") = Field(  # type: ignore[valid-type]
+        None, description="thickness over h by the coordinate Z, such as '1 + 0.4*cos(2*pi*Z/L)'; replaces M"
+    )
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
@@ -109,6 +113,21 @@ class WrinkledParameters(MaterialChoice):
         """Name of the load."""
         return LOAD[self.load]
 
+    @property
+    def own_thickness(self) -> Thickness | None:
+        """The thickness, if it is given as text."""
+        return None if self.thickness is None else Thickness(self.thickness, "Z", ("L",))
+
+    def require_carried(self, problem: str) -> None:
+        """Refuse a thickness out of range, and a pre-stretch that the membrane has at no force.
+
+        Raises:
+            InputError: With a message that names the parameters.
+        """
+        own, given = self.own_thickness, "M" in self.model_fields_set
+        require_thickness(problem, own, self.L, given, L=self.L)
+        require_carried(problem, self.material, self.delta, self.M if own is None else (own, self.L))
+
 
 class WrinkledTube(BranchProblem):
     """Pre-stretched cylindrical membrane of non-uniform thickness under fluid or gas."""
@@ -128,7 +147,7 @@ class WrinkledTube(BranchProblem):
         require_foldable(self.name, parameters, bool(parameters.n))
         delta = parameters.delta
         require_bearable(self.name, parameters.material, delta, delta**-0.5, "delta")
-        require_carried(self.name, parameters.material, delta, parameters.M)
+        parameters.require_carried(self.name)
         control = parameters.control
         for wanted in requests.states:
             if wanted.name in LOAD.values() and wanted.name != control:
@@ -168,7 +187,9 @@ class WrinkledTube(BranchProblem):
         result.numerics["stopping"] = STOPPING
         progress("critical radius", 0, 1)
         critical = _critical(parameters, numerics, comm)
-        result.quantities["Af_critical"] = estimate(critical, 2 * numerics.degree).quantity()
+        # Inside of the meridian a largest value has the order of stretches.
+        cap = numerics.degree * (2 if parameters.thickness is None else 1)
+        result.quantities["Af_critical"] = estimate(critical, cap).quantity()
         branch = self._branch(parameters, numerics, requests, comm, critical)
         self._answer(result, {"primary": branch}, task)
         result.special_points.extend(branch.fronts)
@@ -193,12 +214,14 @@ class WrinkledTube(BranchProblem):
 
 
 def _cylinder(parameters: WrinkledParameters) -> dict[str, float]:
-    return {name: getattr(parameters, name) for name in ("M", "delta", "c2", "L")}
+    uneven = {"M": parameters.M} if parameters.thickness is None else {"uneven": 1.0}
+    return uneven | {name: getattr(parameters, name) for name in ("delta", "c2", "L")}
 
 
 def _critical(parameters: WrinkledParameters, numerics: WrinkledNumerics, comm: MPI.Intracomm) -> list[float]:
     mesh = numerics.meshes, numerics.degree
-    return critical_radii(comm, _cylinder(parameters), *mesh, parameters.other_law)
+    body = cylinder(parameters.own_thickness)
+    return critical_radii(comm, _cylinder(parameters), *mesh, parameters.other_law, body)
 
 
 def wrinkled_membrane(
@@ -228,7 +251,7 @@ def wrinkled_membrane(
     near = NEAR_FRONTS if parameters.n else ()
     kind = parameters.energy, near, parameters.other_law
     mesh = numerics.meshes, numerics.degree
-    membrane = Membrane(comm, CYLINDER, values, liquid, *mesh, *kind)
+    membrane = Membrane(comm, cylinder(parameters.own_thickness), values, liquid, *mesh, *kind)
     for own, radius in zip(membrane.on_meshes, radii, strict=False):
         own["Af"] = radius
     return membrane

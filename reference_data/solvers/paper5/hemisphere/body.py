@@ -12,8 +12,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.paper4.material import GAMMA, Array
+from reference_data.solvers.paper4.methods.pole import Pole, begin
 
 EQUATOR = np.pi / 2
 NEAR = 0.01  # end of the pole's expansion, times the number of steps of a segment
@@ -38,6 +38,7 @@ class Hemisphere:
     pole: ClassVar[bool] = True
     longest: ClassVar[float] = 0.2
     cautious: ClassVar[float] = 0.02
+    at_pole: ClassVar[Pole] = Pole(-1 / 6)
 
     def unloaded(self, s: Any) -> Any:
         """Unloaded radius."""
@@ -68,22 +69,8 @@ class Hemisphere:
         return np.geomspace(NEAR / steps, EQUATOR, count + 1)
 
     def begin(self, given: Array, load: Array, s: float) -> Array:
-        r"""(r, z, A, F) at a small angle from the stretch and the height of the pole.
-
-        With errors O(s^4), :math:`l_1 = \lambda + \alpha s^2`, :math:`l_2 = \lambda + \beta s^2`,
-        :math:`b = \pi/2 - c s`, :math:`c = p \lambda^2/(2 W_1)`.
-        """
-        lam, z0 = given[..., 0], given[..., 1]
-        w = mat.slope(lam, lam, self.c2)
-        w11, w12 = mat.curvature(lam, lam, self.c2), mat.mixed(lam, lam, self.c2)
-        c = self.pressure(z0, load, True) * lam**2 / (2 * w)
-        shift = lam * (c * c - 1) / 2  # alpha = 3 beta + shift
-        beta = (w * (1 - c * c) / 2 - (3 * w11 - w12) * shift) / (8 * w11)
-        l1, l2 = lam + (3 * beta + shift) * s**2, lam + beta * s**2
-        R, b = np.sin(s), EQUATOR - c * s
-        tension = R * mat.slope(l1, l2, self.c2)
-        height = z0 + lam * c * s**2 / 2
-        return np.stack([R * l2, height, tension * np.sin(b), tension * np.cos(b)], axis=-1)
+        """(r, z, A, F) at a small angle from the stretch and the height of the pole."""
+        return begin(self, self.at_pole, given, load, s)
 
     def free(self, given: Array) -> list[Any]:
         """The pole has two unknowns only."""

@@ -24,7 +24,7 @@ from weakforms.errors import AbsentError
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
 from weakforms.forms.wrinkling import surface_tension_field
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.limits import require_carried
+from weakforms.problems.meridian.body import Body
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.wrinkled.body import CYLINDER, SHARED
@@ -104,13 +104,14 @@ class Sheet:
         return np.column_stack([r * np.cos(places[:, 0]), r * np.sin(places[:, 0]), z]).ravel()
 
     def _formulation(self, mesh: dmesh.Mesh, space: fem.FunctionSpace, position: fem.Function) -> Formulation:
-        names, loads = (*CYLINDER.parameters, *SHARED), self.start.state.loads
+        body, loads = self.start.model.body, self.start.state.loads
+        names = (*body.parameters, *SHARED)
         q = {name: fem.Constant(mesh, loads[name]) for name in names}
         dx = ufl.Measure("dx", mesh, metadata={"quadrature_degree": 4 * self.degree})
         x, y, z = position
         material = self.start.model.material_law
         law = None if material is None else material.surface_law(mesh)
-        strain, volume, liquid = sheet_densities(mesh, position, q, law)
+        strain, volume, liquid = sheet_densities(mesh, position, q, law, body)
         share = 2 / np.pi  # a quarter of the membrane, per 2 pi
         potential = (strain - q["p"] * volume + liquid) * share * dx
         trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
@@ -153,7 +154,11 @@ def sheet_pressure(z: Expr, q: dict[str, fem.Constant]) -> Expr:
 
 
 def sheet_densities(
-    mesh: dmesh.Mesh, position: Expr, q: dict[str, fem.Constant], law: SurfaceLaw | None = None
+    mesh: dmesh.Mesh,
+    position: Expr,
+    q: dict[str, fem.Constant],
+    law: SurfaceLaw | None = None,
+    body: Body = CYLINDER,
 ) -> tuple[Expr, Expr, Expr]:
     r"""Strain energy, volume and potential of the liquid per unit area of the unrolled cylinder.
 
@@ -170,7 +175,7 @@ def sheet_densities(
     )
     volume = ((x * y_x - y * x_x) * z_y - (x * y_y - y * x_y) * z_x) / 2
     head = ufl.conditional(ufl.gt(q["zw"], z), q["gamma"] * (q["zw"] - z) ** 2 / 2, 0.0)
-    return CYLINDER.thickness(along, q) * energy, volume, -head * (x_y * y_x - x_x * y_y)
+    return body.thickness(along, q) * energy, volume, -head * (x_y * y_x - x_x * y_y)
 
 
 class WrinkledSheet(Problem):
@@ -184,7 +189,7 @@ class WrinkledSheet(Problem):
         """Refuse requests for states, because there is only one, and laws without a two-dimensional form."""
         super().check(parameters, requests)
         require_foldable(self.name, parameters, waves=True)
-        require_carried(self.name, parameters.material, parameters.delta, parameters.M)
+        parameters.require_carried(self.name)
 
     def fill(self, result: Result, task: Task) -> None:
         """Solve on two meshes, starting from the axisymmetric state with its fronts, if there is one."""

@@ -27,13 +27,25 @@ def mooney_rivlin(lam1: np.ndarray, lam2: np.ndarray, ratio: float) -> tuple[np.
 
 
 def cauchy_resultant(which: int) -> Any:
-    """Cauchy resultants of that law: ``t1 = w_1/lam2``, ``t2 = w_2/lam1``."""
+    """Cauchy resultants of that law: ``t1 = H w_1/lam2``, ``t2 = H w_2/lam1``."""
 
     def by(result: Result, _: State, c: Columns) -> np.ndarray:
         derivative = mooney_rivlin(c["lam1"], c["lam2"], result.parameters["alpha"])[which]
-        return derivative / c["lam2" if which == 1 else "lam1"]
+        return thickness(result, c) * derivative / c["lam2" if which == 1 else "lam1"]
 
     return by
+
+
+def thickness(result: Result, c: Columns) -> np.ndarray | float:
+    """Thickness over ``h`` along a profile: given as text, linear over the disk's radius, or uniform."""
+    given = result.parameters
+    if given.get("thickness") is not None:
+        from weakforms.problems.meridian.thickness import Thickness  # needs UFL
+
+        coordinate = next(name for name in ("X", "t", "Z") if name in c)
+        others = {"L": given["L"]} if "L" in given else {}
+        return Thickness(given["thickness"], coordinate, tuple(others)).at(c[coordinate], **others)
+    return given["M"] + 2 * (1 - given["M"]) * c["X"] if "M" in given and "X" in c else 1.0
 
 
 def hamiltonian(result: Result, _: State, c: Columns) -> np.ndarray:
@@ -140,7 +152,7 @@ def axial_under_liquid(result: Result, state: State, c: Columns) -> np.ndarray:
 def sphere_tension(result: Result, _: State, c: Columns) -> np.ndarray:
     """Meridional tension a reference angle: the law at the stretches, or uniaxial where it is wrinkled."""
     lam2 = np.maximum(c["lam2"], c["lam1"] ** -0.5)
-    return np.sin(c["t"]) * mooney_rivlin(c["lam1"], lam2, result.parameters["c2"])[1]
+    return thickness(result, c) * np.sin(c["t"]) * mooney_rivlin(c["lam1"], lam2, result.parameters["c2"])[1]
 
 
 def meridional_slope(_: Result, __: State, ___: Columns, r: np.ndarray, z: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Tables of the hemisphere of paper 5 under gas: branch, limit point, wrinkling function, eigenvalues."""
+"""Tables of other hemispheres than that of paper 5: under gas, and of uneven thickness."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from reference_data.solvers.paper5.hemisphere import limit as lim
 from reference_data.solvers.paper5.hemisphere import states as hem
 from reference_data.solvers.paper5.hemisphere.body import EQUATOR
 from reference_data.solvers.paper5.hemisphere.gas import GAS
+from reference_data.solvers.paper5.hemisphere.uneven import EXPRESSION, UNEVEN
 from reference_data.solvers.paper5.tables_hemisphere import scalars, shot_wrinkling, turned
 from reference_data.solvers.registry import Builder
 
@@ -25,8 +26,9 @@ MODE_PRESSURES = (0.1, *(round(0.25 * k, 2) for k in range(1, 13)))
 PAST = tuple(round(-1.5 - 0.05 * k, 2) for k in range(9))
 NEAR_LIMIT = (-1.75, -1.69, -1.63)
 SAMPLES = 80
+UNEVEN_LEVELS = tuple(round(-1.0 + 0.05 * k, 2) for k in range(11))
 DATA: dict[str, object] = {"c2": 0.0, "load": "gas"}
-SOURCE = "section 3.3, under gas; not in the paper"
+SOURCE = "section 3.3, with gas or another thickness; not in the paper"
 
 
 def make(name: str, title: str, columns: list[Column], **more: object) -> Table:
@@ -82,7 +84,18 @@ def modes(name: str, n: int) -> Table:
     return make(name, title, columns, parameters={"n": n}, extra=text.SCALES)
 
 
+def uneven(name: str) -> Table:
+    """The branch under liquid of a hemisphere that is thin at the equator."""
+    found = [rel.hemisphere(x, UNEVEN) for x in UNEVEN_LEVELS]
+    keys = ("z_pole", "lam_pole", "V", "t_level")
+    values = scalars(name, keys, [f.tracked for f in found], [f.shots for f in found])
+    columns = [*text.SERIES.keys(zw=UNEVEN_LEVELS), *values]
+    given = {"load": "fluid", "thickness": EXPRESSION}
+    return make(name, "The hemisphere of uneven thickness", columns, parameters=given)
+
+
 TABLES: dict[str, Builder] = {
+    "hemisphere_uneven": partial(uneven, "hemisphere_uneven"),
     "hemisphere_gas_branch": partial(branch, "hemisphere_gas_branch"),
     "hemisphere_gas_past_limit": partial(past, "hemisphere_gas_past_limit"),
     "hemisphere_gas_limit": partial(limit, "hemisphere_gas_limit"),
