@@ -119,5 +119,5 @@ CASE = Case(
             pushes_then_pulls,
         ),
     ),
-    asked={"f_t": 1e-3, "f_k": 5e-6},
+    asked={"f_t": 1e-4, "f_k": 1e-6},
 )

@@ -106,5 +106,5 @@ CASE = Case(
             falls_unilateral,
         ),
     ),
-    asked={"line_force": 1e-3},
+    asked={"line_force": 1e-5},
 )

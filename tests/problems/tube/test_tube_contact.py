@@ -15,6 +15,7 @@ from weakforms.problems.tube.contact import ContactData
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.problems.tube.parameters import TubeNumerics, resolving
 from weakforms.problems.tube.phases import TubePhases
+from weakforms.solvers.support.sampling import Sampler
 
 pytestmark = pytest.mark.paper2
 MESH = {"cells": 48, "degree": 4, "levels": 2}
@@ -231,6 +232,54 @@ def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
     contact = solve("tube", contact="frictionless", k=1e-8, at={"Z_front": 0.5}).states[0].quantities
     free = solve("tube", at={"u_max": contact["u_max"].value}).states[0].quantities
     assert contact["eigenvalue_1"].value == pytest.approx(free["eigenvalue_1"].value, rel=1e-8)
+
+
+# -- a spring that only pushes ----------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def unilateral():
+    given = replace(data(delta1=2.0), unilateral=True)
+    return TubePhases(MPI.COMM_SELF, given, p_end=3.0, step=0.08, terms=19)
+
+
+def test_the_mesh_follows_the_place_where_the_spring_lets_go(unilateral):
+    pressed, going, released = (getattr(unilateral, part) for part in unilateral.deflations)
+    front, places = pressed.points[0].state.loads["front"], going.over_points("let_go")
+    assert places[0] == pytest.approx(front, rel=1e-4)
+    assert np.all(np.diff(places) < 0)
+    assert places[-1] == pytest.approx(0.012, abs=1e-12)
+    for point in going.points:
+        assert abs(point.monitors["let_go_gap"]) < 1e-11
+        assert point.state.loads["front"] == front
+    u = [branch.over_points("u_max") for branch in (pressed, going, released)]
+    assert u[0][-1] == pytest.approx(u[1][0], abs=1e-10)
+    assert u[2][0] == pytest.approx(0.3, abs=1e-12)
+    assert u[1][-1] == pytest.approx(0.3, abs=1e-5)
+    assert np.all(np.diff(np.concatenate(u)) < 1e-9)
+
+
+def test_the_spring_pushes_up_to_where_it_lets_go_and_not_beyond(unilateral):
+    going = unilateral.letting_go
+    system, point = going.system, going.points[len(going.points) // 2]
+    places = np.array([0.5, 0.99, 1.01, 1.1]) * point.state.loads["let_go"]
+    with system.at(point.state):
+        at = system.formulation.locate(places, point.state.loads)
+        f_k = Sampler(system.unknown, system.formulation.profile, at)()["f_k"]
+    assert np.all(f_k[:2] < 0)
+    assert np.all(f_k[2:] == 0)
+
+
+def test_tractions_of_a_unilateral_spring_are_those_of_the_table():
+    table = reference(2, "fig06b_deflation_unilateral_alpha_0.1_delta1_2")
+    rows = [list(table.columns["p"]).index(p) for p in (2.8, 1.2, 0.0)]
+    wanted = [("p", float(table.columns["p"][row])) for row in rows]
+    given = {"contact": "adhesive", "phase": "deflation", "spring": "unilateral", "delta1": 2.0}
+    for row, state in zip(rows, solve("tube", **given, at=wanted, numerics=MESH).states, strict=True):
+        for name in ("traction_max", "line_force", "u_max"):
+            found, theirs = state.quantities[name], table.columns[name][row]
+            bound = 2 * np.hypot(found.uncertainty, table.uncertainty[name])
+            assert abs(found.value - theirs) <= bound < 1e-4
 
 
 # -- the whole tube ----------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from scipy.interpolate import CubicSpline
 
@@ -12,9 +14,15 @@ from weakforms.solvers.equilibrium.state import State
 
 def moved(model: PatchModel, state: State, front: float) -> State:
     """The same membrane on a differently divided mesh, by splines through nodal values."""
-    fronts = {name: sign * front for name, (_, sign) in model.edges.items()}
-    new = State(state.u.copy(), state.loads | fronts)
-    old, wanted = (np.repeat(model.material(model.nodes(), s.loads), 2) for s in (state, new))
+    return transferred(model, state, model, {name: sign * front for name, (_, sign) in model.edges.items()})
+
+
+def transferred(model: PatchModel, state: State, other: PatchModel, loads: Mapping[str, float]) -> State:
+    """The same membrane on the mesh of another model; loads that are not given are those of the state."""
+    known = state.loads | loads
+    new = State(other.system.initial.u.copy(), {name: known[name] for name in other.system.load_names})
+    old = np.repeat(model.material(model.nodes(), state.loads), 2)
+    wanted = np.repeat(other.material(other.nodes(), new.loads), 2)
     for component in (slice(0, None, 2), slice(1, None, 2)):
         parts = model.mesh.comm.allgather((old[component], state.u[component]))
         x, first = np.unique(np.concatenate([part[0] for part in parts]), return_index=True)

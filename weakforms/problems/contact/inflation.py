@@ -202,8 +202,10 @@ class Inflation:
 
     # -- steps and the way back --------------------------------------------------------------
 
-    def _deflated(self, model: PatchModel, state: State, p: float, slack: float) -> EquilibriumBranch:
-        """From a state at ``p_end`` down to a pressure, or to where the membrane is slack."""
+    def _deflated(
+        self, model: PatchModel, state: State, p: float, slack: float, begin: Held | None = None
+    ) -> EquilibriumBranch:
+        """From a state, at ``p_end`` or as given, down to a pressure, or to where the membrane is slack."""
         # A long step, of a large load, must not pass the last pressure by much.
         least = p - PASSED * self.p_end
         continuation = Continuation(
@@ -211,7 +213,7 @@ class Inflation:
             control=self.steps(4),
             allowed=lambda state: state.loads["p"] > least,
         )
-        start = continuation.start(state, Held("p", self.p_end), towards={"p": -1.0})
+        start = continuation.start(state, begin or Held("p", self.p_end), towards={"p": -1.0})
 
         def stop(point: CurvePoint) -> bool:
             return point.state.loads["p"] < p or point.monitors[self.depth] < slack

@@ -145,6 +145,11 @@ class ContactPhases(Inflation):
 
     # -- deflation -----------------------------------------------------------------------------
 
+    @property
+    def deflations(self) -> tuple[str, ...]:
+        """Names of the parts of the branch of deflation, in order."""
+        return ("deflation",)
+
     @cached_property
     def deflation(self) -> EquilibriumBranch:
         """Deflation to ``p = 0`` with the patch reached at ``p_end``, which does not peel."""

@@ -13,7 +13,7 @@ from ufl.core.expr import Expr
 from weakforms.forms.series import newton_series
 
 CHUNK = 24
-"""The number of stored coefficients is a multiple of this."""
+"""The number of stored coefficients is a multiple of this, unless another one is given."""
 
 
 class Series:
@@ -25,10 +25,11 @@ class Series:
         mesh: Mesh of the forms.
         count: Largest number of coefficients.
         span: Right end of the interval, a constant of the forms.
+        chunk: The number of stored coefficients is a multiple of this.
     """
 
-    def __init__(self, mesh: Mesh, count: int, span: fem.Constant) -> None:
-        self._nodes = leja_points(max(1, -(-count // CHUNK)) * CHUNK)
+    def __init__(self, mesh: Mesh, count: int, span: fem.Constant, chunk: int = CHUNK) -> None:
+        self._nodes = leja_points(max(1, -(-count // chunk)) * chunk)
         self._constant = fem.Constant(mesh, np.zeros(len(self._nodes)))
         self._span = span
         self._known: dict[Expr, tuple[Expr, Expr]] = {}

@@ -106,8 +106,7 @@ TUBE = About(
         Family(STICKING, **LINE, fixed=DEFLATION, at=(("p", 2.2),), label="deflation"),
         Family(
             STICKING,
-            coarse=LINE["coarse"],
-            fine={"cells": 128, "degree": 5},
+            **LINE,
             fixed=DEFLATION | {"spring": "unilateral"},
             at=(("p", 2.2),),
             label="unilateral",

@@ -16,6 +16,8 @@ from dolfinx import fem
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
+from weakforms.forms.kinematics import revolution_stretches
+from weakforms.forms.loads import gas_potential, substrate_potential
 from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.series import Series
 from weakforms.problems.material_choice import Chosen
@@ -24,9 +26,8 @@ from weakforms.problems.tube.model import TubeModel
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
 
-UNILATERAL_QUADRATURE = 160
-"""Degree of quadrature where a unilateral spring's force has a kink inside a cell. The quadrature error at
-the kink dominates on fine meshes, and decreases with the square of the number of points."""
+CHUNK = 28
+"""Stored coefficients of the history: enough for the terms of three meshes."""
 
 FIRST_FRONT = 0.004
 """Smallest front at which contact is followed, as a fraction of the half length."""
@@ -45,7 +46,9 @@ class ContactData:
     degree: int
     grading: float
     unilateral: bool = False
-    """Whether the spring only pushes."""
+    """Whether the spring only pushes, so that it lets go of a patch in deflation."""
+    letting_go: bool = False
+    """Whether the mesh follows the place where the spring lets go of the patch."""
     full: bool = False
     """Whether the tube is the whole one, with a front on either side of the mid-plane."""
 
@@ -63,8 +66,9 @@ class ContactData:
 class ContactModel(TubeModel):
     """Weak form of the tube with a front-fitted mesh.
 
-    Loads: ``p``, ``front`` (``z_f``), ``k``, ``s`` and ``delta1``; ``k = 0`` is the free tube. A whole tube
-    has ``front_lower`` too, which is negative.
+    Loads: ``p``, ``front`` (``z_f``), ``k``, ``s`` and ``delta1``; ``k = 0`` is the free tube. Where a spring
+    that only pushes lets go of the patch, ``let_go`` is a second front: the spring acts up to it. A whole
+    tube has ``front_lower`` and ``let_go_lower`` too, which are negative.
     """
 
     stuck = 1
@@ -74,22 +78,32 @@ class ContactModel(TubeModel):
         self.data, self.bond = data, bond
         # On the free part both ends are refined: the front's boundary layer and the disk's.
         grading = [one_end(data.grading), both_ends(data.grading)]
-        breaks, fronts = [0.0, FIRST_FRONT * data.length, data.length], {"front": 1}
-        self.edges = {"front": ("gap", 1.0)}
-        self.centre = 0
+        first = FIRST_FRONT * data.length
+        breaks, names = [0.0, first, data.length], ["front"]
+        if data.letting_go:
+            grading, names = [*grading, grading[-1]], ["let_go", "front"]
+            breaks.insert(1, first / 2)
         if data.full:
             grading = [*(mirrored(block) for block in reversed(grading)), *grading]
             breaks = [-at for at in breaks[:0:-1]] + breaks
-            fronts, self.patch, self.centre = {"front": 3, "front_lower": 1}, (1, 3), 2
-            self.edges["front_lower"] = "gap_lower", -1.0
-        quadrature = UNILATERAL_QUADRATURE if data.unilateral else 2 * data.degree + 4
-        mesh = Blocks(breaks, data.cells, data.degree, quadrature, fronts, grading)
+        self.centre = len(names) + 1 if data.full else 0
+        sides = {"": 1, "_lower": -1} if data.full else {"": 1}
+        ends = {n + side: self.centre + s * k for side, s in sides.items() for k, n in enumerate(names, 1)}
+        self.patch, self.pushing = (
+            (min(ends.get(f"{name}_lower", 0), self.centre), ends[name]) for name in ("front", names[0])
+        )
+        gaps = {name + side: (name, side, float(s)) for side, s in sides.items() for name in names}
+        self.edges, self.releases = (
+            {key: (f"{gap}{side}", s) for key, (name, side, s) in gaps.items() if name == wanted}
+            for wanted, gap in (("front", "gap"), ("let_go", "let_go_gap"))
+        )
+        mesh = Blocks(breaks, data.cells, data.degree, 2 * data.degree + 4, ends, grading)
         values = {"p": 0.0, "k": 0.0, "s": data.s, "delta1": data.delta1}
         super().__init__(comm, data.law, values, data.length, mesh)
         terms, span = (bond.terms, bond.span) if bond else (0, 1.0)
         self._span = fem.Constant(self.mesh, span)
         lengths = {"slope": terms, "position": terms + 1}
-        self.series = {name: Series(self.mesh, n, self._span) for name, n in lengths.items()}
+        self.series = {name: Series(self.mesh, n, self._span, CHUNK) for name, n in lengths.items()}
 
     def at_front(self, slipped: Solved) -> float:
         """Axial position of the front of a frictionless state."""
@@ -128,11 +142,10 @@ class ContactModel(TubeModel):
         )
 
     def touching(self) -> Expr | float:
-        """The patch, or where a unilateral spring pushes in it."""
-        contact = self.in_patch(1.0, 0.0)
-        if self.data.unilateral:
-            contact = contact * super().touching()
-        return contact
+        """The patch, or the part of it in which a spring that only pushes does so."""
+        (low, high), block = self.pushing, self._by_cell["block"]
+        pushes = ufl.lt(abs(block - (low + high - 1) / 2), (high - low) / 2)
+        return ufl.conditional(pushes, 1.0, 0.0)
 
     def conditions(self) -> list[fem.DirichletBC]:
         """The clamp, symmetry, and what a bond determines."""
@@ -140,7 +153,7 @@ class ContactModel(TubeModel):
 
     def formulation(self) -> Formulation:
         """The weak form with forces of the substrate, and one-sided values at the front."""
-        e, q, given, data = self.expressions, self.q, super().formulation(), self.data
+        e, q, given = self.expressions, self.q, super().formulation()
         rho, lam1, lam2, cos_beta, width = (e[n] for n in ("r", "lam1", "lam2", "cos_beta", "width"))
         p, k, s, contact = q["p"], q["k"], q["s"], self.touching()
         t1, t2 = self.resultants
@@ -148,13 +161,17 @@ class ContactModel(TubeModel):
         spring = (rho - s) + (rho - s) ** 2 / (2 * rho)
         force = membrane - p * rho**2 / 2 + k * contact * rho * (rho - s) ** 2 / 2
         # Per deformed area: the substrate's axial traction on the membrane, and the spring's radial part.
-        f_t = -q["delta1"] * force.dx(0) / width / (rho * lam1)
+        rate = force.dx(0) / width if self.bond is None else self._force_rate()
+        f_t = -q["delta1"] * rate / (rho * lam1)
         f_k = -k * contact * cos_beta * spring
         pressure = p - k * contact * spring
         kappa = (t2 * lam1 * cos_beta - pressure * rho * lam1) / (ufl.sqrt(q["delta1"]) * t1 * lam2 * lam1)
-        at, lower = (self.inner(BREAK + k - 1) for k in (self.fronts["front"], 1))
-        other = {"gap_lower": ufl.avg(rho - s) * lower} if data.full else {}
-        length = ufl.avg(e["z"]) * at - ufl.avg(e["z"]) * lower if data.full else 2 * ufl.avg(e["z"]) * at
+        places = {name: self.inner(BREAK + k - 1) for name, k in self.fronts.items()}
+        at, ends = places["front"], {**self.edges, **self.releases}
+        gaps = {gap: ufl.avg(rho - s) * places[name] for name, (gap, _) in ends.items()}
+        length = 2 * ufl.avg(e["z"]) * at
+        if self.data.full:
+            length = ufl.avg(e["z"]) * at - ufl.avg(e["z"]) * places["front_lower"]
         return replace(
             given,
             monitors={
@@ -167,14 +184,11 @@ class ContactModel(TubeModel):
                 "f_t_front": self.beside(f_t, first=True) * at,
                 "kappa": self.beside(kappa, first=False) * at,
                 "Z_front": ufl.avg(self.front) * at,
-                "gap": ufl.avg(rho - s) * at,
                 "contact_length": length,
-                **other,
+                **gaps,
             },
             maxima={"spring_max": abs(f_k), "t2_max_negative": -t2},
-            # |f_t| is largest at the front. Its one-sided value there is used, not the maximum over all
-            # cells: where a unilateral spring goes slack, second derivatives of the solution jump inside a
-            # cell.
+            # |f_t| is largest at the front, where its one-sided value is used.
             derived={
                 "traction_max": lambda v: abs(v["f_t_front"]),
                 "line_force": lambda v: abs(v["jump"]),
@@ -183,8 +197,8 @@ class ContactModel(TubeModel):
                 "t2_min": lambda v: -v["t2_max_negative"],
             },
             internal=(
-                *self.edges,
-                *(gap for gap, _ in self.edges.values()),
+                *ends,
+                *gaps,
                 "jump",
                 "membrane_jump",
                 "f_t_front",
@@ -194,6 +208,28 @@ class ContactModel(TubeModel):
             ),
             profile=given.profile | {"f_t": self.in_patch(f_t, 0.0), "f_k": f_k, "F_axial": force},
         )
+
+    def _force_rate(self) -> Expr:
+        r"""Derivative in ``Z`` of the axial force :math:`L_{,\eta_Z}` in a stuck patch.
+
+        There the axial position is the history's ``E``. The second derivative of the radius, which elements
+        approximate less well, follows from the radial balance of forces:
+
+        .. math:: \frac{\mathrm d}{\mathrm dZ} L_{,\rho_Z}(\rho, \rho_Z, E') = L_{,\rho}
+        """
+        e, q, side = self.expressions, self.q, self._side
+        rho, a, b = (ufl.variable(e[name]) for name in ("r", "r_s", "z_s"))
+        stretches = revolution_stretches(rho, a, b, self.body.scales(q))
+        density = e["weight"] * self.law(stretches.lam1, stretches.lam2) + gas_potential(rho, b, q["p"])
+        density += substrate_potential(rho, b, q["k"], q["s"], self.touching())
+        _, bend = self.series["slope"](side * e["S"])
+        outwards, upwards = ufl.diff(density, a), ufl.diff(density, b)
+
+        def rate(force: Expr, second: Expr | float) -> Expr:
+            return ufl.diff(force, rho) * a + ufl.diff(force, a) * second + ufl.diff(force, b) * side * bend
+
+        second = (ufl.diff(density, rho) - rate(outwards, 0.0)) / ufl.diff(outwards, a)
+        return rate(upwards, second)
 
     def _jump(self, value: Expr) -> Expr:
         """Value before the front minus that behind it."""

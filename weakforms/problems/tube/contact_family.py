@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import ClassVar
+from collections.abc import Callable
 
 from mpi4py import MPI
 
@@ -18,29 +17,17 @@ from weakforms.solvers.continuation.pieces import PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 from weakforms.solvers.uncertainty.refinement import Slow
 
-FIRST_TERMS, MORE_TERMS = 14, 4
+FIRST_TERMS, MORE_TERMS = 19, 4
 """Number of terms of the stuck patch's series on the coarsest mesh, and the increase for each finer mesh."""
 
-SERIES = Slow(size=6e-8, order=2.0)
+SERIES = Slow(size=3e-8, order=2.0)
 """Truncation error of the series, which decreases slowly from mesh to mesh."""
 
-LET_GO = Slow(size=1e-7, order=2.0)
-"""The same with the quadrature error at the kink of a unilateral spring's force inside a cell."""
-
-TRACES = ("line_force", "line_force_membrane")
-EDGE_COLUMNS = ("traction_front", "traction_max", "f_t")
-"""Columns with first derivatives at the edge of the patch, whose order is at most the degree, and with second
-derivatives. The curvature there follows from the balance of forces at a vertex, with an order one below that
-of energies."""
-
-KINK_ORDERS = (
-    dict.fromkeys(("rho", "lam2"), 3.0)
-    | dict.fromkeys(("lam1", "t1", "t2", "F_axial", "H", "f_k"), 2.0)
-    | {"f_t": 1.0, "eigenvalue_1": 1.0}
-)
-"""Highest orders if a unilateral spring goes slack inside a cell. Profiles have a jump in the third
-derivative there. For eigenvalues the stiffness itself jumps, and the quadrature error is of first order and
-depends on the position in the cell."""
+AT_FRONT = ("line_force", "line_force_membrane", "kappa")
+TRACTIONS = ("traction_front", "traction_max")
+"""Columns that contain first derivatives at the edge of the patch, a vertex of the mesh: their order is one
+below that of energies. So do tractions of a stuck patch, by the balance of forces; those of a frictionless
+one, which are zero, contain second derivatives."""
 
 NO_PATCH = {
     name: 0.0
@@ -57,32 +44,22 @@ NO_PATCH = {
 """Values of columns on the free part, where there is no patch."""
 
 
-class UnilateralFamily(BranchFamily):
-    """The family of a tube with a unilateral spring, which goes slack inside a cell."""
-
-    least: ClassVar[Mapping[str, float]] = {"eigenvalue_1": 1.0}
-
-
 def contact_family(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> PiecewiseFamily:
     """The branch of a constrained tube: free and in contact, or in deflation."""
     cap = 2 * numerics.degree
     runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
-    unilateral = runs[-1].data.unilateral
 
     def family(part: Callable[[TubePhases], SolutionCurve], frozen: bool) -> BranchFamily:
         def make(level: int) -> SolutionCurve:
             progress("branch", level, numerics.levels)
             return part(runs[level])
 
-        caps = dict.fromkeys(TRACES, numerics.degree) | dict.fromkeys(EDGE_COLUMNS, min(cap, 2.0))
-        caps["kappa"] = cap - 1
-        kind = BranchFamily
-        if unilateral:
-            kind, caps = UnilateralFamily, caps | KINK_ORDERS
-        slow = (LET_GO if unilateral else SERIES) if frozen else None
-        return kind(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
+        caps = dict.fromkeys(AT_FRONT, cap - 1) | dict.fromkeys(TRACTIONS, cap - 1 if frozen else 2.0)
+        caps["f_t"] = numerics.degree if frozen else 2.0
+        slow = SERIES if frozen else None
+        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
 
     def onset() -> SpecialPoint:
         shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
