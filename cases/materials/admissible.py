@@ -2,7 +2,12 @@
 
 Saint Venant-Kirchhoff's energy stays finite as a stretch goes to zero (condition 5), and its stress in
 compression comes back to zero; the harmonic material's energy becomes negative in large equibiaxial
-stretches (condition 1). This case states both failures, so that it fails if a change hides them.
+stretches (condition 1), and stays finite too (condition 5). This case states these failures, so that it fails
+if a change hides them.
+
+Condition 2, invariance under coordinate transformations, holds for a function of the principal stretches.
+What is tested is the form that membranes in space use: from the metric of coordinates that are turned against
+the principal directions and skew, of a sheet that is turned in space.
 """
 
 import numpy as np
@@ -24,7 +29,10 @@ LIMITED = {"three_chain": 5.1, "arruda_boyce": 6.2, "gent": 7.0}
 ALL = (*GROWING, *LIMITED, "saint_venant_kirchhoff", "harmonic")
 SMALL, LARGE = (1e-1, 1e-2, 1e-3), (10.0, 30.0, 90.0)
 REST = {m: material(model=m, l1=1.0, l2=1.0) for m in ALL}
-THIN = {m: [material(model=m, l1=x, l2=1.0) for x in SMALL] for m in (*GROWING, "saint_venant_kirchhoff")}
+THIN = {
+    m: [material(model=m, l1=x, l2=1.0) for x in SMALL]
+    for m in (*GROWING, "saint_venant_kirchhoff", "harmonic")
+}
 LONG = {m: [material(model=m, l1=x, l2=1.0) for x in LARGE] for m in GROWING}
 NEAR = {m: [material(model=m, l1=x, l2=x) for x in (0.6 * end, 0.9 * end, end)] for m, end in LIMITED.items()}
 SWOLLEN = [material(model="harmonic", l1=x, l2=x) for x in (2.0, 7.0)]
@@ -41,6 +49,26 @@ SAMPLES = {
     if m != "harmonic"
 }
 STRETCHES = ((1.5, 0.9), (2.0, 1.2))
+COORDINATES = ((0.7, 0.6, 1.1), (2.5, -1.3, -0.4))
+"""Angle and skew of coordinates in the sheet, and an angle by which the sheet is turned in space."""
+PLACED = {
+    m: [
+        material(model=m, l1=a, l2=b, turn=turn, skew=skew, tilt=tilt)
+        for a, b in (*STRETCHES, (1.3, 1.3), (2.0, 0.5))
+        for turn, skew, tilt in COORDINATES
+    ]
+    for m in ALL
+}
+"""Taut, with equal stretches, and wrinkled."""
+INCOMPRESSIBLE = tuple(m for m in ALL if m not in ("saint_venant_kirchhoff", "harmonic"))
+PERMUTED = {
+    m: [
+        [material(model=m, l1=x, l2=y) for x, y in ((a, b), (a, 1 / (a * b)), (1 / (a * b), b))]
+        for a, b in STRETCHES
+    ]
+    for m in INCOMPRESSIBLE
+}
+"""Two of the three stretches, whose product is 1."""
 SWAPPED = {
     m: [(material(model=m, l1=a, l2=b), material(model=m, l1=b, l2=a)) for a, b in STRETCHES] for m in ALL
 }
@@ -84,6 +112,28 @@ def symmetric(solutions: Solutions) -> Finding:
             values = np.array([here[name].value for name in EXCHANGED])
             others = np.array([there[name].value for name in EXCHANGED.values()])
             found.append(decide.exact(model, values, others, 1 + np.abs(values).max()))
+    return decide.all_of(found)
+
+
+def invariant(solutions: Solutions) -> Finding:
+    """Energies from the metric of other coordinates of a sheet turned in space, full and relaxed."""
+    found = []
+    for model, specs in PLACED.items():
+        relaxed = model in INCOMPRESSIBLE and model != "three_chain"  # which have a form by the metric
+        for name in ("W", "W_relaxed") if relaxed else ("W",):
+            other = name.replace("W", "W_metric")
+            known, placed = (np.array([solutions.whole(s, n).value for s in specs]) for n in (name, other))
+            found.append(decide.exact(f"{name} of {model}", placed, known, 1 + np.abs(known).max()))
+    return decide.all_of(found)
+
+
+def symmetric_in_thickness(solutions: Solutions) -> Finding:
+    """Energy with one of the two stretches exchanged with the stretch of the thickness."""
+    found = []
+    for model, triples in PERMUTED.items():
+        for specs in triples:
+            w = energies(solutions, specs).value
+            found.append(decide.exact(model, w[1:], w[0], 1 + np.abs(w).max()))
     return decide.all_of(found)
 
 
@@ -131,6 +181,12 @@ def kirchhoff_stays_finite(solutions: Solutions) -> Finding:
     w = energies(solutions, THIN["saint_venant_kirchhoff"])
     limit = 2.0 / (1 - 0.5) / 4  # Y/(2 (1 - nu^2)) E1^2 at E1 = -1/2
     return decide.order(f"W less {limit:g}", [1 / x for x in SMALL], w - limit, 2)
+
+
+def harmonic_stays_finite(solutions: Solutions) -> Finding:
+    """Condition 5 does not hold: as l1 tends to zero, the energy tends to 2 mu f(5/2) = 3, like l1."""
+    w = energies(solutions, THIN["harmonic"])
+    return decide.order("W less 3", [1 / x for x in SMALL], w - 3.0, 1)
 
 
 def kirchhoff_gives_way(solutions: Solutions) -> Finding:
@@ -211,6 +267,19 @@ CASE = Case(
             space_and_sheet,
         ),
         Claim(
+            "invariant",
+            "condition 2: the energy is the same in turned and skew coordinates, and for a sheet turned in "
+            "space, every law",
+            tuple((spec, None) for specs in PLACED.values() for spec in specs),
+            invariant,
+        ),
+        Claim(
+            "symmetric_in_thickness",
+            "condition 3: the energy of an incompressible sheet is symmetric in all three stretches",
+            tuple((s, None) for triples in PERMUTED.values() for specs in triples for s in specs),
+            symmetric_in_thickness,
+        ),
+        Claim(
             "symmetric",
             "condition 3: the energy of an isotropic sheet is symmetric in the principal stretches",
             tuple((spec, None) for pairs in SWAPPED.values() for pair in pairs for spec in pair),
@@ -251,6 +320,13 @@ CASE = Case(
             "the harmonic material with a quadratic f FAILS condition 1 in large equibiaxial stretches",
             tuple((s, None) for s in SWOLLEN),
             harmonic_is_negative,
+        ),
+        Claim(
+            "harmonic_condition_5",
+            "the harmonic material with a quadratic f FAILS condition 5: its energy stays finite as a "
+            "stretch vanishes",
+            tuple((s, None) for s in THIN["harmonic"]),
+            harmonic_stays_finite,
         ),
         Claim(
             "small_strains",

@@ -40,6 +40,12 @@ MATERIAL = About(
         *ENERGY_OF_LAW[1:],
         _law("_relaxed", "the same of the relaxed energy (and so on)"),
         _law("_modified", "the same of the full energy of the modified deformation gradient (and so on)"),
+        Column(
+            "W_metric",
+            "energy from the metric of turned, skew coordinates, the sheet turned in space, over {stress}",
+            dimension="stress",
+            also=("W_metric_relaxed",),
+        ),
     ),
     example=Example("l1", "W1", values=tuple(1 + i / 4 for i in range(9))),
     unestimated=CLOSED,

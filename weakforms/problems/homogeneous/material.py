@@ -12,6 +12,7 @@ from weakforms.problems.homogeneous.material_point import (
     LARGEST,
     NAMES,
     STATES,
+    by_metric,
     evaluated,
     stressed,
 )
@@ -33,6 +34,13 @@ class MaterialParameters(MaterialChoice):
 
     l1: float = Field(1.5, gt=0, le=100, description="principal stretch 1")
     l2: float = Field(1.5, gt=0, le=100, description="principal stretch 2")
+    turn: float = Field(
+        0.0, ge=-4, le=4, description="angle of the coordinates of W_metric with direction 1, rad"
+    )
+    skew: float = Field(0.0, ge=-2, le=2, description="shear of the coordinates of W_metric")
+    tilt: float = Field(
+        0.0, ge=-4, le=4, description="angle by which the sheet of W_metric is turned in space"
+    )
 
 
 class MaterialProblem(Problem):
@@ -68,6 +76,8 @@ class MaterialProblem(Problem):
         for energy, suffix in SUFFIXES.items():
             values = evaluated(parameters.material, parameters.l1, parameters.l2, energy)
             found |= {name + suffix: values[name] for name in NAMES}
+        coordinates = parameters.turn, parameters.skew, parameters.tilt
+        found |= by_metric(parameters.material, parameters.l1, parameters.l2, coordinates)
         result.quantities |= {k: Quantity(v, ROUND_OFF * max(1.0, abs(v))) for k, v in found.items()}
         result.quantities["state"] = Quantity(values["state"])
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import ufl
@@ -11,7 +11,15 @@ from dolfinx import mesh as dmesh
 from mpi4py import MPI
 
 from weakforms.forms.materials import MATERIALS
-from weakforms.forms.wrinkling import modified_gradient, taut_state, tension_field
+from weakforms.forms.materials.surface import LAWS, surface_law
+from weakforms.forms.wrinkling import (
+    metric,
+    modified_gradient,
+    principal_stretches,
+    surface_tension_field,
+    taut_state,
+    tension_field,
+)
 from weakforms.problems.material_choice import Chosen
 
 NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
@@ -19,6 +27,9 @@ NAMES = ("W", "W1", "W2", "W11", "W12", "W22")
 LARGEST = 1e6
 """Largest stress, relative to the stiffness at rest, up to which a law is followed. No rubber comes near it,
 and the number of steps along a branch grows with the logarithm of the load."""
+
+Coordinates = tuple[float, float, float]
+"""Angle of a sheet's coordinates with the principal directions, their skew, and the sheet's tilt in space."""
 
 STATES = ("slack", "tension along 1", "tension along 2", "taut")
 """States of a sheet by number."""
@@ -28,6 +39,7 @@ class MaterialPoint:
     """One law, compiled once; constants and stretches are data."""
 
     def __init__(self, model: str) -> None:
+        self.model = model
         self._mesh = dmesh.create_unit_interval(MPI.COMM_SELF, 1)
         material = MATERIALS[model]
         self._constants = {n: fem.Constant(self._mesh, c.default) for n, c in material.constants.items()}
@@ -43,6 +55,7 @@ class MaterialPoint:
         state = ufl.conditional(ufl.gt(l1, 1), 1.0, state)
         self._state = ufl.conditional(taut_state(l1, l2, width), 3.0, state)
         self._variables = l1, l2
+        self._coordinates = fem.Constant(self._mesh, np.zeros(3))
         self._compiled: dict[str, fem.Expression] = {}
 
     def _expression(self, energy: str) -> fem.Expression:
@@ -72,6 +85,55 @@ class MaterialPoint:
         values = self._expression(energy).eval(self._mesh, np.array([0], dtype=np.int32)).ravel()
         return dict(zip((*NAMES, "state"), values.tolist(), strict=True))
 
+    def by_metric(
+        self, constants: tuple[tuple[str, float], ...], l1: float, l2: float, coordinates: Coordinates
+    ) -> dict[str, float]:
+        r"""Energy of the same sheet from the metric of other coordinates, on a sheet turned in space.
+
+        The coordinates :math:`\xi` of the sheet at rest are :math:`X = R(\varphi) A\, \xi` with the skew
+        ``A = [[1, a], [0, 1]]``, and the sheet lies at :math:`x = Q(\psi)\, \mathrm{diag}(l_1, l_2) X`. The
+        energy is that of the forms for a membrane in space, which know neither ``R`` nor ``Q``:
+
+        .. math:: C = A^{-T} F^T F A^{-1}, \qquad F = \partial x/\partial \xi
+
+        Args:
+            constants: All constants of the law.
+            l1: Principal stretch 1.
+            l2: Principal stretch 2.
+            coordinates: ``(phi, a, psi)``.
+
+        Returns:
+            ``W_metric``, by the invariants of ``C`` if the law has such a form, else by its eigenvalues, and
+            ``W_metric_relaxed``, if an incompressible law has that form.
+        """
+        for name, value in constants:
+            self._constants[name].value = value
+        self._stretches.value[:] = l1, l2
+        self._coordinates.value[:] = coordinates
+        if "metric" not in self._compiled:
+            values = ufl.as_vector(list(self._of_metric.values()))
+            self._compiled["metric"] = fem.Expression(values, np.array([[0.5]]))
+        found = self._compiled["metric"].eval(self._mesh, np.array([0], dtype=np.int32)).ravel()
+        return dict(zip(self._of_metric, found.tolist(), strict=True))
+
+    @cached_property
+    def _of_metric(self) -> dict[str, ufl.core.expr.Expr]:
+        turn, skew, tilt = (self._coordinates[i] for i in range(3))
+        at_rest = ufl.as_matrix([[1.0, skew], [0.0, 1.0]])
+        turned = ufl.as_matrix([[ufl.cos(turn), -ufl.sin(turn)], [ufl.sin(turn), ufl.cos(turn)]])
+        flat = ufl.diag(self._stretches) * turned * at_rest
+        # Turned in space about the third axis and then about the first.
+        c, s = ufl.cos(tilt), ufl.sin(tilt)
+        in_space = ufl.as_matrix([[c, -s], [c * s, c * c], [s * s, s * c]]) * flat
+        c = metric(in_space, at_rest)
+        law = surface_law(self.model, self._constants)
+        if self.model not in LAWS:
+            return {"W_metric": law.stretches(*principal_stretches(c))}
+        full = {"W_metric": law.invariants(ufl.tr(c), ufl.det(c))}
+        if not MATERIALS[self.model].incompressible:
+            return full
+        return full | {"W_metric_relaxed": surface_tension_field(c, law)}
+
 
 @lru_cache(maxsize=len(MATERIALS))
 def point_of(model: str) -> MaterialPoint:
@@ -82,6 +144,11 @@ def point_of(model: str) -> MaterialPoint:
 def evaluated(chosen: Chosen, l1: float, l2: float, energy: str = "full") -> dict[str, float]:
     """A law with its constants at two stretches (see :class:`MaterialPoint`)."""
     return point_of(chosen.model)(chosen.constants, l1, l2, energy)
+
+
+def by_metric(chosen: Chosen, l1: float, l2: float, coordinates: Coordinates) -> dict[str, float]:
+    """A law with its constants from the metric of other coordinates (see :meth:`MaterialPoint.by_metric`)."""
+    return point_of(chosen.model).by_metric(chosen.constants, l1, l2, coordinates)
 
 
 def first_derivatives(chosen: Chosen, l1: np.ndarray | float, l2: np.ndarray | float) -> np.ndarray:
