@@ -31,7 +31,8 @@ def run(requests: list[dict], ranks: int) -> list[Result]:
 
 def beyond(first: Result, second: Result) -> list[str]:
     """The numbers of two results that differ by more than allowed, the largest difference first."""
-    spec = f"contact={first.parameters.get('contact')}, degree={first.numerics.get('degree')}"
+    said = {name: first.parameters.get(name) for name in ("contact", "spring")}
+    spec = f"contact={said['contact']}, spring={said['spring']}, degree={first.numerics.get('degree')}"
     return [
         str(item) for item in differences(first, second) if not item.relative <= allowed(item.place, spec)
     ]

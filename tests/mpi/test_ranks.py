@@ -20,6 +20,20 @@ def test_tube_in_contact(same_on_ranks):
     same_on_ranks([touching | {"numerics": MESH}])
 
 
+@pytest.mark.paper2
+def test_whole_tube_and_eigenvalues(same_on_ranks):
+    free = {"problem": "tube", "alpha": 0, "extent": "full", "u_end": 1.5, "at": [("eigenvalue_1", 0.0)]}
+    touching = {"problem": "tube", "contact": "frictionless", "extent": "full", "p_end": 1.6}
+    found, _ = same_on_ranks([item | {"numerics": MESH} for item in (free, touching)])
+    assert [point.kind for point in found.special_points] == ["limit_point", "bifurcation_point"]
+
+
+@pytest.mark.paper2
+def test_tube_whose_spring_lets_go(same_on_ranks):
+    pushing = {"problem": "tube", "contact": "adhesive", "phase": "deflation", "spring": "unilateral"}
+    same_on_ranks([pushing | {"delta1": 2.0, "at": [("p", 2.0), ("p", 0.5)], "numerics": MESH}])
+
+
 @pytest.mark.paper1
 def test_disk(same_on_ranks):
     free = {"problem": "circular", "alpha": 0, "t_end": 1.4, "at": [("p", 2.0), ("t0", 1.2)]}

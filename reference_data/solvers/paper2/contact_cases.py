@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -98,10 +99,12 @@ def deflated(case: Case, spring: str, p: Array) -> list[list[State]]:
     return [hist.unilateral(s, how, p) for s, how in zip(starts, st.RESOLUTIONS, strict=True)]
 
 
-def deflated_fd(case: Case, spring: str, p: Array, step: float = 0.05) -> list[list[defl.Stuck]]:
+def deflated_fd(
+    case: Case, spring: str, p: Array, step: float = 0.05, grids: Sequence[int] = defl.GRIDS
+) -> list[list[defl.Stuck]]:
     """The same by finite differences, on every grid."""
     given, p_end = (case.tube, case.substrate), case.p_end
-    starts = [defl.fitted(*given, n, p_end, known=p_end) for n in defl.GRIDS]
+    starts = [defl.fitted(*given, n, p_end, known=p_end) for n in grids]
     return [defl.deflation(start, p, spring, step) for start in starts]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from reference_data.solvers.core.tables import rule
@@ -71,9 +72,9 @@ COLUMNS: dict[str, tuple[str, str]] = tube_text.COLUMNS | {
 }
 
 
-def grid(contact: str) -> str:
-    """Grids of both codes, as used."""
-    cells = cfd.GRIDS if contact == "frictionless" else defl.GRIDS
+def grid(contact: str, cells: Sequence[int] = ()) -> str:
+    """Grids of both codes, as used; of the first one the usual ones, or those given."""
+    cells = cells or (cfd.GRIDS if contact == "frictionless" else defl.GRIDS)
     meshes = " and ".join(
         f"{r.inner.elements} + {r.outer.elements} elements of degree {r.inner.degree}"
         + (f", {r.terms} terms" if contact == "adhesive" else "")

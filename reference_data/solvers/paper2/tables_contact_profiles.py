@@ -5,7 +5,7 @@ Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -26,6 +26,8 @@ FIELDS = ("rho", "eta", "lam1", "lam2", "t1", "t2")
 TRACTIONS = ("f_t", "f_k")
 AWAY = 0.02  # rows nearer to the front (in Z) are left out
 AMPLIFIED = 256  # rounding of a slope interpolated near the disk, where the grid is fine
+FINER = tuple(2 * n for n in defl.GRIDS)  # for tractions of the other tubes of figure 12
+SECOND = FINER[-1] ** 2 // cfd.GRIDS[-1]  # a traction contains second differences: rounding grows like n^2
 
 Profile = dict[str, Array]
 
@@ -40,21 +42,31 @@ def states_by_collocation(case: Case, kind: str, p: float) -> list[State]:
     return [states[-1] for states in cc.deflated(case, "bilateral", walk)]
 
 
-def profiles_by_differences(case: Case, kind: str, p: float) -> Callable[[Array], list[Profile]]:
-    """Profiles of the same state on every grid, as a function of z."""
+def profiles_by_differences(
+    case: Case, kind: str, p: float, grids: Sequence[int] = defl.GRIDS
+) -> Callable[[Array], list[Profile]]:
+    """Profiles of the same state on every grid, as a function of z; grids are those of stuck patches."""
     if kind == "frictionless":
         states = cfd.on_grids(cfd.walk(case.tube, case.substrate, np.array([p]))[0])
         return lambda z: [cfd.profile(case.tube, s.grid, s.y, s.grid.front, z) for s in states]
     if kind == "inflation":
-        stuck = [defl.fitted(case.tube, case.substrate, n, p) for n in defl.GRIDS]
+        stuck = [defl.fitted(case.tube, case.substrate, n, p) for n in grids]
     else:
         walk = np.append(steps(p, P_END, 0.5)[:0:-1], p)
-        stuck = [run[-1] for run in cc.deflated_fd(case, "bilateral", walk)]
+        stuck = [run[-1] for run in cc.deflated_fd(case, "bilateral", walk, grids=grids)]
     return lambda z: [defl.profile(s, z) for s in stuck]
 
 
-def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tuple[str, ...]) -> Table:
-    """One profile, or the tractions of one patch."""
+def profile(
+    name: str,
+    case: Case,
+    kind: str,
+    p: float,
+    source: str,
+    wanted: tuple[str, ...],
+    finer: bool = False,
+) -> Table:
+    """One profile, or the tractions of one patch; with finer grids if need be."""
     states = states_by_collocation(case, kind, p)
     tube, front = case.tube, float(states[-1].fronts[-1]) * case.tube.delta1
     z_plot = steps(0.0, tube.lf / 2, tube.lf / 80)
@@ -62,7 +74,8 @@ def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tup
     if wanted == TRACTIONS:
         z_plot = z_plot[z_plot < front]
     z = z_plot / tube.delta1
-    raw_a = profiles_by_differences(case, kind, p)(z)
+    grids, amplified = (FINER, SECOND) if finer else (defl.GRIDS, AMPLIFIED)
+    raw_a = profiles_by_differences(case, kind, p, grids)(z)
     raw_b = []
     for state in states:
         column = columns(tube, at_places(state, z))
@@ -72,7 +85,7 @@ def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tup
     powers = (2, 3, 4) if kind == "frictionless" else defl.POWERS
     found = text.SERIES["adhesive"].keys(Z=z_plot)
     for c in wanted:
-        a = cfd.extrapolated([r[c] for r in raw_a], powers, amplified=AMPLIFIED)
+        a = cfd.extrapolated([r[c] for r in raw_a], powers, amplified=amplified)
         found.append(agreed(name, c, a, resolved(*(r[c] for r in raw_b)), text.COLUMNS[c]))
     contact = "frictionless" if kind == "frictionless" else "adhesive"
     phase = "deflation" if kind == "deflation" else "inflation"
@@ -85,7 +98,8 @@ def profile(name: str, case: Case, kind: str, p: float, source: str, wanted: tup
     notes = f"Z_front is the position of the front; Z within {AWAY:g} of it is left out."
     if spring:
         notes += f" {text.DEFLATION_NOTES} {text.SPRING['bilateral']}"
-    return cc.table(contact, name, title, source, parameters, found, notes=notes)
+    more = {"grid": text.grid(contact, grids)} if finer else {}
+    return cc.table(contact, name, title, source, parameters, found, notes=notes, **more)
 
 
 def paths(name: str, case: Case, source: str) -> Table:
@@ -142,9 +156,13 @@ def _tables() -> dict[str, Builder]:
         ("a", "inflation", (1.5, 2.0, 2.5, 3.0)),
         ("b", "deflation", (2.5, 2.0, 1.5, 1.0, 0.0)),
     ):
-        for p in pressures:
-            name = f"fig12{letter}_p_{p:g}"
-            out[name] = partial(profile, name, SOFT_1, kind, p, f"figure 12({letter})", TRACTIONS)
+        for case in cc.PAPER:
+            which = "" if case is SOFT_1 else f"{case.label}_"
+            source = f"figure 12({letter})" if case is SOFT_1 else f"figure 12({letter}), another tube"
+            for p in pressures:
+                name = f"fig12{letter}_{which}p_{p:g}"
+                finer = case is not SOFT_1
+                out[name] = partial(profile, name, case, kind, p, source, TRACTIONS, finer)
     return out
 
 
