@@ -19,7 +19,8 @@ from weakforms.cases import (
     fluid_tube,
 )
 
-SHORT, LONG = (fluid_tube(L=length, delta=2, secondary=True) for length in (8, 24))
+SHORT, LONG = (fluid_tube(L=length, delta=2, secondary=True).on(secondary_cells=48) for length in (8, 24))
+"""On twice as many cells as by default, which resolve the foot of the bulge (Z = 0.93, Theta = 0)."""
 SHOWN = {
     "a": (SHORT, At("zw", 7.336, branch="secondary", profile=()), 8, "z_w = 7.336"),
     "b": (LONG, At("zw", 7.779, branch="secondary", profile=()), 24, "z_w = 7.779"),
@@ -108,8 +109,8 @@ CASE = Case(
             for (name, (of, at, top, _)), printed in zip(SHOWN.items(), ("7.336", "7.779"), strict=True)
         ),
     ),
-    # A field has one uncertainty for the whole surface, which is large because of the foot of the bulge
-    # (Z = 0.93, Theta = 0), where the coarser meshes are 4e-3 off. Elsewhere the error is far below
-    # the accuracy asked here.
-    asked={"x": 1e-4, "y": 1e-4, "z": 1e-5, "lam1": 1e-3, "lam2": 2e-3, "T1": 1e-3, "T2": 1e-3},
+    asked={
+        **dict.fromkeys(("x", "y", "z", "lam1", "lam2"), 1e-5),
+        **dict.fromkeys(("T1", "T2"), 5e-5),
+    },
 )

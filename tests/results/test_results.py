@@ -61,6 +61,21 @@ def full() -> Result:
     )
 
 
+def test_an_uncertainty_of_each_row_survives_and_must_fit_its_column():
+    rows = {"Z": 0.0, "rho": np.array([1e-9, 2e-9])}
+    field = Field("profile", {"Z": np.array([0.0, 1.5]), "rho": np.array([1.0, 2.0])}, rows)
+    back = Field.from_json(field.to_json())
+    assert back.uncertainty["Z"] == 0.0
+    assert np.array_equal(back.uncertainty["rho"], rows["rho"])
+    assert np.array_equal(back.at(np.array([False, True])).uncertainty["rho"], [2e-9])
+    data = full().to_json()
+    data["states"][0]["fields"] = [field.to_json()]
+    validate(data)
+    data["states"][0]["fields"][0]["uncertainty"]["rho"] = [1e-9]
+    with pytest.raises(InputError, match="uncertainty of rho': 1"):
+        validate(data)
+
+
 def test_json_round_trip_is_exact(tmp_path):
     data = full().to_json()
     validate(data)

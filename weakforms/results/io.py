@@ -54,6 +54,8 @@ def validate(data: dict[str, Any]) -> None:
     tables = [*data["branches"], *(field for state in data["states"] for field in state["fields"])]
     for table in tables:
         lengths = {name: len(values) for name, values in table["columns"].items()}
+        spread = table.get("uncertainty", {})
+        lengths |= {f"uncertainty of {k}": len(v) for k, v in spread.items() if isinstance(v, list)}
         if len(set(lengths.values())) > 1:
             raise InputError(
                 f"not a weakforms.result/1 object: columns differ in length: {str(lengths)[:200]}"

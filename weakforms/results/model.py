@@ -77,24 +77,33 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Field:
-    """Columns sampled along the body, each with one absolute uncertainty."""
+    """Columns sampled along the body, each with one absolute uncertainty, or with one for each row."""
 
     name: str
     columns: dict[str, np.ndarray]
-    uncertainty: dict[str, float] = field(default_factory=dict)
+    uncertainty: dict[str, float | np.ndarray] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """JSON object with lists for columns."""
         return {
             "name": self.name,
             "columns": {key: _plain(value) for key, value in self.columns.items()},
-            "uncertainty": dict(self.uncertainty),
+            "uncertainty": {
+                k: float(v) if np.ndim(v) == 0 else _plain(v) for k, v in self.uncertainty.items()
+            },
         }
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Field:
         """Inverse of :meth:`to_json`."""
-        return cls(data["name"], _arrays(data["columns"]), dict(data.get("uncertainty", {})))
+        spread = data.get("uncertainty", {})
+        rows = _arrays({key: value for key, value in spread.items() if isinstance(value, list)})
+        return cls(data["name"], _arrays(data["columns"]), spread | rows)
+
+    def at(self, rows: np.ndarray) -> Field:
+        """Some of the rows, by their numbers or by a mask."""
+        spread = {k: v if np.ndim(v) == 0 else v[rows] for k, v in self.uncertainty.items()}
+        return Field(self.name, {k: v[rows] for k, v in self.columns.items()}, spread)
 
 
 @dataclass(frozen=True)

@@ -189,6 +189,15 @@ def enclosed(points, triangles):
     return np.einsum("ij,ij->", a, np.cross(b, c)) / 6 + np.pi * 8 / 3
 
 
+def test_the_uncertainty_of_a_field_is_that_of_the_region(state):
+    """One for each row; even on these coarse meshes the best places are far better than the worst ones."""
+    field = state.fields[0]
+    for name in ("x", "lam1", "lam2", "T1"):
+        spread = field.uncertainty[name]
+        assert spread.shape == field.columns["Z"].shape
+        assert 0 < spread.min() < spread.max() / 5
+
+
 def test_shape_files_hold_the_whole_surface(state, tmp_path):
     field = state.fields[0]
     write_shape(tmp_path / "bent.vtu", field)

@@ -5,6 +5,7 @@ import math
 from dataclasses import replace
 from io import StringIO
 
+import numpy as np
 import pytest
 from rich.console import Console
 
@@ -12,7 +13,7 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.about import Family
 from weakforms.problems.problem import Requests, StateRequest, validated
-from weakforms.verification.audit.coverage import hold_out, verb
+from weakforms.verification.audit.coverage import hold_out, judged, verb
 from weakforms.verification.audit.coverage.families import FAMILIES, SEED
 from weakforms.verification.audit.coverage.judged import Judged
 from weakforms.verification.audit.coverage.outcome import (
@@ -26,6 +27,7 @@ from weakforms.verification.audit.coverage.outcome import (
     outcome,
     print_part,
 )
+from weakforms.verification.audit.same import Number
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.pages import render, render_whole
 
@@ -178,3 +180,12 @@ def test_the_terminal_shows_the_same():
     for text in ("50.0%", "not solved: tube at {'alpha': 0.3}: no", "beyond 2u: tube", "claim broken: tube"):
         assert text in said
     assert "| tube | quantity | 2 | 50.0% | 50.0% |" in markdown(found.families[0].rows)
+
+
+def test_a_field_with_uncertainties_by_row_is_judged_where_it_is_worst():
+    """Not where the error is largest, nor with the largest uncertainty."""
+    spread, errors = np.array([1e-5, 1e-9, 1e-9]), np.array([1e-6, 5e-9, 1e-9])
+    fine = Number("state, profile x", "x", np.ones(3), np.full(3, 1e-12))
+    item = judged._judged("tube", (), Number(fine.place, "x", 1 + errors, spread), fine)
+    assert (item.error, item.uncertainty, item.truth) == pytest.approx((5e-9, 1e-9, 1e-12), rel=1e-6)
+    assert not item.bounded

@@ -125,13 +125,14 @@ class Solutions:
             raise ConvergenceError(f"{spec}: state at {at} has no field {at.field!r}")
         return field if at.theta is None else _meridian(field, at.theta)
 
-    def sampled(self, spec: Spec, at: At, name: str) -> tuple[np.ndarray, float]:
-        """A profile's column at the points ``at.profile`` and its uncertainty."""
+    def sampled(self, spec: Spec, at: At, name: str) -> tuple[np.ndarray, float | np.ndarray]:
+        """A profile's column at the points ``at.profile``, and its uncertainty or uncertainties."""
         field = self.profile(spec, at)
         where = np.asarray(at.profile)
         abscissa = next(iter(field.columns))  # the first column of a field is its abscissa
         index = np.searchsorted(field.columns[abscissa], where - 1e-12)
-        return field.columns[name][index], field.uncertainty[name]
+        found = field.at(index)
+        return found.columns[name], found.uncertainty[name]
 
 
 def _meridian(field: Field, theta: float) -> Field:
@@ -143,4 +144,4 @@ def _meridian(field: Field, theta: float) -> Field:
     rows = np.isclose(field.columns["Theta"], theta, rtol=0, atol=1e-9)
     if not rows.any():
         raise ConvergenceError(f"the {field.name} has no meridian at Theta = {theta:g}")
-    return Field(field.name, {k: v[rows] for k, v in field.columns.items()}, field.uncertainty)
+    return field.at(rows)

@@ -35,7 +35,8 @@ from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.sampling import Sampler
 from weakforms.solvers.uncertainty.family import BranchFamily, Compared
-from weakforms.solvers.uncertainty.refinement import estimate, estimate_in_norm
+from weakforms.solvers.uncertainty.refinement import estimate
+from weakforms.solvers.uncertainty.regions import Regions
 
 SUPERCONVERGENT = 2
 """Assumed order of numbers above the degree of the elements. Values at corners of quadrilaterals have at
@@ -295,14 +296,36 @@ class SecondaryFamily(BranchFamily):
         """Profile over ``Z`` and the meridians :data:`THETAS`, meridian after meridian at each ``Z``."""
         heights = np.unique(np.round(points, 12))  # points of several figures, equal up to round-off
         z, theta = (part.ravel() for part in np.meshgrid(heights, THETAS, indexing="ij"))
-        samples = [self._sampled_at(k, s, z, theta) for k, s in enumerate(solved)]
+        regions, places = self._regions(solved[0], z, theta)
+        samples, grids = (
+            [self._sampled_at(k, s, *at) for k, s in enumerate(solved)] for at in ((z, theta), places)
+        )
         columns: dict[str, np.ndarray] = {"Z": z, "Theta": theta}
-        uncertainty = {"Z": 0.0, "Theta": 0.0}
+        uncertainty: dict[str, float | np.ndarray] = {"Z": 0.0, "Theta": 0.0}
         for name in samples[-1]:
             columns[name] = samples[-1][name]
             cap = self.fine.model.data.degree + (READ if name in "xyz" else 0)
-            uncertainty[name] = estimate_in_norm([sample[name] for sample in samples], float(cap))
+            levels, on_grid = ([sample[name] for sample in of] for of in (samples, grids))
+            uncertainty[name] = regions.estimate(levels, on_grid, float(cap))
         return Field("profile", columns, uncertainty)
+
+    def _regions(
+        self, coarse: Solved, z: np.ndarray, theta: np.ndarray
+    ) -> tuple[Regions, tuple[np.ndarray, np.ndarray]]:
+        """Regions around material points, and the material points of their grid.
+
+        Cells are those of the coarsest mesh, whose row for the free surface is on the surface.
+        """
+        model = self.levels[0].model
+        with model.system.at(coarse.state):
+            nodes, angles = model.nodes, np.linspace(0, np.pi, model.data.around + 1)
+            numbers = [np.arange(len(t), dtype=float) for t in (nodes, angles)]
+            along = np.interp(model.front.mesh(z, theta), nodes, numbers[0])
+            regions = Regions((len(nodes) - 1, len(angles) - 1), along, np.interp(theta, angles, numbers[1]))
+            x, turned = (
+                np.interp(at, n, t) for at, n, t in zip(regions.grid, numbers, (nodes, angles), strict=True)
+            )
+            return regions, (model.front.material(x, turned), turned)
 
 
 def lowest_on_grid(values: np.ndarray) -> tuple[float, float]:

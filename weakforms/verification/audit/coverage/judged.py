@@ -19,7 +19,7 @@ FLOOR = 1e-10
 
 @dataclass(frozen=True)
 class Judged:
-    """One number, or a column of a field at its worst point, compared with the true value."""
+    """One number, or a column of a field where its error is largest in uncertainties, and its true value."""
 
     family: str
     parameters: tuple[tuple[str, Any], ...]
@@ -80,7 +80,9 @@ def judged(family: Family, parameters: Mapping[str, Any]) -> list[Judged]:
 
 
 def _judged(family: str, given: tuple, number: Number, truth: Number) -> Judged:
-    error = float(np.max(np.abs(number.values - truth.values)))
+    errors = np.abs(number.values - truth.values)
+    spread, known = (np.broadcast_to(n.uncertainty, errors.shape) for n in (number, truth))
+    worst = int(np.argmax(errors / np.maximum(spread, np.finfo(float).tiny)))
     size = float(np.max(np.abs(truth.values)))
     return Judged(
         family,
@@ -88,9 +90,9 @@ def _judged(family: str, given: tuple, number: Number, truth: Number) -> Judged:
         number.place,
         _kind(number),
         number.name,
-        error,
-        float(number.uncertainty.max()),
-        float(truth.uncertainty.max()),
+        float(errors[worst]),
+        float(spread[worst]),
+        float(known[worst]),
         FLOOR * max(size, 1.0),
     )
 
