@@ -8,9 +8,10 @@ from dolfinx import fem
 from mpi4py import MPI
 from scipy.linalg import eigh
 
+from weakforms import solve
 from weakforms.forms.relaxed_surface import Patch, full_energy, relaxed_energy, state
 from weakforms.problems.triangles.branch import SurfaceRun
-from weakforms.problems.triangles.meshes import Triangulation, hemisphere, tube
+from weakforms.problems.triangles.meshes import Triangulation, hemisphere, hemisphere_in_columns, tube
 from weakforms.problems.triangles.model import Body, SurfaceModel
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
@@ -354,6 +355,34 @@ def test_hemisphere_of_triangles():
     assert given.radius.min() < 1e-12
     assert given.points[given.held][:, 2] == pytest.approx(0.0, abs=1e-12)
     assert outward(given).min() > 0
+
+
+def test_hemisphere_in_columns():
+    """Every row is a ring, and a rotation by one column maps the mesh onto itself."""
+    given = hemisphere_in_columns(5, 12)
+    assert given.triangles.shape == (12 + 2 * 4 * 12, 3)
+    assert np.linalg.norm(given.points, axis=1) == pytest.approx(1.0)
+    assert given.radius[0] == 0
+    assert given.points[given.held][:, 2] == pytest.approx(0.0, abs=1e-12)
+    assert given.held.sum() == 12
+    assert outward(given).min() > 0
+    column = np.concatenate([[0], *(1 + 12 * i + (np.arange(12) + 1) % 12 for i in range(5))])
+    turned = {tuple(sorted(column[t])) for t in given.triangles}
+    assert turned == {tuple(sorted(t)) for t in given.triangles}
+    assert len(turned) == len(given.triangles)
+    angle = np.angle(np.exp(1j * (given.angle[column[1:]] - given.angle[1:])))
+    assert angle == pytest.approx(2 * np.pi / 12)
+
+
+def test_a_hemisphere_in_columns_has_the_state_of_an_unstructured_one():
+    given = {"geometry": "hemisphere", "load_start": -0.6, "load_end": -0.65}
+    quick = {"scan": 1, "shown": 1, "eigenvalues": 1}
+    columns = solve("surface", **given, layout="columns", meridional=16, circumferential=48, numerics=quick)
+    free = solve("surface", **given, size=0.1, numerics=quick)
+    for name, apart in (("V", 5e-3), ("Lambda_1", 2e-2)):
+        one, other = (result.branch()[name] for result in (columns, free))
+        assert one == pytest.approx(other, rel=apart), name
+    assert columns.quantities["triangles"].value == 48 + 2 * 15 * 48
 
 
 def outward(given):

@@ -105,6 +105,34 @@ def tube(length: float, meridional: int, circumferential: int, mirrored: bool = 
     return Triangulation(points, triangles, (meridional, circumferential))
 
 
+def hemisphere_in_columns(meridional: int, circumferential: int) -> Triangulation:
+    """The lower half of the unit sphere in columns along meridians, with a fan of triangles at the pole.
+
+    Its edges follow the meridians, as on the structured tube. Short waves around the axis do not stretch the
+    meridian; they are resolved by much fewer triangles than on an unstructured mesh.
+
+    Args:
+        meridional: Number of rows from the pole to the equator.
+        circumferential: Number of columns.
+    """
+    t = np.pi / 2 * np.arange(1, meridional + 1) / meridional
+    theta = 2 * np.pi * np.arange(circumferential) / circumferential
+    around = np.column_stack([np.cos(theta), np.sin(theta)])
+    rows = [np.column_stack([np.sin(a) * around, np.full(circumferential, -np.cos(a))]) for a in t]
+    points = np.concatenate([[[0.0, 0.0, -1.0]], *rows])
+    points[-circumferential:, 2] = 0.0
+    k = np.arange(circumferential)
+    after = (k + 1) % circumferential
+    parts = [np.column_stack([np.zeros_like(k), 1 + after, 1 + k])]
+    for i in range(meridional - 1):
+        low, high = 1 + i * circumferential, 1 + (i + 1) * circumferential
+        parts += [
+            np.column_stack([low + k, low + after, high + after]),
+            np.column_stack([low + k, high + after, high + k]),
+        ]
+    return Triangulation(points, np.concatenate(parts).astype(np.int64))
+
+
 def hemisphere(size: float) -> Triangulation:
     """The lower half of the unit sphere, unstructured, by gmsh on four octants, with a node at the pole.
 

@@ -9,7 +9,14 @@ from pydantic import AfterValidator, Field
 
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs, Numerics
-from weakforms.problems.triangles.meshes import SUFFIXES, Triangulation, from_file, hemisphere, tube
+from weakforms.problems.triangles.meshes import (
+    SUFFIXES,
+    Triangulation,
+    from_file,
+    hemisphere,
+    hemisphere_in_columns,
+    tube,
+)
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 
 CONTROL = {"fluid": "zw", "gas": "p"}
@@ -59,9 +66,10 @@ class SurfaceParameters(MaterialChoice):
     ratio: ClassVar[str] = "c2"
 
     needs: ClassVar[Needs] = {
-        "meridional": [{"geometry": ("tube",)}],
-        "circumferential": [{"geometry": ("tube",)}],
-        "size": [{"geometry": ("hemisphere",)}],
+        "meridional": [{"geometry": ("tube",)}, {"layout": ("columns",)}],
+        "circumferential": [{"geometry": ("tube",)}, {"layout": ("columns",)}],
+        "layout": [{"geometry": ("hemisphere",)}],
+        "size": [{"geometry": ("hemisphere",), "layout": ("free",)}],
         "gamma": [{"load": ("fluid",)}],
     }
 
@@ -70,9 +78,13 @@ class SurfaceParameters(MaterialChoice):
         description="tube, hemisphere, or a file with triangles (msh, vtu, stl)",
         examples=["tube", "hemisphere"],
     )
-    meridional: int = Field(120, ge=2, le=2000, description="tube: quadrilaterals along it")
+    meridional: int = Field(120, ge=2, le=2000, description="tube, columns: quadrilaterals along it")
     circumferential: Annotated[int, AfterValidator(_closes)] = Field(
-        48, le=2000, description="tube: quadrilaterals around it"
+        48, le=2000, description="tube, columns: quadrilaterals around it"
+    )
+    layout: Literal["free", "columns"] = Field(
+        "free",
+        description="hemisphere: triangles of one size, or in columns along meridians, which resolve waves",
     )
     degree: int = Field(1, ge=1, le=1, description="of the elements: flat triangles")
     size: float = Field(0.1, ge=0.004, le=0.5, description="hemisphere: length of the triangles' edges")
@@ -119,6 +131,8 @@ class SurfaceParameters(MaterialChoice):
         """
         if self.kind == "tube":
             return tube(self.L or DEFAULTS["tube"]["L"], self.meridional, self.circumferential)
+        if self.kind == "hemisphere" and self.layout == "columns":
+            return hemisphere_in_columns(self.meridional, self.circumferential)
         return hemisphere(self.size) if self.kind == "hemisphere" else from_file(Path(self.geometry))
 
 
