@@ -96,7 +96,10 @@ class CircularParameters(MaterialChoice):
     )
     p: float | None = Field(None, ge=0, le=50, description="pressure of a peeling curve")
     M: float = Field(
-        1.0, gt=0, lt=2, description="thickness at the pole over h, linear to 2 - M at the clamp; free only"
+        1.0,
+        ge=0.3,
+        le=1.9,
+        description="thickness at the pole over h, linear to 2 - M at the clamp; free only",
     )
     t_end: float = Field(2.0, gt=0.06, le=10, description="pole height at which free inflation ends")
 
@@ -165,12 +168,13 @@ class Circular(BranchProblem):
         parameters, numerics, requests = task.parameters, task.numerics, task.requests
         comm, progress = task.comm, task.progress
         degree, cap = numerics.degree, 2.0 * numerics.degree
+        free = parameters.contact == "none" and parameters.phase == "inflation"
         disk = parameters.material, parameters.beta, parameters.k, parameters.l
         terms = range(FIRST_TERMS, FIRST_TERMS + MORE_TERMS * numerics.levels, MORE_TERMS)
         runs = [
             inflation(
                 comm.py2f(),
-                DiskData(*disk, cells // 2, degree, parameters.M),
+                DiskData(*disk, cells // 2, degree, parameters.M if free else 1.0),
                 parameters.adhesion,
                 parameters.p_end,
                 numerics.step,
@@ -199,9 +203,9 @@ class Circular(BranchProblem):
             if runs[-1].untouched:
                 raise InputError(f"circular: phase = 'peeling' needs a patch, and {runs[-1].untouched}")
             return {"primary": family(lambda run: PeelingBranch(run, p), SERIES, PeelingFamily)}
-        if parameters.contact == "none":
-            free = family(lambda run: _free(run, parameters.t_end))
-            return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)])}
+        if free:
+            inflated = family(lambda run: _free(run, parameters.t_end))
+            return {"primary": PiecewiseFamily([Piece(inflated, NO_PATCH)])}
         branch = contact_branch(
             runs,
             lambda part, frozen: family(part, SERIES if frozen else None),
