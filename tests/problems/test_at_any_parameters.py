@@ -13,6 +13,7 @@ from weakforms.problems import registry
 from weakforms.problems.contact.guesses import stick_guess
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.phases import DiskPhases
+from weakforms.problems.disk.scheme import CircularSchemeParameters, FixedDisk
 from weakforms.problems.liquid_tube import coincidence
 from weakforms.problems.liquid_tube import problem as liquid_tube
 from weakforms.problems.liquid_tube.bent import problem as bent
@@ -289,19 +290,33 @@ def test_adhesion_to_a_stiff_substrate_is_followed():
     assert run.end_of_inflation.loads["front"] < run.history.span
 
 
-DEEP = {"alpha": 0.8742, "beta": 1.015, "k": 742.6, "l": 0.1863}
+DEEP = {"alpha": 0.8742, "beta": 1.015, "l": 0.1863}
 
 
-def test_a_scheme_that_goes_too_deep_is_refused():
-    with pytest.raises(InputError, match=r"t_end = 2\.87 is more than 3 l = 0\.5589.*lower t_end"):
-        solve("circular_scheme", **DEEP, t_end=2.87)
-    with pytest.raises(InputError, match=r"k = 5435.0: input should be less than or equal to 1000"):
-        solve("circular_scheme", k=5435.0)
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (DEEP | {"t_end": 2.87}, r"t_end = 2\.87 is more than 2 l = 0\.3726.*lower t_end"),
+        ({"k": 691.6}, r"k = 691.6: input should be less than or equal to 200"),
+        ({"l": 2.009, "t_end": 3.209}, r"l = 2.009: input should be less than or equal to 2"),
+    ],
+)
+def test_a_scheme_on_a_far_or_stiff_substrate_is_refused(given, message):
+    with pytest.raises(InputError, match=message):
+        solve("circular_scheme", **given)
 
 
 def test_a_scheme_whose_steps_are_too_long_gives_no_membrane_turned_inside_out():
+    usual = validated(CircularSchemeParameters, DEEP, "circular_scheme")
+    given = usual.model_copy(update={"k": 742.6, "t_end": 0.5})
     with pytest.raises(ConvergenceError, match=r"turned inside out|followed to"):
-        solve("circular_scheme", **DEEP, t_end=0.5, numerics={"cells": 64, "steps": 4})
+        FixedDisk(MPI.COMM_SELF, given, 32).run(given, 2)
+
+
+def test_a_scheme_whose_law_locks_before_contact_names_what_to_change():
+    law = {"model": "gent", "shear": 0.2051, "jm": 117.9}
+    with pytest.raises(ConvergenceError, match=r"free inflation: followed to .*; lower l or beta"):
+        solve("circular_scheme", **law, beta=7.382, k=5.35, l=0.7548, t_end=1.277)
 
 
 def test_points_in_one_order_at_both_ends_coincide_nowhere_that_is_known(monkeypatch):

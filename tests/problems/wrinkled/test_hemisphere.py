@@ -2,11 +2,18 @@
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from weakforms.api import solve_requests
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError, InputError
 from weakforms.problems.problem import StateRequest, validated
-from weakforms.problems.wrinkled.hemisphere import HemisphereParameters
+from weakforms.problems.wrinkled.hemisphere import (
+    HemisphereBranch,
+    HemisphereNumerics,
+    HemisphereParameters,
+    hemisphere_membrane,
+)
+from weakforms.problems.wrinkled.readings import Readings
 
 COARSE = {"cells": 8, "degree": 3}
 
@@ -67,6 +74,56 @@ def test_a_gas_inflates_the_hemisphere_of_any_law(law, limits):
     assert spread["axial"] < 1e-4
     assert state.quantities["lam_pole"].value == pytest.approx(field["lam1"][0], rel=1e-9)
     assert result.failures == []
+
+
+@pytest.mark.parametrize(
+    ("given", "numerics"),
+    [
+        # There was no start: at zw = -0.8 and under a part of the gas there is no state.
+        ({"gamma": 8.0}, {"cells": 8, "degree": 4, "levels": 2}),
+        # The zone closes shortly before the limit load, which was sought with the zone.
+        ({"gamma": 7.0, "low_end": -0.8}, {"cells": 8, "degree": 4, "levels": 2}),
+        # The zone closes shortly after it, at a load above those of both neighbours.
+        ({"gamma": 8.0, "low_end": -0.8, "model": "varga"}, {}),
+    ],
+    ids=["start", "limit load", "zone"],
+)
+def test_a_heavy_liquid_has_a_limit_load_and_a_zone_that_closes_near_it(given, numerics):
+    result = solve_requests("hemisphere", given, numerics, [], branch_uncertainty=False)
+    assert result.failures == []
+    (limit,) = [point for point in result.special_points if point.kind == "limit_point"]
+    (closing,) = [point for point in result.special_points if point.kind == "zone_closing"]
+    assert -0.8 < closing.values["zw"] < limit.values["zw"]
+    assert limit.values["zw"] - closing.values["zw"] < 0.005
+    columns = result.branch().columns
+    assert max(columns["zw"]) == pytest.approx(limit.values["zw"], abs=2e-3)
+    assert (columns["V"] > limit.values["V"]).any()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (
+            {"model": "gent", "shear": 0.4},
+            r"gamma = 4\.\d+: allowed with this stiffness of the law: 0\.2 to 1\.6;",
+        ),
+        ({"c2": 1.0, "gamma": 1.0}, "allowed with this stiffness of the law: 2 to 16"),
+        ({"energy": "standard"}, "of -1.1: with energy = 'standard' .*raise low_end and zw to -0.9"),
+    ],
+)
+def test_what_has_no_states_is_refused_with_what_to_change(given, message):
+    with pytest.raises(InputError, match=message):
+        solve_requests("hemisphere", given, COARSE, [], branch_uncertainty=False)
+
+
+def test_a_highest_level_below_the_first_one_is_an_absence():
+    given = validated(HemisphereParameters, {"gamma": 8.0}, "hemisphere")
+    numerics = HemisphereNumerics(**COARSE)
+    membrane = hemisphere_membrane(given, numerics, MPI.COMM_WORLD)
+    branch = HemisphereBranch(membrane, 0.0, np.inf, numerics.step, Readings(membrane, 6))
+    branch.low_end = -0.75
+    with pytest.raises(AbsentError, match=r"level is near -0\.7\d+, below low_end = -0\.75; lower"):
+        branch.follow()
 
 
 @pytest.mark.parametrize(

@@ -42,6 +42,9 @@ FIRST_T0 = 0.05
 TAUT = 1.02
 """Pre-stretch above which the branch starts at ``p = 0``."""
 
+THIN = 20.0
+"""Largest stretch of a pole thinner than the clamp, over the pre-stretch."""
+
 FREE_FRONT = 0.5
 """Position at which the free membrane's mesh is divided, as a fraction of its radius; it is arbitrary."""
 
@@ -160,8 +163,13 @@ class DiskPhases(ContactPhases):
         return branch
 
     def gives_way(self, point: CurvePoint) -> str:
-        """The law may take no more stretch at the pole, beside the front, or at the clamp."""
+        """The law may take no more stretch at the pole, beside the front, or at the clamp.
+
+        A thin pole may stretch without limit, so that no mesh resolves it.
+        """
         at, x = point.monitors, point.state.loads["front"]
+        if at["lam_pole"] > THIN * self.data.beta and self.data.M < 1:
+            return f"the thin pole, M = {self.data.M:g}, is stretched to more than {THIN:g} times beta"
         beside = [(at[name], at["rho_contact"] / x) for name in ("lam1_contact", "lam1_contact_outer")]
         return limit_of(
             self.data.law, [(at["lam_pole"], at["lam_pole"]), *beside, (at["lam1_rim"], self.data.beta)]

@@ -97,7 +97,10 @@ class CircularParameters(MaterialChoice):
     )
     p: float | None = Field(None, ge=0, le=50, description="pressure of a peeling curve")
     M: float = Field(
-        1.0, gt=0, lt=2, description="thickness at the pole over h, linear to 2 - M at the clamp; free only"
+        1.0,
+        ge=0.3,
+        le=1.9,
+        description="thickness at the pole over h, linear to 2 - M at the clamp; free only",
     )
     thickness: text_over("X") = Field(  # type: ignore[valid-type]
         None,
@@ -176,12 +179,13 @@ class Circular(BranchProblem):
         parameters, numerics, requests = task.parameters, task.numerics, task.requests
         comm, progress = task.comm, task.progress
         degree, cap = numerics.degree, 2.0 * numerics.degree
+        free = parameters.contact == "none" and parameters.phase == "inflation"
         disk = parameters.material, parameters.beta, parameters.k, parameters.l
         terms = range(FIRST_TERMS, FIRST_TERMS + MORE_TERMS * numerics.levels, MORE_TERMS)
         runs = [
             inflation(
                 comm.py2f(),
-                DiskData(*disk, cells // 2, degree, parameters.M, parameters.own_thickness),
+                DiskData(*disk, cells // 2, degree, parameters.M if free else 1.0, parameters.own_thickness),
                 parameters.adhesion,
                 parameters.p_end,
                 numerics.step,
@@ -210,9 +214,9 @@ class Circular(BranchProblem):
             if runs[-1].untouched:
                 raise InputError(f"circular: phase = 'peeling' needs a patch, and {runs[-1].untouched}")
             return {"primary": family(lambda run: PeelingBranch(run, p), SERIES, PeelingFamily)}
-        if parameters.contact == "none":
-            free = family(lambda run: _free(run, parameters.t_end))
-            return {"primary": PiecewiseFamily([Piece(free, NO_PATCH)])}
+        if free:
+            inflated = family(lambda run: _free(run, parameters.t_end))
+            return {"primary": PiecewiseFamily([Piece(inflated, NO_PATCH)])}
         branch = contact_branch(
             runs,
             lambda part, frozen: family(part, SERIES if frozen else None),

@@ -38,25 +38,25 @@ from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 
-DEEPEST = 3.0
+DEEPEST = 2.0
 """Height of the pole, over that of the substrate, up to which the scheme is followed."""
 
 
 class CircularSchemeParameters(MaterialChoice):
     """The disk, its substrate, and where inflation ends: at most at :data:`DEEPEST` times its height.
 
-    Beyond that, and on a substrate stiffer than ``k = 1000``, Newton's method alternates between states with
-    one node more and one node less of the fixed mesh in contact, however short the steps. The problem
-    ``circular``, whose mesh follows the front, has neither limit.
+    Beyond that, and on a substrate further away than ``l = 2`` or stiffer than ``k = 200``, Newton's method
+    alternates between states with one node more and one node less of the fixed mesh in contact, however short
+    the steps. The problem ``circular``, whose mesh follows the front, has neither limit.
     """
 
     ratio: ClassVar[str] = "alpha"
 
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch")
-    k: float = Field(50.0, gt=0, le=1000, description="substrate stiffness K R_f^2/(C1 h)")
-    l: float = Field(0.5, gt=0.06, le=5, description="height of the substrate L/R_f")  # noqa: E741
-    t_end: float = Field(0.57, gt=0.06, le=5, description="pole height at which inflation ends")
+    k: float = Field(50.0, gt=0, le=200, description="substrate stiffness K R_f^2/(C1 h)")
+    l: float = Field(0.5, gt=0.06, le=2, description="height of the substrate L/R_f")  # noqa: E741
+    t_end: float = Field(0.57, gt=0.06, le=4, description="pole height at which inflation ends")
 
 
 class CircularSchemeNumerics(Numerics):
@@ -136,7 +136,10 @@ class FixedDisk(FreeDisk):
         def solve(before: State, t0: float) -> State:
             return solver.solve(before, [Held("t0", t0)])[0]
 
-        return walk(solve, state, FIRST_T0, given.l, (given.l - FIRST_T0) / 9)
+        try:
+            return walk(solve, state, FIRST_T0, given.l, (given.l - FIRST_T0) / 9)
+        except ConvergenceError as error:
+            raise ConvergenceError(f"pole height in free inflation: {error}; lower l or beta") from error
 
     def _edge(self, state: State, given: CircularSchemeParameters) -> dict[str, float]:
         """Deformed radius of the front, interpolated linearly between the nodes around it."""

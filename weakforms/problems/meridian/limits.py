@@ -9,7 +9,7 @@ import numpy as np
 
 from weakforms.errors import InputError
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
-from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
+from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, mooney_rivlin_of
 from weakforms.problems.meridian.thickness import PLACES, Thickness
 
 LEAST_RESISTANCE = 0.02
@@ -17,6 +17,12 @@ LEAST_RESISTANCE = 0.02
 
 MARGIN = 0.01
 """A law that is not defined at stretches larger by this fraction is at its limit."""
+
+
+def relative_stiffness(law: Chosen) -> float:
+    """Stiffness ``w,11`` at rest over that of a neo-Hookean law with ``C1 = 1``."""
+    own, usual = (evaluated(one, 1.0, 1.0)["W11"] for one in (law, mooney_rivlin_of(0.0)))
+    return own / usual
 
 
 def limit_of(law: Chosen, places: Iterable[tuple[float, float]]) -> str:

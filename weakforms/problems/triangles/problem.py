@@ -11,9 +11,8 @@ import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.homogeneous.material_point import evaluated
-from weakforms.problems.material_choice import mooney_rivlin_of, require_foldable
-from weakforms.problems.meridian.limits import require_carried
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.meridian.limits import relative_stiffness, require_carried
 from weakforms.problems.problem import End, Problem, Progress, Requests, StateRequest, Task
 from weakforms.problems.triangles.about import SURFACE
 from weakforms.problems.triangles.branch import Point, SurfaceRun
@@ -106,7 +105,7 @@ class Surface(Problem):
 
 def _require_hanging(full: SurfaceParameters) -> None:
     """Refuse a liquid that is too light or too heavy for a hemisphere of this law."""
-    stiffness = evaluated(full.material, 1.0, 1.0)["W11"] / evaluated(mooney_rivlin_of(0.0), 1.0, 1.0)["W11"]
+    stiffness = relative_stiffness(full.material)
     low, high = (bound * stiffness for bound in HANGING)
     if not low <= full.gamma <= high:
         raise InputError(

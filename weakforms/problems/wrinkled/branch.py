@@ -16,7 +16,6 @@ from weakforms.problems.wrinkled.state import ZonedState, solver_of
 from weakforms.problems.wrinkled.waves.numbers import EIGENVALUE
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
 from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
-from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.equilibrium import constraints as fixed
@@ -32,6 +31,9 @@ PAST_LIMIT = 0.8
 MARGIN = 0.1
 """The search for a limit load extends beyond its neighbours on the trace by this fraction of their
 distance."""
+
+SHARES = (0.0, 0.5, 0.75)
+"""Parts of the way between these neighbours at which the search begins, one after the other."""
 
 PREDICTOR = 2e-2
 """Target distance between predictor and solution on the plain mesh, where the tangent jumps when zones
@@ -264,7 +266,7 @@ class WrinkledBranch:
 
     @cached_property
     def _events(self) -> list[Event]:
-        found, failures = events(self.membrane, self._fine)
+        found, failures = events(self.membrane, self._fine, [name for _, name in self._prescribed()])
         self._failures.extend(failures)
         return found
 
@@ -280,32 +282,23 @@ class WrinkledBranch:
         ]
 
     def _limit(self, turn: int) -> tuple[SpecialPoint, list[ZonedState]]:
-        """The limit load after a point of the trace, on all meshes."""
-        before, after = (self.trace.points[i].monitors["V"] for i in (turn, turn + 1))
-        margin = MARGIN * (after - before)
-        starts = self._fitted(self.near("V", before - margin), "V")
-        found = [self._limit_from(start, before - margin, after + margin) for start in starts]
-        return self._point([self.readings.without_fronts(held) for held in found], "limit_point"), found
+        """The limit load after a point of the trace, on all meshes.
 
-    def _limit_from(self, held: ZonedState, low: float, high: float) -> ZonedState:
-        """The limit load between two volumes by arc length, with fronts and load as unknowns."""
-        system, beyond = held.model.system, lambda point: point.monitors["V"] > high
-        continuation = Continuation(
-            solver_of(held.model, held.scalars), held.constraints, StepControl(first=0.05, largest=0.5)
-        )
-        with held.lent(), system.weighed_here():
-            begin = continuation.start(held.state, fixed.Held("V", low), towards={"V": 1.0})
-            limits = FittedBranch(continuation, self.control, begin, beyond).special()
-        if len(limits) != 1:
-            raise ConvergenceError(
-                f"{len(limits)} limit loads between V = {low:.6g} and {high:.6g} on a fitted mesh"
-            )
-        state = limits[0].state
-        moved = [state.loads[name] for name in held.scalars[1:]]
-        count = len(held.zones.fronts)
-        surface = None if held.zones.surface is None else moved[count]
-        zones = replace(held.zones, fronts=tuple(moved[:count]), surface=surface)
-        return replace(held, state=state, zones=zones, record=begin.record)
+        If a zone opens or closes near it, only states on the same side have its zones.
+        """
+        before, after = (self.trace.points[i].monitors["V"] for i in (turn, turn + 1))
+        margin, errors = MARGIN * (after - before), []
+        for share in SHARES:
+            begin = before - margin + share * (after - before)
+            try:
+                starts = self._fitted(self.near("V", begin), "V")
+                found = [self.membrane.limit(start, begin, after + margin) for start in starts]
+            except ConvergenceError as error:
+                errors.append(error)
+            else:
+                values = [self.readings.without_fronts(held) for held in found]
+                return self._point(values, "limit_point"), found
+        raise errors[0]
 
     # -- states --------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
 
 HALVINGS = 24
-"""Largest number of times that a load interval is halved until only one zone opens or closes in it."""
+"""Largest number of times that an interval is halved until only one zone opens or closes in it."""
 
 LARGE_MOVE = 0.1
 """If a front moves by more than this fraction of the length, the states in between are examined."""
@@ -43,15 +43,23 @@ class Event:
     """The state on every mesh, coarse to fine; ``touched`` is the position of the zone."""
 
 
-def events(membrane: Membrane, points: Sequence[tuple[int, ZonedState]]) -> tuple[list[Event], list[Failure]]:
-    """All events between neighbours of a branch, in order, and the failures."""
+def events(
+    membrane: Membrane, points: Sequence[tuple[int, ZonedState]], names: Sequence[str]
+) -> tuple[list[Event], list[Failure]]:
+    """All events between neighbours of a branch, in order, and the failures.
+
+    Args:
+        membrane: The membrane.
+        points: States of the branch on the finest mesh, with their numbers.
+        names: For the number of each point, the column that increases or decreases to the next one.
+    """
     found: list[Event] = []
     failures: list[Failure] = []
     at_ends = points[0][1].sampled(np.array([0.0, membrane.length]))["gw"]
     verge = np.abs(at_ends - 1) < VERGE
     for (i, a), (_, b) in pairwise(points):
         try:
-            found.extend(_between(membrane, a, b, i, verge, HALVINGS))
+            found.extend(_between(membrane, a, b, i, names[i], verge, HALVINGS))
         except ConvergenceError as error:
             load = a.state.loads[membrane.control]
             failures.append(Failure(f"zones that change after {membrane.control} = {load:.6g}", str(error)))
@@ -63,13 +71,19 @@ def _fronts(held: ZonedState) -> tuple[float, int]:
 
 
 def _between(
-    membrane: Membrane, a: ZonedState, b: ZonedState, after: int, verge: np.ndarray, halvings: int
+    membrane: Membrane,
+    a: ZonedState,
+    b: ZonedState,
+    after: int,
+    name: str,
+    verge: np.ndarray,
+    halvings: int,
 ) -> list[Event]:
     """Events between two states, by halving until they differ by one zone."""
     if _fronts(a) == _fronts(b):
         if not halvings or not _leaps(a, b, membrane.length):
             return []
-        return _in_halves(membrane, a, b, after, verge, halvings)
+        return _in_halves(membrane, a, b, after, name, verge, halvings)
     opening = len(b.zones.fronts) > len(a.zones.fronts)
     absent, present = (a, b) if opening else (b, a)
     zone = _extra_zone(absent.zones, present.zones, membrane.length)
@@ -77,13 +91,13 @@ def _between(
         if opening and ((zone[0] == 0 and verge[0]) or (zone[1] == membrane.length and verge[1])):
             return []
         try:
-            return _located(membrane, absent, present, zone, after, opening)
+            return _located(membrane, absent, present, zone, after, name, opening)
         except ConvergenceError:
             if not halvings:
                 raise
     if not halvings:
-        return _at_both_ends(membrane, absent, present, after, opening)
-    return _in_halves(membrane, a, b, after, verge, halvings)
+        return _at_both_ends(membrane, absent, present, after, name, opening)
+    return _in_halves(membrane, a, b, after, name, verge, halvings)
 
 
 def _leaps(a: ZonedState, b: ZonedState, length: float) -> bool:
@@ -92,19 +106,32 @@ def _leaps(a: ZonedState, b: ZonedState, length: float) -> bool:
 
 
 def _in_halves(
-    membrane: Membrane, a: ZonedState, b: ZonedState, after: int, verge: np.ndarray, halvings: int
+    membrane: Membrane,
+    a: ZonedState,
+    b: ZonedState,
+    after: int,
+    name: str,
+    verge: np.ndarray,
+    halvings: int,
 ) -> list[Event]:
-    """Events between two states, in one half of the load interval and then in the other."""
-    low, high = (held.state.loads[membrane.control] for held in (a, b))
-    middle = membrane.fitted(a, fixed.Held(membrane.control, (low + high) / 2))[-1]
+    """Events between two states, in one half of the interval of a column and then in the other."""
+    middle = membrane.fitted(a, fixed.Held(name, (_value(a, name) + _value(b, name)) / 2))[-1]
     return [
-        *_between(membrane, a, middle, after, verge, halvings - 1),
-        *_between(membrane, middle, b, after, verge, halvings - 1),
+        *_between(membrane, a, middle, after, name, verge, halvings - 1),
+        *_between(membrane, middle, b, after, name, verge, halvings - 1),
     ]
 
 
+def _value(held: ZonedState, name: str) -> float:
+    """A load of a state, or a functional."""
+    if name in held.state.loads:
+        return held.state.loads[name]
+    with held.lent():
+        return held.model.system.monitor(name)
+
+
 def _at_both_ends(
-    membrane: Membrane, absent: ZonedState, present: ZonedState, after: int, opening: bool
+    membrane: Membrane, absent: ZonedState, present: ZonedState, after: int, name: str, opening: bool
 ) -> list[Event]:
     """Zones that open or close at both ends at once, as in a symmetric membrane."""
     fewer, more = absent.zones, present.zones
@@ -112,7 +139,7 @@ def _at_both_ends(
         raise ConvergenceError("several zones change at once")
     last = more.first * (-1) ** len(more.fronts)
     ends = ((0.0, more.fronts[0], more.first), (more.fronts[-1], membrane.length, last))
-    return [e for zone in ends for e in _located(membrane, absent, present, zone, after, opening)]
+    return [e for zone in ends for e in _located(membrane, absent, present, zone, after, name, opening)]
 
 
 def _extra_zone(absent: Zones, present: Zones, length: float) -> tuple[float, float, float] | None:
@@ -150,6 +177,7 @@ def _located(
     present: ZonedState,
     zone: tuple[float, float, float],
     after: int,
+    name: str,
     opening: bool,
 ) -> list[Event]:
     """The event, from ``gw = 1`` at an end, or ``gw = 1, gw' = 0`` inside, without the zone."""
@@ -157,12 +185,12 @@ def _located(
     at_end = low == 0.0 or high == membrane.length
     place = 0.0 if low == 0.0 else high if at_end else (low + high) / 2
     levels = membrane.touching(absent, Touch(place, at_end))
-    load, place = levels[-1].state.loads[membrane.control], levels[0].touched
-    ends = sorted(held.state.loads[membrane.control] for held in (absent, present))
+    value, place = _value(levels[-1], name), levels[0].touched
+    ends = sorted(_value(held, name) for held in (absent, present))
     slack = SLACK * max(1.0, abs(ends[1]))
-    if not ends[0] - slack <= load <= ends[1] + slack or not 0 <= place <= membrane.length:
+    if not ends[0] - slack <= value <= ends[1] + slack or not 0 <= place <= membrane.length:
         raise ConvergenceError(
-            f"a zone's event was found at {load:.12g}, outside [{ends[0]:.12g}, {ends[1]:.12g}]"
+            f"a zone's event was found at {name} = {value:.12g}, outside [{ends[0]:.12g}, {ends[1]:.12g}]"
         )
     kind = "zone_opening" if opening else "zone_closing"
     return [Event(kind, state, after, tuple(levels))]

@@ -23,6 +23,9 @@ from weakforms.problems.wrinkled.state import (
     model_on,
     solver_of,
 )
+from weakforms.solvers.continuation.branch import FittedBranch
+from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
 
@@ -239,6 +242,45 @@ class FittedMembrane:
             touch = replace(touch, at=start.touched)
             found.append(start)
         return found[::-1]
+
+    def limit(self, held: ZonedState, low: float, high: float) -> ZonedState:
+        """The first limit load between two volumes by arc length, with fronts and load as unknowns.
+
+        Args:
+            held: The state at the lower volume.
+            low: Its volume.
+            high: The other one.
+
+        Raises:
+            ConvergenceError: If there is none, or if zones open or close before it.
+        """
+        system, control = held.model.system, self.control
+        steps = StepControl(first=0.05, largest=0.5)
+        continuation = Continuation(solver_of(held.model, held.scalars), held.constraints, steps)
+        with held.lent(), system.weighed_here():
+            begin = continuation.start(held.state, Held("V", low), towards={"V": 1.0})
+            rate = begin.tangent.loads[control]
+            branch = FittedBranch(
+                continuation,
+                control,
+                begin,
+                lambda q: q.monitors["V"] > high or q.tangent.loads[control] * rate < 0,
+            )
+            limits = branch.special()
+        if len(limits) != 1:
+            raise ConvergenceError(
+                f"{len(limits)} limit loads between V = {low:.6g} and {high:.6g} on a fitted mesh"
+            )
+        state = limits[0].state
+        moved = [state.loads[name] for name in held.scalars[1:]]
+        count = len(held.zones.fronts)
+        surface = None if held.zones.surface is None else moved[count]
+        zones = replace(held.zones, fronts=tuple(moved[:count]), surface=surface)
+        found = replace(held, state=state, zones=zones, record=begin.record)
+        inside = np.diff([0.0, *zones.fronts, self.length]).min() > 0
+        if not inside or self._thick(found.shown_zones(VERGE_FITTED, self.liquid), SLIVER).kind != zones.kind:
+            raise ConvergenceError(f"zones open or close between V = {low:.6g} and the limit load")
+        return found
 
     def moved(self, start: ZonedState, model: WrinkledModel, breaks: np.ndarray, marks: Marks) -> State:
         """A state interpolated to another mesh with its marks."""

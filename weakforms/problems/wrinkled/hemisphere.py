@@ -12,15 +12,18 @@ meridional tension bends the meridian outwards.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from contextlib import suppress
 from typing import ClassVar, Literal
 
 import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.meridian.limits import relative_stiffness
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wrinkled import body
@@ -34,12 +37,23 @@ from weakforms.results import Result
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.equilibrium import constraints as fixed
+from weakforms.solvers.equilibrium.state import State
 
 GAMMA = 100 * PAPER_GAMMA
 """The paper's weight of the liquid: ten times the cylinder's radius, with all other data the same."""
 
 START, GAS_EASY = -0.8, 0.5
 """Level, and gas pressure, at which the trace starts, in a stable range."""
+
+LOWER = -0.9, -1.0, -1.1
+"""Levels at which the trace of a heavier liquid starts, which has no state at the level above."""
+
+COMPRESSED = -0.9
+"""Lowest level of the full energy. Below it most of the membrane is compressed, where it has no stiffness."""
+
+HANGING = 1.0, 8.0
+"""Smallest and largest weight of the liquid for a neo-Hookean law with ``C1 = 1``. A lighter one hardly
+stretches the membrane; a heavier one has states at the lowest levels only."""
 
 LOWEST_LEVEL, LOW_END = -1.18, -1.1
 """Lowest level that can be requested, and default level at which the branch starts. The empty sheet can hang
@@ -82,9 +96,7 @@ class HemisphereParameters(MaterialChoice):
     thickness: text_over("t") = Field(  # type: ignore[valid-type]
         None, description="thickness over h by the angle t from the pole, such as '1 + 0.2*cos(2*t)'"
     )
-    energy: Energy = Field(
-        "relaxed", description=f"{TREATMENT} (set low_end = -0.8 then: lower states are often not found)"
-    )
+    energy: Energy = Field("relaxed", description=f"{TREATMENT} (it needs low_end = -0.9 or higher)")
     n: WaveNumbers = Field((), description="wave numbers for which stability is computed, such as 10,50")
     beta: float = Field(
         0.0, ge=0, le=1, description="additional bending stiffness against waves, over C1 h Ao^2"
@@ -116,16 +128,63 @@ class HemisphereBranch(WrinkledBranch):
     """Branch from a low load through the highest one, a limit point, to an end shortly after it."""
 
     def _start(self, continuation: Continuation) -> CurvePoint:
-        """The low end, reached along the branch from a level at which the membrane is easy to solve for."""
-        low, easy = self.low_end, START if self.membrane.liquid else GAS_EASY
-        state = self.membrane.by_gas(easy)
-        begin = continuation.start(state, fixed.Held(self.control, easy), towards={self.control: -1.0})
-        way = SolutionCurve(continuation, self.control, begin, lambda p: p.state.loads[self.control] < low)
-        lowest = way.at(self.control, low) if low < easy else way.points[0]
-        return continuation.start(lowest.state, fixed.Held(self.control, low), towards={self.control: 1.0})
+        """The low end, reached along the branch from a level at which the membrane is easy to solve for.
+
+        Raises:
+            AbsentError: If the highest level, a limit point, is below it.
+            ConvergenceError: If no state is found, or the way to it ends early.
+        """
+        low, (state, easy) = self.low_end, self._easy()
+        if low == easy:
+            return continuation.start(state, fixed.Held(self.control, low), towards={self.control: 1.0})
+        way = self._way(continuation, state, easy, low)
+        lowest = way.at(self.control, low).state
+        return continuation.start(lowest, fixed.Held(self.control, low), towards={self.control: 1.0})
+
+    def follow(self) -> None:
+        """Trace it now.
+
+        Raises:
+            AbsentError: If it is not there.
+            ConvergenceError: If it is not found.
+        """
+        self.trace  # noqa: B018
+
+    def _easy(self) -> tuple[State, float]:
+        """A state of the plain mesh, and its load."""
+        first, *more = (START, *LOWER) if self.membrane.liquid else (GAS_EASY * self.stiffness,)
+        try:
+            return self.membrane.by_gas(first, self.stiffness), first
+        except ConvergenceError as error:
+            for level in more:
+                with suppress(ConvergenceError):
+                    return self.membrane.by_gas(level, self.stiffness), level
+            raise ConvergenceError(f"{error}; choose a smaller gamma") from error
+
+    def _way(self, continuation: Continuation, state: State, easy: float, low: float) -> SolutionCurve:
+        """The branch from a load to another one."""
+        sign = 1.0 if low > easy else -1.0
+
+        def beyond(point: CurvePoint) -> bool:
+            return (
+                sign * (point.state.loads[self.control] - low) > 0
+                or point.tangent.loads[self.control] * sign < 0
+            )
+
+        begin = continuation.start(state, fixed.Held(self.control, easy), towards={self.control: sign})
+        way = SolutionCurve(continuation, self.control, begin, beyond)
+        reached = max(sign * point.state.loads[self.control] for point in way.points)
+        if reached < sign * low and way.stalled:
+            raise ConvergenceError(f"{self.control} = {low:g} is not reached: {way.stalled}")
+        if reached < sign * low:
+            searched = f"the highest level is near {sign * reached:.4g}, below low_end = {low:g}"
+            raise AbsentError("branch primary", f"hemisphere: {searched}; lower low_end or gamma")
+        return way
 
     low_end = LOW_END
     """Load at which the branch starts."""
+    stiffness = 1.0
+    """Of the law, relative to a neo-Hookean one with ``C1 = 1``."""
     past = 0.01
     """Decrease of the load below its maximum at the end of the branch."""
 
@@ -151,6 +210,7 @@ class Hemisphere(BranchProblem):
         super().check(parameters, requests)
         require_foldable(self.name, parameters, bool(parameters.n))
         require_thickness(self.name, parameters.own_thickness, math.pi / 2)
+        _require_hanging(parameters, [wanted.value for wanted in requests.states if wanted.name == "zw"])
         load = parameters.control
         least, most, what = ALLOWED[load]
         for wanted in requests.states:
@@ -196,6 +256,8 @@ class Hemisphere(BranchProblem):
             low, end, volume = GAS_START, max([parameters.load_end, *wanted]), parameters.volume_end
         branch = HemisphereBranch(membrane, end, volume, numerics.step, readings)
         branch.low_end, branch.past = min([low, *wanted]), parameters.past
+        branch.stiffness = relative_stiffness(parameters.material)
+        branch.follow()
         return {"primary": branch}
 
     def points(self, _parameters: HemisphereParameters) -> np.ndarray:
@@ -205,6 +267,25 @@ class Hemisphere(BranchProblem):
     def _answer(self, result: Result, families: dict[str, Family], task: Task) -> None:
         super()._answer(result, families, task)
         result.special_points.extend(families["primary"].fronts)
+
+
+def _require_hanging(parameters: HemisphereParameters, levels: Sequence[float]) -> None:
+    """Refuse a liquid that is too light or too heavy for the law, or too low for the full energy."""
+    if parameters.load != "fluid":
+        return
+    lowest = min([parameters.low_end, *levels])
+    if parameters.energy == "standard" and lowest < COMPRESSED:
+        raise InputError(
+            f"hemisphere: low_end, or a level zw, of {lowest:g}: with energy = 'standard' the membrane below "
+            f"{COMPRESSED:g} is mostly compressed and has no stiffness there; raise low_end and zw to "
+            f"{COMPRESSED:g}, or choose another energy"
+        )
+    least, most = (bound * relative_stiffness(parameters.material) for bound in HANGING)
+    if not least <= parameters.gamma <= most:
+        raise InputError(
+            f"hemisphere: gamma = {parameters.gamma:g}: allowed with this stiffness of the law: "
+            f"{least:.4g} to {most:.4g}; change gamma or the constants of the law"
+        )
 
 
 def hemisphere_membrane(

@@ -27,7 +27,8 @@ GAS_TO_LIQUID = (
     (0.5, 1.0),
     *((p, 1.0) for p in (0.3, 0.2, 0.1, 0.05, 0.02, 0.01, 0.0)),
 )
-"""Gas pressure and fraction of the liquid's weight, in steps from a gas to a liquid."""
+"""Gas pressure (for a neo-Hookean law with ``C1 = 1``) and fraction of the liquid's weight, in steps from
+a gas to a liquid."""
 
 WALK = 0.1
 """Largest step of a parameter on the way from an easy membrane to the one wanted."""
@@ -112,23 +113,32 @@ class Membrane(FittedMembrane):
             state, record = solver.solve(state)
         return state, record
 
-    def by_gas(self, load: float) -> State:
+    def by_gas(self, load: float, stiffness: float = 1.0) -> State:
         """State of the plain mesh at a load, from the body's shape, which a gas keeps taut.
 
         A liquid replaces the gas step by step, because without both the membrane has no stiffness.
 
+        Args:
+            load: The load.
+            stiffness: Of the law, relative to a neo-Hookean one with ``C1 = 1``; the gas is so much stronger.
+
         Raises:
-            ConvergenceError: If a step does not converge.
+            ConvergenceError: If a step does not converge, also not in shorter steps.
         """
         state = self.undisplaced()
         state.loads[self.control] = load
         solver = solver_of(self.plain_model, ())
         if not self.liquid:
             return solver.solve(state)[0]
-        for gas, liquid in GAS_TO_LIQUID:
-            state.loads |= {"p": gas, "gamma": liquid * self.values["gamma"]}
-            state, _ = solver.solve(state)
-        return state
+        stages = np.arange(len(GAS_TO_LIQUID))
+        pressures, shares = np.transpose(GAS_TO_LIQUID)
+
+        def filled(before: State, at: float) -> State:
+            gas, liquid = (float(np.interp(at, stages, part)) for part in (pressures, shares))
+            loads = {"p": gas * stiffness, "gamma": liquid * self.values["gamma"]}
+            return solver.solve(replace(before, loads=before.loads | loads))[0]
+
+        return walk(filled, filled(state, 0.0), 0.0, float(stages[-1]), 1.0)
 
     def plain(self, state: State) -> ZonedState:
         """A state of the plain mesh with its zones."""

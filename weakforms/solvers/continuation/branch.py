@@ -23,15 +23,7 @@ class FittedBranch(SolutionCurve):
 
     def special(self) -> list[Solved]:
         """Limit points of the control: zeros of its rate along the curve."""
-        return [self._root(int(i), self._control_rate(int(i)), "limit_point") for i in self.turns()]
-
-    def _control_rate(self, i: int) -> Callable[[Solved], float]:
-        along = self.points[i].tangent
-
-        def rate(solved: Solved) -> float:
-            return self.continuation.direction(solved.state, along).loads[self.control]
-
-        return rate
+        return [self._turn(int(i)) for i in self.turns()]
 
 
 class EquilibriumBranch(SolutionCurve):
@@ -76,9 +68,13 @@ class EquilibriumBranch(SolutionCurve):
         self._require_same_between(np.array([p.n_negative for p in self.points]), count, "eigenvalues")
 
     def _fold(self, i: int) -> Solved:
+        """By its extended system or, if a sharp turn makes round-off large there, by root finding."""
         a, b = self.points[i], self.points[i + 1]
         border = self.system.mass_times(a.tangent.u + b.tangent.u)
-        solved = self._solve(self._turn_guess(i), Fold(self.control, border), "limit_point")
+        try:
+            solved = self._solve(self._turn_guess(i), Fold(self.control, border), "limit_point")
+        except ConvergenceError:
+            return self._turn(i)
         self.require_within(i, solved, f"limit point of {self.control}")
         return solved
 

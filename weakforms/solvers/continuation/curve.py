@@ -322,6 +322,15 @@ class SolutionCurve:
         rates = np.array([p.tangent.loads[self.control] for p in self.points])
         return np.flatnonzero(rates[:-1] * rates[1:] < 0)
 
+    def _turn(self, i: int) -> Solved:
+        """The turn after a point: the zero of the control's rate along the curve."""
+        along = self.points[i].tangent
+
+        def rate(solved: Solved) -> float:
+            return self.continuation.direction(solved.state, along).loads[self.control]
+
+        return self._root(i, rate, "limit_point")
+
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))
         return self.between(i, ra / (ra - rb))
