@@ -11,7 +11,9 @@ from mpi4py import MPI
 import weakforms.problems.meridian.model as meridian_module
 from weakforms import Axis, Case, Curve, InputError, Panel, Points, solve, tube
 from weakforms.forms import loads, materials
+from weakforms.problems import registry
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
+from weakforms.problems.problem import Requests, validated
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.results import Result, validate
 from weakforms.solvers.equilibrium.state import State
@@ -149,6 +151,11 @@ def test_a_law_that_gives_way_has_the_same_limit_points_on_all_meshes():
 def test_a_pre_stretch_beyond_the_largest_of_its_law_is_refused():
     with pytest.raises(InputError, match=r"delta1 = 4\.28 alone stretches .* lower delta1"):
         solve("tube", model="gent", jm=8.97, delta1=4.28, lf=16.0, numerics=COARSE)
+    law = {"model": "harmonic", "shear": 0.6961, "f2": 3.658}
+    problem = registry.get("tube_scheme")
+    wanted = validated(problem.parameters, law | {"delta1": 4.13}, "tube_scheme")
+    with pytest.raises(InputError, match=r"delta1 = 4\.13 alone .* 'harmonic' .* constants that allow more"):
+        problem.check(wanted, Requests())
 
 
 def test_stresses_beyond_the_largest_stretch_are_no_numbers():

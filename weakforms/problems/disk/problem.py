@@ -10,7 +10,7 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError, InputError
 from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
 from weakforms.problems.contact.family import contact_branch
 from weakforms.problems.disk.about import CIRCULAR
@@ -212,7 +212,9 @@ class Circular(BranchProblem):
         if parameters.phase == "peeling":
             p = peeling_pressure(parameters, requests)
             if runs[-1].untouched:
-                raise InputError(f"circular: phase = 'peeling' needs a patch, and {runs[-1].untouched}")
+                raise AbsentError(
+                    "contact", f"circular: phase = 'peeling' needs a patch, and {runs[-1].untouched}"
+                )
             return {"primary": family(lambda run: PeelingBranch(run, p), SERIES, PeelingFamily)}
         if free:
             inflated = family(lambda run: _free(run, parameters.t_end))

@@ -72,7 +72,15 @@ def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str)
     Raises:
         InputError: With a message that names the parameter.
     """
-    if law.model != MOONEY_RIVLIN and stressed(law, l1, l2) > LARGEST:
+    if law.model == MOONEY_RIVLIN:
+        return
+    stress = stressed(law, l1, l2)
+    if not np.isfinite(stress):
+        raise InputError(
+            f"{problem}: {name} = {l1:g} alone stretches the membrane beyond what model = {law.model!r} with "
+            f"these constants allows; lower {name}, or choose constants that allow more"
+        )
+    if stress > LARGEST:
         raise InputError(
             f"{problem}: {name} = {l1:g}: model = {law.model!r} has stresses of more than {LARGEST:g} times "
             f"its stiffness at rest; lower {name}, or the exponents"

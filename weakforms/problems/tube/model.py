@@ -191,7 +191,7 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
         if not np.isfinite(system.dot(forces, forces)):
             raise InputError(
                 f"delta1 = {delta1:g} alone stretches the membrane beyond what its law allows; lower delta1 "
-                "(delta1_end of tube_fold), or raise the constant that limits stretches (jm, or links)"
+                "(delta1_end of tube_fold), or choose a law, or constants, that allow more"
             )
         return state, Held("p", 0.0)
     inflated = Held("u_max", FIRST_U)

@@ -68,6 +68,6 @@ class WrinkledTubeThreshold(Problem):
         try:
             found = threshold(comm, values, *mesh, side, parameters.other_law)
         except ConvergenceError as error:
-            result.failures.append(Failure("threshold", str(error)))
+            result.failures.append(Failure("threshold", f"{error}; choose a smaller Af, or another law"))
         else:
             result.quantities |= {name: one.quantity() for name, one in found.items()}

@@ -324,12 +324,15 @@ class SolutionCurve:
 
     def _turn(self, i: int) -> Solved:
         """The turn after a point: the zero of the control's rate along the curve."""
+        return self._root(i, self._control_rate(i), "limit_point")
+
+    def _control_rate(self, i: int) -> Callable[[Solved], float]:
         along = self.points[i].tangent
 
         def rate(solved: Solved) -> float:
             return self.continuation.direction(solved.state, along).loads[self.control]
 
-        return self._root(i, rate, "limit_point")
+        return rate
 
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))

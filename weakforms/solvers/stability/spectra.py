@@ -32,6 +32,9 @@ BACKWARD_ERROR = 1e-12
 """Relative residual of a solve above which a factorisation is too inaccurate and is repeated with
 pivoting."""
 
+CROWDED = 4
+"""Factor of the basis if no eigenvalue converges: then many lie close together, as those of short waves."""
+
 BESIDE = 1e-4
 """Relative distance between a known eigenvalue and the target for its mode."""
 
@@ -81,7 +84,9 @@ class Stability:
                 self.system.shift(shift)
             yield
 
-    def _solver(self, wanted: int, target: float = 0.0, inverse: Inverse | None = None) -> SLEPc.EPS:
+    def _solver(
+        self, wanted: int, target: float = 0.0, inverse: Inverse | None = None, wider: int = 1
+    ) -> SLEPc.EPS:
         """Shift-and-invert at a target, with a given inverse of the current matrix or with MUMPS.
 
         With a given inverse it is the same object each time: to make one costs as much as a small spectrum.
@@ -96,8 +101,9 @@ class Stability:
             eps, self._inverse.solve = self._kept, inverse
         eps.setOperators(self.system.matrix, self.system.mass)
         eps.setTarget(target)
-        basis = min(max(2 * wanted, wanted + 15), self.system.matrix.getSize()[0])  # SLEPc's rule
-        eps.setDimensions(nev=wanted, ncv=basis)
+        usual = max(2 * wanted, wanted + 15)  # SLEPc's rule
+        basis = min(wider * usual, self.system.matrix.getSize()[0])
+        eps.setDimensions(nev=wanted, ncv=basis, mpd=basis)
         eps.setTolerances(tol=1e-12, max_it=200)
         eps.setFromOptions()
         return eps
@@ -280,7 +286,11 @@ class Stability:
 
     def _eigenvalues(self, wanted: int, inverse: Inverse, target: float = 0.0) -> np.ndarray:
         """At least ``wanted`` eigenvalues nearest to a target, ascending; the matrix is ``K - target M``."""
-        return np.sort(self._near(self._solver(wanted, inverse=inverse), wanted, _values)) + target
+        try:
+            found = self._near(self._solver(wanted, inverse=inverse), wanted, _values)
+        except ConvergenceError:
+            found = self._near(self._solver(wanted, inverse=inverse, wider=CROWDED), wanted, _values)
+        return np.sort(found) + target
 
     def lowest_against(self, state: State, other: PETSc.Mat) -> float:
         r"""The lowest eigenvalue of :math:`K x = \nu A x`, for positive ``K`` and non-negative ``A``.
