@@ -87,7 +87,7 @@ class MirroredBranch(FittedBranch, EquilibriumBranch):
         return EquilibriumBranch.special(self)
 
     def _fold(self, i: int) -> Solved:
-        return self._root(i, self._control_rate(i), "limit_point")
+        return self._turn(i)
 
 
 class FoldLine(SolutionCurve):
