@@ -49,6 +49,6 @@ def allowed(place: str, spec: str) -> float:
     name = place.removesuffix(", uncertainty").split()[-1]
     if name in TRACTIONS and "contact=frictionless" in spec:
         return OF_DEGREE_6 if "degree=6" in spec else FRICTIONLESS
-    if name in TRACTIONS and "spring=unilateral" in spec:
+    if name in (*TRACTIONS, "line_force", "line_force_membrane") and "spring=unilateral" in spec:
         return LETTING_GO
     return LOOSER.get(name, TOLERANCE)
