@@ -271,7 +271,7 @@ def level_counted_double(monkeypatch):
 
 def uniform_thickness(monkeypatch):
     monkeypatch.setattr(
-        "weakforms.problems.wrinkled.problem.CYLINDER", replace(CYLINDER, thickness=lambda s, q: 1.0 + 0 * s)
+        "weakforms.problems.wrinkled.body.CYLINDER", replace(CYLINDER, thickness=lambda s, q: 1.0 + 0 * s)
     )
 
 

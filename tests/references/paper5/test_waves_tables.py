@@ -11,6 +11,7 @@ from reference_data.solvers.paper5 import tables_bending as paper5_bending
 from reference_data.solvers.paper5 import tables_cylinder as paper5
 from reference_data.solvers.paper5 import tables_hemisphere as paper5_hemisphere
 from reference_data.solvers.paper5 import tables_linearised as paper5_linearised
+from reference_data.solvers.paper5 import tables_other_hemispheres as paper5_others
 from reference_data.solvers.paper5 import tables_surface as paper5_surface
 from reference_data.solvers.paper5.cases import cylinder
 from reference_data.solvers.paper5.hemisphere.states import levels
@@ -18,7 +19,7 @@ from reference_data.solvers.paper5.waves.cylinder import FLUID, quadratic
 
 pytestmark = pytest.mark.paper5
 DATA = Path(__file__).resolve().parents[3] / "reference_data" / "paper5"
-MODULES = (paper5, paper5_bending, paper5_hemisphere, paper5_linearised, paper5_surface)
+MODULES = (paper5, paper5_bending, paper5_hemisphere, paper5_linearised, paper5_others, paper5_surface)
 NAMES = sorted(name for m in MODULES for name in m.TABLES)
 
 
