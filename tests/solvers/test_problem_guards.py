@@ -242,16 +242,16 @@ def test_a_wrinkled_branch_without_a_single_state():
 
 @pytest.mark.parametrize("limits", [0, 2])
 def test_a_limit_load_that_is_not_one(limits, monkeypatch):
-    continuation = SimpleNamespace(start=always(None))
-    monkeypatch.setattr(wrinkled_branch, "Continuation", always(continuation))
-    monkeypatch.setattr(wrinkled_branch, "solver_of", always(None))
+    continuation = SimpleNamespace(start=always(SimpleNamespace(tangent=SimpleNamespace(loads={"p": 1.0}))))
+    monkeypatch.setattr(wrinkled_fitted, "Continuation", always(continuation))
+    monkeypatch.setattr(wrinkled_fitted, "solver_of", always(None))
     found = SimpleNamespace(special=always([None] * limits))
-    monkeypatch.setattr(wrinkled_branch, "FittedBranch", always(found))
+    monkeypatch.setattr(wrinkled_fitted, "FittedBranch", always(found))
     model = SimpleNamespace(system=SimpleNamespace(weighed_here=nullcontext))
     held = SimpleNamespace(model=model, lent=nullcontext, scalars=("p",), constraints=(), state=None)
-    told = bare(wrinkled_branch.WrinkledBranch, control="p")
+    told = bare(wrinkled_fitted.FittedMembrane, control="p")
     words = f"^{limits} limit loads between V = 4 and 6 on a fitted mesh$"
-    refused(words, told._limit_from, held, 4.0, 6.0)
+    refused(words, told.limit, held, 4.0, 6.0)
 
 
 def unloaded(gw):
@@ -282,10 +282,10 @@ def at_load(load, touched=2.0):
 def test_an_event_of_a_zone_outside_its_bracket(load, touched):
     membrane = SimpleNamespace(length=4.0, control="p", touching=always([at_load(1.5)] * 2))
     located = wrinkled_events._located
-    given = membrane, at_load(1.0), at_load(3.0), (1.0, 3.0, 1.0), 0, True
+    given = membrane, at_load(1.0), at_load(3.0), (1.0, 3.0, 1.0), 0, "p", True
     assert located(*given)[0].kind == "zone_opening"
     membrane.touching = always([at_load(load, touched)] * 2)
-    refused(rf"^a zone's event was found at {load:g}, outside \[1, 3\]$", located, *given)
+    refused(rf"^a zone's event was found at p = {load:g}, outside \[1, 3\]$", located, *given)
 
 
 @pytest.mark.parametrize(("radius", "inside_out"), [(1.0, False), (-0.1, True)])
