@@ -108,12 +108,25 @@ def test_a_heavy_liquid_has_a_limit_load_and_a_zone_that_closes_near_it(given, n
             r"gamma = 4\.\d+: allowed with this stiffness of the law: 0\.2 to 1\.6;",
         ),
         ({"c2": 1.0, "gamma": 1.0}, "allowed with this stiffness of the law: 2 to 16"),
-        ({"energy": "standard"}, "of -1.1: with energy = 'standard' .*raise low_end and zw to -0.9"),
+        (
+            {"energy": "standard", "low_end": -1.1},
+            "of -1.1: with energy = 'standard' .*raise low_end and zw to -0.9",
+        ),
     ],
 )
 def test_what_has_no_states_is_refused_with_what_to_change(given, message):
     with pytest.raises(InputError, match=message):
         solve_requests("hemisphere", given, COARSE, [], branch_uncertainty=False)
+
+
+@pytest.mark.parametrize(
+    ("given", "begin"),
+    [({}, -1.1), ({"energy": "standard"}, -0.9), ({"energy": "standard", "low_end": -0.85}, -0.85)],
+)
+def test_the_full_energy_begins_where_it_has_states(given, begin):
+    assert validated(HemisphereParameters, given, "hemisphere").low_end == begin
+    gas = validated(HemisphereParameters, {**given, "load": "gas"}, "hemisphere")
+    assert ("low_end" in gas.model_fields_set) == ("low_end" in given), "no warning that it has no effect"
 
 
 def test_a_highest_level_below_the_first_one_is_an_absence():

@@ -14,11 +14,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from mpi4py import MPI
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
@@ -96,13 +96,17 @@ class HemisphereParameters(MaterialChoice):
     thickness: text_over("t") = Field(  # type: ignore[valid-type]
         None, description="thickness over h by the angle t from the pole, such as '1 + 0.2*cos(2*t)'"
     )
-    energy: Energy = Field("relaxed", description=f"{TREATMENT} (it needs low_end = -0.9 or higher)")
+    energy: Energy = Field("relaxed", description=TREATMENT)
     n: WaveNumbers = Field((), description="wave numbers for which stability is computed, such as 10,50")
     beta: float = Field(
         0.0, ge=0, le=1, description="additional bending stiffness against waves, over C1 h Ao^2"
     )
-    low_end: float = Field(LOW_END, ge=LOWEST_LEVEL, le=START, description="level at which the branch starts")
-
+    low_end: float = Field(
+        LOW_END,
+        ge=LOWEST_LEVEL,
+        le=START,
+        description=f"level at which the branch starts ({COMPRESSED:g} if energy = standard)",
+    )
     past: float = Field(
         0.01, ge=0.002, le=0.3, description="decrease of the load below its maximum at the end of the branch"
     )
@@ -112,6 +116,14 @@ class HemisphereParameters(MaterialChoice):
     volume_end: float = Field(
         30.0, gt=1, le=1000, description="volume over the first one at which the branch ends at the latest"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _above_compression(cls, given: Any) -> Any:
+        """Start the full energy where it has states, unless a level is given."""
+        if isinstance(given, dict) and given.get("energy") == "standard" and given.get("load") != "gas":
+            return {"low_end": COMPRESSED} | given
+        return given
 
     @property
     def control(self) -> str:
