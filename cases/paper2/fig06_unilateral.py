@@ -69,7 +69,7 @@ CASE = Case(
         "t1_mid": 5e-8,
         "line_force": 1e-5,
         "line_force_membrane": 1e-5,
-        "traction_max": 1e-5,
-        "spring_max": 2e-7,
+        "traction_max": 3e-5,
+        "spring_max": 5e-7,
     },
 )

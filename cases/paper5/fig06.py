@@ -10,7 +10,7 @@ from weakforms.cases import At, Axis, Case, Claim, Curve, Finding, Panel, Soluti
 
 TUBE = wrinkled_tube(M=1.5, delta=3, Af=0.4362, n=(100,), load_end=4.0).on(cells=24)
 SHOWN = At("zw", 3.0, profile=(), field="mode_n100")
-ASKED = {"meridional": 1e-5, "circumferential": 1e-7, "normal": 1e-7}
+ASKED = {"meridional": 1e-5, "circumferential": 1e-6, "normal": 5e-7}
 """Accuracy relative to the largest value of each part; the meridional part is 200 times smaller than the
 others."""
 PARTS = tuple(ASKED)

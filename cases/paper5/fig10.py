@@ -83,7 +83,7 @@ CASE = Case(
                     rf"$\Lambda_{k}$",
                     reference=f"modes_hemisphere_n_{n}",
                     y=f"Lambda_{k}",
-                    asked={f"Lambda_{k}": 1e-7},
+                    asked={f"Lambda_{k}": 4e-7},
                     columns={f"Lambda_{k}": f"Lambda_n{n}_{k}"},
                 )
                 for k in (1, 2, 3)

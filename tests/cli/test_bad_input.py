@@ -68,7 +68,6 @@ def refused(weakforms, solves, tmp_path, monkeypatch):
         (f"{TUBE} --set alpha", "--set 'alpha' NAME=VALUE"),
         (f"{TUBE} --set =1", "--set '=1' NAME=VALUE"),
         (f"{TUBE} --set phase=deflation", "phase 'deflation' allowed"),
-        (f"{TUBE} --set contact=frictionless --set extent=full", "contact allowed"),
         (f"{TUBE} --set contact=glue", "contact 'glue' 'none'"),
         (f"{TUBE} --mesh cells=4", "cells '4' greater than or equal to 8"),
         (f"{TUBE} --mesh cells=97", "cells multiple of 4"),

@@ -27,6 +27,7 @@ PAGES = {
     "index.html",
     "junit.xml",
     "paper2.html",
+    "paper2-checks.html",
     "report.json",
 }
 

@@ -79,8 +79,8 @@ def test_a_root_that_is_never_reached_is_none():
 def test_zones_that_change_one_by_one_are_not_a_pair():
     zones = lambda *fronts, first=1: SimpleNamespace(zones=SimpleNamespace(fronts=fronts, first=first))  # noqa: E731
     told = wrinkled_events._at_both_ends
-    refused("several zones change at once", told, None, zones(), zones(2.0), 1, True)
-    refused("several zones change at once", told, None, zones(), zones(2.0, 6.0), 1, True)
+    refused("several zones change at once", told, None, zones(), zones(2.0), 1, "zw", True)
+    refused("several zones change at once", told, None, zones(), zones(2.0, 6.0), 1, "zw", True)
 
 
 def test_a_change_of_stability_that_the_surface_does_not_have():

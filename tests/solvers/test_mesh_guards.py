@@ -118,7 +118,7 @@ def part(name, values, **fixed):
         failures=[],
         branch=lambda _: Branch("primary", "p", {**columns, "front": columns["u"]}, {}),
         special_points=list,
-        fine=SimpleNamespace(columns=lambda: columns, crossings=crossings),
+        fine=SimpleNamespace(columns=lambda: columns, crossings=crossings, over_points=columns.get),
         state=lambda wanted, value, crossing, _: State(
             {wanted: value}, name, {"front": Quantity(9.0), "own": Quantity(crossing)}, (), crossing
         ),

@@ -21,7 +21,7 @@ ASKED = {
     "V": 5e-8,
     "line_force": 1e-5,
     "traction_front": 5e-5,
-    "traction_max": 5e-5,
+    "traction_max": 1e-4,
     "spring_max": 5e-7,
 }
 

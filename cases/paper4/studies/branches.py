@@ -120,6 +120,6 @@ CASE = Case(
         "N": 5e-9,
         "gw_max": 1e-6,
         "gw_min": 5e-9,
-        "wrinkled_fraction": 2e-7,
+        "wrinkled_fraction": 1e-6,
     },
 )

@@ -92,5 +92,5 @@ def test_an_interval_is_halved_only_as_often_as_allowed(monkeypatch):
 
     membrane = SimpleNamespace(control="p", length=1.0, fitted=fitted)
     monkeypatch.setattr(events, "_leaps", lambda *_: True)
-    assert events._between(membrane, same, same, 0, np.zeros(2), halvings=3) == []
+    assert events._between(membrane, same, same, 0, "p", np.zeros(2), halvings=3) == []
     assert len(middles) == 7

@@ -44,7 +44,7 @@ def tube_value(given, model: str) -> tuple[str, float, str, float]:
 
 def hemisphere_value(given, model: str) -> tuple[str, float, str, float]:
     """Height of the hemisphere's pole at a level."""
-    state = start(-0.6, Hemisphere(given, hemisphere.WEIGHTS[model]))
+    state = start(Hemisphere(given, hemisphere.WEIGHTS[model]), -0.6)
     return "zw", -0.6, "z_pole", float(state.y[0, 0, 1])
 
 

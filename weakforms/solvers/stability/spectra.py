@@ -42,6 +42,10 @@ BESIDE = 1e-4
 Found = TypeVar("Found")
 
 
+class _UnfoundError(ConvergenceError):
+    """Fewer eigenvalues converged than were wanted."""
+
+
 @dataclass(frozen=True)
 class Spectrum:
     """Lowest eigenvalues of ``K x = μ M x`` in ascending order, and the inertia's count of negative ones."""
@@ -288,7 +292,7 @@ class Stability:
         """At least ``wanted`` eigenvalues nearest to a target, ascending; the matrix is ``K - target M``."""
         try:
             found = self._near(self._solver(wanted, inverse=inverse), wanted, _values)
-        except ConvergenceError:
+        except _UnfoundError:
             found = self._near(self._solver(wanted, inverse=inverse, wider=CROWDED), wanted, _values)
         return np.sort(found) + target
 
@@ -316,7 +320,7 @@ class Stability:
         try:
             self._run(eps)
             if eps.getConverged() < wanted:
-                raise ConvergenceError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
+                raise _UnfoundError(f"SLEPc converged {eps.getConverged()} of {wanted} eigenvalues")
             found = read(eps)
         finally:
             if self._inverse is not None:
