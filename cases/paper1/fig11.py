@@ -78,7 +78,8 @@ def from_zero(solutions: Solutions) -> Finding:
     found = []
     for name, pressures in HIGH.items():
         for p in pressures:
-            g, rho = (solutions.along(CURVES[name, p], column)[::-1] for column in ("G", "rho_contact"))
+            g, branch = solutions.along(CURVES[name, p], "G")[::-1], solutions.branch(CURVES[name, p])
+            rho = decide.Number(branch.columns["rho_contact"], branch.uncertainty["rho_contact"])[::-1]
             given = {"beta": 1, "k": 50} | dict(SETS[name][0].parameters) | {"p": p}
             row = np.all([START.columns[n] == given[n] for n in ("alpha", "beta", "k", "p")], axis=0)
             known = START.number("rho_contact")[row][0]

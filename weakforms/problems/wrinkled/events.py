@@ -21,9 +21,9 @@ HALVINGS = 24
 LARGE_MOVE = 0.1
 """If a front moves by more than this fraction of the length, the states in between are examined."""
 
-SLACK = 1e-6
+SLACK = 1e-5
 """Largest relative distance of an event from its interval, because a new zone is detected only when it has
-some width."""
+some width. Near a limit load, where intervals are of volume, the volume grows much until then."""
 
 VERGE = 1e-9
 """If ``gw`` differs from 1 by less at an end of the unloaded membrane, a zone exists there from the start."""

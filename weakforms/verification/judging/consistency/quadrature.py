@@ -119,9 +119,10 @@ def extreme(x: np.ndarray, y: np.ndarray, pick: Callable[[np.ndarray], int]) -> 
         return float(y[i]), 0.0
     about = np.linspace(x[i - 1], x[i + 1], PLACES)
     values, others = (spline(about) for spline in splines(x, y))
-    fine, coarse = float(values[pick(values)]), float(others[pick(others)])
+    fine = float(values[pick(values)])
+    apart = float(np.max(np.abs(values - others)))  # the difference at the tops alone may happen to vanish
     between = float(np.max(np.abs(np.diff(values, 2))))  # more than the top rises above the places looked at
-    return fine, SAFETY * abs(fine - coarse) + between
+    return fine, SAFETY * apart + between
 
 
 def lengths(edges: list[float], inside: Callable[[float], bool]) -> float:
