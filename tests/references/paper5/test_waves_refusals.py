@@ -66,6 +66,7 @@ def test_a_row_of_a_mode_that_is_no_end_of_a_part(monkeypatch):
     spectrum = SimpleNamespace(forms=(), parts=always([parts]))
     monkeypatch.setattr(tables_cylinder.rel, "cylinder", always(spectrum))
     monkeypatch.setattr(tables_cylinder.cas, "solved", always(SimpleNamespace(tracked=())))
+    monkeypatch.setattr(tables_cylinder, "MODE_SPLITS", ())
     transfer = SimpleNamespace(mode=always((np.array([0.3, 0.7]), vector)))
     monkeypatch.setattr(tables_cylinder, "Transfer", always(transfer))
     refused("^table t: a row is not an end of a part$", tables_cylinder.mode, "t", 100, 3.0)

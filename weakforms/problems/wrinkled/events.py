@@ -21,9 +21,9 @@ HALVINGS = 24
 LARGE_MOVE = 0.1
 """If a front moves by more than this fraction of the length, the states in between are examined."""
 
-SLACK = 1e-5
-"""Largest relative distance of an event from its interval, because a new zone is detected only when it has
-some width. Near a limit load, where intervals are of volume, the volume grows much until then."""
+SLACK, VOLUME_SLACK = 1e-6, 1e-5
+"""Largest relative distance of an event from its interval, of a load or of the volume, because a new zone is
+detected only when it has some width. Near a limit load intervals are of the volume, which grows faster."""
 
 VERGE = 1e-9
 """If ``gw`` differs from 1 by less at an end of the unloaded membrane, a zone exists there from the start."""
@@ -187,7 +187,7 @@ def _located(
     levels = membrane.touching(absent, Touch(place, at_end))
     value, place = _value(levels[-1], name), levels[0].touched
     ends = sorted(_value(held, name) for held in (absent, present))
-    slack = SLACK * max(1.0, abs(ends[1]))
+    slack = (SLACK if name == membrane.control else VOLUME_SLACK) * max(1.0, abs(ends[1]))
     if not ends[0] - slack <= value <= ends[1] + slack or not 0 <= place <= membrane.length:
         raise ConvergenceError(
             f"a zone's event was found at {name} = {value:.12g}, outside [{ends[0]:.12g}, {ends[1]:.12g}]"
