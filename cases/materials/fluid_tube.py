@@ -3,7 +3,7 @@
 L = 8, delta = 2, gamma = 0.116 with mu = 2 S, where S is the stress by which the constants are divided.
 Primary branch, limit point, bifurcation with one wave and eigenvalues are compared with the paper's reference
 codes, which implement the laws separately. All tubes except Ogden's bifurcate much later than the neo-Hookean
-one. The Mooney-Rivlin tube is the paper's form with ``alpha = 0.1``, which is zero in the paper.
+one. The Mooney-Rivlin tube is the paper's form with alpha = 0.1, which is zero in the paper.
 """
 
 from weakforms.cases import (

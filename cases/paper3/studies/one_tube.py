@@ -1,6 +1,6 @@
 """Paper 3: critical points and signs of eigenvalues of one tube, L = 8, delta = 2, gamma = 0.116.
 
-Case ``critical`` checks the same for every tube; this case is small enough for the quick profile.
+The case paper3.critical checks the same for every tube; this case is small enough for the quick profile.
 """
 
 from weakforms.cases import Case, Claim, Finding, Points, Solutions, decide, fluid_tube

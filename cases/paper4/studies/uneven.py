@@ -75,31 +75,24 @@ def wrinkled_at_the_ends(solutions: Solutions) -> Finding:
     )
 
 
+WIDEST = Axis("r_max", 0.5, 0.9)
+
 CASE = Case(
     title="Membranes of a thickness given as an expression",
     source="Patil, Nordmark & Eriksson (2015), section 5.1; other thicknesses",
-    panels=(
+    panels=tuple(
         Panel(
-            "fluid",
-            x=Axis("zw", 0, 12),
-            y=Axis("r_max", 0.5, 0.9),
+            name,
+            x=x,
+            y=y,
             note="Not a figure of the paper.",
-            curves=(Curve(FLUID, "cylinder, fluid", reference="uneven_tube_fluid"),),
-        ),
-        Panel(
-            "gas",
-            x=Axis("p", 0, 0.3),
-            y=Axis("r_max", 0.5, 0.9),
-            note="Not a figure of the paper.",
-            curves=(Curve(GAS, "cylinder, gas", reference="uneven_tube_gas"),),
-        ),
-        Panel(
-            "disk",
-            x=Axis("p", 0, 6),
-            y=Axis("t0", 0, 2),
-            note="Not a figure of the paper.",
-            curves=(Curve(DISK, "flat disk", reference="uneven_disk"),),
-        ),
+            curves=(Curve(spec, label, reference=table),),
+        )
+        for name, spec, label, table, x, y in (
+            ("fluid", FLUID, "cylinder, fluid", "uneven_tube_fluid", Axis("zw", 0, 12), WIDEST),
+            ("gas", GAS, "cylinder, gas", "uneven_tube_gas", Axis("p", 0, 0.3), WIDEST),
+            ("disk", DISK, "flat disk", "uneven_disk", Axis("p", 0, 6), Axis("t0", 0, 2)),
+        )
     ),
     checks=(
         Claim(

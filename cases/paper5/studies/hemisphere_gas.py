@@ -1,8 +1,8 @@
 """Paper 5: the hemisphere under gas instead of liquid, which is taut at every pressure.
 
 Its middle is a part of a sphere. The equator cannot grow, so that at small pressures there is a layer of
-width ``sqrt(p/12)``: with the resultant ``p/2`` along the meridian, the modulus ``6 C1 h`` and the growth
-``w = p/24`` of the sphere, ``p/2 w'' = 6 (w - p/24)``. The meridian turns by ``sqrt(p/48)`` at the equator.
+width sqrt(p/12): with the resultant p/2 along the meridian, the modulus 6 C1 h and the growth
+w = p/24 of the sphere, p/2 w'' = 6 (w - p/24). The meridian turns by sqrt(p/48) at the equator.
 """
 
 from weakforms.cases import (

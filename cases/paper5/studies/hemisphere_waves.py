@@ -1,8 +1,8 @@
 """Paper 5: short waves around the hemisphere on triangles in space, against its spectrum by wave number.
 
 A mesh whose edges follow the meridians resolves waves that do not stretch the meridian; unstructured meshes
-stiffen them (95818 triangles show none at ``zw = -0.97``). On ``N`` columns of linear triangles ``n`` waves
-have the derivative of ``N/(2 pi) sin(2 pi n/N)`` waves, so that no more than ``N/(2 pi)`` are resolved: 51 on
+stiffen them (95818 triangles show none at zw = -0.97). On N columns of linear triangles n waves
+have the derivative of N/(2 pi) sin(2 pi n/N) waves, so that no more than N/(2 pi) are resolved: 51 on
 the finer mesh here.
 """
 

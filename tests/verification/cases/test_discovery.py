@@ -1,5 +1,6 @@
 """Cases are found by their place and selected by expressions that are parsed, never run."""
 
+import ast
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -175,3 +176,13 @@ def test_names_of_checks_are_known_beforehand_and_told_apart(found):
     names = check_ids(found)
     assert names
     assert len(set(names)) == len(names)
+
+
+def test_what_a_case_says_of_itself_is_plain_text():
+    """The report shows the docstring as text, in which marks of markup would stand."""
+    marked = [
+        found.id
+        for found in find_cases()
+        if "``" in (ast.get_docstring(ast.parse(found.path.read_text())) or "")
+    ]
+    assert marked == []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from operator import attrgetter
 
 from weakforms.errors import AbsentError, InputError
 from weakforms.problems.contact.phases import ContactPhases
@@ -11,11 +11,6 @@ from weakforms.results import Absence, SpecialPoint
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
 from weakforms.solvers.uncertainty.family import BranchFamily
-
-
-def _part(name: str, run: ContactPhases) -> SolutionCurve:
-    return getattr(run, name)
-
 
 MakeFamily = Callable[[Callable[[ContactPhases], SolutionCurve], bool], BranchFamily]
 """Makes the family of a phase, and is told whether its patch has a history."""
@@ -56,7 +51,7 @@ def contact_branch(
         why = f"{runs[-1].name}: {untouched}"
         return alone(lambda run: run.emptied if deflates else run.until_end, why)
     if deflates:
-        parts = [partial(_part, name) for name in runs[-1].deflations]
+        parts = [attrgetter(name) for name in runs[-1].deflations]
         return PiecewiseFamily([Piece(family(part, True), {}) for part in parts])
     free = Piece(family(lambda run: run.free, False), no_patch)
     try:
