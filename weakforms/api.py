@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from functools import partial
 from typing import Any, Literal
 
 from weakforms.errors import EnvironmentLackError, InputError, not_among
@@ -151,7 +151,7 @@ def prepared(
     """
     registry = require_environment()
     from weakforms.problems.accuracy import at_accuracy, require_accuracy
-    from weakforms.problems.problem import Requests, ended, silent, validated
+    from weakforms.problems.problem import Requests, silent, validated
     from weakforms.problems.reach import reached, within
 
     chosen = registry.get(problem)
@@ -163,22 +163,14 @@ def prepared(
     if accuracy is not None:
         require_accuracy(accuracy, problem, meshes)
 
-    def on(given: Any, numerics: Any, progress: Any) -> Result:
-        return chosen.solve(given, numerics, requests, world(), progress or silent)
-
-    def solve_with(given: Any, progress: Any) -> Result:
-        if accuracy is None:
-            result = on(given, meshes, progress)
-        else:
-            default = chosen.resolving(given, meshes)
-            result = at_accuracy(accuracy, default, lambda numerics: on(given, numerics, progress))
-        for k, branch in enumerate(result.branches):
-            end = branch.ended or ended(branch, chosen.ends(given, branch.name), result)
-            result.branches[k] = replace(branch, ended=end)
-        return result
-
     def run(progress: Any) -> Result:
-        result = reached(chosen, values, requests, lambda given: solve_with(given, progress))
+        def solve(given: Any, numerics: Any = meshes) -> Result:
+            return chosen.solve(given, numerics, requests, world(), progress or silent)
+
+        def resolved(given: Any) -> Result:
+            return at_accuracy(accuracy, chosen.resolving(given, meshes), partial(solve, given))
+
+        result = reached(chosen, values, requests, solve if accuracy is None else resolved)
         result.warnings.extend(values.without_effect())
         return result
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from functools import partial
 from typing import Any, Literal
 from weakforms.errors import EnvironmentLackError, InputError, not_among
 from weakforms.results import Result

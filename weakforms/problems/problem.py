@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -202,6 +202,9 @@ class Problem:
             provenance={},
         )
         self.fill(result, task)
+        for k, branch in enumerate(result.branches):
+            end = branch.ended or ended(branch, self.ends(parameters, branch.name), result)
+            result.branches[k] = replace(branch, ended=end)
         release(comm)
         result.provenance = provenance(comm, time.perf_counter() - begun)
         return result
