@@ -22,8 +22,10 @@ from canned_run import (
 )
 from matplotlib.figure import Figure
 
-from weakforms.verification.report import figures
-from weakforms.verification.report.figures import convergence_figure, panel_figure
+from weakforms.verification.report.figures import panel as panels
+from weakforms.verification.report.figures import residuals
+from weakforms.verification.report.figures.convergence import convergence_figure
+from weakforms.verification.report.figures.panel import panel_figure
 from weakforms.verification.report.junit import junit_xml
 from weakforms.verification.report.pages import GROUPS, render, render_whole
 from weakforms.verification.report.wording import typeset
@@ -183,7 +185,7 @@ def test_rows_out_of_bound_are_drawn_filled():
     one.residual_x, one.residual = [1.0, 2.0, 3.0, 4.0], [1e-9, 3e-8, 2e-9, 5e-8]
     one.residual_bound = [1e-8, 1e-8, 1e-8, 1e-8]
     axes = Figure().subplots()
-    figures._draw_residuals(axes, panel([one]), [])
+    residuals.draw_residuals(axes, panel([one]), [])
     marked = [line for line in axes.lines if line.get_linestyle() == "None"]
     drawn = {line.get_markerfacecolor() == "none": line.get_xydata().tolist() for line in marked}
     assert drawn[True] == [[1.0, 1e-9], [3.0, 2e-9]]
@@ -197,7 +199,7 @@ def test_of_many_rows_the_worst_of_each_group_are_drawn():
     one.residual[-215 - 1] = 5e-8
     one.residual_bound = [1e-8] * 400
     axes = Figure().subplots()
-    figures._draw_residuals(axes, panel([one]), [])
+    residuals.draw_residuals(axes, panel([one]), [])
     marked = [line for line in axes.lines if line.get_linestyle() == "None"]
     drawn = {line.get_markerfacecolor() == "none": line.get_xydata().tolist() for line in marked}
     assert drawn[False] == [[215.0, 5e-8]]
@@ -209,7 +211,7 @@ def test_what_is_unstable_is_drawn_dashed():
     x = [0.0, 1.0, 2.0, 3.0, 4.0]
     one = CurveOutcome("one", "", x, x, unstable=[False, False, False, True, True])
     axes = Figure().subplots()
-    figures._draw_curve(axes, one, 0)
+    panels._draw_curve(axes, one, 0)
     drawn = {line.get_linestyle(): line.get_xdata().tolist() for line in axes.lines if len(line.get_xdata())}
     assert drawn == {"-": [0.0, 1.0, 2.0], "--": [2.0, 3.0, 4.0]}
 
@@ -220,7 +222,7 @@ def test_reference_rows_outside_the_axes_are_left_out():
     )
     axes = Figure().subplots()
     axes.set(xlim=(0.5, 2.5), ylim=(9.0, 14.0))
-    figures._draw_curve(axes, one, 0)
+    panels._draw_curve(axes, one, 0)
     assert axes.lines[-1].get_xydata().tolist() == [[1.0, 11.0], [2.0, 12.0]]
 
 

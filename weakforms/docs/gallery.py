@@ -14,7 +14,7 @@ from markupsafe import Markup
 from weakforms.docs.prose import docstring
 from weakforms.terminal import WorkProgress
 from weakforms.verification.cases.references import ROOT
-from weakforms.verification.report.svg import inline_svg
+from weakforms.verification.report.figures.svg import inline_svg
 
 FOLDER = ROOT / "examples" / "gallery"
 ORDER = ("shapes", "balloon", "tube", "contact", "bending", "wrinkling", "own_law")

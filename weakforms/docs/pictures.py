@@ -13,7 +13,7 @@ from weakforms.terminal import WorkProgress
 from weakforms.verification.cases import examples
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome
-from weakforms.verification.report.figures import panel_figure
+from weakforms.verification.report.figures.panel import panel_figure
 from weakforms.verification.run.plan import Plan
 from weakforms.verification.run.solving import Solver
 

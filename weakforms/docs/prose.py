@@ -16,7 +16,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.mathtext import MathTextParser
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from weakforms.verification.report.figures import drawing, svg
+from weakforms.verification.report.figures.canvas import drawing, svg
 from weakforms.verification.report.wording import html_tex
 
 SIZE = 13.0

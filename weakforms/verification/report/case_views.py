@@ -15,11 +15,13 @@ from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import part
 from weakforms.verification.judging.outcome import CaseOutcome, Convergence, PanelOutcome, Verdict
 from weakforms.verification.report import summary, wording
-from weakforms.verification.report.figures import Picture, convergence_figure, panel_picture
+from weakforms.verification.report.figures.canvas import Picture
+from weakforms.verification.report.figures.convergence import convergence_figure
+from weakforms.verification.report.figures.panel import panel_picture
+from weakforms.verification.report.figures.surfaces import surface_figure
+from weakforms.verification.report.figures.svg import standalone
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.manual import manual, references
-from weakforms.verification.report.surface_figures import surface_figure
-from weakforms.verification.report.svg import standalone
 from weakforms.verification.report.wording import anchor, file_name, unused
 from weakforms.verification.run.workers import in_this_process, workers
 

@@ -29,9 +29,9 @@ from weakforms.verification.judging.outcome import (
 )
 from weakforms.verification.report import summary, thesis, wording
 from weakforms.verification.report.case_views import case_view, draw, figure_files
+from weakforms.verification.report.figures.svg import share_letters
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.look import LOOK, TEMPLATES
-from weakforms.verification.report.svg import share_letters
 from weakforms.verification.report.wording import file_name, unused
 
 RESERVED = (

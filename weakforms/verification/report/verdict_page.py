@@ -8,10 +8,10 @@ from markupsafe import Markup
 
 from weakforms.results.io import dumps, require_writable, write_atomically
 from weakforms.verification.crosscheck.verdicts import Verdicts
-from weakforms.verification.report.figures import panel_figure
+from weakforms.verification.report.figures.panel import panel_figure
+from weakforms.verification.report.figures.svg import standalone
 from weakforms.verification.report.look import LOOK
 from weakforms.verification.report.pages import template
-from weakforms.verification.report.svg import standalone
 
 
 def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:

@@ -1,4 +1,4 @@
-"""Surfaces in space as SVG, beside the panels of :mod:`weakforms.verification.report.figures`."""
+"""Surfaces in space as SVG, beside the panels of :mod:`weakforms.verification.report.figures.panel`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 
 from weakforms.verification.judging.outcome import SurfaceOutcome
-from weakforms.verification.report.figures import LOOK, as_math, drawing, svg
+from weakforms.verification.report.figures.canvas import as_math, drawing, svg
+from weakforms.verification.report.look import LOOK
 from weakforms.verification.report.wording import plain_tex
 
 LINES = 36
