@@ -188,6 +188,18 @@ def test_a_mesh_that_never_comes_to_rest_on_the_free_surface():
     assert len(moves) == fitted.FITS
 
 
+def test_a_level_that_does_not_reach_a_meridian():
+    """At the second of two angles the guess lies above the level as a whole."""
+    told = bare(fitted.Fitting, shape=lambda _state: lambda z, t: np.stack([z, z, z + 9.0 * t]))
+    told.model = SimpleNamespace(data=SimpleNamespace(L=8.0, length=8.0))
+    told.front = SimpleNamespace(angles=np.array([0.0, 0.125]), fitted=lambda wanted: wanted)
+    told._with_front = lambda _state, wanted: wanted
+    state = State(np.zeros(1), {"zw": 2.0})
+    np.testing.assert_allclose(told.on_its_front(state), [2.0, 0.875], atol=1e-12)
+    told.front.angles = np.array([0.0, 1.0])
+    refused(r"^the liquid at zw = 2 does not reach the meridian at 1$", told.on_its_front, state)
+
+
 def test_a_bifurcation_of_the_whole_surface_that_is_not_near():
     told = bare(whole_surface.WholeRun, full=False, begin=SimpleNamespace(values={"V": 5.0}))
     told._near = lambda volume: (volume, np.array([volume - 5.001]), 1.0)

@@ -139,6 +139,9 @@ class Fitting:
         """A state on the mesh of its front, which may be anywhere.
 
         The front is where meridians, from the upper ring down, meet the level.
+
+        Raises:
+            ConvergenceError: If one of them lies above the level as a whole.
         """
         zw = state.loads["zw"]
         if self.front is None or zw >= self.model.data.L:
@@ -147,7 +150,10 @@ class Fitting:
         wanted = []
         for theta in self.front.angles:
             height = shape(z, np.full_like(z, theta))[2] - zw
-            i = int(np.flatnonzero(height[:-1] <= 0)[-1])
+            below = np.flatnonzero(height[:-1] <= 0)
+            if not len(below):
+                raise ConvergenceError(f"the liquid at zw = {zw:.6g} does not reach the meridian at {theta:.3g}")
+            i = int(below[-1])
             wanted.append(z[i] - height[i] * (z[i + 1] - z[i]) / (height[i + 1] - height[i]))
         return self._with_front(state, self.front.fitted(np.array(wanted)))
 
