@@ -157,6 +157,17 @@ def test_a_scheme_ends_below_first_contact_at_its_last_pressure():
         solve("tube_scheme", p_end=1e-9, numerics={"cells": 32, "steps": 8})
 
 
+def test_a_scheme_of_a_law_that_makes_a_neck_without_pressure_reaches_a_low_one():
+    """The first guess, of uniform radius, was taken for the state without pressure."""
+    law = {"model": "saint_venant_kirchhoff", "shear": 5.738, "poisson": 0.2504}
+    tube = law | {"delta1": 4.456, "lf": 56.98}
+    given = tube | {"k": 5169.0, "s": 13.59, "p_end": 0.4301, "scheme": "pressure_steps"}
+    result = solve("tube_scheme", **given, numerics={"cells": 100, "steps": 8})
+    free = solve("tube", **tube, at={"p": 0.4301}, numerics={"cells": 16, "levels": 2}).states[0]
+    assert free.quantities["u_max"].value < -0.4
+    assert result.quantities["u_max"].value == pytest.approx(free.quantities["u_max"].value, rel=1e-3)
+
+
 @pytest.mark.parametrize(("counts", "first"), [((0, 1, 1), 1), ((1, 1, 1), 1), ((1, 0, 0), 1)])
 def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stability_there(
     counts, first, monkeypatch

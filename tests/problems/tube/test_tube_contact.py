@@ -119,6 +119,26 @@ def test_a_patch_that_is_still_short_at_p_end_has_its_history(changes):
         assert point.monitors["line_force"] < 1e-4
 
 
+@pytest.mark.parametrize(
+    ("changes", "p_end"),
+    [
+        ({"alpha": 0.0, "s": 2.6, "k": 100.0}, 3.0),
+        ({"alpha": 0.0, "s": 2.2, "k": 100.0}, 3.0),
+        ({"alpha": 0.08653, "delta1": 1.426, "lf": 10.78, "k": 110.9, "s": 1.199}, 12.0),
+    ],
+)
+def test_a_patch_that_grows_far_beyond_the_frictionless_one_has_its_history(changes, p_end):
+    """It was looked for with frictionless states, which are not there, or far away."""
+    run = TubePhases(MPI.COMM_SELF, data(**changes), p_end=p_end, step=0.08, terms=22)
+    slipping = run._slipping_span()
+    last = run.adhesive.at("p", p_end).state.loads["front"]
+    assert slipping < last <= run.history.span * (1 + 1e-6)
+    assert run.history.span < 1.3 * last
+    for point in run.adhesive.points[1:]:
+        assert point.monitors["lam1_mid"] == pytest.approx(run.onset.values["lam1_mid"], abs=1e-9)
+        assert point.monitors["line_force"] < 1e-3
+
+
 def test_a_largest_value_is_found_between_the_nodes():
     """At p = 3 the spring's largest force is inside the patch: its nodal values have errors of 1e-7."""
     table = reference(2, "off_contact_deflation_bilateral_alpha_0.1_delta1_1.5_lf_6")

@@ -17,8 +17,9 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranc
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
-SPANS, WIDER = 6, 1.02
-"""Spans tried for a history that the patch outgrows, or that is not found, and by how much they change."""
+SPANS, SMALLER, LARGER = 12, 1.08, 1.15
+"""Number of spans tried for a history that is not found, or that the patch outgrows, and by which factors they
+change. Outside of its span a history is extrapolated; the branch serves as a guess for a larger span."""
 
 BEYOND = 1e-6
 """By how much a patch may pass the end of its history, relative to that."""
@@ -65,25 +66,26 @@ class ContactPhases(Inflation):
     @cached_property
     def _stuck(self) -> tuple[History, FittedBranch]:
         """Find a history that covers the whole patch, which can grow larger than without friction."""
-        span, failed = self._slipping_span(), inf
+        span, found, before = self._slipping_span(), 0.0, None
         for _ in range(SPANS):
             try:
-                history = self._history(span)
-            except ConvergenceError:
-                failed, span = span, span / WIDER**4  # a patch that sticks may not grow so far
+                history = self._history(span, before)
+            except ConvergenceError:  # a patch that sticks may not grow as far as one that slips
+                span = (span + found) / 2 if found else span / SMALLER
                 continue
             first = self.frictionless.points[0]
             begin = stick_guess(history.model, Solved(first.monitors, first.state))
             branch = self._follow(history.model, begin)
-            if len(branch.crossings("p", self.p_end)):
-                reached = branch.at("p", self.p_end).state.loads["front"]
-            else:
-                reached = max(point.state.loads["front"] for point in branch.points)
+            farthest = max(point.state.loads["front"] for point in branch.points)
+            passes = len(branch.crossings("p", self.p_end)) > 0
+            reached = branch.at("p", self.p_end).state.loads["front"] if passes else farthest
             if reached <= span * (1 + BEYOND):
                 return history, branch
-            span = min(WIDER * reached, self.last_front * self.data.length)
-            if span >= failed:
-                break
+            found, before, span = (
+                span,
+                branch,
+                min(farthest, LARGER * span, self.last_front * self.data.length),
+            )
         raise ConvergenceError(
             f"{self.name}: the history of the stuck patch is not found up to a front at "
             f"{span / self.data.length:.4g} of the {self.whole}; lower p_end, or k"
@@ -107,16 +109,28 @@ class ContactPhases(Inflation):
         before = max(point.state.loads["front"] for point in trace.points[: int(crossed[0]) + 1])
         return max(before, trace.at("p", self.p_end).state.loads["front"])
 
-    def _history(self, span: float) -> History:
+    def _history(self, span: float, before: FittedBranch | None) -> History:
         """A model whose patch sticks, and its history up to a front.
+
+        Args:
+            span: The front.
+            before: A branch with a shorter history, for guesses; without one, frictionless states serve.
 
         Raises:
             ConvergenceError: If it is not found.
         """
         history = self.bonded(span)
-        slipped = [self._slipped(float(front)) for front in history.fronts]
-        history.solve([stick_guess(history.model, at) for at in slipped], history.guess(slipped))
+        known = [self._known(float(front), history.model, before) for front in history.fronts]
+        history.solve([state for state, _ in known], history.guess([solved for _, solved in known]))
         return history
+
+    def _known(self, front: float, model: PatchModel, before: FittedBranch | None) -> tuple[State, Solved]:
+        """A guess of the state with the edge of the stuck patch at a place, and what it is made of."""
+        if before is not None and len(before.crossings("front", front)):
+            solved = before.at("front", front)
+            return solved.state, solved
+        solved = self._slipped(front)
+        return stick_guess(model, solved), solved
 
     def _slipped(self, front: float) -> Solved:
         """Frictionless contact with the edge of the patch at a place, even beyond the traced ones."""

@@ -80,7 +80,8 @@ class FixedMesh(TubeModel):
     def touch(self) -> tuple[State, bool]:
         """Free inflation to first touch or, where it is below that, to the last pressure; which of both."""
         solver, given = ExtendedNewton(self.system, ["p"]), self.parameters
-        state, _ = first_state(solver, given.delta1)
+        guess, held = first_state(solver, given.delta1)
+        state, _ = solver.solve(guess, [held])  # a law that contracts more than others makes a neck at first
         first = state.loads["p"]
         if first >= given.p_end:
             raise InputError(

@@ -25,7 +25,7 @@ from weakforms.solvers.stability.eigensolver import (
     shift_and_invert,
 )
 
-LOWEST = -1e6
+LOWEST = -1e12
 """Lower limit of the search for eigenvalues."""
 
 BACKWARD_ERROR = 1e-12

@@ -152,7 +152,9 @@ class Fitting:
             height = shape(z, np.full_like(z, theta))[2] - zw
             below = np.flatnonzero(height[:-1] <= 0)
             if not len(below):
-                raise ConvergenceError(f"the liquid at zw = {zw:.6g} does not reach the meridian at {theta:.3g}")
+                raise ConvergenceError(
+                    f"the liquid at zw = {zw:.6g} does not reach the meridian at {theta:.3g}"
+                )
             i = int(below[-1])
             wanted.append(z[i] - height[i] * (z[i + 1] - z[i]) / (height[i + 1] - height[i]))
         return self._with_front(state, self.front.fitted(np.array(wanted)))
