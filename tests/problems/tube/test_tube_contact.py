@@ -8,13 +8,15 @@ import pytest
 from mpi4py import MPI
 
 import weakforms.problems.tube.model as tube_module
-from weakforms import InputError, reference, solve
+from weakforms import ConvergenceError, InputError, reference, solve
 from weakforms.forms import loads
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.tube.contact import ContactData
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.problems.tube.parameters import TubeNumerics, resolving
 from weakforms.problems.tube.phases import TubePhases
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.support.sampling import Sampler
 
 pytestmark = pytest.mark.paper2
@@ -137,6 +139,22 @@ def test_a_patch_that_grows_far_beyond_the_frictionless_one_has_its_history(chan
     for point in run.adhesive.points[1:]:
         assert point.monitors["lam1_mid"] == pytest.approx(run.onset.values["lam1_mid"], abs=1e-9)
         assert point.monitors["line_force"] < 1e-3
+
+
+def test_the_first_patch_against_a_stiff_spring_is_found_by_way_of_soft_ones():
+    """Newton's method led from the free membrane to stretches beyond the longest chain."""
+    law = Chosen("three_chain", (("nkt", 0.3411), ("links", 368.7)))
+    far = replace(data(delta1=1.507, lf=39.8, k=1778.0, s=14.81), law=law, cells=48)
+    run = TubePhases(MPI.COMM_SELF, far, p_end=11.0, step=0.08)
+    solver = ExtendedNewton(run.slip.system, ["p", "front"])
+    conditions = [Held("gap", 0.0), Held("front", run.first_front * far.length)]
+    with pytest.raises(ConvergenceError):
+        solver.solve(run.small_patch(), conditions)
+    found = run._stiffened(solver, run.small_patch(), conditions)
+    assert found.loads["k"] == 1778.0
+    again, record = solver.solve(found, conditions)
+    assert record.iterations <= 2
+    assert again.loads["p"] == pytest.approx(run.onset.values["p"], rel=1e-2)
 
 
 def test_a_largest_value_is_found_between_the_nodes():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from math import inf
 from typing import ClassVar
@@ -13,9 +14,13 @@ from weakforms.problems.contact.model import PatchModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, MirroredBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
+
+SOFTEST = -5.0
+"""Power of ten by which springs are softened at first, if the first state in contact is not found."""
 
 PASSED = 0.1
 """By how much of ``p_end`` a step of deflation may pass its last pressure."""
@@ -169,7 +174,11 @@ class Inflation:
             allowed=lambda state: all(0 < sign * state.loads[n] < length for n, sign in signs.items()),
         )
         first = Held("front", self.first_front * length)
-        start = continuation.start(state, first, towards={"front": 1.0})
+        try:
+            start = continuation.start(state, first, towards={"front": 1.0})
+        except ConvergenceError:
+            state = self._stiffened(solver, state, [*continuation.fixed, first])
+            start = continuation.start(state, first, towards={"front": 1.0})
         least = start.state.loads["p"]
         if least >= self.p_end:
             raise InputError(
@@ -199,6 +208,20 @@ class Inflation:
                 branch.stalled = None
                 branch.ended = f"{self.name}: {followed}: {ends(end)}; lower p_end"
         return branch
+
+    @staticmethod
+    def _stiffened(solver: ExtendedNewton, state: State, constraints: Sequence[Constraint]) -> State:
+        """The first state in contact, from one with soft springs, which are then stiffened in steps.
+
+        Against stiff springs, Newton's method leads from the free membrane to stretches that no law allows.
+        """
+        stiff = state.loads["k"]
+
+        def solve(before: State, power: float) -> State:
+            guess = State(before.u, before.loads | {"k": stiff * 10**power})
+            return solver.solve(guess, constraints)[0]
+
+        return walk(solve, solve(state, SOFTEST), SOFTEST, 0.0, 1.0)
 
     # -- steps and the way back --------------------------------------------------------------
 

@@ -18,8 +18,8 @@ from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
 SPANS, SMALLER, LARGER = 12, 1.08, 1.15
-"""Number of spans tried for a history that is not found, or that the patch outgrows, and by which factors they
-change. Outside of its span a history is extrapolated; the branch serves as a guess for a larger span."""
+"""Number of spans tried for a history that is not found, or that the patch outgrows, and by which factors
+they change. Beyond its span a history is extrapolated; the branch serves as a guess for a larger span."""
 
 BEYOND = 1e-6
 """By how much a patch may pass the end of its history, relative to that."""
