@@ -32,7 +32,7 @@ from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import LOAD, PAPER_GAMMA, TREATMENT, Energy, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
+from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import SolutionCurve

@@ -27,7 +27,7 @@ from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
+from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
 from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.uncertainty.refinement import estimate

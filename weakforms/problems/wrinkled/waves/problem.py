@@ -27,7 +27,7 @@ from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.about import WRINKLED_BENDING, WRINKLED_LINEAR
 from weakforms.problems.wrinkled.waves.bands import Bands
 from weakforms.problems.wrinkled.waves.koiter import shell_eigenvalue
-from weakforms.problems.wrinkled.waves.numbers import MOST_WAVES
+from weakforms.problems.wave_numbers import MOST_WAVES
 from weakforms.problems.wrinkled.waves.trial import trial_form
 from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.equilibrium import constraints as fixed

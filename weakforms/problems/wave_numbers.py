@@ -1,4 +1,4 @@
-"""Wave numbers around an axis, as a parameter of problems."""
+"""Wave numbers around an axis, as a parameter of problems, and the names of their eigenvalues."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import Annotated
 
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from weakforms.errors import InputError
 
@@ -64,3 +64,14 @@ def require_waves(problem: str, n: tuple[int, ...], wanted: Iterable[str]) -> No
 
 WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], BeforeValidator(_waves)]
 """Parameter ``n``: wave numbers around the axis for which stability is computed."""
+
+
+def most_waves(most: int) -> AfterValidator:
+    """Validator of wave numbers up to a smaller one."""
+
+    def within(numbers: tuple[int, ...]) -> tuple[int, ...]:
+        if max(numbers, default=0) > most:
+            raise ValueError(f"whole numbers from 0 to {most} are wanted, such as 0,1,2")
+        return numbers
+
+    return AfterValidator(within)

@@ -1,0 +1,120 @@
+r"""The tube's stability against waves of any symmetry: bending, bulges that move, wrinkles.
+
+The second variation of an axisymmetric state splits into families: one for each wave number ``n`` around the
+axis and, on half the tube, for each parity along it. A wave is *even* if the mid-plane is a mirror of the
+displaced tube and *odd* if the mirror reverses the displacement. A bent tube is ``n = 1``, even; a bulge that
+moves to one end is ``n = 0``, odd. The eigenvalues of both parities together are those of the whole tube. For
+``n = 0`` torsion is left out.
+
+.. math:: K x = \Lambda M x, \qquad
+          x^T M x = \int (u^2 + q^2 + w^2)\, \mathrm dZ \quad\text{(the mass of the axisymmetric states too)}
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.waves import AXIAL, CLAMPED, HOOP, RADIAL, MeridianWaves
+from weakforms.problems.tube.model import TubeModel
+from weakforms.problems.wave_numbers import LOWEST, eigenvalue_names
+from weakforms.solvers.stability.modes import SecondVariation, judged
+from weakforms.solvers.stability.spectra import Stability
+
+EVEN, ODD, WHOLE = 1, -1, 0
+"""Parity of a family; a whole tube has waves of both."""
+
+AT_MIDDLE = {EVEN: (AXIAL,), ODD: (RADIAL, HOOP), WHOLE: CLAMPED}
+"""Components that are zero at the first end: the mid-plane, or the disk of a whole tube."""
+
+EXTREMES = ("t_min", "Z_t_min")
+"""Columns: the smallest principal resultant of a state, and where it is."""
+
+
+@dataclass(frozen=True)
+class Wave:
+    """A family of waves."""
+
+    n: int
+    parity: int
+
+    @property
+    def kind(self) -> str:
+        """Kind of a special point at which its second variation is singular."""
+        return f"bifurcation_n{self.n}" if self.n else "mirror_breaking"
+
+    def __str__(self) -> str:
+        """The family in words."""
+        return {EVEN: "even waves of ", ODD: "odd waves of ", WHOLE: ""}[self.parity] + f"n = {self.n}"
+
+
+class TubeWaves(MeridianWaves):
+    """Second variations with the mass of the tube, ``int |dx|^2 dZ``."""
+
+    def density(self) -> float:
+        """One per ``Z``."""
+        return 1.0
+
+
+class TubeModes:
+    """Quantities along a branch: eigenvalues by wave number, and the smallest principal resultant.
+
+    Args:
+        model: The tube.
+        numbers: Wave numbers; 0 stands for axisymmetric waves.
+        full: Whether the tube is the whole one.
+    """
+
+    def __init__(self, model: TubeModel, numbers: tuple[int, ...], full: bool) -> None:
+        self.model, self.numbers, self.full = model, numbers, full
+        self.waves = TubeWaves(model)
+        parities = (WHOLE,) if full else (EVEN, ODD)
+        families = [Wave(n, parity) for n in numbers for parity in parities]
+        # The axisymmetric waves of the unknowns' own symmetry are those of the equilibrium equations.
+        self.wave_numbers = [w for w in families if w.n or w.parity == ODD]
+        self.columns = (*EXTREMES, *(name for n in numbers for name in eigenvalue_names(n)))
+        e, (t1, t2) = model.expressions, model.resultants
+        self._fields = Meridian(model, {"t1": t1, "t2": t2, "Z": e["S"]})
+        self._own = Stability(model.system)
+
+    def variation(self, wave: Wave) -> SecondVariation:
+        """The operator of a family."""
+        return self.waves.operator(wave.n, AT_MIDDLE[wave.parity], () if wave.n else (HOOP,))
+
+    def observe(self) -> dict[str, float]:
+        """The columns, and the lowest eigenvalue in the symmetry of the unknowns, ``eigenvalue_1``."""
+        with self.model.system.weighed_here():
+            own = judged(self._own, self.model.system.state(), LOWEST).eigenvalues
+        out = {"eigenvalue_1": own[0], **dict(zip(EXTREMES, self.least_resultant(), strict=True))}
+        for n in self.numbers:
+            found = [] if n else list(own)
+            for wave in self.wave_numbers:
+                if wave.n == n:
+                    found += self.variation(wave).spectrum(LOWEST).eigenvalues
+            out |= dict(zip(eigenvalue_names(n), sorted(found), strict=False))
+        return out
+
+    def least_resultant(self) -> tuple[float, float]:
+        """Smallest of both principal resultants anywhere, and its ``Z``."""
+        value, x = min(self._fields.extreme_at(name, -1) for name in ("t1", "t2"))
+        return value, float(self.model.material(x, {}))
+
+    def counts(self) -> dict[str, int]:
+        """Negative eigenvalues of every wave number, and of axisymmetric waves at fixed volume, by inertia.
+
+        The volume changes only with axisymmetric waves that have the symmetry of the unknowns.
+        """
+        system = self.model.system
+        factor = self._own.factor
+        factor.update()
+        own, out = factor.negative_count(), {}
+        for n in self.numbers:
+            broken = sum(self.variation(wave).negative_count() for wave in self.wave_numbers if wave.n == n)
+            out[f"n_negative_n{n}"] = broken + (0 if n else own)
+            if n == 0:
+                border = system.load_derivative("p")
+                # By Sylvester's law [K d; d' 0] has one more negative eigenvalue than K on d'x = 0.
+                factor.update()
+                rising = system.dot(border, factor.solve(border)) > 0
+                out["n_negative_volume"] = broken + own - (0 if rising else 1)
+        return out
