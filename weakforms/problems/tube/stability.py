@@ -34,30 +34,27 @@ class TubeBranch(ModalBranch):
 
     def special(self) -> list[Solved]:
         """Limit points, zeros of every family and onsets of wrinkling, in order along the branch."""
-        found = [(self.position(solved), solved) for solved in [*super().special(), *self._crossings()]]
-        found += [(self.position(solved), self.complete(solved)) for solved in self._onsets()]
-        return [self._flagged(solved) for _, solved in sorted(found, key=lambda item: item[0])]
+        return [self._flagged(solved) for solved in super().special()]
 
-    def position(self, solved: Solved) -> float:
-        """``u_max``, which increases along the branch."""
-        return solved.values["u_max"]
+    def _placed(self) -> list[tuple[float, Solved]]:
+        found = {i: Crossing(self, i).located() for i in self._symmetry_lost()}
+        onsets = [(self._arclength(i, s), s) for i in self._onsets() for s in [self._root(i, self._least, ONSET)]]
+        return [*super()._placed(), *((self._arclength(i, s), s) for i, s in found.items()), *onsets]
 
-    def _crossings(self) -> list[Solved]:
-        """Points where states of a whole tube lose their mirror symmetry."""
+    def _symmetry_lost(self) -> list[int]:
+        """Points of the trace after which states of a whole tube lose their mirror symmetry."""
         if not self.modes.full:
             return []
         limits = {id(point) for point, _ in self._limits}
         counts = np.array([point.n_negative for point in self.points])
-        changes = [i for i in np.flatnonzero(np.diff(counts)).tolist() if id(self.points[i]) not in limits]
-        return [self.complete(Crossing(self, i).located()) for i in changes]
+        return [i for i in np.flatnonzero(np.diff(counts)).tolist() if id(self.points[i]) not in limits]
 
-    def _onsets(self) -> list[Solved]:
-        """Points where the smallest principal resultant changes its sign."""
+    def _onsets(self) -> list[int]:
+        """Points of the trace after which the smallest principal resultant changes its sign."""
         least = self.over_points("t_min")
         sign = np.where(np.abs(least) > SLACK, np.sign(least), 0.0)
         known = np.flatnonzero(sign)
-        changes = [i for i, j in zip(known[:-1], known[1:], strict=True) if sign[i] * sign[j] < 0]
-        return [self._root(int(i), self._least, ONSET) for i in changes]
+        return [int(i) for i, j in zip(known[:-1], known[1:], strict=True) if sign[i] * sign[j] < 0]
 
     def _least(self, solved: Solved) -> float:
         with self.system.at(solved.state):

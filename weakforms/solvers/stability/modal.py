@@ -145,6 +145,10 @@ class ModalBranch(FittedBranch):
 
     def special(self) -> list[Solved]:
         """Limit points of the control and zeros of every family of modes, in order along the branch."""
+        return [self.complete(solved) for _, solved in sorted(self._placed(), key=lambda item: item[0])]
+
+    def _placed(self) -> list[tuple[float, Solved]]:
+        """The special points with their arc lengths."""
         found = [(point.arclength, solved) for point, solved in self._limits]
         for n in self.modes.wave_numbers:
             counts = self._counts(n)
@@ -157,7 +161,7 @@ class ModalBranch(FittedBranch):
             for i in changes:
                 solved = self._bifurcation(int(i), n)
                 found.append((self._arclength(int(i), solved), solved))
-        return [self.complete(solved) for _, solved in sorted(found, key=lambda item: item[0])]
+        return found
 
     def require_nothing_between(self) -> None:
         """Check the eigenvalues of every family as in the base class."""
