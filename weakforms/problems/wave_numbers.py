@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import Annotated
 
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import BeforeValidator, Field
 
 from weakforms.errors import InputError
 
@@ -14,20 +14,25 @@ MOST_WAVES = 400
 """Largest wave number that can be requested; larger ones were not tested on the default meshes."""
 
 
-def _waves(value: object) -> object:
-    """Wave numbers without repetition, from a list, one number, or text such as ``20,50``."""
-    given = value.split(",") if isinstance(value, str) else value
-    wanted = f"whole numbers from 0 to {MOST_WAVES} are wanted, such as 20,50"
-    found = []
-    for item in given if isinstance(given, list | tuple) else [given]:
-        try:
-            number = float(item)  # type: ignore[arg-type]
-        except (TypeError, ValueError):
-            raise ValueError(wanted) from None
-        if isinstance(item, bool) or number not in range(MOST_WAVES + 1):
-            raise ValueError(wanted)
-        found.append(int(number))
-    return tuple(dict.fromkeys(found))
+def wave_numbers(most: int) -> BeforeValidator:
+    """Validator of wave numbers up to a largest one: a list, one number, or text such as ``20,50``."""
+    wanted = f"whole numbers from 0 to {most} are wanted, such as {'20,50' if most > 50 else '0,1,2'}"
+
+    def given(value: object) -> object:
+        """Wave numbers without repetition."""
+        items = value.split(",") if isinstance(value, str) else value
+        found = []
+        for item in items if isinstance(items, list | tuple) else [items]:
+            try:
+                number = float(item)  # type: ignore[arg-type]
+            except (TypeError, ValueError):
+                raise ValueError(wanted) from None
+            if isinstance(item, bool) or number not in range(most + 1):
+                raise ValueError(wanted)
+            found.append(int(number))
+        return tuple(dict.fromkeys(found))
+
+    return BeforeValidator(given)
 
 
 LOWEST = 3
@@ -62,16 +67,7 @@ def require_waves(problem: str, n: tuple[int, ...], wanted: Iterable[str]) -> No
             )
 
 
-WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], BeforeValidator(_waves)]
+WaveNumbers = Annotated[
+    tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], wave_numbers(MOST_WAVES)
+]
 """Parameter ``n``: wave numbers around the axis for which stability is computed."""
-
-
-def most_waves(most: int) -> AfterValidator:
-    """Validator of wave numbers up to a smaller one."""
-
-    def within(numbers: tuple[int, ...]) -> tuple[int, ...]:
-        if max(numbers, default=0) > most:
-            raise ValueError(f"whole numbers from 0 to {most} are wanted, such as 0,1,2")
-        return numbers
-
-    return AfterValidator(within)

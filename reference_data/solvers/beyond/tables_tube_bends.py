@@ -24,13 +24,21 @@ from reference_data.solvers.core.tables import (
 from reference_data.solvers.paper2 import text
 from reference_data.solvers.registry import Builder
 
-U_STOP = 4.0
-"""Largest u_max that is searched, the end of the axes of figure 2."""
+U_END = {(0.0, 10.0): 2.5}
+"""Largest u_max that is searched, by alpha and lf; else 4, the end of the axes of figure 2. Far along the
+branch of a long neo-Hookean tube a bulge is hardly held in its place: the eigenvalue of mirror symmetry comes
+within rounding of zero."""
+
+
+def u_end(tube: Tube) -> float:
+    """Largest u_max that is searched."""
+    return U_END.get((tube.alpha, tube.lf), 4.0)
+
 
 RATIO = 1.045
 """Quotient of neighbouring volumes of the search."""
 
-BASES = ritz.Basis(8, 10), ritz.Basis(10, 12)
+BASES = ritz.Basis(10, 12), ritz.Basis(14, 14)
 ROUNDING = 2e-12, 3e-11
 """Relative rounding of roots by (b) and by (a), whose eigenvalues lose digits to small elements."""
 
@@ -56,6 +64,7 @@ COLUMNS = text.COLUMNS | {
     "parity": ("1", "of the wave along the axis: 1 even, -1 odd"),
     "direction": ("1", "1 if an eigenvalue becomes negative with growing volume, -1 if positive"),
     "Z_t_min": ("delta1 z/R_f", "place where the hoop resultant vanishes, from the mid-plane; disk at lf/2"),
+    "u_end": ("(R_mid - R_f)/R_f", "largest u_max that was searched"),
     "order": ("1", "number of the point of its kind along the branch"),
 }
 METHOD = (
@@ -96,13 +105,13 @@ class Point(NamedTuple):
 
 @cache
 def search(tube: Tube) -> Search:
-    """States from nearly no pressure to U_STOP."""
+    """States from nearly no pressure to the largest displacement."""
     volumes = tube.lf / 4 * RATIO ** np.arange(1, 120)
     first = strong.start(tube, strong.MESHES[-1], "V", float(volumes[0]))
     found = []
     for volume in volumes:
         first = strong.solve(first, V=float(volume))
-        if first.u_max > U_STOP:
+        if first.u_max > u_end(tube):
             break
         found.append(first)
     volumes = volumes[: len(found)]
@@ -202,6 +211,7 @@ def keys(points: list[Point], **more: list[float]) -> dict[str, list[float]]:
     """Columns that name a row."""
     tubes = [q.tube for q in points]
     own = {key: [getattr(tube, key) for tube in tubes] for key in ("alpha", "delta1", "lf")}
+    own["u_end"] = [u_end(tube) for tube in tubes]
     return own | more | {"order": [q.order for q in points]}
 
 
@@ -216,7 +226,7 @@ def table(
     named = keys(points, **more)
     rows = SERIES.keys(**named, direction=[q.direction for q in points]) + found
     extra = {"keys": list(named)}
-    return SERIES.table(name, title, "", {"u_max_searched": U_STOP}, rows, notes=notes, extra=extra)
+    return SERIES.table(name, title, "", {}, rows, notes=notes, extra=extra)
 
 
 def waves(name: str, order: tuple[Family, ...]) -> Table:

@@ -80,16 +80,19 @@ class MeridianWaves:
         """Mass per ``S``: that of the reference volume."""
         return self.model.expressions["weight"]
 
-    def formulation(self, lower: Sequence[int], everywhere: Sequence[int] = ()) -> Formulation:
+    def formulation(
+        self, lower: Sequence[int], upper: Sequence[int] = CLAMPED, everywhere: Sequence[int] = ()
+    ) -> Formulation:
         """First variation at the displaced state, mass and conditions.
 
         Args:
-            lower: Components that are zero at the first end; at the other one all are.
-            everywhere: Components that are zero everywhere.
+            lower: Components that are zero at the first end.
+            upper: At the last end.
+            everywhere: Everywhere.
         """
         model, width = self.model, self.model.expressions["width"]
         # The base system keeps derivatives of each operator by the name of its unknown.
-        d = fem.Function(self.space, name=f"waves_{''.join(map(str, lower))}_{''.join(map(str, everywhere))}")
+        d = fem.Function(self.space, name="_".join(["waves", *map(_digits, (lower, upper, everywhere))]))
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         dx = ufl.Measure("dx", model.mesh, metadata={"quadrature_degree": 4 * model.degree})
         residual = ufl.derivative(self.energy(*self.parts(d)) * width * dx, d, test)
@@ -98,17 +101,19 @@ class MeridianWaves:
             unknown=d,
             residual=residual,
             loads=model.loads,
-            bcs=self._conditions(lower, everywhere),
+            bcs=self._conditions(lower, upper, everywhere),
             mass=ufl.inner(own, others) * self.density() * width * dx,
             monitors={},
         )
 
-    def _conditions(self, lower: Sequence[int], everywhere: Sequence[int]) -> list[fem.DirichletBC]:
+    def _conditions(
+        self, lower: Sequence[int], upper: Sequence[int], everywhere: Sequence[int]
+    ) -> list[fem.DirichletBC]:
         """Zero components at both ends, and everywhere."""
         tags, mesh = self.model.tags, self.model.mesh
         mesh.topology.create_connectivity(1, 1)  # needed to locate the conditions
         cells = np.arange(mesh.topology.index_map(1).size_local + mesh.topology.index_map(1).num_ghosts)
-        held = [(i, 0, tags.find(LOWER)) for i in lower] + [(i, 0, tags.find(UPPER)) for i in CLAMPED]
+        held = [(i, 0, tags.find(LOWER)) for i in lower] + [(i, 0, tags.find(UPPER)) for i in upper]
         held += [(i, 1, cells.astype(np.int32)) for i in everywhere]
         out = []
         for component, dimension, entities in held:
@@ -117,10 +122,20 @@ class MeridianWaves:
             out.append(fem.dirichletbc(np.array(0.0), dofs, part))
         return out
 
-    def operator(self, n: float, lower: Sequence[int], everywhere: Sequence[int] = ()) -> SecondVariation:
+    def operator(
+        self,
+        n: float,
+        lower: Sequence[int],
+        upper: Sequence[int] = CLAMPED,
+        everywhere: Sequence[int] = (),
+    ) -> SecondVariation:
         """The operator for ``n`` waves with the conditions of :meth:`formulation`."""
         self.wave_number.value = n
-        key = tuple(lower), tuple(everywhere)
+        key = tuple(lower), tuple(upper), tuple(everywhere)
         if key not in self._variations:
             self._variations[key] = SecondVariation(self.formulation(*key), self.model.system)
         return self._variations[key]
+
+
+def _digits(numbers: Sequence[int]) -> str:
+    return "".join(map(str, numbers))

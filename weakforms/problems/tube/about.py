@@ -40,7 +40,7 @@ BIFURCATIONS = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, MOST_
 
 STABILITY = (
     Column("t_min", "smallest principal Cauchy resultant anywhere over {resultant}"),
-    Column("Z_t_min", "Z where it is", dimension="length"),
+    Column("Z_t_min", "distance of that place from the mid-plane on the pre-stretched tube over {length}"),
     *(
         Column(
             f"Lambda_n{n}_{k}",

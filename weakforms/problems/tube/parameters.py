@@ -11,7 +11,7 @@ from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs
 from weakforms.problems.tube.about import MOST_WAVES
-from weakforms.problems.wave_numbers import WaveNumbers, most_waves
+from weakforms.problems.wave_numbers import wave_numbers
 
 
 class TubeNumerics(MeshNumerics):
@@ -63,7 +63,7 @@ class TubeParameters(MaterialChoice):
     )
     u_end: float = Field(5.0, gt=0.05, le=10, description="u_max at which free inflation ends")
     extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
-    n: Annotated[WaveNumbers, most_waves(MOST_WAVES)] = Field(
+    n: Annotated[tuple[int, ...], wave_numbers(MOST_WAVES)] = Field(
         (),
         description="wave numbers for which stability is computed, such as 0,1,2; 0: axisymmetric, also "
         "without the mirror symmetry of half a tube",

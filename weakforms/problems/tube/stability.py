@@ -20,6 +20,9 @@ from weakforms.solvers.uncertainty.family import BranchFamily
 SLACK = 1e-9
 """Resultants below this magnitude count as zero: without pressure the hoop resultant is zero everywhere."""
 
+PLACES = 6
+"""Decimal places of the arc length by which special points are put in order."""
+
 ONSET = "wrinkling_onset"
 """Kind of the special point at which the smallest principal resultant passes zero."""
 
@@ -37,9 +40,16 @@ class TubeBranch(ModalBranch):
         return [self._flagged(solved) for solved in super().special()]
 
     def _placed(self) -> list[tuple[float, Solved]]:
-        found = {i: Crossing(self, i).located() for i in self._symmetry_lost()}
-        onsets = [(self._arclength(i, s), s) for i in self._onsets() for s in [self._root(i, self._least, ONSET)]]
-        return [*super()._placed(), *((self._arclength(i, s), s) for i, s in found.items()), *onsets]
+        found = super()._placed()
+        for i in self._symmetry_lost():
+            found.append(self._beside(i, Crossing(self, i).located()))
+        for i in self._onsets():
+            found.append(self._beside(i, self._root(i, self._least, ONSET)))
+        # Short even and odd waves are neutral at the same state to round-off: keep them in order on all meshes.
+        return [(round(s, PLACES), solved) for s, solved in found]
+
+    def _beside(self, i: int, solved: Solved) -> tuple[float, Solved]:
+        return self._arclength(i, solved), solved
 
     def _symmetry_lost(self) -> list[int]:
         """Points of the trace after which states of a whole tube lose their mirror symmetry."""
@@ -64,10 +74,15 @@ class TubeBranch(ModalBranch):
         """The point with ``wrinkled``: 1 if its membrane is compressed somewhere."""
         return replace(solved, values=solved.values | {"wrinkled": float(is_wrinkled(solved.values["t_min"]))})
 
-    def counted(self, state: State) -> dict[str, int]:
-        """Numbers of negative eigenvalues of a state, and whether it is wrinkled."""
+    def counted(self, state: State, own: int | None = None) -> dict[str, int]:
+        """Numbers of negative eigenvalues of a state, and whether it is wrinkled.
+
+        Args:
+            state: The state.
+            own: Number in the symmetry of the states, if it is known (at a limit point it is round-off's).
+        """
         with self.system.at(state):
-            return self.modes.counts() | {"wrinkled": int(is_wrinkled(self.modes.least_resultant()[0]))}
+            return self.modes.counts(own) | {"wrinkled": int(is_wrinkled(self.modes.least_resultant()[0]))}
 
     def _named(self, n: Wave, direction: float) -> tuple[str, dict[str, float]]:
         return n.kind, {"n": float(n.n), "parity": float(n.parity), "direction": direction}
@@ -87,7 +102,7 @@ class TubeFamily(ModalFamily):
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace, with the counts."""
-        rows = [self.fine.counted(point.state) for point in self.fine.points]
+        rows = [self.fine.counted(point.state, point.n_negative) for point in self.fine.points]
         return super()._trace() | {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:

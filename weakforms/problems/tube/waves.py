@@ -73,13 +73,13 @@ class TubeModes:
         # The axisymmetric waves of the unknowns' own symmetry are those of the equilibrium equations.
         self.wave_numbers = [w for w in families if w.n or w.parity == ODD]
         self.columns = (*EXTREMES, *(name for n in numbers for name in eigenvalue_names(n)))
-        e, (t1, t2) = model.expressions, model.resultants
-        self._fields = Meridian(model, {"t1": t1, "t2": t2, "Z": e["S"]})
+        t1, t2 = model.resultants
+        self._fields = Meridian(model, {"t1": t1, "t2": t2})
         self._own = Stability(model.system)
 
     def variation(self, wave: Wave) -> SecondVariation:
         """The operator of a family."""
-        return self.waves.operator(wave.n, AT_MIDDLE[wave.parity], () if wave.n else (HOOP,))
+        return self.waves.operator(wave.n, AT_MIDDLE[wave.parity], everywhere=() if wave.n else (HOOP,))
 
     def observe(self) -> dict[str, float]:
         """The columns, and the lowest eigenvalue in the symmetry of the unknowns, ``eigenvalue_1``."""
@@ -95,26 +95,36 @@ class TubeModes:
         return out
 
     def least_resultant(self) -> tuple[float, float]:
-        """Smallest of both principal resultants anywhere, and its ``Z``."""
+        """Smallest of both principal resultants anywhere, and its distance ``|Z|`` from the mid-plane."""
         value, x = min(self._fields.extreme_at(name, -1) for name in ("t1", "t2"))
-        return value, float(self.model.material(x, {}))
+        return value, abs(float(self.model.material(x, {})))
 
-    def counts(self) -> dict[str, int]:
+    def counts(self, own: int | None = None) -> dict[str, int]:
         """Negative eigenvalues of every wave number, and of axisymmetric waves at fixed volume, by inertia.
 
-        The volume changes only with axisymmetric waves that have the symmetry of the unknowns.
+        Args:
+            own: Number in the symmetry of the unknowns, if it is known.
         """
-        system = self.model.system
-        factor = self._own.factor
-        factor.update()
-        own, out = factor.negative_count(), {}
+        out = {}
         for n in self.numbers:
             broken = sum(self.variation(wave).negative_count() for wave in self.wave_numbers if wave.n == n)
-            out[f"n_negative_n{n}"] = broken + (0 if n else own)
-            if n == 0:
-                border = system.load_derivative("p")
-                # By Sylvester's law [K d; d' 0] has one more negative eigenvalue than K on d'x = 0.
-                factor.update()
-                rising = system.dot(border, factor.solve(border)) > 0
-                out["n_negative_volume"] = broken + own - (0 if rising else 1)
+            if n:
+                out[f"n_negative_n{n}"] = broken
+            else:
+                here, held = self._own_counts()
+                out["n_negative_n0"] = broken + (here if own is None else own)
+                out["n_negative_volume"] = broken + held
         return out
+
+    def _own_counts(self) -> tuple[int, int]:
+        r"""Negative eigenvalues in the symmetry of the unknowns, at fixed pressure and at fixed volume.
+
+        With the volume's gradient ``d``, the inertia of :math:`(K, d; d^T, 0)` is that of ``K`` and of
+        :math:`-d^T K^{-1} d`; less one negative eigenvalue it is that of ``K`` on :math:`d^T x = 0`. Other
+        waves do not change the volume.
+        """
+        system, factor = self.model.system, self._own.factor
+        factor.update()
+        border = system.load_derivative("p")
+        count = factor.negative_count()
+        return count, count - int(system.dot(border, factor.solve(border)) < 0)

@@ -190,9 +190,18 @@ class ModalBranch(FittedBranch):
             variation = self.modes.variation(n)
             border = variation.mass_times(variation.highest_negative().vector)
         kind, marks = self._named(n, 1.0 if after > before else -1.0)
-        solved = self._solve(guess, Singular(lambda: self.modes.variation(n), border), kind)
-        self.require_within(i, solved, f"bifurcation of {self._called(n)}")
+        singular = Singular(lambda: self.modes.variation(n), border)
+        try:
+            solved = self._solve(guess, singular, kind)
+            self.require_within(i, solved, f"bifurcation of {self._called(n)}")
+        except ConvergenceError:  # as for a limit point, root finding needs no good guess
+            solved = self._root(i, partial(self._singularity, singular), kind)
         return replace(solved, values=solved.values | marks)
+
+    def _singularity(self, singular: Singular, solved: Solved) -> float:
+        """``g`` of a state, which is zero where an operator is singular."""
+        with self.system.at(solved.state):
+            return singular.value(self.solver)
 
     def _called(self, n: Family) -> str:
         """A family of modes in words."""

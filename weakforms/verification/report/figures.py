@@ -48,7 +48,7 @@ SHOWN = 22
 ERRORS = 40
 """Largest number of errors drawn for a curve: of several rows beside each other the worst one."""
 SIDES = ((1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1))
-DASHED, ASKED = (0, (4, 2)), (0, (6, 2, 1, 2))
+DASHED, DOTTED, ASKED = (0, (4, 2)), (0, (1, 1.5)), (0, (6, 2, 1, 2))
 
 
 @dataclass(frozen=True)
@@ -192,6 +192,7 @@ def _panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
     named = [_key(as_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
     if any(any(curve.unstable) for curve in curves):
         keys = [_key(panel.full, None), _key(panel.dashed, None, ls=DASHED)]
+        keys += [_key(panel.dotted, None, ls=DOTTED)] * bool(panel.dotted)
     else:
         keys = [_key(as_math(panel.drawn), None)] * bool(curves)
     keys += [_key("path of a material point", None, ls=":")] * bool(panel.paths)
@@ -273,13 +274,13 @@ def _draw_curve(axes: Axes, curve: CurveOutcome, index: int) -> None:
     colour, marker = KINDS[index % len(KINDS)]
     x, y = _columns(curve.x, curve.y)
     marks = {} if curve.reference_x else {"marker": marker, "ms": 3, "markevery": 7}
-    unstable = np.zeros(len(x), bool)
+    unstable = np.zeros(len(x), int)
     unstable[: len(curve.unstable)] = curve.unstable[: len(x)]
-    dashed = unstable[1:] | unstable[:-1]
-    edges = [0, *(np.flatnonzero(np.diff(dashed.astype(int))) + 1), len(dashed)]
+    broken = np.minimum(np.maximum(unstable[1:], unstable[:-1]), 2)
+    edges = [0, *(np.flatnonzero(np.diff(broken)) + 1), len(broken)]
     for start, stop in pairwise(edges):
         if stop > start:
-            part, style = slice(start, stop + 1), DASHED if dashed[start] else "-"
+            part, style = slice(start, stop + 1), ("-", DASHED, DOTTED)[broken[start]]
             axes.plot(x[part], y[part], color=colour, ls=style, **marks)
     rows = _legible(axes, *_columns(curve.reference_x, curve.reference_y))
     axes.plot(*rows, marker, color=colour, mfc="none", clip_on=False, zorder=3)

@@ -98,26 +98,28 @@ def system(state: State, n: int) -> Array:
     return np.concatenate([top, bottom], axis=-2)
 
 
-def transfer(state: State, n: int) -> Array:
-    """Solution at the disk for unit values at the mid-plane, 6 x 6."""
+def transferred(state: State, n: int, begin: Array) -> Array:
+    """An orthonormal basis, at the disk, of the solutions with given values at the mid-plane.
+
+    It is made orthonormal again after every element, without a change of orientation: otherwise all columns
+    would turn to the solution that grows most.
+    """
     mesh, a = state.zones[0].mesh, system(state, n)
-    rule, widths = mesh.rule, mesh.widths * state.tube.length
-    points = len(rule.points)
-    out = np.eye(6)
-    for block, width in zip(a, widths, strict=True):
-        matrix = np.einsum("mq,ij->miqj", rule.deriv, np.eye(6))
-        matrix = matrix - width * np.einsum("mij,mq->miqj", block, rule.value)
+    points = len(mesh.rule.points)
+    for block, width in zip(a, mesh.widths * state.tube.length, strict=True):
+        matrix = np.einsum("mq,ij->miqj", mesh.rule.deriv, np.eye(6))
+        matrix = matrix - width * np.einsum("mij,mq->miqj", block, mesh.rule.value)
         flat = matrix.reshape(6 * points, 6 * (points + 1))
         step = np.linalg.solve(flat[:, 6:], -flat[:, :6])[-6:]
-        out = step @ out
-    return out
+        q, r = np.linalg.qr(step @ begin)
+        begin = q * np.sign(np.diag(r))
+    return begin
 
 
 def determinant(state: State, family: Family) -> float:
-    """The determinant, divided by the sizes of its columns; its sign tells sides of a neutral state apart."""
-    begin = [*family.free, *(3 + i for i in family.zero)]
-    block = transfer(state, family.n)[:3, begin]
-    return float(np.linalg.det(block / np.linalg.norm(block, axis=0)))
+    """The determinant; its sign tells sides of a neutral state apart."""
+    begin = np.eye(6)[:, [*family.free, *(3 + i for i in family.zero)]]
+    return float(np.linalg.det(transferred(state, family.n, begin)[:3]))
 
 
 def states(tube: Tube, volumes: Array) -> list[State]:
