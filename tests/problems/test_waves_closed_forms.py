@@ -42,14 +42,20 @@ def derivatives(law, l1, l2, h=5e-3):
     first = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280]) / h
     second = np.array([-1 / 560, 8 / 315, -1 / 5, 8 / 5, -205 / 72, 8 / 5, -1 / 5, 8 / 315, -1 / 560]) / h**2
     table = w((l1 + steps[:, None]) ** 2, (l2 + steps[None, :]) ** 2)
-    return first @ table[:, 4], table[4] @ first, second @ table[:, 4], first @ table @ first, table[4] @ second
+    return (
+        first @ table[:, 4],
+        table[4] @ first,
+        second @ table[:, 4],
+        first @ table @ first,
+        table[4] @ second,
+    )
 
 
-# -- an infinite tube -----------------------------------------------------------------------------------------
+# -- an infinite tube ---------------------------------------------------------------------------------
 
 
 def straight(law, lz, lt, length):
-    """A uniform tube whose ends slide on planes: model, state at the pressure of equilibrium, and pressure."""
+    """A uniform tube whose ends slide on planes: model, state of equilibrium, and its pressure."""
     body = Body(
         name="straight",
         parameters=(),
@@ -81,7 +87,9 @@ def symbol(law, lz, lt, p, n, k):
         x = np.array([lt + u * cz * cn, b * cz * (sn if n else 1), lz * z + v * sz * cn])
         a = np.array([-k * u * sz * cn, -k * b * sz * (sn if n else 1), lz + k * v * cz * cn])
         c = np.array([-n * u * cz * sn - x[1], x[0] + n * b * cz * cn, -n * v * sz * sn])
-        metric = np.moveaxis(np.array([[(a * a).sum(0), (a * c).sum(0)], [(a * c).sum(0), (c * c).sum(0)]]), (0, 1), (2, 3))
+        metric = np.moveaxis(
+            np.array([[(a * a).sum(0), (a * c).sum(0)], [(a * c).sum(0), (c * c).sum(0)]]), (0, 1), (2, 3)
+        )
         squares = np.linalg.eigvalsh(metric)
         normal = np.cross(c, a, axis=0)
         density = w(squares[..., 1], squares[..., 0]) - p * (x[0] * normal[0] + x[1] * normal[1]) / 2
@@ -105,10 +113,10 @@ def test_waves_of_a_uniform_tube_have_the_eigenvalues_of_its_symbol(law, n):
     with model.system.at(state):
         assert np.abs(model.system.residual()).max() < 1e-8
         found = waves.operator(n, (AXIAL,), (AXIAL,)).spectrum(6).eigenvalues
-    exact = np.sort(
-        np.concatenate([eigh(symbol(law, lz, lt, p, n, j * np.pi / length), eigvals_only=True) for j in range(1, 9)]
-                       + [eigh(symbol(law, lz, lt, p, n, 1e-6)[:2, :2], eigvals_only=True)])
-    )[:6]  # fmt: skip
+    waves_along = (j * np.pi / length for j in range(1, 9))
+    exact = [eigh(symbol(law, lz, lt, p, n, k), eigvals_only=True) for k in waves_along]
+    exact.append(eigh(symbol(law, lz, lt, p, n, 1e-6)[:2, :2], eigvals_only=True))
+    exact = np.sort(np.concatenate(exact))[:6]
     assert found == pytest.approx(exact, abs=3e-6 * np.abs(exact).max())
 
 
@@ -160,7 +168,7 @@ def test_a_tube_with_free_ends_may_be_moved_sideways():
     assert abs(forms[1]) > 1e-5
 
 
-# -- a balloon ------------------------------------------------------------------------------------------------
+# -- a balloon ----------------------------------------------------------------------------------------
 
 BALLOON = Body(
     name="balloon",

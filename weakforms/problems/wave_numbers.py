@@ -67,7 +67,5 @@ def require_waves(problem: str, n: tuple[int, ...], wanted: Iterable[str]) -> No
             )
 
 
-WaveNumbers = Annotated[
-    tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], wave_numbers(MOST_WAVES)
-]
+WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], wave_numbers(MOST_WAVES)]
 """Parameter ``n``: wave numbers around the axis for which stability is computed."""

@@ -181,9 +181,7 @@ def onsets(tube: Tube) -> list[Point]:
     def margin(state: ritz.State) -> float:
         return ritz.least_hoop(state)[0]
 
-    return located(
-        tube, (compressed, least), lambda _: margin, lambda state: strong.least_hoop(state)[0]
-    )
+    return located(tube, (compressed, least), lambda _: margin, lambda state: strong.least_hoop(state)[0])
 
 
 def columns(name: str, points: list[Point], more: dict[str, tuple[Callable, Callable]]) -> list[Column]:

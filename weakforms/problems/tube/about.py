@@ -3,7 +3,7 @@
 import math
 
 from weakforms.problems import column
-from weakforms.problems.about import LINE, SCHEME, About, Example, Family
+from weakforms.problems.about import LINE, MORE, SCHEME, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
 
 FREE = (
@@ -152,6 +152,15 @@ TUBE = About(
             fixed=DEFLATION | {"spring": "unilateral"},
             at=(("p", 2.2),),
             label="unilateral",
+        ),
+    ),
+    held_out=(
+        Family(
+            {"alpha": (0.0, 0.15), "delta1": (1.0, 1.4), "lf": (5.0, 9.0)},
+            **MORE,
+            fixed={"n": (0, 1, 2), "u_end": 1.3},
+            at=(("u_max", 1.1),),
+            label="waves",
         ),
     ),
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -45,7 +46,7 @@ class TubeBranch(ModalBranch):
             found.append(self._beside(i, Crossing(self, i).located()))
         for i in self._onsets():
             found.append(self._beside(i, self._root(i, self._least, ONSET)))
-        # Short even and odd waves are neutral at the same state to round-off: keep them in order on all meshes.
+        # Short even and odd waves are neutral at one state to round-off: keep their order on all meshes.
         return [(round(s, PLACES), solved) for s, solved in found]
 
     def _beside(self, i: int, solved: Solved) -> tuple[float, Solved]:
@@ -64,7 +65,7 @@ class TubeBranch(ModalBranch):
         least = self.over_points("t_min")
         sign = np.where(np.abs(least) > SLACK, np.sign(least), 0.0)
         known = np.flatnonzero(sign)
-        return [int(i) for i, j in zip(known[:-1], known[1:], strict=True) if sign[i] * sign[j] < 0]
+        return [int(i) for i, j in pairwise(known) if sign[i] * sign[j] < 0]
 
     def _least(self, solved: Solved) -> float:
         with self.system.at(solved.state):
@@ -72,7 +73,9 @@ class TubeBranch(ModalBranch):
 
     def _flagged(self, solved: Solved) -> Solved:
         """The point with ``wrinkled``: 1 if its membrane is compressed somewhere."""
-        return replace(solved, values=solved.values | {"wrinkled": float(is_wrinkled(solved.values["t_min"]))})
+        return replace(
+            solved, values=solved.values | {"wrinkled": float(is_wrinkled(solved.values["t_min"]))}
+        )
 
     def counted(self, state: State, own: int | None = None) -> dict[str, int]:
         """Numbers of negative eigenvalues of a state, and whether it is wrinkled.

@@ -19,7 +19,6 @@ from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.stability.spectra import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
-
 Family = Hashable
 """Modes of one symmetry: a wave number, or an object that says more."""
 
@@ -167,7 +166,9 @@ class ModalBranch(FittedBranch):
         """Check the eigenvalues of every family as in the base class."""
         for n in self.modes.wave_numbers:
             counts = self._counts(n)
-            self._require_same_between(counts, partial(self._count_at, n=n), f"eigenvalues of {self._called(n)}")
+            self._require_same_between(
+                counts, partial(self._count_at, n=n), f"eigenvalues of {self._called(n)}"
+            )
 
     def _arclength(self, i: int, solved: Solved) -> float:
         before = self.points[i]

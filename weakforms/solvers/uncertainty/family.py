@@ -11,7 +11,16 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.results import SYMMETRY_BREAKING, Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results import (
+    SYMMETRY_BREAKING,
+    Absence,
+    Branch,
+    Failure,
+    Field,
+    Quantity,
+    SpecialPoint,
+    State,
+)
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.stability.spectra import Spectrum, same_count, spectrum_of

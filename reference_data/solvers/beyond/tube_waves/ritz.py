@@ -20,12 +20,17 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 
 from reference_data.solvers.beyond.tube_waves.family import Family
-from reference_data.solvers.core.collocation import Array, differentiation, lagrange, lobatto
+from reference_data.solvers.core.collocation import Array, differentiation, lagrange
 from reference_data.solvers.core.mooney_rivlin import Tube
 
 STEP = 1e-30
 EXTRA = 4
 """Gauss points of an element beyond the degree."""
+
+
+def lobatto(degree: int) -> Array:
+    """Chebyshev-Lobatto nodes on [0, 1]."""
+    return (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
 
 
 def gradient(tube: Tube, p: float, x: Array, a: Array, b: Array) -> tuple[Array, Array, Array]:
@@ -267,7 +272,7 @@ def negative(state: State, family: Family) -> int:
 
 
 def eigenvalue(state: State, family: Family, index: int) -> float:
-    """One eigenvalue in ascending order, by the Rayleigh quotient of its vector, which has little rounding."""
+    """One eigenvalue in ascending order, by the Rayleigh quotient of its vector: little rounding."""
     k, m = free(state, family)
     _, vectors = eigh(k, m, subset_by_index=(index, index))
     v = vectors[:, 0]

@@ -20,8 +20,8 @@ from dolfinx import fem
 from ufl.core.expr import Expr
 
 from weakforms.forms import revolution
-from weakforms.problems.meridian.waves import AXIAL, CLAMPED, RADIAL, MeridianWaves
 from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.waves import AXIAL, CLAMPED, RADIAL, MeridianWaves
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.solvers.equilibrium.state import State
