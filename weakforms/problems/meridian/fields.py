@@ -12,6 +12,9 @@ from ufl.core.expr import Expr
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.support.sampling import Interpolant
 
+NEAR = 1e-4
+"""Largest distance, in a cell, between the sample of an extreme value and its place."""
+
 FINE, ZOOMS, CANDIDATES = 24, 6, 3
 """For extreme values: number of points of each cell, number of refinements, number of refined cells."""
 
@@ -87,6 +90,7 @@ class Meridian:
             # If two cells share the best sample, the maximum may be in either.
             rows = np.argsort(peaks)[-CANDIDATES:]
             value, row, t = _top(places, column[rows])
+            t = _stationary(places, column[rows[row]], t)
             best = value, float(first[rows[row]] + t * lengths[rows[row]])
         value, x = max(self._comm.allgather(best))
         return sign * value, x
@@ -107,6 +111,15 @@ def _top(places: np.ndarray, values: np.ndarray) -> tuple[float, int, float]:
         best = max(best, (float(found[row, i[row]]), row, float(t[row, i[row]])))
         low, high = t[rows, np.maximum(i - 1, 0)], t[rows, np.minimum(i + 1, FINE)]
     return best
+
+
+def _stationary(places: np.ndarray, values: np.ndarray, t: float) -> float:
+    """The zero of a polynomial's slope next to its largest value, which is flat there, or that sample."""
+    slope = np.polynomial.Polynomial.fit(places, values, len(places) - 1, domain=[0.0, 1.0]).deriv()
+    zeros = slope.roots()
+    near = zeros[(np.abs(zeros.imag) < NEAR) & (np.abs(zeros.real - t) < NEAR)].real
+    inside = near[(near >= 0) & (near <= 1)]
+    return float(inside[np.argmin(np.abs(inside - t))]) if len(inside) else t
 
 
 def _lagrange(nodes: np.ndarray, t: np.ndarray) -> np.ndarray:
