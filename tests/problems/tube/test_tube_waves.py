@@ -77,6 +77,17 @@ def test_inertia_at_fixed_volume_is_that_of_the_bordered_operator(branch):
         assert counted == bordered.n_negative
 
 
+def test_axisymmetric_waves_of_a_pre_stretched_tube_are_those_of_its_equations():
+    """With ``n = 0`` the energy in space must give the second variation of the axisymmetric energy."""
+    model = TubeModel.free(MPI.COMM_SELF, mooney_rivlin_of(0.1), 1.4, 6.0, TubeMesh(16, 4, 0.6))
+    modes = TubeModes(model, (0,), full=False)
+    branch = free_branch(model.system, 1.4, 1.2, 0.2, lambda *given: TubeBranch(*given, modes))
+    with model.system.at(branch.points[-1].state):
+        own = Stability(model.system).spectrum(model.system.state(), 4).eigenvalues
+        waves = modes.variation(Wave(0, EVEN)).spectrum(4).eigenvalues
+    assert waves == pytest.approx(own, rel=1e-8)
+
+
 def test_compression_begins_inside(neo):
     onset = neo.points("wrinkling_onset")[0].values
     assert abs(onset["t_min"]) < 1e-9

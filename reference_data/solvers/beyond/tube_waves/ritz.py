@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.linalg import eigh
@@ -22,6 +23,7 @@ from scipy.optimize import brentq
 from reference_data.solvers.beyond.tube_waves.family import Family
 from reference_data.solvers.core.collocation import Array, differentiation, lagrange
 from reference_data.solvers.core.mooney_rivlin import Tube
+from reference_data.solvers.core.newton import newton
 
 STEP = 1e-30
 EXTRA = 4
@@ -148,11 +150,10 @@ def linear(state: State) -> tuple[Array, Array, Array]:
     slope, w = dphi / state.tube.length, state.weights
     at = state.surface()
     gx, ga, gb = gradient(state.tube, state.p, *at)
-    unit = [gx * 0 for _ in range(3)]
     pull = np.concatenate(gradient(state.tube, 1.0, *at)) - np.concatenate(gradient(state.tube, 0.0, *at))
     # A change of r moves x and x_z along e_r and turns into x_theta along e_theta; one of z moves along e_z.
     parts = ((phi, 0), (slope, 3), (phi, 7)), ((phi, 2), (slope, 5))
-    stacked = np.concatenate([gx, ga, gb]) + 0 * np.concatenate(unit)
+    stacked = np.concatenate([gx, ga, gb])
     second = hessian(state.tube, state.p, *at)
     residual = np.concatenate([sum((w * stacked[i]) @ f for f, i in own) for own in parts])
     by_p = np.concatenate([sum((w * pull[i]) @ f for f, i in own) for own in parts])
@@ -163,6 +164,22 @@ def linear(state: State) -> tuple[Array, Array, Array]:
     return residual, np.block(blocks), by_p
 
 
+def bordered(state: State, row: Array | None = None) -> tuple[Array, Array]:
+    """Matrix and right-hand side of the equations for (r, z, p) with the ends held.
+
+    The last row is the volume's gradient, or a given one; its right-hand side is left zero.
+    """
+    n = len(state.r)
+    held = np.array([n - 1, n, 2 * n - 1])  # r at the disk, z at the mid-plane and at the disk
+    residual, matrix, by_p = linear(state)
+    row = -by_p if row is None else row  # the pressure's force is the volume's gradient
+    residual[held] = [state.r[-1] - 1, state.z[0], state.z[-1] - state.tube.lf / 2]
+    by_p = by_p.copy()
+    matrix[held], by_p[held] = 0.0, 0.0
+    matrix[held, held] = 1.0
+    return np.block([[matrix, by_p[:, None]], [row[None, :], np.zeros((1, 1))]]), np.append(residual, 0.0)
+
+
 def solve(state: State, volume: float | None = None, u_max: float | None = None) -> State:
     """The state of a given volume, or displacement of the mid-plane.
 
@@ -170,33 +187,24 @@ def solve(state: State, volume: float | None = None, u_max: float | None = None)
         RuntimeError: If Newton's method does not converge.
     """
     n = len(state.r)
-    held = np.array([n - 1, n, 2 * n - 1])  # r at the disk, z at the mid-plane and at the disk
-    size, last = np.inf, False
-    for _ in range(40):
-        residual, matrix, by_p = linear(state)
-        row, missed = np.zeros(2 * n), 0.0
+
+    def correct(at: State) -> tuple[float, Callable[[Any], State]]:
         if volume is not None:
-            row, missed = -by_p, state.volume - volume  # dV/d(r, z): the pressure's force
+            row, missed = None, at.volume - volume
         else:
-            row[0], missed = 1.0, state.u_max - float(u_max)
-        residual[held] = [state.r[-1] - 1, state.z[0], state.z[-1] - state.tube.lf / 2]
-        matrix[held], by_p[held] = 0.0, 0.0
-        matrix[held, held] = 1.0
-        whole = np.block([[matrix, by_p[:, None]], [row[None, :], np.zeros((1, 1))]])
-        step = np.linalg.solve(whole, -np.append(residual, missed))
-        size = float(np.abs(step).max())
-        share = min(1.0, 0.3 / size)
-        state = State(
-            state.tube,
-            state.basis,
-            state.r + share * step[:n],
-            state.z + share * step[n : 2 * n],
-            state.p + share * float(step[-1]),
-        )
-        if last:
-            return state
-        last = size < 1e-7
-    raise RuntimeError(f"energy in space: Newton's method does not converge for {state.tube} ({size:.1e})")
+            row, missed = np.eye(1, 2 * n)[0], at.u_max - float(u_max)
+        matrix, right = bordered(at, row)
+        right[-1] = missed
+        step = np.linalg.solve(matrix, -right)
+
+        def advance(share: Any) -> State:
+            moved = float(share) * step
+            r, z, p = at.r + moved[:n], at.z + moved[n : 2 * n], at.p + float(moved[-1])
+            return State(at.tube, at.basis, r, z, p)
+
+        return float(np.abs(step).max()), advance
+
+    return newton(state, correct, f"energy in space of {state.tube}", longest=0.3)
 
 
 def states(tube: Tube, basis: Basis, volumes: Array) -> list[State]:
@@ -292,15 +300,9 @@ def root(near: State, function: Callable[[State], float], low: float, high: floa
 
 def rate(state: State) -> float:
     """dp/dV along the branch."""
-    n = len(state.r)
-    held = np.array([n - 1, n, 2 * n - 1])
-    _, matrix, by_p = linear(state)
-    row = -by_p
-    matrix[held], by_p = 0.0, by_p.copy()
-    by_p[held] = 0.0
-    matrix[held, held] = 1.0
-    whole = np.block([[matrix, by_p[:, None]], [row[None, :], np.zeros((1, 1))]])
-    return float(np.linalg.solve(whole, np.append(np.zeros(2 * n), 1.0))[-1])
+    matrix, right = bordered(state)
+    right[:], right[-1] = 0.0, 1.0
+    return float(np.linalg.solve(matrix, right)[-1])
 
 
 def least_hoop(state: State) -> tuple[float, float]:
