@@ -29,6 +29,15 @@ def test_whole_tube_and_eigenvalues(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_tube_with_waves_around(same_on_ranks):
+    half = {"problem": "tube", "alpha": 0, "u_end": 1.6, "n": [0, 1, 2], "at": [("u_max", 1.2)]}
+    whole = {"problem": "tube", "alpha": 0, "u_end": 1.2, "n": [1], "extent": "full"}
+    found, _ = same_on_ranks([item | {"numerics": MESH} for item in (half, whole)])
+    kinds = [point.kind for point in found.special_points]
+    assert kinds == ["limit_point", "bifurcation_n1", "mirror_breaking", "wrinkling_onset"]
+
+
+@pytest.mark.paper2
 def test_tube_whose_spring_lets_go(same_on_ranks):
     pushing = {"problem": "tube", "contact": "adhesive", "phase": "deflation", "spring": "unilateral"}
     same_on_ranks([pushing | {"delta1": 2.0, "at": [("p", 2.0), ("p", 0.5)], "numerics": MESH}])

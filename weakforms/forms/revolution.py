@@ -27,16 +27,21 @@ ANGLES = ((1.0, 0.0), (0.0, 1.0))
 """``(cos, sin)`` of the two angles whose values give the mean over ``Theta``."""
 
 
-def gradient_tensor(at: Surface, radius: Expr) -> Expr:
+def gradient_tensor(
+    at: Surface, radius: Expr, scales: tuple[Expr | float, Expr | float] = (1.0, 1.0)
+) -> Expr:
     r"""Right Cauchy-Green tensor of a surface in the orthonormal frame of its reference, 2 x 2.
 
-    .. math:: C = \begin{pmatrix} g_{11} & g_{12}/R \\ g_{12}/R & g_{22}/R^2 \end{pmatrix}
+    .. math:: C = \begin{pmatrix} a^2 g_{11} & a b\, g_{12}/R \\ a b\, g_{12}/R & b^2 g_{22}/R^2 \end{pmatrix}
 
     Args:
         at: The deformed surface.
         radius: ``R(S)`` of the reference surface.
+        scales: ``(a, b)``, 1 if ``S`` and ``R`` belong to the stress-free surface
+            (:func:`weakforms.forms.kinematics.revolution_stretches`).
     """
-    a, b = at.a, at.b / radius
+    along, around = scales
+    a, b = along * at.a, around * at.b / radius
     return as_matrix([[dot(a, a), dot(a, b)], [dot(a, b), dot(b, b)]])
 
 

@@ -2,10 +2,21 @@
 
 from weakforms.results.curves import CurveFile, read_curve
 from weakforms.results.io import load_result, validate, write_atomically
-from weakforms.results.model import Absence, Branch, Ended, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results.model import (
+    SYMMETRY_BREAKING,
+    Absence,
+    Branch,
+    Ended,
+    Failure,
+    Field,
+    Quantity,
+    SpecialPoint,
+    State,
+)
 from weakforms.results.result import Result
 
 __all__ = [
+    "SYMMETRY_BREAKING",
     "Absence",
     "Branch",
     "CurveFile",

@@ -39,9 +39,12 @@ def crossings(column: np.ndarray, value: float) -> np.ndarray:
     return np.concatenate([[0], hits]) if distance[0] == 0 else hits
 
 
+SYMMETRY_BREAKING = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, 7)))
+"""Bifurcation points whose kind says which symmetry is lost: that along the axis, or around it to n waves."""
+
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
-    *("pull_off", "zone_opening", "zone_closing"),
+    *("pull_off", "zone_opening", "zone_closing", "wrinkling_onset", *SYMMETRY_BREAKING),
 )
 """Kinds of special points, as in the schema."""
 
@@ -208,7 +211,8 @@ class SpecialPoint:
     """A point solved for by an extended system, not interpolated in a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
-    stability_change, pull_off, zone_opening, zone_closing.
+    stability_change, pull_off, zone_opening, zone_closing, wrinkling_onset, mirror_breaking,
+    bifurcation_n1 to bifurcation_n6.
     """
 
     kind: str

@@ -12,10 +12,10 @@ from weakforms import reference
 from weakforms.errors import ConvergenceError
 from weakforms.forms import revolution
 from weakforms.forms.fluid import axisymmetric
+from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.wrinkled import hemisphere
 from weakforms.problems.wrinkled import state as wrinkled_state
 from weakforms.problems.wrinkled.body import CYLINDER, HEMISPHERE
-from weakforms.problems.wrinkled.fields import Meridian
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import NEAR_FRONTS, PAPER_GAMMA
 from weakforms.problems.wrinkled.waves import modes as wrinkled_modes

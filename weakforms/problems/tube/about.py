@@ -3,7 +3,7 @@
 import math
 
 from weakforms.problems import column
-from weakforms.problems.about import LINE, SCHEME, About, Example, Family
+from weakforms.problems.about import LINE, MORE, SCHEME, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
 
 FREE = (
@@ -32,6 +32,39 @@ CONTACT = (
 )
 """Columns of constrained inflation only."""
 
+MOST_WAVES = 6
+"""Largest wave number for which the stability of a tube is computed."""
+
+BIFURCATIONS = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, MOST_WAVES + 1)))
+"""Kinds of special points where an eigenvalue of waves is zero."""
+
+STABILITY = (
+    Column("t_min", "smallest principal Cauchy resultant anywhere over {resultant}"),
+    Column("Z_t_min", "distance of that place from the mid-plane on the pre-stretched tube over {length}"),
+    *(
+        Column(
+            f"Lambda_n{n}_{k}",
+            f"eigenvalue {k} in ascending order at fixed p against int |dx|^2 dZ, "
+            + (f"{n} wave{'s' if n > 1 else ''} around" if n else "axisymmetric without torsion, whole tube"),
+        )
+        for n in range(MOST_WAVES + 1)
+        for k in (1, 2, 3)
+    ),
+    *derived(
+        *numbers(
+            wrinkled="1 if the membrane is compressed somewhere (t_min < 0), else 0",
+            n_negative_volume="number of negative eigenvalues at fixed volume, axisymmetric, whole tube",
+            **{
+                f"n_negative_n{n}": "number of negative eigenvalues at fixed p, "
+                + (f"{n} wave{'s' if n > 1 else ''} around (each of them twice: cos and sin)" if n else "")
+                + ("" if n else "axisymmetric, whole tube")
+                for n in range(MOST_WAVES + 1)
+            },
+        )
+    ),
+)
+"""Columns of free inflation for which wave numbers are asked."""
+
 PRE_STRETCH = Column("delta1", "axial pre-stretch, 1", r"\delta_1")
 NUMBERS = (
     *numbers(
@@ -52,6 +85,12 @@ NUMBERS = (
     column.T2,
     Column("f_t", "axial traction of the substrate on the membrane times {1/pressure}"),
     Column("f_k", "radial spring density times {1/pressure}; negative: pushes inward"),
+)
+
+WAVES = numbers(
+    n="wave number of a bifurcation point",
+    parity="of a bifurcation point along the axis: 1 even, -1 odd, 0 not known (a whole tube)",
+    direction="1 if an eigenvalue becomes negative with growing u_max, -1 if it becomes positive",
 )
 
 SHARED = {
@@ -76,10 +115,13 @@ TUBE = About(
         "forms.kinematics:revolution_stretches",
         "forms.loads:gas_potential",
         "forms.loads:substrate_potential",
+        "forms.revolution:around",
+        "forms.revolution:strain_energy",
+        "forms.revolution:gas_energy",
     ),
-    columns=(*FREE, *CONTACT, *column.DIAGNOSTICS),
-    numbers=NUMBERS,
-    special_points=("limit_point", "bifurcation_point", "contact_onset"),
+    columns=(*FREE, *STABILITY, *CONTACT, *column.DIAGNOSTICS),
+    numbers=(*NUMBERS, *WAVES),
+    special_points=("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset", *BIFURCATIONS),
     example=Example("p", "u_max", {"alpha": 0.1, "delta1": 1.1}, numerics={"cells": 32, "levels": 2}),
     tuned=(
         Family(
@@ -110,6 +152,15 @@ TUBE = About(
             fixed=DEFLATION | {"spring": "unilateral"},
             at=(("p", 2.2),),
             label="unilateral",
+        ),
+    ),
+    held_out=(
+        Family(
+            {"alpha": (0.0, 0.15), "delta1": (1.0, 1.4), "lf": (5.0, 9.0)},
+            **MORE,
+            fixed={"n": (0, 1, 2), "u_end": 1.3},
+            at=(("u_max", 1.1),),
+            label="waves",
         ),
     ),
 )

@@ -12,7 +12,7 @@ mid-plane on the axially stretched tube. The total potential over :math:`2\pi C_
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,6 +30,7 @@ from weakforms.problems.meridian.limits import LEAST_RESISTANCE
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine, fold_line
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -201,8 +202,14 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
     return state, inflated
 
 
-def free_branch(system: System, delta1: float, u_end: float, step: float) -> EquilibriumBranch:
-    """Free inflation at fixed pre-stretch by arc length, up to ``u_max = u_end``."""
+def free_branch(
+    system: System,
+    delta1: float,
+    u_end: float,
+    step: float,
+    kind: Callable[..., SolutionCurve] = EquilibriumBranch,
+) -> SolutionCurve:
+    """Free inflation at fixed pre-stretch by arc length, up to ``u_max = u_end``, as a curve of some kind."""
     solver = ExtendedNewton(system, ["p"])
     continuation = Continuation(solver, control=StepControl(first=step / 4, largest=step))
     state, held = first_state(solver, delta1)
@@ -211,7 +218,7 @@ def free_branch(system: System, delta1: float, u_end: float, step: float) -> Equ
     def stop(point: CurvePoint) -> bool:
         return point.monitors["u_max"] > u_end or yields(point) or point.tangent.loads["p"] > STEEPEST
 
-    branch = EquilibriumBranch(continuation, "p", start, stop)
+    branch = kind(continuation, "p", start, stop)
     last = branch.points[-1]
     followed = (
         f"free inflation was followed up to u_max = {last.monitors['u_max']:.6g}, "

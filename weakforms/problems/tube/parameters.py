@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from math import ceil, log2
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs
+from weakforms.problems.tube.about import MOST_WAVES
+from weakforms.problems.wave_numbers import wave_numbers
 
 
 class TubeNumerics(MeshNumerics):
@@ -42,6 +44,7 @@ class TubeParameters(MaterialChoice):
         **dict.fromkeys(("k", "s", "p_end"), ({"contact": ("frictionless", "adhesive")},)),
         "spring": [{"phase": ("deflation",)}],
         "u_end": [{"contact": ("none",)}],
+        "n": [{"contact": ("none",)}],
     }
     movable: ClassVar = {"u_end": "le", "p_end": "le"}
 
@@ -60,6 +63,11 @@ class TubeParameters(MaterialChoice):
     )
     u_end: float = Field(5.0, gt=0.05, le=10, description="u_max at which free inflation ends")
     extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
+    n: Annotated[tuple[int, ...], wave_numbers(MOST_WAVES)] = Field(
+        (),
+        description="wave numbers for which stability is computed, such as 0,1,2; 0: axisymmetric, also "
+        "without the mirror symmetry of half a tube",
+    )
 
 
 class TubeFoldParameters(MaterialChoice):

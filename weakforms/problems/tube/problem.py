@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from mpi4py import MPI
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
-from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
+from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_model
 from weakforms.problems.meridian.limits import require_bearable
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
@@ -22,6 +24,9 @@ from weakforms.problems.tube.parameters import (
     TubeParameters,
     resolving,
 )
+from weakforms.problems.tube.stability import TubeBranch, TubeFamily
+from weakforms.problems.tube.waves import EXTREMES, TubeModes
+from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -43,8 +48,11 @@ class Tube(BranchProblem):
         Raises:
             InputError: If phase or extent do not fit the contact, or a state cannot exist.
         """
+        require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
         require_bearable(self.name, parameters.material, parameters.delta1, 1.0, "delta1")
+        if parameters.n:
+            _require_waves_possible(parameters)
         if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
                 "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"
@@ -61,9 +69,9 @@ class Tube(BranchProblem):
                 "extent = 'half'"
             )
 
-    def computed(self, _parameters: TubeParameters) -> tuple[str]:
-        """The lowest eigenvalue."""
-        return ("eigenvalue_1",)
+    def computed(self, parameters: TubeParameters) -> tuple[str, ...]:
+        """The lowest eigenvalues."""
+        return ("eigenvalue_1", *(name for n in parameters.n for name in eigenvalue_names(n)))
 
     def ends(self, parameters: TubeParameters, _branch: str) -> list[End]:
         """Where free inflation, contact and deflation end."""
@@ -81,10 +89,12 @@ class Tube(BranchProblem):
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         if parameters.contact != "none":
             return {"primary": contact_family(parameters, numerics, comm, progress)}
-        make = branch_maker(parameters, numerics, comm, progress)
-        return {
-            "primary": BranchFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max")),
-        }
+        make, order = branch_maker(parameters, numerics, comm, progress), 2 * numerics.degree
+        if not parameters.n:
+            return {"primary": BranchFamily(make, numerics.levels, order, across=("p", "u_max"))}
+        # Resultants are derivatives: inside of a cell they have the order of the degree.
+        caps = dict.fromkeys(EXTREMES, float(numerics.degree))
+        return {"primary": TubeFamily(make, numerics.levels, order, ("p", "u_max"), caps=caps)}
 
     def resolving(self, parameters: TubeParameters, numerics: TubeNumerics) -> TubeNumerics:
         """More cells for long tubes."""
@@ -96,12 +106,22 @@ class Tube(BranchProblem):
         return np.linspace(-half if parameters.extent == "full" else 0.0, half, 61)
 
 
+def _require_waves_possible(parameters: TubeParameters) -> None:
+    """Refuse waves around a tube in contact, or of a law without a form for them."""
+    if parameters.contact != "none":
+        raise InputError(
+            f"tube: n = {','.join(map(str, parameters.n))} with contact = {parameters.contact!r}: stability "
+            "against waves is computed for free inflation; set contact = 'none', or n = ()"
+        )
+    require_model("tube: waves around", parameters, tuple(LAWS))
+
+
 def branch_maker(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
-) -> Callable[[int], EquilibriumBranch]:
-    """The branch of free inflation on the mesh of a level."""
+) -> Callable[[int], SolutionCurve]:
+    """The branch of free inflation on the mesh of a level, with its stability if wave numbers are given."""
 
-    def make(level: int) -> EquilibriumBranch:
+    def make(level: int) -> SolutionCurve:
         progress("branch", level, numerics.levels)
         at = TubeMesh(
             numerics.meshes[level],
@@ -109,8 +129,11 @@ def branch_maker(
             numerics.grading,
             full=parameters.extent == "full",
         )
-        system = TubeModel.free(comm, parameters.material, parameters.delta1, parameters.lf, at).system
-        branch = free_branch(system, parameters.delta1, parameters.u_end, numerics.step)
+        model = TubeModel.free(comm, parameters.material, parameters.delta1, parameters.lf, at)
+        kind: Callable[..., SolutionCurve] = EquilibriumBranch
+        if parameters.n:
+            kind = partial(TubeBranch, modes=TubeModes(model, parameters.n, at.full))
+        branch = free_branch(model.system, parameters.delta1, parameters.u_end, numerics.step, kind)
         if branch.ended is not None:
             branch.ended = f"tube: {branch.ended}; lower u_end"
         if branch.stalled is not None:

@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.problems.wave_numbers import EIGENVALUE
 from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import EVENTS, Readings
 from weakforms.problems.wrinkled.state import ZonedState, solver_of
-from weakforms.problems.wrinkled.waves.numbers import EIGENVALUE
 from weakforms.problems.wrinkled.waves.stability import Change, StabilityChanges
 from weakforms.results import Absence, Branch, Failure, SpecialPoint, State
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl

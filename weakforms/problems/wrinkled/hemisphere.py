@@ -26,13 +26,13 @@ from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.meridian.limits import relative_stiffness
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
+from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.problems.wrinkled import body
 from weakforms.problems.wrinkled.about import HEMISPHERE
 from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import LOAD, PAPER_GAMMA, TREATMENT, Energy, WrinkledNumerics
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import SolutionCurve

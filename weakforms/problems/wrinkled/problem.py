@@ -21,13 +21,13 @@ from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.meridian.limits import require_bearable, require_carried
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
+from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE
 from weakforms.problems.wrinkled.body import cylinder
 from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.problems.wrinkled.waves.numbers import WaveNumbers, eigenvalue_names, require_waves
 from weakforms.results import Result
 from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.uncertainty.refinement import estimate

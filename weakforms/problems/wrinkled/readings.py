@@ -9,11 +9,11 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.meridian.model import WRINKLED
+from weakforms.problems.wave_numbers import LOWEST, eigenvalue_names
 from weakforms.problems.wrinkled.fitted import PLACE
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import ZonedState, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
-from weakforms.problems.wrinkled.waves.numbers import LOWEST, eigenvalue_names
 from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.stability.spectra import same_count, spectrum_of

@@ -12,8 +12,9 @@ from mpi4py import MPI
 
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.model import DRY, WET, Marks
-from weakforms.problems.wrinkled.fields import Meridian, Zones, zones
+from weakforms.problems.wrinkled.fields import Zones, zones
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord
 from weakforms.solvers.equilibrium.state import State

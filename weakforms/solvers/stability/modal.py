@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -19,18 +19,21 @@ from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.stability.spectra import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily, special_point
 
+Family = Hashable
+"""Modes of one symmetry: a wave number, or an object that says more."""
+
 
 class Modes(Protocol):
     """Quantities computed along a branch, at the state that the system is lent to."""
 
-    wave_numbers: Sequence[int]
+    wave_numbers: Sequence[Family]
     """Families whose zeros are bifurcation points."""
 
     columns: Sequence[str]
     """Names of the columns that :meth:`observe` returns."""
 
-    def variation(self, n: int) -> SecondVariation:
-        """The operator of a wave number; 0 is the symmetric space of the branch."""
+    def variation(self, n: Family) -> SecondVariation:
+        """The operator of a family; of wave numbers, 0 is the symmetric space of the branch."""
 
     def observe(self) -> dict[str, float]:
         """Columns that are not functionals: eigenvalues, values at material points."""
@@ -141,34 +144,41 @@ class ModalBranch(FittedBranch):
 
     def special(self) -> list[Solved]:
         """Limit points of the control and zeros of every family of modes, in order along the branch."""
+        return [self.complete(solved) for _, solved in sorted(self._placed(), key=lambda item: item[0])]
+
+    def _placed(self) -> list[tuple[float, Solved]]:
+        """The special points with their arc lengths."""
         found = [(point.arclength, solved) for point, solved in self._limits]
         for n in self.modes.wave_numbers:
             counts = self._counts(n)
             changes = np.flatnonzero(np.diff(counts))
             if np.any(np.abs(np.diff(counts)[changes]) > 1):
                 raise ConvergenceError(
-                    f"several eigenvalues of n = {n} change sign between neighbours: shorter steps are needed"
+                    f"several eigenvalues of {self._called(n)} change sign between neighbours: "
+                    "shorter steps are needed"
                 )
             for i in changes:
                 solved = self._bifurcation(int(i), n)
                 found.append((self._arclength(int(i), solved), solved))
-        return [self.complete(solved) for _, solved in sorted(found, key=lambda item: item[0])]
+        return found
 
     def require_nothing_between(self) -> None:
         """Check the eigenvalues of every family as in the base class."""
         for n in self.modes.wave_numbers:
             counts = self._counts(n)
-            self._require_same_between(counts, partial(self._count_at, n=n), f"eigenvalues of n = {n}")
+            self._require_same_between(
+                counts, partial(self._count_at, n=n), f"eigenvalues of {self._called(n)}"
+            )
 
     def _arclength(self, i: int, solved: Solved) -> float:
         before = self.points[i]
         return before.arclength + self.continuation.distance(solved.state, before.state)
 
-    def _counts(self, n: int) -> np.ndarray:
+    def _counts(self, n: Family) -> np.ndarray:
         """Negative eigenvalues of a family at each point of the trace, by inertia."""
         return np.array([self._count_at(point.state, n) for point in self.points])
 
-    def _bifurcation(self, i: int, n: int) -> Solved:
+    def _bifurcation(self, i: int, n: Family) -> Solved:
         """The zero of a family's eigenvalue between two neighbours, by the system of :class:`Singular`.
 
         The interval is narrowed by the inertia of interpolated states. The mode comes from the side where the
@@ -180,16 +190,39 @@ class ModalBranch(FittedBranch):
         with self.system.at(guess):
             variation = self.modes.variation(n)
             border = variation.mass_times(variation.highest_negative().vector)
-        solved = self._solve(guess, Singular(lambda: self.modes.variation(n), border), "bifurcation_point")
-        self.require_within(i, solved, f"bifurcation of n = {n}")
-        return replace(solved, values=solved.values | {"n": float(n)})
+        kind, marks = self._named(n, 1.0 if after > before else -1.0)
+        singular = Singular(lambda: self.modes.variation(n), border)
+        try:
+            solved = self._solve(guess, singular, kind)
+            self.require_within(i, solved, f"bifurcation of {self._called(n)}")
+        except ConvergenceError:  # as for a limit point, root finding needs no good guess
+            solved = self._root(i, partial(self._singularity, singular), kind)
+        return replace(solved, values=solved.values | marks)
+
+    def _singularity(self, singular: Singular, solved: Solved) -> float:
+        """``g`` of a state, which is zero where an operator is singular."""
+        with self.system.at(solved.state):
+            return singular.value(self.solver)
+
+    def _called(self, n: Family) -> str:
+        """A family of modes in words."""
+        return f"n = {n}" if isinstance(n, int) else str(n)
+
+    def _named(self, n: Family, _direction: float) -> tuple[str, dict[str, float]]:
+        """Kind of the special point at a zero of a family's eigenvalue, and the numbers that say which it is.
+
+        Args:
+            n: The family.
+            _direction: 1 if the eigenvalue becomes negative along the branch, -1 if it becomes positive.
+        """
+        return "bifurcation_point", {"n": float(n)}
 
     def null_vector(self, solved: Solved) -> np.ndarray:
         """Mode of a bifurcation point, of unit length in the mass norm."""
         with self.system.at(solved.state):
             return self.modes.variation(round(solved.values["n"])).nearest().vector
 
-    def _count_at(self, state: State, n: int) -> int:
+    def _count_at(self, state: State, n: Family) -> int:
         with self.system.at(state):
             return self.modes.variation(n).negative_count()
 
@@ -199,20 +232,26 @@ class ModalFamily(BranchFamily):
 
     fine: ModalBranch
 
+    marks: ClassVar[tuple[str, ...]] = ("n",)
+    """Values of special points that say what they are and have no error, such as the wave number."""
+
     def special_points(self) -> list[SpecialPoint]:
         """As for any branch; bifurcation points have their wave number ``n``."""
         points = []
         for same in self._special():
-            point = special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, self.caps)
-            if "n" in same[-1].values:
-                point.values["n"], point.uncertainty["n"] = same[-1].values["n"], 0.0
+            held = self.located_by.get(same[-1].kind, "")
+            caps = self.caps | ({name: self._cap(name, held) for name in self.fine.shown} if held else {})
+            point = special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, caps)
+            for mark in self.marks:
+                if mark in same[-1].values:
+                    point.values[mark], point.uncertainty[mark] = same[-1].values[mark], 0.0
             points.append(point)
         return points
 
     def _locate(self) -> list[tuple[Solved, ...]]:
         located = super()._locate()
         for same in located:
-            if len({solved.values.get("n") for solved in same}) > 1:
+            if any(len({solved.values.get(mark) for solved in same}) > 1 for mark in self.marks):
                 raise ConvergenceError("the order of the bifurcation points depends on the mesh")
         return located
 

@@ -11,7 +11,16 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results import (
+    SYMMETRY_BREAKING,
+    Absence,
+    Branch,
+    Failure,
+    Field,
+    Quantity,
+    SpecialPoint,
+    State,
+)
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.stability.spectra import Spectrum, same_count, spectrum_of
@@ -26,7 +35,7 @@ from weakforms.solvers.uncertainty.refinement import (
     order_in_mean,
 )
 
-KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
+KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off", "wrinkling_onset", *SYMMETRY_BREAKING)
 """Kinds of special points that are located on a curve; a state can be requested at one."""
 
 CRITICAL = 1e-6

@@ -68,6 +68,9 @@ class Panel:
     dashed: Dashed | None = None
     lines: tuple[Line, ...] = ()
     """Exact lines, drawn before the curves."""
+    counted: tuple[str, ...] = ()
+    """Columns of branches whose sum is the number of negative eigenvalues: lines are full where it is 0,
+    dashed where it is 1, dotted where it is more. By default ``n_negative``, and lines are full or dashed."""
 
 
 @dataclass(frozen=True)

@@ -70,9 +70,9 @@ class CurveOutcome:
     label: str
     x: list[float]
     y: list[float]
-    unstable: list[bool] = field(default_factory=list)
-    """Number of negative eigenvalues at each point, which are drawn dashed; empty if stability was not
-    judged."""
+    unstable: list[int] = field(default_factory=list)
+    """Whether each point is unstable (drawn dashed), or how many negative eigenvalues it has (two or more are
+    drawn dotted); empty if stability was not judged."""
     reference_name: str = ""
     reference_kind: str = ""
     """exact, independent, printed or other-code."""
@@ -126,6 +126,8 @@ class PanelOutcome:
     full: str = "stable"
     """Meaning of full and of dashed lines, if there are any."""
     dashed: str = "unstable"
+    dotted: str = ""
+    """Meaning of dotted lines, if there are any."""
     paths: list[PathOutcome] = field(default_factory=list)
     level: float | None = None
     """Height of a dashed line across the panel."""

@@ -36,6 +36,8 @@ def draw_panel(paper: int | str, panel: Panel, solutions: Solutions) -> PanelOut
     if panel.lines and not panel.curves:
         outcome.drawn = "exact"
     outcome.curves = [CurveOutcome(line.label, line.label, [*line.x], [*line.y]) for line in panel.lines]
+    if panel.counted:
+        outcome.dashed, outcome.dotted = "one negative eigenvalue", "more of them"
     if panel.dashed is not None:
         outcome.full, outcome.dashed = panel.dashed.full, panel.dashed.dashed
     for curve in panel.curves:
@@ -84,8 +86,10 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
         rule = panel.dashed
         unstable = [] if rule is None else (columns[rule.column] < rule.below).tolist()
     else:
-        columns = _with_states(curve, table, solutions, (x, own))
-        unstable = [bool(n) for n in columns["n_negative"]]
+        counted = panel.counted or ("n_negative",)
+        columns = _with_states(curve, table, solutions, (x, own), counted)
+        total = sum(columns[name] for name in counted)
+        unstable = [int(n) for n in total] if panel.counted else [bool(n) for n in total]
     xs, ys = columns[x], columns[own]
     if panel.mirrored:
         xs, ys = mirror(panel, x, xs), mirror(panel, y, ys)
@@ -115,14 +119,18 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
 
 
 def _with_states(
-    curve: Curve, table: Reference | None, solutions: Solutions, names: tuple[str, ...]
+    curve: Curve,
+    table: Reference | None,
+    solutions: Solutions,
+    names: tuple[str, ...],
+    counted: tuple[str, ...],
 ) -> dict[str, np.ndarray]:
     """Columns of a branch, with the states at the rows of its table in between.
 
     A branch traced in long steps would otherwise be a polygon beside these states.
     """
     branch = solutions.branch(curve.of, curve.branch).columns
-    columns = {name: np.asarray(branch[name], float) for name in (*names, "n_negative")}
+    columns = {name: np.asarray(branch[name], float) for name in (*names, *counted)}
     along = None if table is None else branch.get(table.abscissa)
     if along is None:
         return columns
@@ -184,4 +192,4 @@ def _edge(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
 
 def _marker_label(point: SpecialPoint) -> str:
     """The label of a marker; the legend shows its kind."""
-    return f"n = {point.values['n']:g}" if "n" in point.values else point.kind.replace("_", " ")
+    return f"n = {point.values['n']:g}" if point.values.get("n") else point.kind.replace("_", " ")

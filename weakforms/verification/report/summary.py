@@ -161,7 +161,10 @@ def describe(panel: PanelOutcome, verdicts: Iterable[Verdict] = ()) -> str:
     names = [plain_tex(curve.label or curve.name) for curve in panel.curves]
     parts.append(f"{plural(len(names), 'curve')}: {'; '.join(names)}" if names else "No curves")
     if any(any(curve.unstable) for curve in panel.curves):
-        parts.append(f"{panel.dashed.capitalize()} parts are dashed")
+        if panel.dotted:
+            parts.append(f"Dashed: {panel.dashed}; dotted: {panel.dotted}")
+        else:
+            parts.append(f"{panel.dashed.capitalize()} parts are dashed")
     if panel.markers:
         parts.append("Marked: " + "; ".join(plain_tex(m.label or m.kind) for m in panel.markers))
     checks = list(verdicts)

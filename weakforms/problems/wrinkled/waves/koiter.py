@@ -14,6 +14,7 @@ from dolfinx import fem
 from ufl.core.expr import Expr
 
 from weakforms.forms.revolution import hoop_bending, meridional_bending
+from weakforms.problems.meridian.waves import CLAMPED
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import Waves, waves_of
@@ -37,7 +38,7 @@ class ShellWaves:
 
     def _formulation(self) -> Formulation:
         waves, model = self.waves, self.waves.model
-        plain = waves.formulation(shifts_pole=False)
+        plain = waves.formulation(CLAMPED)
         d = plain.unknown
         test = ufl.TestFunction(waves.space)
         return Formulation(

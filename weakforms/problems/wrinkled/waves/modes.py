@@ -14,19 +14,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cached_property
 
-import basix.ufl
 import numpy as np
 import ufl
 from dolfinx import fem
 from ufl.core.expr import Expr
 
 from weakforms.forms import revolution
-from weakforms.forms.fluid import axisymmetric
-from weakforms.problems.meridian.blocks import LOWER, UPPER
-from weakforms.problems.wrinkled.fields import Meridian
+from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.waves import AXIAL, CLAMPED, RADIAL, MeridianWaves
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import ZonedState
-from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation, judged
 from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
@@ -35,7 +32,7 @@ MODE = ("meridional", "circumferential", "normal")
 """Components of a mode: along the meridian, around the axis, outwards."""
 
 
-class Waves:
+class Waves(MeridianWaves):
     """Second variations of the state that a model is lent to, with their spectra and modes.
 
     Args:
@@ -43,17 +40,11 @@ class Waves:
     """
 
     def __init__(self, model: WrinkledModel) -> None:
-        self.model = model
-        element = basix.ufl.element("Lagrange", "interval", model.degree, shape=(3,))
-        self.space = fem.functionspace(model.mesh, element)
-        self.wave_number = fem.Constant(model.mesh, 0.0)
+        super().__init__(model)
         self.bending = fem.Constant(model.mesh, 0.0)
         """Name of the load ``beta``: bending stiffness over ``H^3``, for the circumferential curvature
         alone."""
         self._sheared = fem.Constant(model.mesh, 0.0)
-        self._variations: dict[bool, SecondVariation] = {}
-        e = model.expressions
-        self.base = axisymmetric(e["r"], e["z"], (e["r_s"], e["z_s"]))
 
     # -- the operator --------------------------------------------------------------------------
 
@@ -67,63 +58,24 @@ class Waves:
         return tuple(mixed[0]), tuple(mixed[1])
 
     def energy(self, parts: tuple[Expr, ...], slopes: tuple[Expr, ...]) -> Expr:
-        """Energy of the displaced surface per ``S``, summed over the two angles."""
-        model, q = self.model, self.model.q
-        e = model.expressions
-        taut = self._taut()
-        wet = model.marked("wet", q["zw"] - e["z"])
-
-        radius = e["radius"]
-        total = 0.0
-        for at in revolution.around(self.base, parts, slopes, self.wave_number):
-            c = revolution.gradient_tensor(at, radius)
-            total += e["weight"] * revolution.strain_energy(c, taut, model.full)
-            total += revolution.gas_energy(at, q["p"])
-            total += revolution.liquid_energy(at, q["zw"], q["gamma"], wet)
-        curvature = revolution.hoop_bending(self.base, parts, slopes, self.wave_number)
-        thickness = model.body.thickness(e["S"], q)
-        return total + self.bending * thickness**3 * curvature**2 / (2 * radius**3)
-
-    def _taut(self) -> Expr:
-        if self.model.energy == "standard":
-            return ufl.gt(self.model.expressions["lam1"], 0.0)
-        return self.model.marked("taut", self.model.expressions["gw"] - 1)
-
-    def formulation(self, shifts_pole: bool) -> Formulation:
-        """First variation at the displaced state, mass and conditions, also for a shift of the pole."""
+        """Energy of the displaced surface per ``S``, with bending, summed over the two angles."""
         model = self.model
-        width, weight = model.expressions["width"], model.expressions["weight"]
-        d, test, trial = fem.Function(self.space), ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
-        dx = ufl.Measure("dx", model.mesh, metadata={"quadrature_degree": 4 * model.degree})
-        residual = ufl.derivative(self.energy(*self.parts(d)) * width * dx, d, test)
-        own, others = (ufl.as_vector(list(self.parts(v)[0])) for v in (trial, test))
-        return Formulation(
-            unknown=d,
-            residual=residual,
-            loads=model.loads,
-            bcs=self._conditions(shifts_pole),
-            mass=ufl.inner(own, others) * weight * width * dx,
-            monitors={},
+        curvature = revolution.hoop_bending(self.base, parts, slopes, self.wave_number)
+        thickness, radius = (
+            model.body.thickness(model.expressions["S"], model.q),
+            model.expressions["radius"],
         )
-
-    def _conditions(self, shifts_pole: bool) -> list[fem.DirichletBC]:
-        """No displacement at the edges and at a pole, except for one wave, which shifts the pole."""
-        out = []
-        for tag in (LOWER, UPPER):
-            moves = shifts_pole and tag == LOWER
-            for component in (0, 2) if moves else (0, 1, 2):
-                part = self.space.sub(component)
-                dofs = fem.locate_dofs_topological(part, 0, self.model.tags.find(tag))
-                out.append(fem.dirichletbc(np.array(0.0), dofs, part))
-        return out
+        bending = self.bending * thickness**3 * curvature**2 / (2 * radius**3)
+        return super().energy(parts, slopes) + bending
 
     def variation(self, n: float, beta: float = 0.0) -> SecondVariation:
-        """The operator for ``n`` waves; any real ``n`` except 0, for which the mode is axisymmetric."""
+        """The operator for ``n`` waves; any real ``n`` except 0, for which the mode is axisymmetric.
+
+        Edges and a pole do not move, except that one wave shifts the pole sideways.
+        """
         shifts = self.model.body.pole and n == 1
-        self.wave_number.value, self.bending.value, self._sheared.value = n, beta, float(shifts)
-        if shifts not in self._variations:
-            self._variations[shifts] = SecondVariation(self.formulation(shifts), self.model.system)
-        return self._variations[shifts]
+        self.bending.value, self._sheared.value = beta, float(shifts)
+        return self.operator(n, (RADIAL, AXIAL) if shifts else CLAMPED)
 
     # -- spectra and modes -------------------------------------------------------------------------
 

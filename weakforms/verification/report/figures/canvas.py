@@ -34,7 +34,7 @@ MARKERS = LOOK["markers"]
 PALETTE = [colour for name, colour in LOOK["light"].items() if name[1:].isdigit()]
 KINDS = list(zip(PALETTE * len(MARKERS), MARKERS * len(PALETTE), strict=True))
 """Colours and markers of curves, so that colour alone never carries information."""
-DASHED = (0, (4, 2))
+DASHED, DOTTED = (0, (4, 2)), (0, (1, 1.5))
 LETTERS = TextToPath()
 """Sets every text and formula once; each renderer of matplotlib would begin with nothing."""
 

@@ -12,7 +12,16 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from weakforms.verification.judging.outcome import PanelOutcome
-from weakforms.verification.report.figures.canvas import DASHED, INK, KINDS, MUTED, Pen, as_math, new_ruler
+from weakforms.verification.report.figures.canvas import (
+    DASHED,
+    DOTTED,
+    INK,
+    KINDS,
+    MUTED,
+    Pen,
+    as_math,
+    new_ruler,
+)
 from weakforms.verification.report.look import LEFT, LOOK
 
 POINTS = LOOK["points"]
@@ -32,6 +41,7 @@ def panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
     named = [key(as_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
     if any(any(curve.unstable) for curve in curves):
         keys = [key(panel.full, None), key(panel.dashed, None, ls=DASHED)]
+        keys += [key(panel.dotted, None, ls=DOTTED)] * bool(panel.dotted)
     else:
         keys = [key(as_math(panel.drawn), None)] * bool(curves)
     keys += [key("path of a material point", None, ls=":")] * bool(panel.paths)

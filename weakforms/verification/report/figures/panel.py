@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from weakforms.verification.judging.outcome import CurveOutcome, PanelOutcome, Verdict
 from weakforms.verification.report.figures.canvas import (
     DASHED,
+    DOTTED,
     FOOT,
     KINDS,
     MUTED,
@@ -77,13 +78,13 @@ def _draw_curve(axes: Axes, curve: CurveOutcome, index: int) -> None:
     colour, marker = KINDS[index % len(KINDS)]
     x, y = as_columns(curve.x, curve.y)
     marks = {} if curve.reference_x else {"marker": marker, "ms": 3, "markevery": 7}
-    unstable = np.zeros(len(x), bool)
+    unstable = np.zeros(len(x), int)
     unstable[: len(curve.unstable)] = curve.unstable[: len(x)]
-    dashed = unstable[1:] | unstable[:-1]
-    edges = [0, *(np.flatnonzero(np.diff(dashed.astype(int))) + 1), len(dashed)]
+    broken = np.minimum(np.maximum(unstable[1:], unstable[:-1]), 2)
+    edges = [0, *(np.flatnonzero(np.diff(broken)) + 1), len(broken)]
     for start, stop in pairwise(edges):
         if stop > start:
-            part, style = slice(start, stop + 1), DASHED if dashed[start] else "-"
+            part, style = slice(start, stop + 1), ("-", DASHED, DOTTED)[broken[start]]
             axes.plot(x[part], y[part], color=colour, ls=style, **marks)
     rows = _legible(axes, *as_columns(curve.reference_x, curve.reference_y))
     axes.plot(*rows, marker, color=colour, mfc="none", clip_on=False, zorder=3)

@@ -1,4 +1,4 @@
-"""Wave numbers around an axis, as a parameter of problems."""
+"""Wave numbers around an axis, as a parameter of problems, and the names of their eigenvalues."""
 
 from __future__ import annotations
 
@@ -14,20 +14,25 @@ MOST_WAVES = 400
 """Largest wave number that can be requested; larger ones were not tested on the default meshes."""
 
 
-def _waves(value: object) -> object:
-    """Wave numbers without repetition, from a list, one number, or text such as ``20,50``."""
-    given = value.split(",") if isinstance(value, str) else value
-    wanted = f"whole numbers from 0 to {MOST_WAVES} are wanted, such as 20,50"
-    found = []
-    for item in given if isinstance(given, list | tuple) else [given]:
-        try:
-            number = float(item)  # type: ignore[arg-type]
-        except (TypeError, ValueError):
-            raise ValueError(wanted) from None
-        if isinstance(item, bool) or number not in range(MOST_WAVES + 1):
-            raise ValueError(wanted)
-        found.append(int(number))
-    return tuple(dict.fromkeys(found))
+def wave_numbers(most: int) -> BeforeValidator:
+    """Validator of wave numbers up to a largest one: a list, one number, or text such as ``20,50``."""
+    wanted = f"whole numbers from 0 to {most} are wanted, such as {'20,50' if most > 50 else '0,1,2'}"
+
+    def given(value: object) -> object:
+        """Wave numbers without repetition."""
+        items = value.split(",") if isinstance(value, str) else value
+        found = []
+        for item in items if isinstance(items, list | tuple) else [items]:
+            try:
+                number = float(item)  # type: ignore[arg-type]
+            except (TypeError, ValueError):
+                raise ValueError(wanted) from None
+            if isinstance(item, bool) or number not in range(most + 1):
+                raise ValueError(wanted)
+            found.append(int(number))
+        return tuple(dict.fromkeys(found))
+
+    return BeforeValidator(given)
 
 
 LOWEST = 3
@@ -62,5 +67,5 @@ def require_waves(problem: str, n: tuple[int, ...], wanted: Iterable[str]) -> No
             )
 
 
-WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], BeforeValidator(_waves)]
+WaveNumbers = Annotated[tuple[Annotated[int, Field(ge=0, le=MOST_WAVES)], ...], wave_numbers(MOST_WAVES)]
 """Parameter ``n``: wave numbers around the axis for which stability is computed."""

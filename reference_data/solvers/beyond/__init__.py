@@ -1,0 +1,1 @@
+"""Tables of questions that the papers did not ask."""
