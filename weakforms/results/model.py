@@ -41,7 +41,7 @@ def crossings(column: np.ndarray, value: float) -> np.ndarray:
 
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
-    *("pull_off", "zone_opening", "zone_closing"),
+    *("pull_off", "zone_opening", "zone_closing", "volume_fold"),
 )
 """Kinds of special points, as in the schema."""
 
@@ -208,7 +208,7 @@ class SpecialPoint:
     """A point solved for by an extended system, not interpolated in a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
-    stability_change, pull_off, zone_opening, zone_closing.
+    stability_change, pull_off, zone_opening, zone_closing, volume_fold.
     """
 
     kind: str

@@ -152,7 +152,12 @@ class ModalBranch(FittedBranch):
             for i in changes:
                 solved = self._bifurcation(int(i), n)
                 found.append((self._arclength(int(i), solved), solved))
+        found += self._others()
         return [self.complete(solved) for _, solved in sorted(found, key=lambda item: item[0])]
+
+    def _others(self) -> list[tuple[float, Solved]]:
+        """Special points of other kinds with their arc lengths; none, unless a subclass has some."""
+        return []
 
     def require_nothing_between(self) -> None:
         """Check the eigenvalues of every family as in the base class."""

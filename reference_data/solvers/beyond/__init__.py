@@ -1,0 +1,1 @@
+"""Reference solvers of problems beyond the papers."""
