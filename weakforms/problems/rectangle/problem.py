@@ -1,0 +1,72 @@
+"""Problem ``rectangle``: a framed rectangular membrane under gas or liquid, and its stability."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.problems.branch_problem import BranchProblem, Family
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.problem import End, Requests, Task
+from weakforms.problems.rectangle.about import RECTANGLE
+from weakforms.problems.rectangle.branch import RectangleBranch, traced
+from weakforms.problems.rectangle.family import RectangleFamily
+from weakforms.problems.rectangle.model import RectangleModel
+from weakforms.problems.rectangle.parameters import RectangleNumerics, RectangleParameters
+
+LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
+"""The load and the amount of each medium."""
+
+
+class Rectangle(BranchProblem):
+    """A clamped rectangular membrane under gas from below or under a liquid on top."""
+
+    about = RECTANGLE
+    parameters = RectangleParameters
+    numerics = RectangleNumerics
+
+    def check(self, parameters: RectangleParameters, requests: Requests) -> None:
+        """Refuse laws without a relaxed form, stretches beyond a law's end, and states of the other load.
+
+        Raises:
+            InputError: With a message that names the value and the allowed ones.
+        """
+        super().check(parameters, requests)
+        require_foldable(self.name, parameters, waves=True)
+        for name, value in (("delta", parameters.delta), ("delta_y", parameters.stretch_y)):
+            require_taut(self.name, parameters.material, value, name)
+        absent = LOAD["gas" if parameters.load == "liquid" else "liquid"]
+        for wanted in requests.states:
+            if wanted.name in absent:
+                raise InputError(
+                    f"rectangle: with load = {parameters.load!r} there is no {wanted.name}; allowed: "
+                    f"{', '.join(LOAD[parameters.load])}"
+                )
+
+    def computed(self, _parameters: RectangleParameters) -> tuple[str, ...]:
+        """The least stress, which is zero where the first wrinkle appears."""
+        return ("S_least",)
+
+    def ends(self, parameters: RectangleParameters, _branch: str) -> list[End]:
+        """The last height of the centre."""
+        return [End("w_end", "w_c", parameters.w_end, largest=True)]
+
+    def families(self, task: Task) -> dict[str, Family]:
+        """The branch of states with both mirrors, on all meshes."""
+        parameters, numerics = task.parameters, task.numerics
+
+        def make(level: int) -> RectangleBranch:
+            task.progress("branch", level, numerics.levels)
+            sheet = parameters.sheet(numerics.meshes[level], numerics.degree)
+            model = RectangleModel(task.comm, sheet)
+            return traced(model, numerics.start, parameters.w_end, numerics.step)
+
+        load, _ = LOAD[parameters.load]
+        return {
+            "primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across=(load, "w_c"))
+        }
+
+    def points(self, _parameters: RectangleParameters) -> np.ndarray:
+        """41 points of the diagonal, from the centre to the corner, by their ``X``."""
+        return np.linspace(0.0, 1.0, 41)
