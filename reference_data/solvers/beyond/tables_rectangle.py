@@ -45,10 +45,10 @@ SERIES = Series(
     method="Two codes that share only the derivatives of the energy: (a) collocation of the equations of "
     "equilibrium at Chebyshev points of a quarter; (b) Galerkin's method with Legendre polynomials over the "
     "whole square. " + rule("Galerkin"),
-    grid=f"(a) {HALVES[0]} and {HALVES[1]} intervals from the centre to an edge; (b) degrees {DEGREES[0]} and "
-    f"{DEGREES[1]}",
-    tolerance="Newton's method to steps of 1e-12; limit loads by secants to 1e-9 of the height, where they are "
-    "stationary",
+    grid=f"(a) {HALVES[0]} and {HALVES[1]} intervals from the centre to an edge; (b) degrees {DEGREES[0]} "
+    f"and {DEGREES[1]}",
+    tolerance="Newton's method to steps of 1e-12; limit loads by secants to 1e-9 of the height, where they "
+    "are stationary",
 )
 
 

@@ -23,8 +23,8 @@ from weakforms.solvers.stability.modes import SecondVariation
 TAUT_START = 1.15
 """Stretch of the frame from which a frame with less stretch is approached, at the same height."""
 
-APPROACH = 4
-"""Number of steps of that approach."""
+FIRST_SHARE, LEAST_SHARE = 0.25, 1e-3
+"""First and smallest step of that approach, as a fraction of it."""
 
 ZERO = 1e-6
 """Eigenvalues in the states' class above minus this do not count as negative: at a limit load one is zero."""
@@ -157,15 +157,30 @@ def first_state(model: RectangleModel, solver: ExtendedNewton, height: float) ->
     """Equilibrium with a small height of the centre.
 
     A frame that stretches the sheet gives it stiffness against deflection, and Newton's method starts from a
-    cosine. A slack frame is approached from a taut one at this height.
+    cosine. A slack frame is approached from a taut one at this height, in steps that are halved if one fails.
+
+    Raises:
+        ConvergenceError: If the state is not reached.
     """
     sheet = model.sheet
     wanted = {"delta": sheet.delta, "delta_y": sheet.delta_y}
-    first = {name: max(value, TAUT_START) for name, value in wanted.items()}
-    first = first if min(wanted.values()) < TAUT_START else wanted
-    state = State(model.cosine(height), model.system.initial.loads | first)
+    taut = {name: max(value, TAUT_START) for name, value in wanted.items()}
+    if min(wanted.values()) >= TAUT_START:
+        taut = wanted
     held = [Held("w_c", height)]
-    for share in np.linspace(0, 1, APPROACH + 1 if first != wanted else 1):
-        frame = {name: value + share * (wanted[name] - value) for name, value in first.items()}
-        state, _ = solver.solve(State(state.u, state.loads | frame), held)
+
+    def at(share: float, guess: State) -> State:
+        frame = {name: value + share * (wanted[name] - value) for name, value in taut.items()}
+        return solver.solve(State(guess.u, guess.loads | frame), held)[0]
+
+    state = at(0.0, State(model.cosine(height), model.system.initial.loads))
+    done, step = 0.0, 1.0 if taut == wanted else FIRST_SHARE
+    while done < 1.0:
+        share = min(1.0, done + step)
+        try:
+            state, done = at(share, state), share
+        except ConvergenceError:
+            step /= 2
+            if step < LEAST_SHARE:
+                raise
     return State(state.u, state.loads | wanted)

@@ -18,7 +18,12 @@ class RectangleNumerics(MeshNumerics):
     degree: int = Field(2, ge=1, le=2, description="polynomial degree of the unknowns")
     cells: int = Field(16, ge=4, le=512, description="squares along half the short side on the finest mesh")
     step: float = Field(0.2, ge=0.01, le=0.5, description="largest arc-length step")
-    start: float = Field(0.02, ge=1e-4, le=0.3, description="w_c of the first point of the branch")
+    start: float = Field(
+        0.02,
+        ge=1e-4,
+        le=0.3,
+        description="w_c of the first point; under a liquid at least 0.2 if a stretch is below 1.05",
+    )
 
 
 class RectangleParameters(MaterialChoice):

@@ -18,6 +18,9 @@ from weakforms.problems.rectangle.parameters import RectangleNumerics, Rectangle
 LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
 """The load and the amount of each medium."""
 
+SLACK, SLACK_START = 1.05, 0.2
+"""Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
+
 
 class Rectangle(BranchProblem):
     """A clamped rectangular membrane under gas from below or under a liquid on top."""
@@ -60,7 +63,7 @@ class Rectangle(BranchProblem):
             task.progress("branch", level, numerics.levels)
             sheet = parameters.sheet(numerics.meshes[level], numerics.degree)
             model = RectangleModel(task.comm, sheet)
-            return traced(model, numerics.start, parameters.w_end, numerics.step)
+            return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
 
         load, _ = LOAD[parameters.load]
         return {
@@ -70,3 +73,12 @@ class Rectangle(BranchProblem):
     def points(self, _parameters: RectangleParameters) -> np.ndarray:
         """41 points of the diagonal, from the centre to the corner, by their ``X``."""
         return np.linspace(0.0, 1.0, 41)
+
+
+def begins(parameters: RectangleParameters, numerics: RectangleNumerics) -> float:
+    """Height of the centre at the first point.
+
+    A small pond on a slack sheet wets only the neighbourhood of the centre, which no mesh resolves.
+    """
+    slack = min(parameters.delta, parameters.stretch_y) < SLACK
+    return max(numerics.start, SLACK_START) if slack and parameters.load == "liquid" else numerics.start
