@@ -11,12 +11,16 @@ from weakforms.problems.meridian.limits import require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.rectangle.about import RECTANGLE
 from weakforms.problems.rectangle.branch import RectangleBranch, traced
-from weakforms.problems.rectangle.family import RectangleFamily
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.parameters import RectangleNumerics, RectangleParameters
+from weakforms.solvers.stability.modal import ModalFamily
 
 LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
 """The load and the amount of each medium."""
+
+CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y_least", "f_w", "f_s"), 1.0)}
+"""Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
+deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
 
 SLACK, SLACK_START = 1.05, 0.2
 """Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
@@ -65,10 +69,8 @@ class Rectangle(BranchProblem):
             model = RectangleModel(task.comm, sheet)
             return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
 
-        load, _ = LOAD[parameters.load]
-        return {
-            "primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across=(load, "w_c"))
-        }
+        across = LOAD[parameters.load][0], "w_c"
+        return {"primary": ModalFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
 
     def points(self, _parameters: RectangleParameters) -> np.ndarray:
         """41 points of the diagonal, from the centre to the corner, by their ``X``."""
