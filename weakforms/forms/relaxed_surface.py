@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ufl import Jacobian, conditional, cross, det, dot, grad, gt, inv, sqrt, tr
+from ufl import Jacobian, conditional, cross, det, diff, dot, grad, gt, inv, min_value, sqrt, tr, variable
 from ufl.core.expr import Expr
 
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
@@ -58,9 +58,14 @@ class Patch:
     def area_vector(self) -> Expr:
         r"""Deformed normal times area per reference area, :math:`N = (x_{,1}\times x_{,2})/\sqrt{\det G}`.
 
-        It points to the side from which the triangle's vertices appear counterclockwise.
+        In space it points to the side from which the triangle's vertices appear counterclockwise; over a
+        reference surface in the plane it points up where the sheet is not folded over, however its vertices
+        are numbered.
         """
-        area = sqrt(det(dot(self.reference.T, self.reference)))
+        if self.reference.ufl_shape == (2, 2):
+            area = det(self.reference)
+        else:
+            area = sqrt(det(dot(self.reference.T, self.reference)))
         return cross(self.deformed[:, 0], self.deformed[:, 1]) / area
 
 
@@ -78,9 +83,26 @@ def relaxed_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:
     return surface_tension_field(c, c2 if isinstance(c2, SurfaceLaw) else mooney_rivlin_surface(c2))
 
 
-def full_energy(c: Expr, c2: Expr | float) -> Expr:
+def full_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:
     """The same energy without relaxation: the sheet bears compression."""
+    if isinstance(c2, SurfaceLaw):
+        return c2.invariants(tr(c), det(c))
     return mooney_rivlin_invariants(tr(c), det(c), c2)
+
+
+def least_stress(c: Expr, law: SurfaceLaw) -> Expr:
+    r"""Least principal second Piola-Kirchhoff stress of the full energy ``w(I, D)``, over its modulus.
+
+    .. math:: S_i = 2 \Big(w_I + \frac{D}{\lambda_i^2}\, w_D\Big), \qquad I = \mathrm{tr}\,C,\quad D = \det C
+
+    It is negative exactly where a sheet that bears compression is compressed, and the relaxed one wrinkled.
+    """
+    trace, area = variable(tr(c)), variable(det(c))
+    energy = law.invariants(trace, area)
+    by_trace, by_area = diff(energy, trace), diff(energy, area)
+    l1, l2 = principal_stretches(c)
+    stresses = (2 * (by_trace + area / stretch**2 * by_area) for stretch in (l1, l2))
+    return min_value(*stresses)
 
 
 def state(c: Expr) -> Expr:
@@ -100,12 +122,15 @@ def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
     return -p * z + conditional(gt(zw, z), gamma * (zw - z) ** 2 / 2, 0.0)
 
 
-def pressure_potential(z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
+def pressure_potential(
+    z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr, edge: Expr | float | None = None
+) -> Expr:
     r"""Potential :math:`\Phi(z)\,N_z` of gas and liquid inside a surface, per reference area.
 
     :math:`-\int P\,\mathrm dV = \oint \Phi N_z\,\mathrm dA` as :math:`\nabla\cdot(\Phi e_z) = -P`; the
     surface that closes fixed edges adds a constant. The potential is exact for a polyhedron under gas, and
-    exact up to quadrature under a liquid.
+    exact up to quadrature under a liquid. A liquid of negative weight stands on the other side of the
+    surface and pushes against the normal.
 
     Args:
         z: Height.
@@ -113,8 +138,11 @@ def pressure_potential(z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) ->
         p: Gas pressure.
         zw: Level of the liquid.
         gamma: Its weight.
+        edge: Height :math:`z_e` of the edges: with :math:`\Phi(z) - \Phi(z_e)` edges that move in their plane
+            carry no load. For held edges the difference is a constant.
     """
-    return head(z, p, zw, gamma) * normal[2]
+    below = 0.0 if edge is None else head(edge, p, zw, gamma)
+    return (head(z, p, zw, gamma) - below) * normal[2]
 
 
 def printed_potential(at: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:

@@ -44,7 +44,7 @@ SYMMETRY_BREAKING = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, 
 
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
-    *("pull_off", "zone_opening", "zone_closing", "wrinkling_onset", *SYMMETRY_BREAKING),
+    *("pull_off", "zone_opening", "zone_closing", "volume_fold", "wrinkling_onset", *SYMMETRY_BREAKING),
 )
 """Kinds of special points, as in the schema."""
 
@@ -211,8 +211,8 @@ class SpecialPoint:
     """A point solved for by an extended system, not interpolated in a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
-    stability_change, pull_off, zone_opening, zone_closing, wrinkling_onset, mirror_breaking,
-    bifurcation_n1 to bifurcation_n6.
+    stability_change, pull_off, zone_opening, zone_closing, volume_fold, wrinkling_onset,
+    mirror_breaking, bifurcation_n1 to bifurcation_n6.
     """
 
     kind: str

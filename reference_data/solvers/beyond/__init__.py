@@ -1,1 +1,1 @@
-"""Tables of questions that the papers did not ask."""
+"""Reference solvers of problems beyond the papers."""

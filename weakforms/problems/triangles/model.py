@@ -20,16 +20,14 @@ from mpi4py import MPI
 
 from weakforms.forms.relaxed_surface import (
     MIDPOINTS,
-    Patch,
-    pressure_potential,
     printed_potential,
-    relaxed_energy,
     state,
 )
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.triangles.meshes import Triangulation
 from weakforms.problems.triangles.symmetry import Meridian, subspace_of
+from weakforms.problems.triangles.weak_form import Membrane, scalars
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.subspace import Subspace
 from weakforms.solvers.equilibrium.system import System
@@ -129,22 +127,18 @@ class SurfaceModel:
 
     def _formulation(self) -> Formulation:
         body, x = self.body, self.position
-        loads = {}
-        for name in ("p", "zw"):
-            constant = fem.Constant(self.mesh, 0.0)
-            loads[name] = (constant, ufl.variable(constant))
+        loads = scalars(self.mesh, ("p", "zw"))
         gamma, c2 = (fem.Constant(self.mesh, float(v)) for v in (body.gamma, body.c2))
         law = body.material.surface_law(self.mesh) if body.material else c2
-        patch = Patch.of(x, self.mesh)
-        self.cauchy_green = patch.cauchy_green()
-        normal = patch.area_vector()
+        membrane = Membrane.at(x, self.mesh, law, loads, gamma, self.thickness)
+        self.cauchy_green, normal = membrane.cauchy_green, membrane.normal
         given = (loads["p"][1], loads["zw"][1], gamma)
         once = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 0})
         over = ufl.Measure("dx", self.mesh, metadata=RULES[body.rule])
         exact = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2})
-        strain = self.thickness * relaxed_energy(self.cauchy_green, law) * once
+        strain = membrane.strain * once
         if body.potential == "vertical":
-            load = pressure_potential(x[2], normal, *given) * over
+            load = membrane.load * over
         else:
             load = printed_potential(x, normal, *given) * over
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)

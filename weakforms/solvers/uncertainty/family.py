@@ -35,7 +35,10 @@ from weakforms.solvers.uncertainty.refinement import (
     order_in_mean,
 )
 
-KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off", "wrinkling_onset", *SYMMETRY_BREAKING)
+KINDS = (
+    *("limit_point", "bifurcation_point", "cusp_point", "pull_off", "volume_fold", "wrinkling_onset"),
+    *SYMMETRY_BREAKING,
+)
 """Kinds of special points that are located on a curve; a state can be requested at one."""
 
 CRITICAL = 1e-6

@@ -1,0 +1,162 @@
+"""A framed rectangular sheet at points: stresses, their derivatives, and the load, for both methods.
+
+Mooney-Rivlin, ``W = t + 1/d - 3 + alpha (d + t/d - 3)`` with ``t = c1 + c2`` and ``d = c1 c2 - c3^2``, a
+function of ``c = (x_X.x_X, x_Y.x_Y, x_X.x_Y)``. The sheet must be taut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Framed:
+    """The sheet [-1, 1] x [-1, 1] with its frame at ``delta (X, Y)``, and its load.
+
+    Attributes:
+        alpha: C2/C1.
+        delta: Pre-stretch.
+        gamma: Weight of the liquid on top; 0 for gas from below.
+    """
+
+    alpha: float
+    delta: float = 1.1
+    gamma: float = 0.0
+
+    @property
+    def sign(self) -> float:
+        """Direction of the deflection."""
+        return -1.0 if self.gamma else 1.0
+
+    def push(self, z: Array, load: float) -> tuple[Array, Array, Array]:
+        """Pressure along the upward normal, and its derivatives in the height and in the load."""
+        if not self.gamma:
+            return np.full_like(z, load), np.zeros_like(z), np.ones_like(z)
+        wet = (z < load).astype(float)
+        return -self.gamma * (load - z) * wet, self.gamma * wet, -self.gamma * wet
+
+    def amount(self, z: Array, load: float) -> Array:
+        """Integrand of the volume of the gas, or of the liquid, over the area of the plane."""
+        return np.maximum(load - z, 0.0) if self.gamma else z
+
+
+def energy(c: Array, alpha: float) -> Array:
+    """``W`` for ``c`` of shape (3, q)."""
+    t, d = c[0] + c[1], c[0] * c[1] - c[2] ** 2
+    return t + 1 / d - 3 + alpha * (d + t / d - 3)
+
+
+def derivatives(c: Array, alpha: float) -> tuple[Array, Array]:
+    """Gradient (3, q) and Hessian (3, 3, q) of ``W`` in ``c``."""
+    t, d = c[0] + c[1], c[0] * c[1] - c[2] ** 2
+    one, none = np.ones_like(t), np.zeros_like(t)
+    dt, dd = np.array([one, one, none]), np.array([c[1], c[0], -2 * c[2]])
+    w_t, w_d = 1 + alpha / d, -1 / d**2 + alpha * (1 - t / d**2)
+    w_td, w_dd = -alpha / d**2, 2 / d**3 + 2 * alpha * t / d**3
+    ddd = np.zeros((3, 3, len(t)))
+    ddd[0, 1] = ddd[1, 0] = 1.0
+    ddd[2, 2] = -2.0
+    cross = dt[:, None] * dd[None]
+    hessian = w_td * (cross + cross.swapaxes(0, 1)) + w_dd * dd[:, None] * dd[None] + w_d * ddd
+    return w_t * dt + w_d * dd, hessian
+
+
+def stresses(x1: Array, x2: Array, alpha: float) -> tuple[Array, Array]:
+    """First Piola stresses (2, 3, q) over the tangents ``x_X, x_Y`` (3, q), and their derivative.
+
+    The derivative has the shape (2, 3, 2, 3, q): by direction and component of stress and of tangent.
+    """
+    tangents = np.array([x1, x2])
+    c = np.array([np.sum(x1 * x1, 0), np.sum(x2 * x2, 0), np.sum(x1 * x2, 0)])
+    g, h = derivatives(c, alpha)
+    factors = np.array([[2 * g[0], g[2]], [g[2], 2 * g[1]]])
+    strain = np.zeros((3, 2, 3, x1.shape[1]))  # derivative of c in the tangents
+    strain[0, 0], strain[1, 1], strain[2, 0], strain[2, 1] = 2 * x1, 2 * x2, x2, x1
+    rate = np.einsum("mnq,nsjq->msjq", h, strain)
+    moduli = np.einsum("mriq,msjq->risjq", strain, rate)
+    for i in range(3):
+        moduli[:, i, :, i] += factors
+    return np.einsum("rsq,siq->riq", factors, tangents), moduli
+
+
+def normal(x1: Array, x2: Array) -> Array:
+    """``x_X x x_Y``, shape (3, q)."""
+    return np.cross(x1, x2, axis=0)
+
+
+def normal_rates(x1: Array, x2: Array) -> Array:
+    """Derivative (3, 2, 3, q) of the normal in the tangents."""
+    out = np.zeros((3, 2, 3, x1.shape[1]))
+    for j in range(3):
+        unit = np.zeros_like(x1)
+        unit[j] = 1.0
+        out[:, 0, j], out[:, 1, j] = np.cross(unit, x2, axis=0), np.cross(x1, unit, axis=0)
+    return out
+
+
+@dataclass
+class Found:
+    """A state: unknowns, load, height of the centre, and the load's rate over that height."""
+
+    u: Array
+    load: float
+    height: float
+    rate: float
+
+
+Linear = Callable[[Array, float], tuple[Array, Array, Array]]
+"""Residual, its derivative in the unknowns and in the load, of unknowns and load."""
+
+
+def solve(equations: Linear, centre: Array, start: Found, height: float, tolerance: float = 1e-12) -> Found:
+    """Newton's method at a height of the centre, which is ``centre`` times the unknowns.
+
+    Raises:
+        RuntimeError: If it does not converge.
+    """
+    u, load = start.u.copy(), start.load
+    n = len(u)
+    for _ in range(30):
+        residual, k, rate = equations(u, load)
+        bordered = np.block([[k, rate[:, None]], [centre[None], np.zeros((1, 1))]])
+        step = np.linalg.solve(bordered, -np.append(residual, centre @ u - height))
+        u, load = u + step[:n], load + step[n]
+        if np.abs(step).max() < tolerance:
+            goal = np.zeros(n + 1)
+            goal[n] = 1.0
+            return Found(u, load, height, float(np.linalg.solve(bordered, goal)[n]))
+    raise RuntimeError(f"no convergence at the height {height:g}: last step {np.abs(step).max():.1e}")
+
+
+def follow(equations: Linear, centre: Array, start: Found, heights: Array) -> list[Found]:
+    """States at increasing heights, each from the one before; rows in between where they lie far apart."""
+    out, at = [], start
+    for height in heights:
+        steps = max(1, int(np.ceil((height - at.height) / STRIDE)))
+        for between in np.linspace(at.height, height, steps + 1)[1:]:
+            at = solve(equations, centre, at, float(between))
+        out.append(at)
+    return out
+
+
+STRIDE = 0.1
+"""Largest step of the height that Newton's method takes."""
+
+
+def limit(equations: Linear, centre: Array, near: Found, width: float = 0.02) -> Found:
+    """The limit load near a state, where the load's rate over the height is zero, by secants."""
+    a = near
+    b = solve(equations, centre, a, a.height + width)
+    for _ in range(20):
+        if abs(b.rate - a.rate) < 1e-14:
+            break
+        target = b.height - b.rate * (b.height - a.height) / (b.rate - a.rate)
+        a, b = b, solve(equations, centre, b, target)
+        if abs(b.height - a.height) < 1e-9:
+            return b
+    raise RuntimeError(f"no limit load near the height {near.height:g}")

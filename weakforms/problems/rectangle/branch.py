@@ -1,0 +1,186 @@
+"""The branch of a rectangular membrane on one mesh: its start, and what is read at its states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from dolfinx import fem
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.rectangle.model import RectangleModel
+from weakforms.problems.rectangle.readings import Centre, Points
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.linear import Factorization
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.modal import ModalBranch
+from weakforms.solvers.stability.modes import SecondVariation
+
+TAUT_START = 1.15
+"""Stretch of the frame from which a frame with less stretch is approached, at the same height."""
+
+FIRST_SHARE, LEAST_SHARE = 0.25, 1e-3
+"""First and smallest step of that approach, as a fraction of it."""
+
+ZERO = 1e-6
+"""Eigenvalues in the states' class above minus this do not count as negative: at a limit load one is zero."""
+
+COUNTED = {1: "n_odd_even", 2: "n_even_odd", 3: "n_odd_odd"}
+"""Columns of the counts by class; that of the states' own class is ``n_negative``."""
+
+
+class RectangleModes:
+    """What is computed at a state besides its functionals: least stress, stretch, counts by class."""
+
+    def __init__(self, model: RectangleModel) -> None:
+        self.model = model
+        self.square = model.sheet.is_square
+        self._points, self._centre = Points(model), Centre(model)
+        self._factor = Factorization(model.system)
+        self.amount = "V" if model.sheet.load == "gas" else "V_f"
+        self._counted = {} if model.sheet.whole else COUNTED
+        self.columns = ("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all", "n_held")
+        self._wet = fem.form(model.wet_area)
+
+    @property
+    def wave_numbers(self) -> tuple[int, ...]:
+        """Classes whose zeros are bifurcation points; on a square two of them are copies of each other."""
+        if not self._counted:
+            return ()
+        return (1, 3) if self.square else (1, 2, 3)
+
+    def variation(self, n: int) -> SecondVariation:
+        """The operator of a class; 0 is that of the states."""
+        return self.model.variations[n]
+
+    def observe(self) -> dict[str, float]:
+        """The columns at the state that the system is lent to."""
+        place, least = self._points.least()
+        counts = {name: float(self._count(n)) for n, name in self._counted.items()}
+        own, turned = self._own()
+        whole = own + sum(counts.values())
+        values = (self._centre.stretch(), least, *place, *counts.values(), whole, whole - turned)
+        return dict(zip(self.columns, values, strict=True))
+
+    def _count(self, n: int) -> int:
+        return self.model.variations[1 if self.square and n == 2 else n].negative_count()
+
+    def _own(self) -> tuple[int, bool]:
+        r"""Negative eigenvalues in the states' class, and whether the amount falls with the load there.
+
+        With ``b`` the derivative of the amount in the displacement, :math:`dV/dp = b^T K^{-1} b` for gas and
+        :math:`dV_f/dz_w = A_w + \gamma\, b^T K^{-1} b` for a liquid, which covers the area ``A_w``.
+        """
+        system, sheet = self.model.system, self.model.sheet
+        system.tangent()
+        system.shift(ZERO)
+        self._factor.refactor()
+        b, _ = system.monitor_gradient(self.amount, ())
+        b[system.bc_dofs] = 0.0
+        rate = system.dot(b, self._factor.solve(b))
+        if sheet.load == "liquid":
+            rate = float(system.sum(fem.assemble_scalar(self._wet))) + sheet.gamma * rate
+        return self._factor.negative_count(), rate < 0
+
+
+class RectangleBranch(ModalBranch):
+    """Symmetric states over the load; bifurcations into every class of displacements are located."""
+
+    def special(self) -> list[Solved]:
+        """As for any modal branch.
+
+        Raises:
+            ConvergenceError: If the inertia in the states' own class changes away from a limit load: another
+                branch with both mirrors crosses there, which this problem does not locate.
+        """
+        counts = np.array([p.n_negative for p in self.points])
+        changes = set(np.flatnonzero(np.diff(counts)).tolist())
+        limits = {i for i, p in enumerate(self.points) if any(p is limit for limit, _ in self._limits)}
+        crossed = sorted(i for i in changes if not {i, i + 1} & limits)
+        if crossed:
+            raise ConvergenceError(
+                f"an eigenvalue of the class with both mirrors changes sign after points {crossed} without a "
+                "limit load: another branch crosses"
+            )
+        return super().special()
+
+    def _placed(self) -> list[tuple[float, Solved]]:
+        """Besides, folds of the amount of gas or liquid: the ends of what can be reached by filling."""
+        amount = self.modes.amount
+        rates = np.array([self.direction(point, (amount,))[amount] for point in self.points])
+
+        def rate(solved: Solved, along: Tangent) -> float:
+            tangent = self.continuation.direction(solved.state, along)
+            with self.system.at(solved.state):
+                return self.continuation.rate(amount, tangent)
+
+        found = super()._placed()
+        for i in np.flatnonzero(rates[:-1] * rates[1:] < 0).tolist():
+            solved = self._root(i, partial(rate, along=self.points[i].tangent), "volume_fold")
+            found.append((self._arclength(i, solved), solved))
+        return found
+
+
+def traced(
+    model: RectangleModel,
+    start: float,
+    end: float,
+    step: float,
+    progress: Callable[[], None] = lambda: None,
+) -> RectangleBranch:
+    """The branch from a small height of the centre to a larger one.
+
+    Args:
+        model: The membrane on one mesh.
+        start: Height of the centre at the first point.
+        end: Height of the centre at which the branch ends.
+        step: Largest step.
+        progress: Called at every point.
+    """
+    control = model.sheet.control
+    solver = ExtendedNewton(model.system, [control])
+    continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
+    begin = continuation.start(first_state(model, solver, start), Held("w_c", start), towards={"w_c": 1.0})
+
+    def ends(point: CurvePoint) -> bool:
+        progress()
+        return point.monitors["w_c"] > end
+
+    return RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
+
+
+def first_state(model: RectangleModel, solver: ExtendedNewton, height: float) -> State:
+    """Equilibrium with a small height of the centre.
+
+    A frame that stretches the sheet gives it stiffness against deflection, and Newton's method starts from a
+    cosine. A slack frame is approached from a taut one at this height, in steps that are halved if one fails.
+
+    Raises:
+        ConvergenceError: If the state is not reached.
+    """
+    sheet = model.sheet
+    wanted = {"delta": sheet.delta, "delta_y": sheet.delta_y}
+    taut = {name: max(value, TAUT_START) for name, value in wanted.items()}
+    if min(wanted.values()) >= TAUT_START:
+        taut = wanted
+    held = [Held("w_c", height)]
+
+    def at(share: float, guess: State) -> State:
+        frame = {name: value + share * (wanted[name] - value) for name, value in taut.items()}
+        return solver.solve(State(guess.u, guess.loads | frame), held)[0]
+
+    state = at(0.0, State(model.cosine(height), model.system.initial.loads))
+    done, step = 0.0, 1.0 if taut == wanted else FIRST_SHARE
+    while done < 1.0:
+        share = min(1.0, done + step)
+        try:
+            state, done = at(share, state), share
+        except ConvergenceError:
+            step /= 2
+            if step < LEAST_SHARE:
+                raise
+    return State(state.u, state.loads | wanted)

@@ -1,0 +1,279 @@
+r"""Weak form of a rectangular membrane on triangles, and its second variation in each symmetry class.
+
+.. math:: \Pi = \int W(C)\,\mathrm dA - \int \varphi(z)\, N_z\,\mathrm dA, \qquad
+          \varphi = p\,z + \tfrac12 \gamma \big[(z_w - z)_+^2 - (z_w)_+^2\big]
+
+over the reference rectangle ``[-1, 1] x [-c, c]``: gas pushes from below, a liquid stands on top. The edges
+are held at ``x = (delta X, delta_y Y, 0)``. Lengths are divided by half the short side ``a``, energies by
+``C1 h a^2``. The unknown is the displacement from the flat sheet with these stretches.
+
+A state with both mirrors is solved for on the quarter ``[0, 1] x [0, c]``. The second variation of such a
+state decouples into four classes, by the parity of ``z`` in ``X`` and in ``Y``; each is the same form on the
+quarter with other conditions on the mirrors. Together they are all displacements of the whole sheet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import basix
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
+from ufl.core.expr import Expr
+
+from weakforms.forms.relaxed_surface import SLACK, WRINKLED, least_stress, state
+from weakforms.forms.wrinkling import principal_stretches
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.triangles.weak_form import Membrane, scalars
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.stability.modes import SecondVariation
+
+RULE = {1: 2, 2: 4}
+"""Quadrature degree by the degree of the elements: the load of straight triangles is exact with the first."""
+
+CLASSES = {0: "even_even", 1: "odd_even", 2: "even_odd", 3: "odd_odd"}
+"""Parity of ``z`` in ``X`` and ``Y``, by the number of the class."""
+
+VANISH = {"even": ("normal",), "odd": ("along", "height")}
+"""Components that vanish on a mirror, by the parity of ``z``."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The membrane, its load and its mesh.
+
+    Attributes:
+        law: The law.
+        load: ``gas`` from below, or ``liquid`` on top.
+        c: Long side over short side.
+        delta: Stretch of the frame in ``X``.
+        delta_y: Stretch of the frame in ``Y``.
+        gamma: Weight of the liquid.
+        relaxed: Whether the sheet bears no compression.
+        strip: Whether the short edges are free in the plane ``y = delta_y Y`` that all points then keep.
+        whole: Whether the mesh is the whole sheet; else the quarter of it.
+        cells: Squares along half the short side; each has four triangles.
+        degree: Degree of the elements, 1 or 2.
+    """
+
+    law: Chosen
+    load: str = "liquid"
+    c: float = 1.0
+    delta: float = 1.1
+    delta_y: float = 1.1
+    gamma: float = 1.0
+    relaxed: bool = True
+    strip: bool = False
+    whole: bool = False
+    cells: int = 8
+    degree: int = 2
+
+    @property
+    def control(self) -> str:
+        """Name of the load: ``p`` or ``zw``."""
+        return "p" if self.load == "gas" else "zw"
+
+    @property
+    def sign(self) -> float:
+        """Direction of the deflection: 1 up, -1 down."""
+        return 1.0 if self.load == "gas" else -1.0
+
+    @property
+    def is_square(self) -> bool:
+        """Whether an exchange of ``X`` and ``Y`` is a symmetry too."""
+        return self.c == 1 and self.delta == self.delta_y and not self.strip
+
+    @property
+    def copies(self) -> int:
+        """Number of meshes that make the whole sheet."""
+        return 1 if self.whole else 4
+
+    def mesh(self, comm: MPI.Intracomm) -> dmesh.Mesh:
+        """Squares cut by both diagonals: the mesh has all symmetries of the sheet."""
+        low = (-1.0, -self.c) if self.whole else (0.0, 0.0)
+        parts = 2 if self.whole else 1
+        along = [parts * self.cells, parts * max(1, round(self.c * self.cells))]
+        ends = [np.array(low), np.array([1.0, self.c])]
+        return dmesh.create_rectangle(
+            comm, ends, along, dmesh.CellType.triangle, diagonal=dmesh.DiagonalType.crossed
+        )
+
+
+class RectangleModel:
+    """The discrete equations on one mesh. Loads: ``p``, ``zw``, and the stretches of the frame.
+
+    Attributes:
+        system: Residual, tangent and columns in the space of the states.
+        variations: The second variation in each class of displacements, by its number; on a whole sheet 0
+            stands for all of them.
+    """
+
+    def __init__(self, comm: MPI.Intracomm, sheet: Sheet) -> None:
+        self.sheet = sheet
+        self.mesh = sheet.mesh(comm)
+        self.space = fem.functionspace(self.mesh, ("Lagrange", sheet.degree, (3,)))
+        self.unknown = fem.Function(self.space, name="displacement")
+        self.law = sheet.law.surface_law(self.mesh)
+        self.scalars = scalars(self.mesh, ("p", "zw", "delta", "delta_y"))
+        for name in ("delta", "delta_y"):
+            self.scalars[name][0].value = getattr(sheet, name)
+        self._weight = fem.Constant(self.mesh, -sheet.gamma if sheet.load == "liquid" else 0.0)
+        self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": RULE[sheet.degree]})
+        self.membrane = self._at(self.unknown)
+        self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
+        self.system = System(self._formulation())
+        classes = {0: CLASSES[0]} if sheet.whole else CLASSES
+        self.variations = {n: self._variation(name) for n, name in classes.items()}
+
+    def cosine(self, height: float) -> np.ndarray:
+        """Owned degrees of freedom of a deflection by half a wave in either direction."""
+        out, sheet = fem.Function(self.space), self.sheet
+
+        def shape(x: np.ndarray) -> np.ndarray:
+            across = 1.0 if sheet.strip else np.cos(np.pi * x[1] / (2 * sheet.c))
+            z = sheet.sign * height * np.cos(np.pi * x[0] / 2) * across
+            return np.vstack([0 * z, 0 * z, z])
+
+        out.interpolate(shape)
+        return out.x.array[: self.system.size].copy()
+
+    # -- form ----------------------------------------------------------------------------------
+
+    def _at(self, displacement: Expr) -> Membrane:
+        place = ufl.SpatialCoordinate(self.mesh)
+        flat = [self.scalars["delta"][1] * place[0], self.scalars["delta_y"][1] * place[1], 0]
+        position = ufl.as_vector(flat) + displacement
+        return Membrane.at(
+            position,
+            self.mesh,
+            self.law,
+            self.scalars,
+            self._weight,
+            relaxed=self.sheet.relaxed,
+            edge=0.0,
+        )
+
+    def _formulation(self) -> Formulation:
+        at, copies = self.membrane, self.sheet.copies
+        test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
+        energy = copies * (at.strain + at.load) * self.dx
+        l1, l2 = principal_stretches(at.cauchy_green)
+        return Formulation(
+            unknown=self.unknown,
+            residual=ufl.derivative(energy, self.unknown, test),
+            loads=self.scalars,
+            bcs=self._conditions("even_even"),
+            mass=copies * ufl.inner(trial, test) * self.dx,
+            monitors=self._monitors(energy),
+            profile={
+                **dict(zip("xyz", at.position, strict=True)),
+                "lam1": l1,
+                "lam2": l2,
+                "S_least": self.least_stress,
+            },
+            abscissa="X",
+            locate=lambda x, _loads: np.column_stack([x, self.sheet.c * np.asarray(x)]),
+        )
+
+    def _monitors(self, energy: ufl.Form) -> dict[str, ufl.Form]:
+        """The columns that are functionals of the state."""
+        at, copies = self.membrane, self.sheet.copies
+        z, mode = at.position[2], state(at.cauchy_green)
+        area = 4 * self.sheet.c
+        gas = self.sheet.load == "gas"
+        amount = {"V" if gas else "V_f": (z if gas else self._depth(z)) * at.normal[2]}
+
+        def share(value: float) -> ufl.Form:
+            return copies / area * ufl.conditional(ufl.eq(mode, value), 1.0, 0.0) * self.dx
+
+        return {
+            "w_c": self.sheet.sign * z * self._centre() * ufl.Measure("dx", self.mesh),
+            **{name: copies * density * self.dx for name, density in amount.items()},
+            "Pi": energy,
+            "U": copies * at.strain * self.dx,
+            "f_w": share(WRINKLED),
+            "f_s": share(SLACK),
+        }
+
+    def _depth(self, z: Expr) -> Expr:
+        """Depth of the liquid above a height."""
+        zw = self.scalars["zw"][1]
+        return ufl.conditional(ufl.gt(zw, z), zw - z, 0.0)
+
+    @property
+    def wet_area(self) -> ufl.Form:
+        """Horizontal area of the liquid's surface: ``dV_f/dzw`` of a rigid sheet."""
+        at, zw = self.membrane, self.scalars["zw"][1]
+        wet = ufl.conditional(ufl.gt(zw, at.position[2]), 1.0, 0.0)
+        return self.sheet.copies * wet * at.normal[2] * self.dx
+
+    def _centre(self) -> fem.Function:
+        r"""The weight ``g`` on one triangle with :math:`\int g\, v\,\mathrm dA = v(0, 0)` on any element."""
+        degree, mesh = self.sheet.degree, self.mesh
+        weight = fem.Function(fem.functionspace(mesh, ("DG", degree)))
+        corners = mesh.geometry.x[mesh.geometry.dofmap]
+        count = mesh.topology.index_map(2).size_local
+        cell, corner = (found[:1] for found in np.nonzero(np.linalg.norm(corners[:count], axis=2) < 1e-9))
+        first = mesh.comm.allreduce(mesh.comm.rank if len(cell) else mesh.comm.size, op=MPI.MIN)
+        if mesh.comm.rank == first:
+            points, weights = basix.make_quadrature(basix.CellType.triangle, 2 * degree)
+            basis = weight.function_space.element.basix_element.tabulate(0, points)[0, :, :, 0]
+            a, b, c = corners[cell[0], :, :2]
+            size = abs(np.linalg.det([b - a, c - a]))
+            product = size * np.einsum("q,qi,qj->ij", weights, basis, basis)
+            dofs = weight.function_space.dofmap.cell_dofs(cell[0])
+            weight.x.array[dofs] = np.linalg.solve(product, np.eye(len(dofs))[corner[0]])
+        weight.x.scatter_forward()
+        return weight
+
+    # -- conditions and classes ----------------------------------------------------------------
+
+    def _variation(self, name: str) -> SecondVariation:
+        q = fem.Function(self.space, name=name)
+        at, copies = self._at(self.unknown + q), self.sheet.copies
+        test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
+        return SecondVariation(
+            Formulation(
+                unknown=q,
+                residual=ufl.derivative(copies * (at.strain + at.load) * self.dx, q, test),
+                loads=self.scalars,
+                bcs=self._conditions(name),
+                mass=copies * ufl.inner(trial, test) * self.dx,
+                monitors={},
+            ),
+            self.system,
+        )
+
+    def _conditions(self, name: str) -> list[fem.DirichletBC]:
+        """No displacement of the edges; on the mirrors that of a class."""
+        sheet = self.sheet
+        ends = [(0, 1.0)] if sheet.strip else [(0, 1.0), (1, sheet.c)]
+        held = [self._zero(i, self._on(axis, end)) for axis, end in ends for i in range(3)]
+        if sheet.strip:
+            held.append(self._zero(1, None))
+        if sheet.whole:
+            return held
+        for axis, parity in enumerate(name.split("_")):
+            component = {"normal": axis, "along": 1 - axis, "height": 2}
+            held += [self._zero(component[what], self._on(axis, 0.0)) for what in VANISH[parity]]
+        return held
+
+    @staticmethod
+    def _on(axis: int, value: float) -> Callable[[np.ndarray], np.ndarray]:
+        """Marks a line of the frame, on both sides of a whole sheet, or a mirror."""
+        return lambda x: np.isclose(np.abs(x[axis]), value)
+
+    def _zero(self, component: int, where: Callable[[np.ndarray], np.ndarray] | None) -> fem.DirichletBC:
+        part = self.space.sub(component)
+        if where is None:
+            count = self.mesh.topology.index_map(2)
+            cells = np.arange(count.size_local + count.num_ghosts, dtype=np.int32)
+            self.mesh.topology.create_connectivity(2, 2)
+            return fem.dirichletbc(np.array(0.0), fem.locate_dofs_topological(part, 2, cells), part)
+        edges = dmesh.locate_entities_boundary(self.mesh, 1, where)
+        return fem.dirichletbc(np.array(0.0), fem.locate_dofs_topological(part, 1, edges), part)

@@ -1,0 +1,86 @@
+"""Problem ``rectangle``: a framed rectangular membrane under gas or liquid, and its stability."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.problems.branch_problem import BranchProblem, Family
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.problem import End, Requests, Task
+from weakforms.problems.rectangle.about import RECTANGLE
+from weakforms.problems.rectangle.branch import RectangleBranch, traced
+from weakforms.problems.rectangle.model import RectangleModel
+from weakforms.problems.rectangle.parameters import RectangleNumerics, RectangleParameters
+from weakforms.solvers.stability.modal import ModalFamily
+
+LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
+"""The load and the amount of each medium."""
+
+CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y_least", "f_w", "f_s"), 1.0)}
+"""Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
+deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
+
+SLACK, SLACK_START = 1.05, 0.2
+"""Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
+
+
+class Rectangle(BranchProblem):
+    """A clamped rectangular membrane under gas from below or under a liquid on top."""
+
+    about = RECTANGLE
+    parameters = RectangleParameters
+    numerics = RectangleNumerics
+
+    def check(self, parameters: RectangleParameters, requests: Requests) -> None:
+        """Refuse laws without a relaxed form, stretches beyond a law's end, and states of the other load.
+
+        Raises:
+            InputError: With a message that names the value and the allowed ones.
+        """
+        super().check(parameters, requests)
+        require_foldable(self.name, parameters, waves=True)
+        for name, value in (("delta", parameters.delta), ("delta_y", parameters.stretch_y)):
+            require_taut(self.name, parameters.material, value, name)
+        absent = LOAD["gas" if parameters.load == "liquid" else "liquid"]
+        for wanted in requests.states:
+            if wanted.name in absent:
+                raise InputError(
+                    f"rectangle: with load = {parameters.load!r} there is no {wanted.name}; allowed: "
+                    f"{', '.join(LOAD[parameters.load])}"
+                )
+
+    def computed(self, _parameters: RectangleParameters) -> tuple[str, ...]:
+        """The least stress, which is zero where the first wrinkle appears."""
+        return ("S_least",)
+
+    def ends(self, parameters: RectangleParameters, _branch: str) -> list[End]:
+        """The last height of the centre."""
+        return [End("w_end", "w_c", parameters.w_end, largest=True)]
+
+    def families(self, task: Task) -> dict[str, Family]:
+        """The branch of states with both mirrors, on all meshes."""
+        parameters, numerics = task.parameters, task.numerics
+
+        def make(level: int) -> RectangleBranch:
+            task.progress("branch", level, numerics.levels)
+            sheet = parameters.sheet(numerics.meshes[level], numerics.degree)
+            model = RectangleModel(task.comm, sheet)
+            return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
+
+        across = LOAD[parameters.load][0], "w_c"
+        return {"primary": ModalFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
+
+    def points(self, _parameters: RectangleParameters) -> np.ndarray:
+        """41 points of the diagonal, from the centre to the corner, by their ``X``."""
+        return np.linspace(0.0, 1.0, 41)
+
+
+def begins(parameters: RectangleParameters, numerics: RectangleNumerics) -> float:
+    """Height of the centre at the first point.
+
+    A small pond on a slack sheet wets only the neighbourhood of the centre, which no mesh resolves.
+    """
+    slack = min(parameters.delta, parameters.stretch_y) < SLACK
+    return max(numerics.start, SLACK_START) if slack and parameters.load == "liquid" else numerics.start
