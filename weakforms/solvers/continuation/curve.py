@@ -199,7 +199,7 @@ class SolutionCurve:
             return self.observe()[name]
 
     def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
-        state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
+        state, _ = self.continuation.solve(guess, constraint)
         return self.solved(state, kind)
 
     def solved(self, state: State, kind: str = "") -> Solved:
@@ -286,7 +286,7 @@ class SolutionCurve:
         last, continuation = self.points[-1], self.continuation
         step = (value - last.state.loads[load]) / last.tangent.loads[load]
         guess = continuation.predict(None, last, step)
-        state, record = self.solver.solve(guess, [*continuation.fixed, Held(load, value)])
+        state, record = continuation.solve(guess, Held(load, value))
         length = continuation.distance(state, last.state)
         self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
 
