@@ -42,6 +42,7 @@ def crossings(column: np.ndarray, value: float) -> np.ndarray:
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
     *("pull_off", "zone_opening", "zone_closing"),
+    *("fold_mirror", "tip_mirror", "wrinkling_fold", "wrinkling_mirror", "contact_fold", "contact_mirror"),
 )
 """Kinds of special points, as in the schema."""
 
@@ -208,7 +209,8 @@ class SpecialPoint:
     """A point solved for by an extended system, not interpolated in a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
-    stability_change, pull_off, zone_opening, zone_closing.
+    stability_change, pull_off, zone_opening, zone_closing; where two conditions hold on a line of a diagram,
+    fold_mirror, tip_mirror, wrinkling_fold, wrinkling_mirror, contact_fold, contact_mirror.
     """
 
     kind: str

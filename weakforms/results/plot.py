@@ -29,7 +29,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 """Endings of the files that a picture can be written to."""
 
 COLOURS = ("#0b62a4", "#c4500a", "#08805c", "#94478d", "#8a6a00", "#2b8fbf", "#5c5c61")
-MARKERS = dict(zip(KINDS, "os*DPXv^>", strict=True))
+MARKERS = dict(zip(KINDS, "os*DPXv^>hdpH<8", strict=True))
 """Marker of each kind of special point."""
 
 ASIDE = ("n_negative", "residual", "iterations", "Pi")

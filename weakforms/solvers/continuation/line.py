@@ -12,13 +12,14 @@ parameters turn, and where a line of symmetry breaking meets a line of limit poi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from weakforms.solvers.continuation.branch import EquilibriumBranch
-from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton, SolveRecord
@@ -32,6 +33,14 @@ Bracket = tuple[int, Callable[[State], float]]
 """A point of a line, and a function of states that changes sign between it and the next one."""
 
 
+@runtime_checkable
+class Turning(Protocol):
+    """A condition that depends on a choice, which is made once for each solve."""
+
+    def turn(self) -> None:
+        """Choose at the state that the system is lent to."""
+
+
 @dataclass(frozen=True)
 class Meeting:
     """Points of a line at which a second condition holds too (points of codimension two)."""
@@ -41,7 +50,14 @@ class Meeting:
 
 
 class LineContinuation(Continuation):
-    """Follows critical points; the null vector at each guess borders the singular form in its solve."""
+    """Follows critical points over the solver's two loads.
+
+    Args:
+        solver: Its scalars are the two loads.
+        condition: What makes a state critical. If it can ``turn``, it does so at the guess of each solve: the
+            border of a singular form becomes its null vector there.
+        control: Lengths of steps.
+    """
 
     def __init__(self, solver: ExtendedNewton, condition: Constraint, control: StepControl) -> None:
         self.condition = condition
@@ -50,7 +66,7 @@ class LineContinuation(Continuation):
 
     def solve(self, guess: State, constraint: Constraint, chord: bool = False) -> tuple[State, SolveRecord]:
         """Solve for the point of the line at which one more constraint holds."""
-        if isinstance(self.condition, Singular):
+        if isinstance(self.condition, Turning):
             with self.system.at(guess):
                 self.condition.turn()
         return super().solve(guess, constraint, chord)
@@ -96,12 +112,12 @@ class CriticalLine(SolutionCurve):
         before = self.points[i]
         return before.arclength + self.continuation.distance(state, before.state)
 
-    def counts(self, form: SingularForm) -> np.ndarray:
-        """Negative eigenvalues of another form at each point of the line, by inertia."""
+    def counts(self, form: SingularForm, shift: float = 0.0) -> np.ndarray:
+        """Number of eigenvalues of a form below ``-shift`` at each point of the line, by inertia."""
         found = []
         for point in self.points:
             with self.system.at(point.state):
-                found.append(form.negative_count())
+                found.append(form.negative_count(shift))
         return np.array(found)
 
 
@@ -162,6 +178,58 @@ def cusps(line: CriticalLine) -> Iterable[Bracket]:
             return line.condition.cubic()
 
     return [(int(i), cubic) for i in line.turns()]
+
+
+def tips(line: CriticalLine) -> Iterable[Bracket]:
+    """Turning points of the control: two points of the primary branch with this singular form merge."""
+    found = []
+    for i in line.turns().tolist():
+        along = line.points[i].tangent
+
+        def rate(state: State, along: Tangent = along) -> float:
+            return line.continuation.direction(state, along).loads[line.control]
+
+        found.append((i, rate))
+    return found
+
+
+def zeros_of(column: Callable[[Mapping[str, float]], float]) -> Callable[[CriticalLine], Iterable[Bracket]]:
+    """Zeros of a function of the columns."""
+
+    def brackets(line: CriticalLine) -> Iterable[Bracket]:
+        def function(state: State) -> float:
+            with line.system.at(state):
+                return column(line.system.monitors())
+
+        values = np.array([column(point.monitors) for point in line.points])
+        return [(int(i), function) for i in np.flatnonzero(values[:-1] * values[1:] < 0)]
+
+    return brackets
+
+
+def singular_too(
+    form: SingularForm, eigenvalue: Callable[[State, int], float]
+) -> Callable[[CriticalLine], Iterable[Bracket]]:
+    """Points at which a second form is singular, by its inertia at each point of the line.
+
+    Args:
+        form: The second form.
+        eigenvalue: Its eigenvalue of a number in ascending order, from 0, at a state that the system of the
+            line is lent to.
+    """
+
+    def brackets(line: CriticalLine) -> Iterable[Bracket]:
+        counts = line.counts(form)
+        for i in np.flatnonzero(np.diff(counts)).tolist():
+            index = int(min(counts[i], counts[i + 1]))
+
+            def function(state: State, index: int = index) -> float:
+                with line.system.at(state):
+                    return eigenvalue(state, index)
+
+            yield i, function
+
+    return brackets
 
 
 CUSP = Meeting("cusp_point", cusps)

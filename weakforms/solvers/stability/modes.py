@@ -113,10 +113,13 @@ class SecondVariation(System):
         """
         return self.stability.highest_negative(self._at_rest())
 
-    def negative_count(self) -> int:
-        """Number of negative eigenvalues at the state of the base system, by inertia."""
-        self.factor.update()
-        return self.factor.negative_count()
+    def negative_count(self, shift: float = 0.0) -> int:
+        """Number of eigenvalues below ``-shift`` at the state of the base system, by inertia."""
+        return counted(self, self.factor, shift)
+
+    def eigenvalue(self, index: int) -> float:
+        """One eigenvalue, by its number in ascending order: see :meth:`Stability.nearest_by_index`."""
+        return self.stability.nearest_by_index(self._at_rest(), index)
 
     def lowest_against(self, other: PETSc.Mat) -> float:
         """The lowest eigenvalue relative to another matrix: see :meth:`Stability.lowest_against`."""
@@ -150,6 +153,16 @@ def judged(stability: Stability, state: State, count: int) -> Spectrum:
         return stability.spectrum(state, count, shift=CRITICAL)
 
 
+def counted(system: System, factor: Factorization, shift: float) -> int:
+    """Number of eigenvalues below ``-shift`` at the lent state, by inertia."""
+    system.tangent()
+    if shift:
+        system.shift(shift)
+    factor.stiffened = None
+    factor.refactor()
+    return factor.negative_count()
+
+
 class SingularForm(Protocol):
     """A symmetric operator ``K(U, λ)`` that may become singular along a curve of states ``(U, λ)``."""
 
@@ -158,8 +171,8 @@ class SingularForm(Protocol):
     def mass_times(self, u: np.ndarray) -> np.ndarray:
         """``M u``."""
 
-    def negative_count(self) -> int:
-        """Number of negative eigenvalues, by inertia."""
+    def negative_count(self, shift: float = 0.0) -> int:
+        """Number of eigenvalues below ``-shift``, by inertia."""
 
     def quadratic_gradient(
         self, phi: np.ndarray, loads: Iterable[str]
@@ -180,10 +193,9 @@ class OwnVariation:
         """``M u``."""
         return self.system.mass_times(u)
 
-    def negative_count(self) -> int:
-        """Number of negative eigenvalues, by inertia."""
-        self.factor.update()
-        return self.factor.negative_count()
+    def negative_count(self, shift: float = 0.0) -> int:
+        """Number of eigenvalues below ``-shift``, by inertia."""
+        return counted(self.system, self.factor, shift)
 
     def quadratic_gradient(
         self, phi: np.ndarray, loads: Iterable[str]

@@ -26,7 +26,10 @@ from weakforms.solvers.uncertainty.refinement import (
     order_in_mean,
 )
 
-KINDS = ("limit_point", "bifurcation_point", "cusp_point", "pull_off")
+KINDS = (
+    *("limit_point", "bifurcation_point", "cusp_point", "pull_off"),
+    *("fold_mirror", "tip_mirror", "wrinkling_fold", "wrinkling_mirror", "contact_fold", "contact_mirror"),
+)
 """Kinds of special points that are located on a curve; a state can be requested at one."""
 
 CRITICAL = 1e-6
