@@ -12,7 +12,7 @@ LINES = ("fold", "mirror", "wrinkling", "contact")
 MOST = 4
 """Number of lines of a kind that states can be requested of."""
 
-NAMES = tuple(name + (f"_{k}" if k > 1 else "") for name in LINES for k in range(1, MOST + 1))
+NAMES = (*(name + (f"_{k}" if k > 1 else "") for name in LINES for k in range(1, MOST + 1)), "end")
 
 DIAGRAM = About(
     name="diagram",

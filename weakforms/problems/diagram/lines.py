@@ -29,9 +29,6 @@ from weakforms.solvers.stability.modes import OwnVariation, Singular
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.uncertainty.family import BranchFamily
 
-KINDS = ("fold", "mirror", "wrinkling", "contact")
-"""Kinds of lines: limit points, mirror breaking, first wrinkling, first contact."""
-
 LOAD = "p"
 
 SAME = 1e-6
@@ -140,6 +137,11 @@ class LinesOnMesh:
         count = len(branch.crossings(self.depth, self.touch))
         return [branch.at(self.depth, self.touch, k + 1).state for k in range(count)]
 
+    def _end(self, branch: EquilibriumBranch) -> list[State]:
+        """The largest displacement, which closes the regions of a diagram."""
+        found = branch.crossings(self.depth, self.window.end)
+        return [branch.at(self.depth, self.window.end).state] if len(found) else []
+
     def _wrinkling(self, branch: EquilibriumBranch) -> list[State]:
         margins = np.array([point.monitors["t_min"] for point in branch.points])
         found = []
@@ -215,8 +217,8 @@ class LinesOnMesh:
         return LineContinuation(solver, self._condition(kind, at, solver), steps)
 
     def _condition(self, kind: str, at: State, solver: ExtendedNewton) -> Constraint:
-        if kind == "contact":
-            return Held(self.depth, self.touch)
+        if kind in ("contact", "end"):
+            return Held(self.depth, self.touch if kind == "contact" else self.window.end)
         if kind == "wrinkling":
             return self.model.least
         if kind == "fold":
@@ -284,8 +286,16 @@ class LineFamily(BranchFamily):
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace."""
-        columns = super()._trace()
-        if self.model.odd is None:
-            return columns
-        shift = AWAY if self.kind == "mirror" else 0.0  # the critical mode does not count
-        return columns | {"n_mirror": self.fine.counts(self.model.mirror, shift)}
+        columns, model = super()._trace(), self.model
+        if model.odd is not None:
+            shift = AWAY if self.kind == "mirror" else 0.0  # the critical mode does not count
+            columns["n_mirror"] = self.fine.counts(model.mirror, shift)
+        if self.kind == "wrinkling":
+            columns["S_least"] = np.array([self._place(point.state) for point in self.fine.points])
+        return columns
+
+    def _place(self, state: State) -> float:
+        """Where the least resultant is."""
+        with self.model.system.at(state):
+            self.model.least.turn()
+        return self.model.least.place

@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.diagram.about import LINES
 from weakforms.problems.diagram.bodies import SUBJECTS, Subject
 from weakforms.problems.diagram.lines import LOAD, Window
@@ -17,6 +18,12 @@ USUAL = {"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (
 """Ranges of the parameters of a plane, if none are given."""
 
 ONLY = {"tube": ({"problem": ("tube",)},), "circular": ({"problem": ("circular",)},)}
+
+
+class DiagramNumerics(MeshNumerics):
+    """Meshes of a diagram."""
+
+    degree: int = Field(6, ge=2, le=6, description="polynomial degree of the unknowns")
 
 
 class DiagramParameters(MaterialChoice):

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError, not_among
-from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
+from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.diagram.about import DIAGRAM, LINES
 from weakforms.problems.diagram.lines import LOAD, LineFamily, LinesOnMesh, Seed
-from weakforms.problems.diagram.parameters import DiagramParameters
+from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.meridian.limits import require_bearable, require_taut
 from weakforms.problems.problem import End, Requests, Task
@@ -27,7 +27,7 @@ GRADING = 0.6
 class Diagram(BranchProblem):
     """Lines of limit points, of mirror breaking, of first wrinkling and of first contact."""
 
-    about, parameters, numerics = DIAGRAM, DiagramParameters, MeshNumerics
+    about, parameters, numerics = DIAGRAM, DiagramParameters, DiagramNumerics
 
     def check(self, parameters: DiagramParameters, requests: Requests) -> None:
         """Refuse what the ranges of single parameters cannot.
@@ -131,12 +131,12 @@ class Diagram(BranchProblem):
         places = [first, *np.linspace(window.low, window.high, SCANNED).tolist()]
         names: dict[str, Seed] = {}
         missing = []
-        for kind in given.kinds:
+        for kind in (*given.kinds, *(("end",) if {"fold", "mirror"} & {*given.kinds} else ())):
             seeds = coarse.seeds(kind, places)
             names |= {kind + (f"_{k + 1}" if k else ""): seed for k, seed in enumerate(seeds)}
-            if not seeds:
+            if not seeds and kind != "end":
                 missing.append(Absence(f"lines of kind {kind}", _none(given, kind)))
-        if not names:
+        if names.keys() <= {"end"}:
             raise ConvergenceError("; ".join(item.reason for item in missing))
         return names, missing
 

@@ -22,6 +22,7 @@ from dolfinx import fem
 from numpy.polynomial import polynomial
 from ufl.core.expr import Expr
 
+from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import System
 
@@ -73,10 +74,14 @@ class LeastValue:
         return values @ self._to_coefficients.T
 
     def turn(self) -> None:
-        """Find the cell with the least value at the lent state; Newton's method must not meet another one."""
+        """Find the cell with the least value at the lent state; Newton's method must not meet another one.
+
+        Raises:
+            ConvergenceError: If the expression is not a number there.
+        """
         t = np.linspace(-1, 1, SAMPLES * len(self._powers))
         values = self._polynomials() @ (t[:, None] ** self._powers).T
-        least = values.min(axis=1, initial=np.inf)
+        least = np.nan_to_num(values.min(axis=1, initial=np.inf), nan=-np.inf)
         cell = int(np.argmin(least)) if len(least) else -1
         found = self._comm.allgather((float(least[cell]) if len(least) else np.inf, self._comm.rank, cell))
         _, self._owner, self._cell = min(found)
@@ -87,13 +92,16 @@ class LeastValue:
         self._omega.x.array[:] = 0.0
         place = np.nan
         if self._comm.rank == self._owner:
-            low, high = self._ends[self._cell]
-            t = _least_of(self._polynomials()[self._cell], 1.0 if high == self._last else BESIDE)
-            lagrange = (t**self._powers) @ self._to_coefficients
-            self._omega.x.array[self._dofs[self._cell]] = lagrange / (self._weights * (high - low))
-            place = (low + high) / 2 + t * (high - low) / 2
+            coefficients, (low, high) = self._polynomials()[self._cell], self._ends[self._cell]
+            if np.isfinite(coefficients).all():
+                t = _least_of(coefficients, 1.0 if high == self._last else BESIDE)
+                lagrange = (t**self._powers) @ self._to_coefficients
+                self._omega.x.array[self._dofs[self._cell]] = lagrange / (self._weights * (high - low))
+                place = (low + high) / 2 + t * (high - low) / 2
         self._omega.x.scatter_forward()
         self.place = self._comm.bcast(place, root=self._owner)
+        if not np.isfinite(self.place):  # on all ranks
+            raise ConvergenceError("the state has stretches at which the law is not defined")
         self.at_end = abs(self.place - self._last) < 1e-12
 
     def value(self, _solver: ExtendedNewton) -> float:
