@@ -12,7 +12,7 @@ from reference_data.solvers.core.tables import Table
 Builder = Callable[[], Table]
 
 
-GROUPS = ("materials", "closed_form")
+GROUPS = ("materials", "closed_form", "beyond")
 """Folders of tables that do not belong to a paper."""
 
 

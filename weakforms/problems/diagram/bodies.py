@@ -1,7 +1,8 @@
 r"""Membranes all of whose parameters are loads, so that each may be an unknown.
 
 The material coordinate is a fraction ``S in [0, 1]`` of the meridian, on which the mesh does not depend on any
-parameter. Displacements are measured from the reference shape, which moves with its supports.
+parameter. The unknowns are the radius over its reference value ``R``, and the displacement along the axis from
+a shape that moves with its supports.
 """
 
 from __future__ import annotations
@@ -66,6 +67,7 @@ class VariedModel(MeridianModel):
     ) -> None:
         mesh = Blocks([0.0, 1.0], cells, degree, 2 * degree + 2, grading=[one_end(grading)])
         super().__init__(comm, self.body_of, {"p": 0.0, **values}, mesh, material=material)
+        self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), np.zeros_like(x[0])]))
 
     @cached_property
     def full(self) -> SurfaceLaw:
@@ -152,8 +154,8 @@ class VariedTube(VariedModel):
         length=lambda _q: 1.0,
         radius=lambda _s, _q: 1.0,
         thickness=lambda _s, q: q["lf"] / (2 * ufl.sqrt(q["delta1"])),
-        shape=lambda s, q: (1.0, s * q["lf"] / 2),
-        held=((None, 0.0), (0.0, 0.0)),
+        shape=lambda s, q: (0.0, s * q["lf"] / 2),
+        held=((None, 0.0), (1.0, 0.0)),
         scales=lambda q: (2 * q["delta1"] / q["lf"], 1 / ufl.sqrt(q["delta1"])),
     )
 
@@ -188,8 +190,7 @@ class VariedDisk(VariedModel):
         length=lambda _q: 1.0,
         radius=lambda x, _q: x,
         thickness=lambda _x, q: 1 / q["beta"] ** 2,
-        shape=lambda _x, _q: (1.0, 0.0),
-        held=((None, None), (0.0, 0.0)),
+        held=((None, None), (1.0, 0.0)),
         scales=lambda q: (q["beta"], q["beta"]),
         upwards=-1.0,
         pole=True,
@@ -208,9 +209,8 @@ class VariedDisk(VariedModel):
             return from_rest(self.system, "p", "t0", end, step)
         stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
         guess = self.system.initial.copy()
-        guess.u[0::2] = ((stretch / beta - 1) * (1 - radius**2))[0::2]
+        guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
         guess.u[1::2] = (FIRST_T0 * (1 - radius**2))[1::2]
-        guess.u[self.system.bc_dofs] = 0.0
         tension = evaluated(self.material_law, stretch, stretch)["W1"]
         guess.loads["p"] = 4 * FIRST_T0 * tension / beta
         return grown(self, guess, end, step)

@@ -31,11 +31,14 @@ from weakforms.solvers.uncertainty.family import BranchFamily
 
 LOAD = "p"
 
-SAME = 1e-6
-"""Relative distance within which a critical point lies on a line."""
+SAME = 1e-3
+"""Relative distance from a line, interpolated between its points, within which a critical point lies on it."""
 
 INSIDE = 1e-9
 """Relative distance within which a point lies on a side of the window."""
+
+UNLOADED = 1e-9
+"""Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
 
 LOOP = 4.0
 """Number of steps after which a line that comes within a step of its first point is closed."""
@@ -104,15 +107,13 @@ class LinesOnMesh:
         return getattr(self, f"_{kind}")(self.branch(at))
 
     def seeds(self, kind: str, places: Sequence[float]) -> list[Seed]:
-        """One critical point for each line, at the first value of the parameter where there are any."""
-        for at in places:
-            seeds: list[Seed] = []
+        """One critical point for each line that crosses a primary branch at one of some values."""
+        seeds: list[Seed] = []
+        for at in dict.fromkeys(places):
             for index, state in enumerate(self.starts(kind, at)):
                 if not any(self.has(self.line(seed), state) for seed in seeds):
                     seeds.append(Seed(kind, at, index))
-            if seeds:
-                return seeds
-        return []
+        return seeds
 
     def _fold(self, branch: EquilibriumBranch) -> list[State]:
         return [found.state for found in branch.special() if found.kind == "limit_point"]
@@ -144,6 +145,7 @@ class LinesOnMesh:
 
     def _wrinkling(self, branch: EquilibriumBranch) -> list[State]:
         margins = np.array([point.monitors["t_min"] for point in branch.points])
+        margins[np.abs(margins) < UNLOADED] = 0.0
         found = []
         for i in np.flatnonzero(margins[:-1] * margins[1:] < 0).tolist():
             guess = branch.between(i, margins[i] / (margins[i] - margins[i + 1]))
@@ -248,14 +250,19 @@ class LinesOnMesh:
         return [CUSP, Meeting("fold_mirror", breaking), *onsets]
 
     def has(self, line: CriticalLine, state: State) -> bool:
-        """Whether a critical point of a primary branch lies on a line."""
-        vary, depth = self.window.vary, line.solved(state).values[self.depth]
-        here = state.loads[vary]
-        found = [line.at(vary, here, k + 1).values for k in range(len(line.crossings(vary, here)))]
-        return any(
-            abs(at[self.depth] - depth) + abs(at[LOAD] - state.loads[LOAD]) < SAME * (1 + abs(depth))
-            for at in found
-        )
+        """Whether a critical point of a primary branch lies on a line, as far as interpolation tells."""
+        vary = self.window.vary
+        here, wanted = state.loads[vary], self._place_of(state)
+        for i in line.crossings(vary, here).tolist():
+            found = self._place_of(line.interpolated(i, vary, here))
+            if np.abs(found - wanted).max() < SAME * (1 + np.abs(wanted).max()):
+                return True
+        return False
+
+    def _place_of(self, state: State) -> np.ndarray:
+        """Largest displacement and pressure."""
+        with self.system.at(state):
+            return np.array([self.system.monitor(self.depth), state.loads[LOAD]])
 
 
 def _reversed(point: CurvePoint) -> CurvePoint:

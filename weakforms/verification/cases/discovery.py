@@ -15,7 +15,7 @@ from weakforms.errors import InputError
 from weakforms.verification.cases.case import Case
 from weakforms.verification.cases.references import ROOT, folder_of, part
 
-GROUPS = ("materials", "closed_form")
+GROUPS = ("materials", "closed_form", "beyond")
 """Folders of cases and reference tables that do not belong to a paper."""
 
 
