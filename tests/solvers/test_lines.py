@@ -154,7 +154,9 @@ def test_a_line_of_onsets_moves_from_inside_to_the_end():
     system, least = bowed()
     solver = ExtendedNewton(system, ["load", "s"])
     begin = State(np.full(system.size, 0.5), {"load": 0.5, "s": 0.7})
-    line = line_of(LineContinuation(solver, least, STEPS), begin, "s", 1.0, lambda p: p.state.loads["s"] > 1.3)
+    line = line_of(
+        LineContinuation(solver, least, STEPS), begin, "s", 1.0, lambda p: p.state.loads["s"] > 1.3
+    )
     assert line.stalled is None
     for point in line.points:
         s = point.state.loads["s"]

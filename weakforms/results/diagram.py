@@ -1,4 +1,4 @@
-"""Pictures of diagrams: lines of critical points, and how many negative eigenvalues the states have between them.
+"""Pictures of diagrams: lines of critical points, and numbers of negative eigenvalues between them.
 
 At each value of the parameter the states of the primary branch lie between the points at which it crosses
 the lines of limit points and of mirror breaking. At each of these points one eigenvalue changes sign. So the
@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from weakforms.errors import InputError
-from weakforms.results.model import Branch
 from weakforms.results.plot import COLOURS, MARKERS, empty_axes, label_of
 from weakforms.results.result import Result
 
@@ -158,7 +157,14 @@ def _draw_regions(axes: Axes, result: Result, x: str) -> None:
 
     colours = [PALE[k % len(PALE)] for k in range(len(names))]
     axes.pcolormesh(
-        xs, ps, shown, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(names) - 0.5, zorder=0, shading="nearest"
+        xs,
+        ps,
+        shown,
+        cmap=ListedColormap(colours),
+        vmin=-0.5,
+        vmax=len(names) - 0.5,
+        zorder=0,
+        shading="nearest",
     )
     for k, name in enumerate(names):
         if name:

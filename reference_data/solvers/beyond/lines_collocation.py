@@ -75,12 +75,12 @@ class Dual:
 
 
 def sine(x: Any) -> Any:
-    """sin of a number or a dual number."""
+    """The sine of a number or a dual number."""
     return Dual(np.sin(x.value), np.cos(x.value) * x.rate) if isinstance(x, Dual) else np.sin(x)
 
 
 def cosine(x: Any) -> Any:
-    """cos of a number or a dual number."""
+    """The cosine of a number or a dual number."""
     return Dual(np.cos(x.value), -np.sin(x.value) * x.rate) if isinstance(x, Dual) else np.cos(x)
 
 

@@ -6,8 +6,8 @@ N = (m, F + p rho^2/2) gives the stretch as the root of the quartic w_1(l1, rho/
 
 .. math:: \rho' = l_1 N_1/|N|, \qquad \eta' = l_1 N_2/|N|, \qquad m' = w_2 - p \rho \eta'.
 
-Integration is by extrapolation of the modified midpoint rule; derivatives by initial values are complex steps.
-With rho(L) = 1, eta(L) = l_f/2 a state is
+Integration is by extrapolation of the modified midpoint rule; derivatives by initial values are complex
+steps. With rho(L) = 1, eta(L) = l_f/2 a state is
 
 * a limit point if the derivatives of (rho, eta)(L) by (rho(0), F) at fixed p are linearly dependent;
 * a point of mirror breaking if that of rho(L) by m(0) vanishes (that by eta(0) is a translation);

@@ -172,8 +172,9 @@ def coincidence(name: str, tube: Tube, vary: str, u: float, near: float) -> Tabl
     columns = SERIES.keys(order=[1.0])
     for column, k in (("p", 1), (vary, -1)):
         b = Levels(*([at.numbers[column]] for at in found), rounding=1e-10)
-        checked = [_agreed(name, column, Levels(*(x[k] for x in levels), rounding=1e-10), b) for levels in pair]
-        columns.append(checked[0])
+        shots = [Levels(*(x[k] for x in levels), rounding=1e-10) for levels in pair]
+        by_fold, _by_mirror = (_agreed(name, column, a, b) for a in shots)  # both must agree
+        columns.append(by_fold)
     u_levels = Levels(*([at.u_max] for at in found), rounding=1e-10)
     columns.append(Column("u_max", u_levels.value, float(u_levels.uncertainty.max()), *COLUMNS["u_max"]))
     parameters = {n: float(getattr(tube, n)) for n in ("alpha", "delta1", "lf") if n != vary}
@@ -196,7 +197,8 @@ TABLES: dict[str, Builder] = {
         steps(1.535, 1.56, 0.005), 1.533,
     ),
     "lines_wrinkling_disk": partial(
-        line, "lines_wrinkling_disk", "wrinkling", Tube(0.0, 1.125, 6.0), "delta1", steps(1.35, 3.0, 0.15), 1.32
+        line, "lines_wrinkling_disk", "wrinkling", Tube(0.0, 1.125, 6.0), "delta1",
+        steps(1.65, 2.85, 0.15), 1.32,
     ),
     "lines_cusp_alpha": partial(
         turns, "lines_cusp_alpha", "fold", Tube(0.0, 1.0, 6.0), "alpha", (1.56,), 0.82

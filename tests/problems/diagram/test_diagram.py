@@ -1,4 +1,4 @@
-"""Lines of critical points of the tube and of the disk: against the problems of one parameter, and each other."""
+"""Lines of critical points of tube and disk: against the problems of one parameter, and each other."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,9 @@ def alpha_plane():
 
 @pytest.fixture(scope="module")
 def onsets():
-    return solve("diagram", alpha=0.0, kind="wrinkling,contact", high=1.6, numerics={"cells": 48, "levels": 2})
+    return solve(
+        "diagram", alpha=0.0, kind="wrinkling,contact", high=1.6, numerics={"cells": 48, "levels": 2}
+    )
 
 
 def near(a, b, uncertainty):
@@ -115,7 +117,13 @@ def test_first_contact_is_that_of_the_tube_against_its_substrate(onsets):
 
 def test_lines_of_the_disk_are_those_of_the_single_disk():
     lines = solve(
-        "diagram", problem="circular", x="alpha", kind="fold", numerics=MESH, at={"alpha": 0.02}, branch="fold"
+        "diagram",
+        problem="circular",
+        x="alpha",
+        kind="fold",
+        numerics=MESH,
+        at={"alpha": 0.02},
+        branch="fold",
     )
     disk = solve("circular", alpha=0.02, t_end=2.5, numerics={"cells": 48, "levels": 2})
     limits = disk.points("limit_point")
@@ -176,5 +184,7 @@ def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, messa
 
 
 def test_a_plane_without_a_line_says_what_was_searched():
-    with pytest.raises(ConvergenceError, match="no point of kind mirror .* 9 values of alpha from 0.2 to 0.3"):
+    with pytest.raises(
+        ConvergenceError, match=r"no point of kind mirror .* 9 values of alpha from 0.2 to 0.3"
+    ):
         solve("diagram", alpha=0.25, x="alpha", low=0.2, kind="mirror", numerics=COARSE)

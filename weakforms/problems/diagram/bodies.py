@@ -1,8 +1,8 @@
 r"""Membranes all of whose parameters are loads, so that each may be an unknown.
 
-The material coordinate is a fraction ``S in [0, 1]`` of the meridian, on which the mesh does not depend on any
-parameter. The unknowns are the radius over its reference value ``R``, and the displacement along the axis from
-a shape that moves with its supports.
+The material coordinate is a fraction ``S in [0, 1]`` of the meridian, on which the mesh does not depend on
+any parameter. The unknowns are the radius over its reference value ``R``, and the displacement along the axis
+from a shape that moves with its supports.
 """
 
 from __future__ import annotations

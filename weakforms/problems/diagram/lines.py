@@ -9,8 +9,10 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.diagram.bodies import VariedModel
+from weakforms.results import Quantity
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.line import (
     AWAY,
     CUSP,
@@ -22,17 +24,16 @@ from weakforms.solvers.continuation.line import (
     zeros_of,
 )
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.least import LeastValue
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import OwnVariation, Singular
-from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.stability.spectra import Stability, same_count
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 LOAD = "p"
 
 SAME = 1e-3
-"""Relative distance from a line, interpolated between its points, within which a critical point lies on it."""
+"""Relative distance from an interpolated line within which a critical point lies on it."""
 
 INSIDE = 1e-9
 """Relative distance within which a point lies on a side of the window."""
@@ -287,22 +288,32 @@ class LineFamily(BranchFamily):
     def __init__(
         self, meshes: Sequence[LinesOnMesh], seed: Seed, name: str, cap: float, caps: Mapping[str, float]
     ) -> None:
-        self.model, self.kind = meshes[-1].model, seed.kind
+        self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
         across = meshes[0].window.vary, meshes[0].depth
         super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace."""
-        columns, model = super()._trace(), self.model
-        if model.odd is not None:
-            shift = AWAY if self.kind == "mirror" else 0.0  # the critical mode does not count
-            columns["n_mirror"] = self.fine.counts(model.mirror, shift)
-        if self.kind == "wrinkling":
-            columns["S_least"] = np.array([self._place(point.state) for point in self.fine.points])
-        return columns
+        own = [self._own(self.models[-1], point.state, 0.0) for point in self.fine.points]
+        return super()._trace() | {name: np.array([row[name] for row in own]) for name in own[0]}
 
-    def _place(self, state: State) -> float:
-        """Where the least resultant is."""
-        with self.model.system.at(state):
-            self.model.least.turn()
-        return self.model.least.place
+    def _own(self, model: VariedModel, state: State, critical: float) -> dict[str, float]:
+        """Negative eigenvalues of mirror-odd modes, without a critical one, and the place of wrinkling."""
+        found: dict[str, float] = {}
+        with model.system.at(state):
+            if model.odd is not None:
+                found["n_mirror"] = model.mirror.negative_count(AWAY if self.kind == "mirror" else critical)
+            if self.kind == "wrinkling":
+                model.least.turn()
+                found["S_least"] = model.least.place
+        return found
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """As for any branch, with the same columns as the trace."""
+        own = [self._own(m, s.state, critical) for m, s in zip(self.models, solved, strict=True)]
+        found = super()._diagnostics(solved, critical)
+        if "n_mirror" in own[-1]:
+            found["n_mirror"] = Quantity(same_count(int(row["n_mirror"]) for row in own))
+        if "S_least" in own[-1]:
+            found["S_least"] = self._quantity([row["S_least"] for row in own], "S_least")
+        return found

@@ -76,7 +76,9 @@ class Diagram(BranchProblem):
         window, (least, most) = given.window, given.range_of(given.vary)
         named = f"low = {window.low:g}, high = {window.high:g}"
         if not (np.isfinite(window.low) and np.isfinite(window.high)):
-            raise InputError(f"diagram: set low and high, the range of {given.vary}; allowed: {least:g} to {most:g}")
+            raise InputError(
+                f"diagram: set low and high, the range of {given.vary}; allowed: {least:g} to {most:g}"
+            )
         if not least <= window.low < window.high <= most:
             raise InputError(
                 f"diagram: {named}: the range of {given.vary} must be increasing and between {least:g} and "
@@ -89,8 +91,8 @@ class Diagram(BranchProblem):
         here = given.known[given.vary]
         if given.vary in given.model_fields_set and not window.low <= here <= window.high:
             raise InputError(
-                f"diagram: {given.vary} = {here:g}, where lines start, is outside of {named}; allowed: between "
-                "both"
+                f"diagram: {given.vary} = {here:g}, where lines start, is outside of {named}; change one of "
+                "them"
             )
 
     def ends(self, parameters: DiagramParameters, _branch: str) -> list[End]:
@@ -122,9 +124,7 @@ class Diagram(BranchProblem):
         next(iter(found.values())).absent.extend(missing)
         return found
 
-    def _seeds(
-        self, given: DiagramParameters, coarse: LinesOnMesh
-    ) -> tuple[dict[str, Seed], list[Absence]]:
+    def _seeds(self, given: DiagramParameters, coarse: LinesOnMesh) -> tuple[dict[str, Seed], list[Absence]]:
         """One critical point for each line, from the coarsest mesh, by the line's name; what is not there."""
         window = given.window
         first = min(max(given.known[given.vary], window.low), window.high)
@@ -170,6 +170,6 @@ def _none(given: DiagramParameters, kind: str) -> str:
     window, subject = given.window, given.subject
     return (
         f"diagram: no point of kind {kind} on the primary branches at {SCANNED} values of {given.vary} from "
-        f"{window.low:g} to {window.high:g}, up to {subject.model.depth} = {window.end:g}; change low or high, "
-        f"or raise {subject.end}"
+        f"{window.low:g} to {window.high:g}, up to {subject.model.depth} = {window.end:g}; change low or "
+        f"high, or raise {subject.end}"
     )

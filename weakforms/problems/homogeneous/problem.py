@@ -77,7 +77,9 @@ def _start_under_force(system: System, body: Body, step: float) -> State:
     return pulled.at("force", body.force).state
 
 
-def fold_line_of(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float) -> CriticalLine:
+def fold_line_of(
+    body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float
+) -> CriticalLine:
     """The first limit point, followed in a constant of the law until it returns or reaches an end.
 
     Raises:

@@ -28,8 +28,8 @@ class EquilibriumBranch(SolutionCurve):
         """Limit points and bifurcation points in order.
 
         Limit points are bracketed where ``dλ/ds`` changes sign; there the inertia must also change by one.
-        The extended system of :class:`Singular` locates them. Where the inertia changes without a limit point,
-        another branch crosses: :class:`Crossing` locates it.
+        The extended system of :class:`Singular` locates them. Where the inertia changes without a limit
+        point, another branch crosses: :class:`Crossing` locates it.
 
         Raises:
             ConvergenceError: If slope and inertia disagree, or the solve for a point does not converge.

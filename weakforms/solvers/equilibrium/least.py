@@ -1,8 +1,8 @@
 r"""The condition that the least value of an expression along a meridian is zero: an onset.
 
-Where :math:`T` is least, at :math:`S^*`, its derivative is :math:`\mathrm dT(S^*) = \partial_U T\,\mathrm dU`,
-because :math:`T_{,S}(S^*) = 0` inside, and :math:`S^*` is fixed at an end. In a cell, :math:`T` is interpolated by
-the polynomial through its values at the Gauss points :math:`x_j`,
+Where :math:`T` is least, at :math:`S^*`, its change is :math:`\mathrm dT(S^*) = \partial_U T\,\mathrm dU`,
+because :math:`T_{,S}(S^*) = 0` inside, and :math:`S^*` is fixed at an end. In a cell, :math:`T` is
+interpolated by the polynomial through its values at the Gauss points :math:`x_j`,
 
 .. math:: T(S^*) = \sum_j L_j(S^*)\, T(x_j) = \int T\,\omega\,\mathrm dx, \qquad
           \omega(x_j) = L_j(S^*)/w_j
@@ -27,7 +27,7 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import System
 
 BESIDE = 2.0
-"""How far from the middle of its cell, in half cells, the place may move while Newton's method keeps the cell."""
+"""How far from the middle of its cell, in half cells, the place may move within one solve."""
 
 SAMPLES = 4
 """Number of samples for each Gauss point where the cell is searched for."""
