@@ -108,7 +108,7 @@ def prepare(
     chosen = require_environment().get(problem)
     from weakforms.problems.problem import StateRequest
 
-    if branch not in chosen.about.branches:
+    if branch not in (*chosen.about.branches, "primary"):  # the default, which not every problem has
         raise InputError(f"{problem} has no branch {branch!r}{not_among(branch, chosen.about.branches)}")
     if crossing != "all" and crossing < 1:
         raise InputError(f"{problem}: crossing = {crossing} must be 1 or more, or 'all'")

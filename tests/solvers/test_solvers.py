@@ -10,9 +10,10 @@ from dolfinx import fem, mesh
 from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
-from weakforms.solvers.equilibrium.constraints import Fold, Held
+from weakforms.solvers.continuation.line import fold_line
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import System
@@ -95,14 +96,12 @@ def test_cusp_is_located():
     branch = EquilibriumBranch(continuation, "load", first, stop=lambda p: p.monitors["u"] > 1.5)
     folds = branch.special()
     assert [f.values["u"] for f in folds] == pytest.approx([0.1 - 3**-0.5, 0.1 + 3**-0.5], abs=1e-9)
-    solver = ExtendedNewton(system, ["load", "second"])
-    line = Continuation(solver, [Fold("load", np.ones(1))], StepControl(first=0.05, largest=0.1), shift=1e-6)
-    begin = line.start(folds[0].state, Held("second", 1.2), towards={"second": -1.0})
-    fold_line = FoldLine(line, "second", begin, stop=lambda p: p.state.loads["second"] > 1.2)
-    for p in fold_line.points:
+    steps = StepControl(first=0.05, largest=0.1)
+    line = fold_line(branch, "second", -1.0, steps, stop=lambda p: p.state.loads["second"] > 1.2)
+    for p in line.points:
         u, a = p.state.u[0] - 0.1, p.state.loads["second"] - 0.2
         assert 3 * u * u == pytest.approx(a, abs=1e-9)
-    (cusp,) = fold_line.special()
+    (cusp,) = line.special()
     assert cusp.values["second"] == pytest.approx(0.2, abs=1e-10)
     assert cusp.values["u"] == pytest.approx(0.1, abs=1e-8)
 

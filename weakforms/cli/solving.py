@@ -147,14 +147,14 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
             sys.stdout.write(text)
         elif terminal:
             print_result(result, console(), str(out or ""))
-            _end(result)
+            end_of(result)
             return
         for note in notes(result):
             complain(note)
-    _end(result)
+    end_of(result)
 
 
-def _end(result: Result) -> None:
+def end_of(result: Result) -> None:
     """End with status 3 if something did not converge."""
     if result.failures:
         raise typer.Exit(3)

@@ -4,6 +4,7 @@ from weakforms.results.curves import CurveFile, read_curve
 from weakforms.results.io import load_result, validate, write_atomically
 from weakforms.results.model import (
     SYMMETRY_BREAKING,
+    TWO_CONDITIONS,
     Absence,
     Branch,
     Ended,
@@ -17,6 +18,7 @@ from weakforms.results.result import Result
 
 __all__ = [
     "SYMMETRY_BREAKING",
+    "TWO_CONDITIONS",
     "Absence",
     "Branch",
     "CurveFile",

@@ -42,9 +42,16 @@ def crossings(column: np.ndarray, value: float) -> np.ndarray:
 SYMMETRY_BREAKING = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, 7)))
 """Bifurcation points whose kind says which symmetry is lost: that along the axis, or around it to n waves."""
 
+TWO_CONDITIONS = (
+    *("fold_mirror", "tip_mirror", "wrinkling_fold", "wrinkling_mirror", "contact_fold", "contact_mirror"),
+)
+"""Points of the lines of a diagram at which a second condition holds, besides cusps."""
+
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
-    *("pull_off", "zone_opening", "zone_closing", "volume_fold", "wrinkling_onset", *SYMMETRY_BREAKING),
+    *("pull_off", "zone_opening", "zone_closing", "volume_fold", "wrinkling_onset"),
+    *TWO_CONDITIONS,
+    *SYMMETRY_BREAKING,
 )
 """Kinds of special points, as in the schema."""
 
@@ -212,7 +219,8 @@ class SpecialPoint:
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
     stability_change, pull_off, zone_opening, zone_closing, volume_fold, wrinkling_onset,
-    mirror_breaking, bifurcation_n1 to bifurcation_n6.
+    mirror_breaking, bifurcation_n1 to bifurcation_n6; where two conditions hold on a line of a diagram,
+    fold_mirror, tip_mirror, wrinkling_fold, wrinkling_mirror, contact_fold, contact_mirror.
     """
 
     kind: str

@@ -29,7 +29,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 """Endings of the files that a picture can be written to."""
 
 COLOURS = ("#0b62a4", "#c4500a", "#08805c", "#94478d", "#8a6a00", "#2b8fbf", "#5c5c61")
-MARKERS = dict(zip(KINDS, "os*DPXv^>d<hp2348H", strict=True))
+MARKERS = dict(zip(KINDS, "os*DPXv^>dxhpH834<21+|_.", strict=True))
 """Marker of each kind of special point."""
 
 ASIDE = ("n_negative", "residual", "iterations", "Pi")
@@ -65,7 +65,7 @@ def draw_results(results: Mapping[str, Result], x: str = "", y: str = "") -> Fig
         InputError: If a column is missing in every branch and every profile, or there is nothing to draw.
         EnvironmentLackError: If matplotlib is missing.
     """
-    figure, axes = _axes()
+    figure, axes = empty_axes()
     results = _by_parameters(results)
     branches = {_label(k, b.name, len(r.branches)): (r, b) for k, r in results.items() for b in r.branches}
     first = next((branch for _, branch in branches.values()), None)
@@ -84,8 +84,8 @@ def draw_results(results: Mapping[str, Result], x: str = "", y: str = "") -> Fig
             colour = COLOURS[k % len(COLOURS)]
             axes.plot(field.columns[x], field.columns[y], color=colour, label=_literal(label))
     scales = next(iter(results.values())).scales
-    axes.set_xlabel(_literal(_axis(x, scales)))
-    axes.set_ylabel(_literal(_axis(y, scales)))
+    axes.set_xlabel(_literal(label_of(x, scales)))
+    axes.set_ylabel(_literal(label_of(y, scales)))
     names = list(dict.fromkeys(result.problem for result in results.values()))
     axes.set_title(_literal(", ".join(names)), loc="left", fontsize="medium")
     if len(axes.get_legend_handles_labels()[0]):
@@ -119,7 +119,12 @@ def save(figure: Figure, path: Path) -> None:
         raise InputError(f"cannot write {path}: {error.strerror or error}") from error
 
 
-def _axes() -> tuple[Figure, Axes]:
+def empty_axes() -> tuple[Figure, Axes]:
+    """A figure and its axes with a grid.
+
+    Raises:
+        EnvironmentLackError: If matplotlib is missing.
+    """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -217,5 +222,6 @@ def _label(key: str, branch: str, count: int) -> str:
     return f"{key}: {branch}" if key and count > 1 else key or branch
 
 
-def _axis(name: str, scales: Mapping[str, str]) -> str:
+def label_of(name: str, scales: Mapping[str, str]) -> str:
+    """Label of an axis: a column and its meaning."""
     return fill(f"{name}:  {scales[name]}", WIDTH) if name in scales else name

@@ -5,7 +5,7 @@ import pytest
 from weakforms import solve
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation import branch as followed
-from weakforms.solvers.equilibrium.constraints import Fold
+from weakforms.solvers.stability.modes import Singular
 
 DISK = {"cells": 16, "degree": 3, "levels": 2}
 
@@ -18,11 +18,11 @@ def test_a_limit_point_whose_extended_system_fails_is_found_by_its_rate(monkeypa
     )
     (usual,) = solve("circular", **given, numerics=coarse).points("limit_point")
 
-    class Failing(Fold):
+    class Failing(Singular):
         def value(self, solver):
             raise ConvergenceError("round-off")
 
-    monkeypatch.setattr(followed, "Fold", Failing)
+    monkeypatch.setattr(followed, "Singular", Failing)
     result = solve("circular", **given, numerics=coarse)
     assert result.failures == []
     (found,) = result.points("limit_point")

@@ -17,8 +17,9 @@ from weakforms.problems.homogeneous.maxwell import maxwell_states
 from weakforms.problems.material_choice import Chosen, MaterialChoice
 from weakforms.problems.problem import End, Needs, Numerics, Requests, Task
 from weakforms.results import Result
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine, fold_line
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.line import CriticalLine, fold_line
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -76,7 +77,9 @@ def _start_under_force(system: System, body: Body, step: float) -> State:
     return pulled.at("force", body.force).state
 
 
-def fold_line_of(body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float) -> FoldLine:
+def fold_line_of(
+    body: Body, chosen: Chosen, vary: str, to: float, lam_end: float, step: float
+) -> CriticalLine:
     """The first limit point, followed in a constant of the law until it returns or reaches an end.
 
     Raises:
@@ -163,7 +166,7 @@ class Sphere(ClosedProblem):
         found = {"primary": BranchFamily(make, numerics.levels, ORDER, across=("P", "lam"))}
         if parameters.vary:
 
-            def line(level: int) -> FoldLine:
+            def line(level: int) -> CriticalLine:
                 progress("fold", level, numerics.levels)
                 ends = parameters.vary_end, parameters.lam_end
                 return fold_line_of(body, chosen, parameters.vary, *ends, step)

@@ -28,9 +28,10 @@ from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, mirrored, o
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.limits import LEAST_RESISTANCE
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.solvers.continuation.branch import EquilibriumBranch, FoldLine, fold_line
+from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import SolutionCurve
+from weakforms.solvers.continuation.line import CriticalLine, fold_line
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -246,7 +247,7 @@ def yielding(point: CurvePoint) -> str:
     )
 
 
-def fold_line_between(branch: EquilibriumBranch, ends: tuple[float, float], step: float) -> FoldLine:
+def fold_line_between(branch: EquilibriumBranch, ends: tuple[float, float], step: float) -> CriticalLine:
     """The first limit point of a branch, followed in ``delta1`` until it returns or reaches an end.
 
     Args:

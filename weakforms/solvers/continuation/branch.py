@@ -1,21 +1,14 @@
-"""Curves with their special points: equilibria over a load, over a load and fronts, and lines of folds."""
+"""Curves with their special points: equilibria over a load, and over a load and fronts."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
-from weakforms.solvers.equilibrium.constraints import Fold, Held
-from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-
-AWAY = 1e-6
-"""Shift of the inertia on a line of folds: its critical eigenvalue, which is zero, does not count."""
+from weakforms.solvers.stability.modes import OwnVariation, Singular
 
 
 class FittedBranch(SolutionCurve):
@@ -35,8 +28,8 @@ class EquilibriumBranch(SolutionCurve):
         """Limit points and bifurcation points in order.
 
         Limit points are bracketed where ``dλ/ds`` changes sign; there the inertia must also change by one.
-        The extended system of :class:`Fold` locates them. Where the inertia changes without a limit point,
-        another branch crosses: :class:`Crossing` locates it.
+        The extended system of :class:`Singular` locates them. Where the inertia changes without a limit
+        point, another branch crosses: :class:`Crossing` locates it.
 
         Raises:
             ConvergenceError: If slope and inertia disagree, or the solve for a point does not converge.
@@ -72,7 +65,8 @@ class EquilibriumBranch(SolutionCurve):
         a, b = self.points[i], self.points[i + 1]
         border = self.system.mass_times(a.tangent.u + b.tangent.u)
         try:
-            solved = self._solve(self._turn_guess(i), Fold(self.control, border), "limit_point")
+            singular = Singular(lambda: OwnVariation(self.solver), border)
+            solved = self._solve(self._turn_guess(i), singular, "limit_point")
         except ConvergenceError:
             return self._turn(i)
         self.require_within(i, solved, f"limit point of {self.control}")
@@ -88,51 +82,3 @@ class MirroredBranch(FittedBranch, EquilibriumBranch):
 
     def _fold(self, i: int) -> Solved:
         return self._turn(i)
-
-
-class FoldLine(SolutionCurve):
-    """Limit points in one load, followed over a second load, the control."""
-
-    kind = "cusp_point"
-
-    def special(self) -> list[Solved]:
-        """Cusps in order: points where two limit points, the ends of an unstable part of the branch, merge.
-
-        Cusps are bracketed where the control has an extremum. They are located as zeros of the fold's
-        curvature (:meth:`Fold.curvature`) over planes across the line.
-        """
-        return [self._cusp(int(i)) for i in self.turns()]
-
-    def _cusp(self, i: int) -> Solved:
-        (fold,) = self.continuation.fixed
-
-        def curvature(solved: Solved) -> float:
-            with self.system.at(solved.state):
-                return fold.curvature(self.solver)
-
-        return self._root(i, curvature, "cusp_point")
-
-
-def fold_line(
-    branch: EquilibriumBranch,
-    second: str,
-    towards: float,
-    steps: StepControl,
-    stop: Callable[[CurvePoint], bool],
-) -> FoldLine:
-    """The first limit point of a branch, followed over a second load.
-
-    Args:
-        branch: The branch, which has a limit point.
-        second: The second load.
-        towards: Sign of its change along the line at first.
-        steps: Lengths of steps.
-        stop: True at the last requested point.
-    """
-    first = branch.special()[0].state
-    middle = branch.points[int(branch.turns()[0])]
-    fold = Fold(branch.control, branch.system.mass_times(middle.tangent.u))
-    solver = ExtendedNewton(branch.system, [branch.control, second])
-    line = Continuation(solver, [fold], steps, shift=AWAY)
-    start = line.start(first, Held(second, first.loads[second]), towards={second: towards})
-    return FoldLine(line, second, start, stop)

@@ -153,6 +153,10 @@ class Continuation:
 
     # -- stepping ----------------------------------------------------------------------------
 
+    def solve(self, guess: State, constraint: Constraint, chord: bool = False) -> tuple[State, SolveRecord]:
+        """Solve for the point of the curve at which one more constraint holds."""
+        return self.solver.solve(guess, [*self.fixed, constraint], chord)
+
     def point(self, state: State, record: SolveRecord, along: Tangent, s: float) -> CurvePoint:
         """Complete a converged state: tangent, inertia, functionals."""
         with self.system.at(state):
@@ -179,7 +183,7 @@ class Continuation:
             constraint: Equation that selects the point, such as a prescribed functional.
             towards: Requested sign for the change of one functional or load along the curve.
         """
-        state, record = self.solver.solve(guess, [*self.fixed, constraint])
+        state, record = self.solve(guess, constraint)
         (name, sign), *_ = towards.items()
         with self.system.at(state):
             self.solver.factor.update()
@@ -216,7 +220,7 @@ class Continuation:
         """
         guess = self.predict(before, at, step)
         plane = self.plane(at.state, at.tangent, step)
-        state, record = self.solver.solve(guess, [*self.fixed, plane], chord=not self.fixed)
+        state, record = self.solve(guess, plane, chord=not self.fixed)
         if not self.allowed(state):
             raise ConvergenceError("the step leads out of the range of the problem")
         chord = self._chord(at.state, state)

@@ -137,13 +137,17 @@ class SolutionCurve:
         i = int(hits[crossing - 1])
         if name in self.computed:
             return replace(self._root(i, lambda solved: self._computed(solved, name) - value, name), kind="")
-        solved = self._solve(self.between(i, self._fraction(i, name, value)), Held(name, value))
+        solved = self._solve(self.interpolated(i, name, value), Held(name, value))
         self.require_within(i, solved, f"state at {name} = {value:g}")
         return solved
 
     def near(self, guess: State, name: str, value: float) -> Solved:
         """Solve for the state at which a column takes a value, from a state near it."""
         return self._solve(guess, Held(name, value))
+
+    def interpolated(self, i: int, name: str, value: float) -> State:
+        """The state between point ``i`` and the next one where a column has a value, by interpolation."""
+        return self.between(i, self._fraction(i, name, value))
 
     def _fraction(self, i: int, name: str, value: float) -> float:
         """Fraction of the interval between two neighbours where a column (a load: its cubic) has a value."""
@@ -199,7 +203,7 @@ class SolutionCurve:
             return self.observe()[name]
 
     def _solve(self, guess: State, constraint: Constraint, kind: str = "") -> Solved:
-        state, _ = self.solver.solve(guess, [*self.continuation.fixed, constraint])
+        state, _ = self.continuation.solve(guess, constraint)
         return self.solved(state, kind)
 
     def solved(self, state: State, kind: str = "") -> Solved:
@@ -286,7 +290,7 @@ class SolutionCurve:
         last, continuation = self.points[-1], self.continuation
         step = (value - last.state.loads[load]) / last.tangent.loads[load]
         guess = continuation.predict(None, last, step)
-        state, record = self.solver.solve(guess, [*continuation.fixed, Held(load, value)])
+        state, record = continuation.solve(guess, Held(load, value))
         length = continuation.distance(state, last.state)
         self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
 

@@ -1,4 +1,4 @@
-"""Scalar equations for an equilibrium with unknown loads: load, functional, arc length, fold."""
+"""Scalar equations for an equilibrium with unknown loads: load, functional, arc length."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from weakforms.solvers.equilibrium.linear import BorderedMatrix
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 
 
@@ -72,55 +71,3 @@ class MonitorPlane:
             row = row + weight * part
             loads = {k: loads.get(k, 0.0) + weight * rates.get(k, 0.0) for k in {*loads, *rates}}
         return row, loads
-
-
-@dataclass(frozen=True)
-class Fold:
-    r"""The condition ``q = 0`` for a fold of a curve of equilibria in one load ``λ``.
-
-    With a fixed vector ``c`` the bordered system
-
-    .. math:: \begin{pmatrix} K & R_\lambda \\ c^T & 0 \end{pmatrix}
-              \begin{pmatrix} \varphi \\ q \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}
-
-    gives ``q = dλ/d(cᵀU)`` along the curve. It vanishes exactly where ``K φ = 0``; unlike ``det K`` it does
-    so linearly and is well scaled. By the transposed system (``ψ``, normalised to ``ψᵀR_λ = 1``)
-
-    .. math:: \mathrm{d}q = -\mathrm{d}(\psi^T K \varphi + q\, \psi^T R_\lambda)
-
-    at fixed ``φ, ψ, q`` inside the bracket (Griewank & Reddien 1984; Govaerts 2000, chapter 3).
-    """
-
-    load: str
-    border: np.ndarray
-
-    def vectors(self, solver: ExtendedNewton) -> tuple[np.ndarray, np.ndarray, float]:
-        """``(φ, ψ, q)``; ``K`` must be factorised at the state that the system is lent to."""
-        rate = solver.system.load_derivative(self.load)
-        phi, q = self._solution(solver, rate, self.border)
-        psi, _ = self._solution(solver, self.border, rate)
-        return phi, psi, q
-
-    @staticmethod
-    def _solution(solver: ExtendedNewton, column: np.ndarray, row: np.ndarray) -> tuple[np.ndarray, float]:
-        vector, q = BorderedMatrix(solver.factor, [column], [row], np.zeros((1, 1))).solve(None, [1.0])
-        return vector, float(q[0])
-
-    def value(self, solver: ExtendedNewton) -> float:
-        """The value of ``q``; factorises ``K``."""
-        solver.factor.update()
-        _, q = self._solution(solver, solver.system.load_derivative(self.load), self.border)
-        return q
-
-    def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
-        """The gradient, from the third variation."""
-        phi, psi, q = self.vectors(solver)
-        row, loads = solver.system.third_variation(phi, psi, self.load, q)
-        return -row, {name: -value for name, value in loads.items()}
-
-    def curvature(self, solver: ExtendedNewton) -> float:
-        """``d²λ/d(cᵀU)²`` at the fold that the system is lent to; it is zero at a cusp."""
-        solver.factor.update()
-        phi, _, q = self.vectors(solver)
-        row, loads = self.gradient(solver)
-        return solver.system.dot(row, phi) + q * loads[self.load]

@@ -36,8 +36,7 @@ class System(Lendable):
         self.comm: MPI.Intracomm = space.mesh.comm
         self._alone = self.comm.size == 1
         self.test, self.trial = ufl.TestFunction(space), ufl.TrialFunction(space)
-        self._phi, self._psi = fem.Function(space), fem.Function(space)
-        self._rate = fem.Constant(space.mesh, 0.0)
+        self._phi = fem.Function(space)
         self._forms: dict[str, fem.Form] = {}
         self._interpolant: Interpolant | None = None
         self._peaks: dict[str, Peak] = {}
@@ -240,21 +239,16 @@ class System(Lendable):
             out[name] = 0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))
         return out
 
-    def third_variation(
-        self, phi: np.ndarray, psi: np.ndarray, load: str, rate: float
+    def quadratic_gradient(
+        self, phi: np.ndarray, loads: Iterable[str] | None = None
     ) -> tuple[np.ndarray, dict[str, float]]:
-        r"""Gradient of ``T = ψᵀ K φ + rate ψᵀ ∂R/∂λ`` in ``U`` and in each load, for fixed ``φ, ψ``."""
-        key, gradient = f"third_{load}", f"gradient_third_{load}"
+        r"""Gradient of ``φᵀ K φ`` in ``U`` and in the loads named, for fixed ``φ``: the third variation."""
+        key = "quadratic"
         if key not in self._ufl:
-            scalar = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._psi)
-            scalar += self._rate * ufl.action(self._rate_form(load), self._psi)
-            self._ufl[key] = scalar
-            self._ufl[gradient] = ufl.derivative(scalar, self.unknown, self.test)
-        self._rate.value = rate
-        for function, values in ((self._phi, phi), (self._psi, psi)):
-            function.x.array[: self.size] = values
-            function.x.scatter_forward()
-        return self._vector(gradient), self._scalar_derivatives(key, self._ufl[key])
+            self._ufl[key] = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._phi)
+        self._phi.x.array[: self.size] = phi
+        self._phi.x.scatter_forward()
+        return self.scalar_gradient(key, self._ufl[key], loads)
 
     def force_size(self) -> float:
         r"""Size of the nodal forces before they balance, :math:`\| \sum_j |K_{ij}| \, |U_i| \|`.

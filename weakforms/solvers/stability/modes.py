@@ -3,7 +3,7 @@
 A state computed in a symmetric space may lose stability in a mode that breaks the symmetry. The first
 variation depends on the state *and* on a displacement ``q`` in the larger space. Its derivative with respect
 to ``q`` at ``q = 0`` is the operator that decides on stability: :class:`SecondVariation`. :class:`Singular`
-is the condition that this operator has a null vector.
+is the condition that this operator, or ``K`` itself (:class:`OwnVariation`), has a null vector.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import ufl
@@ -112,10 +113,13 @@ class SecondVariation(System):
         """
         return self.stability.highest_negative(self._at_rest())
 
-    def negative_count(self) -> int:
-        """Number of negative eigenvalues at the state of the base system, by inertia."""
-        self.factor.update()
-        return self.factor.negative_count()
+    def negative_count(self, shift: float = 0.0) -> int:
+        """Number of eigenvalues below ``-shift`` at the state of the base system, by inertia."""
+        return counted(self, self.factor, shift)
+
+    def eigenvalue(self, index: int) -> float:
+        """One eigenvalue, by its number in ascending order: see :meth:`Stability.nearest_by_index`."""
+        return self.stability.nearest_by_index(self._at_rest(), index)
 
     def lowest_against(self, other: PETSc.Mat) -> float:
         """The lowest eigenvalue relative to another matrix: see :meth:`Stability.lowest_against`."""
@@ -149,7 +153,58 @@ def judged(stability: Stability, state: State, count: int) -> Spectrum:
         return stability.spectrum(state, count, shift=CRITICAL)
 
 
-@dataclass(frozen=True)
+def counted(system: System, factor: Factorization, shift: float) -> int:
+    """Number of eigenvalues below ``-shift`` at the lent state, by inertia."""
+    system.tangent()
+    if shift:
+        system.shift(shift)
+    factor.stiffened = None
+    factor.refactor()
+    return factor.negative_count()
+
+
+class SingularForm(Protocol):
+    """A symmetric operator ``K(U, λ)`` that may become singular along a curve of states ``(U, λ)``."""
+
+    factor: Factorization
+
+    def mass_times(self, u: np.ndarray) -> np.ndarray:
+        """``M u``."""
+
+    def negative_count(self, shift: float = 0.0) -> int:
+        """Number of eigenvalues below ``-shift``, by inertia."""
+
+    def quadratic_gradient(
+        self, phi: np.ndarray, loads: Iterable[str]
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Gradient of ``φᵀ K φ`` in the unknowns and in the loads named, for fixed ``φ``."""
+
+
+class OwnVariation:
+    """The second variation in the directions of the unknowns themselves, singular at limit points.
+
+    It shares matrix and factors with the solver, whose tangent it is.
+    """
+
+    def __init__(self, solver: ExtendedNewton) -> None:
+        self.system, self.factor = solver.system, solver.factor
+
+    def mass_times(self, u: np.ndarray) -> np.ndarray:
+        """``M u``."""
+        return self.system.mass_times(u)
+
+    def negative_count(self, shift: float = 0.0) -> int:
+        """Number of eigenvalues below ``-shift``, by inertia."""
+        return counted(self.system, self.factor, shift)
+
+    def quadratic_gradient(
+        self, phi: np.ndarray, loads: Iterable[str]
+    ) -> tuple[np.ndarray, dict[str, float]]:
+        """Gradient of ``φᵀ K φ`` in the unknowns and in the loads named, for fixed ``φ``."""
+        return self.system.quadratic_gradient(phi, loads)
+
+
+@dataclass
 class Singular:
     r"""The condition ``g = 0`` that a second variation ``K`` is singular.
 
@@ -160,10 +215,11 @@ class Singular:
 
     gives ``g``, which is proportional to the eigenvalue near ``K φ = 0`` and vanishes there. It follows the
     mode that ``c`` selects, not a position in an ordered spectrum. By the symmetry of ``K``,
-    :math:`\mathrm{d}g = -\varphi^T \mathrm{d}K\, \varphi` (Govaerts 2000, chapter 3).
+    :math:`\mathrm{d}g = -\varphi^T \mathrm{d}K\, \varphi` (Griewank & Reddien 1984; Govaerts 2000,
+    chapter 3).
     """
 
-    variation: Callable[[], SecondVariation]
+    variation: Callable[[], SingularForm]
     """Returns the operator; a function, because one object may be used for several wave numbers."""
     border: np.ndarray
 
@@ -183,3 +239,21 @@ class Singular:
         """The gradient, from the derivative of ``φᵀ K φ``."""
         row, loads = self.variation().quadratic_gradient(self.vectors()[0], solver.scalars)
         return -row, {name: -value for name, value in loads.items()}
+
+    def turn(self) -> None:
+        """Take the null vector at the state of the base system, which is near a singular one, as ``c``.
+
+        It is of unit length in the mass norm and keeps its sense. Newton's method must not meet a change of
+        ``c``, but along a line the null vector may turn until it is orthogonal to the first one.
+        """
+        phi, _ = self.vectors()
+        form = self.variation()
+        dual = form.mass_times(phi)
+        self.border = dual / np.sqrt(form.factor.system.dot(phi, dual))
+
+    def cubic(self) -> float:
+        r"""Third variation in the direction of the null vector of a limit point; it is zero at a cusp."""
+        phi, _ = self.vectors()
+        form = self.variation()
+        row, _ = form.quadratic_gradient(phi, ())
+        return form.factor.system.dot(row, phi)

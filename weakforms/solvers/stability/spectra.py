@@ -169,7 +169,8 @@ class Stability:
         with self._tangent_at(state):
             self._factorise()
             negative = self.factor.negative_count()
-            values = self._eigenvalues(index + 3, self.factor.solve)
+            wanted = min(index + 3, self.system.matrix.getSize()[0])
+            values = self._eigenvalues(wanted, self.factor.solve)
             below, above = values[values < 0], values[values >= 0]
             if negative > index:
                 return float(below[-1]) if len(below) else float(values[0])

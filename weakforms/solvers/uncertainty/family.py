@@ -13,6 +13,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import (
     SYMMETRY_BREAKING,
+    TWO_CONDITIONS,
     Absence,
     Branch,
     Failure,
@@ -37,6 +38,7 @@ from weakforms.solvers.uncertainty.refinement import (
 
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "pull_off", "volume_fold", "wrinkling_onset"),
+    *TWO_CONDITIONS,
     *SYMMETRY_BREAKING,
 )
 """Kinds of special points that are located on a curve; a state can be requested at one."""

@@ -82,7 +82,7 @@ GROUPS = {
     ),
     "materials": ("Materials", "Material laws and what they must satisfy", ""),
     "closed_form": ("Closed forms", "Problems with exact solutions", ""),
-    "beyond": ("Beyond the papers", "Questions and problems beyond those of the papers", ""),
+    "beyond": ("Beyond the papers", "Bifurcations and bodies that the papers did not ask about", ""),
 }
 """Short name, title and source of known groups; any other has the name of its folder."""
 

@@ -1,0 +1,190 @@
+"""Lines of critical points of tube and disk: against the problems of one parameter, and each other."""
+
+import numpy as np
+import pytest
+
+from weakforms import solve
+from weakforms.errors import ConvergenceError, InputError
+
+COARSE = {"cells": 24, "degree": 4, "levels": 2}
+MESH = {"cells": 48, "degree": 4, "levels": 2}
+
+
+@pytest.fixture(scope="module")
+def alpha_plane():
+    return solve("diagram", x="alpha", kind="fold,mirror", numerics=MESH)
+
+
+@pytest.fixture(scope="module")
+def onsets():
+    return solve(
+        "diagram", alpha=0.0, kind="wrinkling,contact", high=1.6, numerics={"cells": 48, "levels": 2}
+    )
+
+
+def near(a, b, uncertainty):
+    return abs(a - b) <= 2 * uncertainty + 1e-9
+
+
+def test_folds_over_the_pre_stretch_are_those_of_tube_fold():
+    line = solve("diagram", alpha=0.1, kind="fold", high=3.0, numerics=MESH)
+    own = solve("tube_fold", alpha=0.1, numerics={"cells": 48, "levels": 2})
+    (cusp,), (other,) = line.points("cusp_point"), own.points("cusp_point")
+    for name in ("delta1", "p", "u_max", "V"):
+        both = np.hypot(cusp.uncertainty[name], other.uncertainty[name])
+        assert near(cusp.values[name], other.values[name], both), name
+    assert line.failures == []
+
+
+def test_both_lines_have_the_same_coincidence(alpha_plane):
+    one, two = (p for p in alpha_plane.special_points if p.kind == "fold_mirror")
+    assert {one.branch, two.branch} == {"fold", "mirror"}
+    for name in ("alpha", "p", "u_max"):
+        assert near(one.values[name], two.values[name], one.uncertainty[name] + two.uncertainty[name]), name
+
+
+def test_limit_points_and_mirror_breaking_are_those_of_a_single_tube(alpha_plane):
+    """The whole tube finds where its mirror symmetry breaks by itself, in the space of both symmetries."""
+    at = 0.07
+    tube = solve("tube", alpha=at, extent="full", u_end=2.6, numerics={"cells": 48, "levels": 2})
+    (limit,), breaking = tube.points("limit_point")[:1], tube.points("bifurcation_point")
+    lines = solve(
+        "diagram",
+        x="alpha",
+        kind="fold,mirror",
+        numerics=MESH,
+        at={"alpha": at},
+        crossing="all",
+        branch="mirror",
+    )
+    found = sorted(s.quantities["p"].value for s in lines.states)
+    for point in breaking:
+        gap = min(abs(p - point.values["p"]) for p in found)
+        assert gap <= 1e-7
+    assert len(breaking) >= 1
+    folds = solve("diagram", x="alpha", kind="fold", numerics=MESH, at={"alpha": at}, branch="fold")
+    assert folds.states[0].quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-8)
+
+
+def test_states_on_a_line_of_limit_points_have_a_zero_eigenvalue(alpha_plane):
+    states = solve(
+        "diagram", x="alpha", kind="fold", numerics=COARSE, at={"u_max": 1.2}, branch="fold"
+    ).states
+    (state,) = states
+    assert abs(state.quantities["eigenvalue_1"].value) < 1e-8
+    assert state.quantities["n_negative"].value == 0
+
+
+def test_the_parameter_falls_like_a_square_root_of_the_distance_from_a_tip(alpha_plane):
+    tip = alpha_plane.points("tip_mirror")[0].values
+    line = alpha_plane.branch("mirror").columns
+    beside = line["u_max"] - tip["u_max"]
+    chosen = np.abs(beside) < 0.3
+    _, curvature, slope, gap = np.polyfit(beside[chosen], line["alpha"][chosen] - tip["alpha"], 3)
+    assert curvature < -0.01
+    assert abs(slope) < 0.01 * abs(curvature)
+    assert abs(gap) < 1e-5
+
+
+def test_first_wrinkling_is_at_the_disk_for_pre_stretched_tubes_and_inside_otherwise(onsets):
+    line = onsets.branch("wrinkling").columns
+    at_disk = line["S_least"] == 1.0
+    assert np.all(at_disk[line["delta1"] > 1.04])
+    assert not np.any(at_disk[line["delta1"] < 1.02])
+    assert np.all(line["S_least"] > 0.9)
+    assert np.abs(line["t_min"]).max() < 1e-6
+
+
+def test_the_least_resultant_of_a_profile_on_the_line_is_zero():
+    """At a disk ``lam2 = delta1^-1/2``, so that ``T2 = 0`` if and only if ``lam1 = delta1`` there."""
+    numerics = {"cells": 48, "levels": 2}
+    given = {"alpha": 0.0, "kind": "wrinkling", "high": 1.6}
+    (state,) = solve("diagram", **given, numerics=numerics, at={"u_max": 2.0}, branch="wrinkling").states
+    fields = state.fields[0].columns
+    assert fields["t2"].min() == pytest.approx(0.0, abs=1e-6)
+    assert fields["lam1"][-1] == pytest.approx(state.quantities["delta1"].value, abs=1e-6)
+
+
+def test_first_contact_is_that_of_the_tube_against_its_substrate(onsets):
+    (state,) = solve(
+        "diagram", alpha=0.0, kind="contact", high=1.6, numerics=MESH, at={"delta1": 1.2}, branch="contact"
+    ).states
+    tube = solve("tube", alpha=0.0, delta1=1.2, contact="frictionless", numerics={"cells": 48, "levels": 2})
+    (onset,) = tube.points("contact_onset")
+    assert state.quantities["p"].value == pytest.approx(onset.values["p"], abs=1e-8)
+    assert np.all(onsets.branch("contact").columns["u_max"] == pytest.approx(0.3))
+
+
+def test_lines_of_the_disk_are_those_of_the_single_disk():
+    lines = solve(
+        "diagram",
+        problem="circular",
+        x="alpha",
+        kind="fold",
+        numerics=MESH,
+        at={"alpha": 0.02},
+        branch="fold",
+    )
+    disk = solve("circular", alpha=0.02, t_end=2.5, numerics={"cells": 48, "levels": 2})
+    limits = disk.points("limit_point")
+    assert lines.states[0].quantities["p"].value == pytest.approx(limits[0].values["p"], abs=1e-8)
+    assert len(lines.points("cusp_point")) == 1
+
+
+def test_a_line_over_the_length_is_that_of_tubes_of_that_length():
+    given = {"alpha": 0.05, "x": "lf", "kind": "fold,mirror", "low": 5.0, "high": 7.0}
+    (state,) = solve("diagram", **given, numerics=MESH, at={"lf": 6.5}, branch="fold").states
+    (limit,) = solve("tube", alpha=0.05, lf=6.5, u_end=1.2, numerics={"cells": 48}).points("limit_point")
+    assert state.quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-8)
+
+
+def test_a_constant_of_another_law_may_be_an_axis():
+    """Mooney-Rivlin as the first of the generalised laws: its line is the one over alpha."""
+    line = solve("diagram", model="gent", jm=40.0, x="jm", low=30.0, high=60.0, kind="fold", numerics=COARSE)
+    (limit,) = solve("tube", model="gent", jm=40.0, u_end=1.2, numerics=COARSE).points("limit_point")
+    column = line.branch("fold").columns
+    assert column["jm"].min() == pytest.approx(30.0)
+    assert column["jm"].max() == pytest.approx(60.0)
+    (state,) = solve(
+        "diagram", model="gent", jm=40.0, x="jm", low=30.0, high=60.0, kind="fold", numerics=COARSE,
+        at={"p": limit.values["p"]}, branch="fold",
+    ).states  # fmt: skip
+    assert state.quantities["jm"].value == pytest.approx(40.0, abs=1e-4)
+
+
+def test_every_line_says_where_it_begins_and_why_it_ends(alpha_plane):
+    for branch in alpha_plane.branches:
+        begins = alpha_plane.numerics["begins"][branch.name]
+        assert begins["p"] == branch.columns["p"][0]
+        assert branch.ended.by in ("low", "high", "u_end")
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"x": "p", "y": "p"}, "x = y = 'p': a plane has two different parameters"),
+        ({"x": "radius"}, "x = 'radius' is no parameter of tube"),
+        ({"x": "alpha", "y": "delta1"}, "one of both must be p"),
+        ({"x": "beta"}, "x = 'beta' is no parameter of tube"),
+        ({"kind": "n1"}, "kind = 'n1'"),
+        ({"problem": "circular", "kind": "mirror"}, "problem = 'circular' has no mirror"),
+        ({"low": 2.0, "high": 1.5}, "the range of delta1 must be increasing"),
+        ({"low": 0.5}, "between 1 and 5"),
+        ({"delta1": 2.5}, "delta1 = 2.5, where lines start, is outside of low = 1, high = 2"),
+        ({"model": "gent", "x": "jm"}, "set low and high, the range of jm"),
+        ({"p_low": 2.0, "p_high": 1.0}, "p_low = 2 must be less than p_high = 1"),
+        ({"lf": -1.0}, "lf = -1.0"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, message):
+    with pytest.raises(InputError, match="diagram") as refused:
+        solve("diagram", **given)
+    assert message in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_plane_without_a_line_says_what_was_searched():
+    with pytest.raises(
+        ConvergenceError, match=r"no point of kind mirror .* 9 values of alpha from 0.2 to 0.3"
+    ):
+        solve("diagram", alpha=0.25, x="alpha", low=0.2, kind="mirror", numerics=COARSE)

@@ -1,0 +1,85 @@
+"""The verb that follows critical points in a plane of two parameters: diagram."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from weakforms.cli.app import app, examples
+from weakforms.cli.solving import end_of
+from weakforms.errors import InputError
+from weakforms.terminal import complain, console, plain, progress_bar, rank, request
+
+
+@app.command(
+    epilog=examples(
+        "weakforms diagram tube --plane delta1 p --set alpha=0.1 --kind fold",
+        "weakforms diagram tube --plane alpha p --out d.json --picture d.svg",
+        "weakforms diagram tube --plane lf p --set alpha=0.05 --set low=5 --set high=9",
+        "weakforms diagram circular --plane alpha p",
+    )
+)
+def diagram(
+    problem: Annotated[str, typer.Argument(help="tube or circular.")],
+    plane: Annotated[
+        tuple[str, str], typer.Option(metavar="X Y", help="The two parameters; one of them is p.")
+    ],
+    words: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME=VALUE]...", help="Parameters, as with --set.")
+    ] = None,
+    kind: Annotated[
+        str, typer.Option(metavar="KIND,...", help="fold, mirror, wrinkling, contact; default: all.")
+    ] = "all",
+    sets: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE", help="A parameter: of the membrane, or low and high of the plane."
+        ),
+    ] = None,
+    mesh: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=VALUE", help="A numerical setting: degree, cells, levels."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="File for the result.")] = None,
+    picture: Annotated[Path, typer.Option(help="Picture: .png, .svg or .pdf.")] = Path("diagram.png"),
+) -> None:
+    """Follow limit points, mirror breaking, first wrinkling and first contact in a plane, and draw them.
+
+    It solves the problem diagram, and writes the same result. Points at which two conditions hold are
+    located: cusps, tips, coincidences. Regions of the picture are labelled with the numbers of negative
+    eigenvalues of their states.
+    """
+    from weakforms import api
+    from weakforms.cli.screen import print_result
+    from weakforms.results.diagram import draw_diagram
+    from weakforms.results.io import dumps, require_place_for, validate, write_atomically
+    from weakforms.results.plot import require_picture_name, save
+    from weakforms.results.wording import notes
+
+    x, y = plane
+    given = request(None, [*(words or []), *(sets or [])], None, mesh)
+    own = {"problem": problem, "x": x, "y": y, "kind": kind}
+    twice = sorted(own.keys() & given["parameters"].keys())
+    if twice:
+        raise InputError(f"--set {twice[0]}: the verb's argument or option of this name gives it")
+    given["parameters"] |= own
+    solve_it = api.prepare("diagram", **given)
+    require_picture_name(picture)
+    if out is not None:
+        require_place_for(out)
+    with progress_bar() as progress:
+        result = solve_it(progress)
+    data = result.to_json()
+    validate(data)
+    if rank() == 0:
+        if out is not None:
+            write_atomically(out, dumps(data))
+        if result.branches:
+            save(draw_diagram(result, x, y), picture)
+        print_result(result, console(), str(out or ""))
+        console().print(f"picture: {plain(picture)}", soft_wrap=True)
+        for note in notes(result):
+            complain(note)
+    end_of(result)

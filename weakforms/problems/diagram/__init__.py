@@ -1,0 +1,1 @@
+"""Diagrams: lines of critical points in a plane of two parameters."""

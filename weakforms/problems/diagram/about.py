@@ -1,0 +1,88 @@
+"""What is said of the problem ``diagram``."""
+
+import math
+
+from weakforms.problems import column
+from weakforms.problems.about import LINE, About, Family
+from weakforms.problems.column import Column, Units, derived, numbers
+
+LINES = ("fold", "mirror", "wrinkling", "contact")
+"""Kinds of lines, and names of the first line of each."""
+
+MOST = 4
+"""Number of lines of a kind that states can be requested of."""
+
+NAMES = (*(name + (f"_{k}" if k > 1 else "") for name in LINES for k in range(1, MOST + 1)), "end")
+
+DIAGRAM = About(
+    name="diagram",
+    title="Lines of critical points in a plane of two parameters",
+    paper="beyond",
+    source="the membranes of papers 1 and 2; extended systems: Govaerts (2000), chapters 3, 4 and 7",
+    energy="that of `tube` or `circular` without a substrate, with all parameters as loads",
+    control="the parameter that varies besides p (past a cusp or tip compare over u_max or t0)",
+    unknown="(rho, eta) as of `tube` or `circular` with p and another parameter, and a null vector",
+    forms=("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
+    units=Units("R_f", "C1", "h_o", 2 * math.pi),
+    columns=(
+        column.PRESSURE,
+        Column("delta1", "axial pre-stretch of the tube, 1", r"\delta_1"),
+        Column("lf", "L_f/R_f of the tube", "l_f"),
+        Column("alpha", "C2/C1", r"\alpha"),
+        Column("beta", "uniform pre-stretch of the disk, 1", r"\beta"),
+        Column("u_max", "radial displacement of the tube's mid-plane over {length}", "u_{max}"),
+        Column("t0", "height of the disk's pole over {length}", "t_0"),
+        Column("lam1_mid", "meridional stretch at the mid-plane, 1"),
+        Column("lam_pole", "both stretches at the pole, 1"),
+        Column("V", "enclosed volume of the half tube, or under the disk, over {volume}", "V"),
+        Column("Pi", "total potential of the same over {energy}"),
+        *derived(
+            Column(
+                "t_min",
+                "least principal Cauchy resultant over {resultant}; negative: the membrane would be wrinkled",
+            ),
+            Column("n_mirror", "negative eigenvalues of modes that are odd under the mirror, 1"),
+            Column("S_least", "place of the least resultant as a fraction of the meridian, 1: at the clamp"),
+        ),
+        *column.DIAGNOSTICS,
+    ),
+    numbers=(
+        *numbers(
+            length="R_f, radius of the disks, or of the clamp",
+            s="S/R_f, radius of a substrate around the tube",
+            l="L/R_f, height of a substrate above the disk",
+            S="fraction of the meridian from the mid-plane or the pole",
+            eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 R dS",
+        ),
+        column.RHO,
+        Column("eta", "deformed axial position, or height, over {length}", r"\eta"),
+        column.LAM1,
+        column.LAM2,
+        column.T1,
+        column.T2,
+    ),
+    special_points=(
+        *("cusp_point", "fold_mirror", "tip_mirror", "wrinkling_fold", "wrinkling_mirror"),
+        *("contact_fold", "contact_mirror"),
+    ),
+    branches=NAMES,
+    tuned=(
+        Family(
+            {"alpha": (0.05, 0.15), "lf": (5.0, 8.0)},
+            **LINE,
+            fixed={"kind": "fold", "high": 3.0},
+            at=(("u_max", 1.4),),
+            branch="fold",
+            label="folds",
+        ),
+        Family(
+            {"lf": (5.5, 8.0)},
+            **LINE,
+            fixed={"kind": "mirror", "alpha": 0.0},
+            at=(("u_max", 1.8),),
+            branch="mirror",
+            label="mirror",
+        ),
+    ),
+    audit_numerics={"cells": 24, "levels": 2},
+)

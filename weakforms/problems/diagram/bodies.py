@@ -1,0 +1,245 @@
+r"""Membranes all of whose parameters are loads, so that each may be an unknown.
+
+The material coordinate is a fraction ``S in [0, 1]`` of the meridian, on which the mesh does not depend on
+any parameter. The unknowns are the radius over its reference value ``R``, and the displacement along the axis
+from a shape that moves with its supports.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf
+from typing import ClassVar
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+from weakforms.forms.materials import SurfaceLaw, surface_law
+from weakforms.problems.branch_problem import from_rest
+from weakforms.problems.disk.phases import FIRST_T0, TAUT
+from weakforms.problems.homogeneous.material_point import evaluated
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, one_end
+from weakforms.problems.meridian.body import Body, EndPosition
+from weakforms.problems.meridian.model import MeridianModel
+from weakforms.problems.tube.model import free_branch, resistance
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.least import LeastValue
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.modes import SecondVariation
+
+
+class VariedModel(MeridianModel):
+    """Weak form on ``S in [0, 1]``; loads are ``p``, the parameters of the body and constants of the law.
+
+    Args:
+        comm: Ranks.
+        material: The law.
+        values: First values of the body's parameters, and of constants of the law that vary.
+        cells: Cells of the mesh.
+        degree: Degree of the elements.
+        grading: Concentration of cells at the last end.
+    """
+
+    body_of: ClassVar[Body]
+    odd: ClassVar[EndPosition | None] = None
+    """What holds at ``S = 0`` for displacements that are odd under the mirror there; ``None`` without a
+    mirror."""
+    depth: ClassVar[str]
+    """Column of the largest displacement."""
+
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        material: Chosen,
+        values: Mapping[str, float],
+        cells: int,
+        degree: int,
+        grading: float,
+    ) -> None:
+        mesh = Blocks([0.0, 1.0], cells, degree, 2 * degree + 2, grading=[one_end(grading)])
+        super().__init__(comm, self.body_of, {"p": 0.0, **values}, mesh, material=material)
+        self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), np.zeros_like(x[0])]))
+
+    @cached_property
+    def full(self) -> SurfaceLaw:
+        """The law, with the constants that vary as loads."""
+        given = self.material_law
+        constants = {**given.on(self.mesh), **{n: self.q[n] for n, _ in given.constants if n in self.q}}
+        return surface_law(given.model, constants)
+
+    def mass(self) -> ufl.Form:
+        """``int |dx|^2 R dS``, which depends on no parameter."""
+        (u, w), (v, y) = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
+        radius = self.expressions["radius"]
+        return (radius**2 * u * v + w * y) * radius * self.dx
+
+    def formulation(self) -> Formulation:
+        """The weak form with the least principal resultant."""
+        given, (t1, t2) = super().formulation(), self.resultants
+        return replace(
+            given,
+            maxima={"minus_t": ufl.max_value(-t1, -t2)},
+            derived={"t_min": lambda v: -v["minus_t"]},
+            internal=("minus_t", "resistance"),
+            abscissa="S",
+        )
+
+    @cached_property
+    def least(self) -> LeastValue:
+        """The least principal resultant, whose zero is the onset of wrinkling."""
+        t1, t2 = self.resultants
+        return LeastValue(self.system, ufl.min_value(t1, t2), 2 * self.degree + 1)
+
+    @cached_property
+    def mirror(self) -> SecondVariation:
+        """The second variation in displacements that are odd under the mirror at ``S = 0``."""
+        base = self.system.formulation
+        perturbation = fem.Function(self.space, name="odd")
+        trial = ufl.TrialFunction(self.space)
+        form = Formulation(
+            unknown=perturbation,
+            residual=base.residual,
+            tangent=ufl.derivative(base.residual, self.unknown, trial),
+            loads=base.loads,
+            bcs=self.held_at({LOWER: self.odd, UPPER: self.body.held[1]}),
+            mass=base.mass,
+            monitors={},
+        )
+        return SecondVariation(form, self.system)
+
+    def held_at(self, ends: Mapping[int, EndPosition]) -> list[fem.DirichletBC]:
+        """Conditions that make displacements zero at ends, where they are not free."""
+        out = []
+        for tag, held in ends.items():
+            for component, value in enumerate(held):
+                if value is not None:
+                    part = self.space.sub(component)
+                    dofs = fem.locate_dofs_topological(part, 0, self.tags.find(tag))
+                    out.append(fem.dirichletbc(np.array(0.0), dofs, part))
+        return out
+
+    def primary(self, end: float, step: float) -> EquilibriumBranch:
+        """The primary branch over ``p`` at the loads of the initial state.
+
+        Args:
+            end: Value of :attr:`depth` at which it ends.
+            step: Largest arc-length step.
+        """
+        raise NotImplementedError
+
+
+class VariedTube(VariedModel):
+    r"""Half of the free tube of paper 2 from its mid-plane, ``Z = S l_f/2``: loads ``p, delta1, lf``.
+
+    .. math:: \frac{\Pi}{2\pi} = \int_0^1 \Big[ \frac{l_f}{2\sqrt{\delta_1}} w(\lambda_1, \lambda_2)
+              - \frac p2 \rho^2 \eta_{,S} \Big] \mathrm{d}S, \qquad
+              \lambda_1 = \frac{2\delta_1}{l_f}\sqrt{\rho_{,S}^2 + \eta_{,S}^2}
+    """
+
+    name = "tube"
+    depth = "u_max"
+    odd = (0.0, None)
+    body_of = Body(
+        name="tube",
+        parameters=(),
+        length=lambda _q: 1.0,
+        radius=lambda _s, _q: 1.0,
+        thickness=lambda _s, q: q["lf"] / (2 * ufl.sqrt(q["delta1"])),
+        shape=lambda s, q: (0.0, s * q["lf"] / 2),
+        held=((None, 0.0), (1.0, 0.0)),
+        scales=lambda q: (2 * q["delta1"] / q["lf"], 1 / ufl.sqrt(q["delta1"])),
+    )
+
+    def formulation(self) -> Formulation:
+        """The weak form with values at the mid-plane."""
+        e, given, middle = self.expressions, super().formulation(), self.ends(LOWER)
+        own = {
+            "u_max": (e["r"] - 1) * middle,
+            "lam1_mid": e["lam1"] * middle,
+            "resistance": resistance(self.law, e["lam1"], e["lam2"]) * middle,
+        }
+        return replace(given, monitors=own | dict(given.monitors))
+
+    def primary(self, end: float, step: float) -> EquilibriumBranch:
+        """Free inflation up to ``u_max = end``."""
+        return free_branch(self.system, self.system.initial.loads["delta1"], end, step)
+
+
+class VariedDisk(VariedModel):
+    r"""The free disk of paper 1 over ``X = beta x``: loads ``p, beta``.
+
+    .. math:: \frac{\Pi}{2\pi} = \int_0^1 \Big[ \frac{X}{\beta^2} W(\lambda_1, \lambda_2)
+              + \frac p2 \rho^2 \eta_{,X} \Big] \mathrm{d}X, \qquad
+              \lambda_1 = \beta\sqrt{\rho_{,X}^2 + \eta_{,X}^2}, \quad \lambda_2 = \beta\rho/X
+    """
+
+    name = "disk"
+    depth = "t0"
+    body_of = Body(
+        name="disk",
+        parameters=(),
+        length=lambda _q: 1.0,
+        radius=lambda x, _q: x,
+        thickness=lambda _x, q: 1 / q["beta"] ** 2,
+        held=((None, None), (1.0, 0.0)),
+        scales=lambda q: (q["beta"], q["beta"]),
+        upwards=-1.0,
+        pole=True,
+    )
+
+    def formulation(self) -> Formulation:
+        """The weak form with values at the pole."""
+        e, given, pole = self.expressions, super().formulation(), self.ends(LOWER)
+        own = {"t0": e["z"] * pole, "lam_pole": e["lam2"] * pole}
+        return replace(given, monitors=own | dict(given.monitors))
+
+    def primary(self, end: float, step: float) -> EquilibriumBranch:
+        """Free inflation up to ``t0 = end``, from rest or, if slack there, from a small height."""
+        beta = self.system.initial.loads["beta"]
+        if beta >= TAUT:
+            return from_rest(self.system, "p", "t0", end, step)
+        stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
+        guess = self.system.initial.copy()
+        guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
+        guess.u[1::2] = (FIRST_T0 * (1 - radius**2))[1::2]
+        tension = evaluated(self.material_law, stretch, stretch)["W1"]
+        guess.loads["p"] = 4 * FIRST_T0 * tension / beta
+        return grown(self, guess, end, step)
+
+
+def grown(model: VariedModel, guess: State, end: float, step: float) -> EquilibriumBranch:
+    """Equilibria by arc length from a first state of small displacement to a larger one."""
+    steps = StepControl(first=step / 4, largest=step, usual_load=inf)
+    continuation = Continuation(ExtendedNewton(model.system, ["p"]), control=steps)
+    start = continuation.start(guess, Held(model.depth, FIRST_T0), towards={model.depth: 1.0})
+    return EquilibriumBranch(continuation, "p", start, lambda at: at.monitors[model.depth] > end)
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What a diagram is drawn of."""
+
+    model: type[VariedModel]
+    parameters: tuple[str, ...]
+    """Names of the parameters of the body, each of which may be an axis of the plane."""
+    end: str
+    """Parameter that ends the primary branch, a value of the model's ``depth``."""
+    obstacle: str
+    """Parameter with the position of a substrate."""
+    touch: Callable[[float], float]
+    """Value of ``depth`` at first contact."""
+
+
+SUBJECTS = {
+    "tube": Subject(VariedTube, ("delta1", "lf"), "u_end", "s", lambda s: s - 1),
+    "circular": Subject(VariedDisk, ("beta",), "t_end", "l", lambda height: height),
+}

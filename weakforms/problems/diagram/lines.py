@@ -1,0 +1,319 @@
+"""The critical points of a primary branch, and the lines through them in a plane, on one mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.diagram.bodies import VariedModel
+from weakforms.results import Quantity
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.line import (
+    AWAY,
+    CUSP,
+    CriticalLine,
+    LineContinuation,
+    Meeting,
+    singular_too,
+    tips,
+    zeros_of,
+)
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.modes import OwnVariation, Singular
+from weakforms.solvers.stability.spectra import Stability, same_count
+from weakforms.solvers.uncertainty.family import BranchFamily
+
+LOAD = "p"
+
+SAME = 1e-3
+"""Relative distance from an interpolated line within which a critical point lies on it."""
+
+INSIDE = 1e-9
+"""Relative distance within which a point lies on a side of the window."""
+
+UNLOADED = 1e-9
+"""Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
+
+LOOP = 4.0
+"""Number of steps after which a line that comes within a step of its first point is closed."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """The part of the plane in which lines are followed, and the largest displacement."""
+
+    vary: str
+    """The parameter over which lines are drawn, besides the pressure."""
+    low: float
+    high: float
+    p_low: float
+    p_high: float
+    end: float
+    """Largest value of the column ``depth`` of the membrane."""
+
+    def bounds(self, depth: str) -> tuple[tuple[str, float, int], ...]:
+        """Column, value and outward direction of each side."""
+        return (
+            (self.vary, self.low, -1),
+            (self.vary, self.high, 1),
+            (LOAD, self.p_low, -1),
+            (LOAD, self.p_high, 1),
+            (depth, self.end, 1),
+        )
+
+
+@dataclass(frozen=True)
+class Seed:
+    """The ``index``-th critical point of a kind along the primary branch, where the parameter has a value."""
+
+    kind: str
+    at: float
+    index: int
+
+
+class LinesOnMesh:
+    """Primary branches and lines of one membrane on one mesh.
+
+    Args:
+        model: The weak form.
+        window: The part of the plane.
+        touch: Value of the column ``depth`` at first contact.
+        step: Largest arc-length step.
+    """
+
+    def __init__(self, model: VariedModel, window: Window, touch: float, step: float) -> None:
+        self.model, self.window, self.touch, self.step = model, window, touch, step
+        self.system, self.depth = model.system, model.depth
+        self._branches: dict[float, EquilibriumBranch] = {}
+        self._lines: dict[Seed, CriticalLine] = {}
+
+    def branch(self, at: float) -> EquilibriumBranch:
+        """The primary branch where the parameter has a value."""
+        if at not in self._branches:
+            self.system.initial.loads[self.window.vary] = at
+            self._branches[at] = self.model.primary(self.window.end, self.step)
+        return self._branches[at]
+
+    # -- critical points of the primary branch ---------------------------------------------------
+
+    def starts(self, kind: str, at: float) -> list[State]:
+        """The critical points of a kind, in order along the primary branch."""
+        return getattr(self, f"_{kind}")(self.branch(at))
+
+    def seeds(self, kind: str, places: Sequence[float]) -> list[Seed]:
+        """One critical point for each line that crosses a primary branch at one of some values."""
+        seeds: list[Seed] = []
+        for at in dict.fromkeys(places):
+            for index, state in enumerate(self.starts(kind, at)):
+                if not any(self.has(self.line(seed), state) for seed in seeds):
+                    seeds.append(Seed(kind, at, index))
+        return seeds
+
+    def _fold(self, branch: EquilibriumBranch) -> list[State]:
+        return [found.state for found in branch.special() if found.kind == "limit_point"]
+
+    def _mirror(self, branch: EquilibriumBranch) -> list[State]:
+        form = self.model.mirror
+
+        def count(state: State) -> int:
+            with self.system.at(state):
+                return form.negative_count()
+
+        counts = [count(point.state) for point in branch.points]
+        found = []
+        for i in np.flatnonzero(np.diff(counts)).tolist():
+            guess = branch.between(i, branch.narrowed(i, count, counts[i], counts[i + 1]))
+            with self.system.at(guess):
+                border = form.mass_times(form.highest_negative().vector)
+            found.append(self._solved(branch, i, guess, Singular(lambda: form, border)))
+        return found
+
+    def _contact(self, branch: EquilibriumBranch) -> list[State]:
+        count = len(branch.crossings(self.depth, self.touch))
+        return [branch.at(self.depth, self.touch, k + 1).state for k in range(count)]
+
+    def _end(self, branch: EquilibriumBranch) -> list[State]:
+        """The largest displacement, which closes the regions of a diagram."""
+        found = branch.crossings(self.depth, self.window.end)
+        return [branch.at(self.depth, self.window.end).state] if len(found) else []
+
+    def _wrinkling(self, branch: EquilibriumBranch) -> list[State]:
+        margins = np.array([point.monitors["t_min"] for point in branch.points])
+        margins[np.abs(margins) < UNLOADED] = 0.0
+        found = []
+        for i in np.flatnonzero(margins[:-1] * margins[1:] < 0).tolist():
+            guess = branch.between(i, margins[i] / (margins[i] - margins[i + 1]))
+            with self.system.at(guess):
+                self.model.least.turn()
+            found.append(self._solved(branch, i, guess, self.model.least))
+        return found
+
+    def _solved(self, branch: EquilibriumBranch, i: int, guess: State, condition: Constraint) -> State:
+        state, _ = branch.solver.solve(guess, [condition])
+        branch.require_within(i, branch.solved(state), "critical point")
+        return state
+
+    # -- lines -----------------------------------------------------------------------------------
+
+    def line(self, seed: Seed) -> CriticalLine:
+        """The line through a critical point, from one end to the other; it is followed once.
+
+        Raises:
+            ConvergenceError: If this mesh has no such critical point.
+        """
+        if seed not in self._lines:
+            starts = self.starts(seed.kind, seed.at)
+            if len(starts) <= seed.index:
+                raise ConvergenceError(
+                    f"diagram: {self.window.vary} = {seed.at:g}: the meshes have different numbers of "
+                    f"critical points of kind {seed.kind}: raise cells"
+                )
+            self._lines[seed] = self._both_ways(seed.kind, starts[seed.index])
+        return self._lines[seed]
+
+    def _both_ways(self, kind: str, at: State) -> CriticalLine:
+        """The line through a state: against the sense of the parameter to an end, and from there back."""
+        window, vary = self.window, self.window.vary
+        continuation = self._continuation(kind, at)
+        size, here = window.high - window.low, at.loads[vary]
+        at_low, at_high = (abs(here - side) <= INSIDE * size for side in (window.low, window.high))
+        first = continuation.start(at, Held(vary, here), towards={vary: 1.0 if at_low else -1.0})
+        if not (at_low or at_high):
+            first = _reversed(self._followed(continuation, first, ()).points[-1])
+        return self._followed(continuation, first, self._meetings(kind))
+
+    def _followed(
+        self, continuation: LineContinuation, first: CurvePoint, meetings: Sequence[Meeting]
+    ) -> CriticalLine:
+        """The line from a point to where it leaves the window, or returns to that point."""
+
+        def stop(point: CurvePoint) -> bool:
+            far = point.arclength > LOOP * self.step
+            closed = far and continuation.distance(point.state, first.state) < self.step
+            return closed or bool(self._outside(point))
+
+        line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
+        while line.stalled is None and (outside := self._outside(line.points[-1])):
+            line.end_at(*outside[0])
+        return line
+
+    def _outside(self, point: CurvePoint) -> list[tuple[str, float]]:
+        """Sides of the window beyond which a point lies: column and value."""
+        columns = point.monitors | point.state.loads
+        return [
+            (name, side)
+            for name, side, sign in self.window.bounds(self.depth)
+            if sign * (columns[name] - side) > INSIDE * max(1.0, abs(side))
+        ]
+
+    def _continuation(self, kind: str, at: State) -> LineContinuation:
+        """Follows the critical points of a kind, beginning near a state."""
+        solver = ExtendedNewton(self.system, [LOAD, self.window.vary])
+        steps = StepControl(first=self.step / 4, largest=self.step)
+        return LineContinuation(solver, self._condition(kind, at, solver), steps)
+
+    def _condition(self, kind: str, at: State, solver: ExtendedNewton) -> Constraint:
+        if kind in ("contact", "end"):
+            return Held(self.depth, self.touch if kind == "contact" else self.window.end)
+        if kind == "wrinkling":
+            return self.model.least
+        if kind == "fold":
+            own = OwnVariation(solver)
+            mode = Stability(self.system).modes(at, 1)[0]
+            return Singular(lambda: own, self.system.mass_times(mode.vector))
+        form = self.model.mirror
+        with self.system.at(at):
+            return Singular(lambda: form, form.mass_times(form.nearest().vector))
+
+    def _meetings(self, kind: str) -> list[Meeting]:
+        """The points of codimension two that are looked for on a line."""
+        if kind not in ("fold", "mirror"):
+            return []
+        onsets = [Meeting(f"wrinkling_{kind}", zeros_of(lambda columns: columns["t_min"]))]
+        if self.touch < self.window.end:
+            gap = zeros_of(lambda columns: columns[self.depth] - self.touch)
+            onsets.append(Meeting(f"contact_{kind}", gap))
+        if kind == "mirror":
+            own, stability = OwnVariation(ExtendedNewton(self.system, [LOAD])), Stability(self.system)
+            folds = singular_too(own, stability.nearest_by_index)
+            return [Meeting("tip_mirror", tips), Meeting("fold_mirror", folds), *onsets]
+        if self.model.odd is None:
+            return [CUSP, *onsets]
+        form = self.model.mirror
+        breaking = singular_too(form, lambda _state, index: form.eigenvalue(index))
+        return [CUSP, Meeting("fold_mirror", breaking), *onsets]
+
+    def has(self, line: CriticalLine, state: State) -> bool:
+        """Whether a critical point of a primary branch lies on a line, as far as interpolation tells."""
+        vary = self.window.vary
+        here, wanted = state.loads[vary], self._place_of(state)
+        for i in line.crossings(vary, here).tolist():
+            found = self._place_of(line.interpolated(i, vary, here))
+            if np.abs(found - wanted).max() < SAME * (1 + np.abs(wanted).max()):
+                return True
+        return False
+
+    def _place_of(self, state: State) -> np.ndarray:
+        """Largest displacement and pressure."""
+        with self.system.at(state):
+            return np.array([self.system.monitor(self.depth), state.loads[LOAD]])
+
+
+def _reversed(point: CurvePoint) -> CurvePoint:
+    """The same point, with the curve followed the other way."""
+    along = point.tangent
+    dual = None if along.dual is None else -along.dual
+    back = Tangent(-along.u, {name: -rate for name, rate in along.loads.items()}, dual)
+    return replace(point, tangent=back, arclength=0.0)
+
+
+class LineFamily(BranchFamily):
+    """A line on all meshes; its trace also has the number of negative eigenvalues of mirror-odd modes.
+
+    Args:
+        meshes: Primary branches and lines, coarse to fine.
+        seed: Where the line starts.
+        name: Name of the line.
+        cap: Highest order of convergence.
+        caps: Lower ones of some columns.
+    """
+
+    def __init__(
+        self, meshes: Sequence[LinesOnMesh], seed: Seed, name: str, cap: float, caps: Mapping[str, float]
+    ) -> None:
+        self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
+        across = meshes[0].window.vary, meshes[0].depth
+        super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
+
+    def _trace(self) -> dict[str, np.ndarray]:
+        """Columns of the finest mesh's trace."""
+        own = [self._own(self.models[-1], point.state, 0.0) for point in self.fine.points]
+        return super()._trace() | {name: np.array([row[name] for row in own]) for name in own[0]}
+
+    def _own(self, model: VariedModel, state: State, critical: float) -> dict[str, float]:
+        """Negative eigenvalues of mirror-odd modes, without a critical one, and the place of wrinkling."""
+        found: dict[str, float] = {}
+        with model.system.at(state):
+            if model.odd is not None:
+                found["n_mirror"] = model.mirror.negative_count(AWAY if self.kind == "mirror" else critical)
+            if self.kind == "wrinkling":
+                model.least.turn()
+                found["S_least"] = model.least.place
+        return found
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """As for any branch, with the same columns as the trace."""
+        own = [self._own(m, s.state, critical) for m, s in zip(self.models, solved, strict=True)]
+        found = super()._diagnostics(solved, critical)
+        if "n_mirror" in own[-1]:
+            found["n_mirror"] = Quantity(same_count(int(row["n_mirror"]) for row in own))
+        if "S_least" in own[-1]:
+            found["S_least"] = self._quantity([row["S_least"] for row in own], "S_least")
+        return found

@@ -1,0 +1,103 @@
+"""Parameters of the problem ``diagram``."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from weakforms.problems.branch_problem import MeshNumerics
+from weakforms.problems.diagram.about import LINES
+from weakforms.problems.diagram.bodies import SUBJECTS, Subject
+from weakforms.problems.diagram.lines import LOAD, Window
+from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.problem import Needs
+
+USUAL = {"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)}
+"""Ranges of the parameters of a plane, if none are given."""
+
+ONLY = {"tube": ({"problem": ("tube",)},), "circular": ({"problem": ("circular",)},)}
+
+
+class DiagramNumerics(MeshNumerics):
+    """Meshes of a diagram."""
+
+    degree: int = Field(6, ge=2, le=6, description="polynomial degree of the unknowns")
+
+
+class DiagramParameters(MaterialChoice):
+    """The membrane, the plane, and what is followed in it."""
+
+    ratio: ClassVar[str] = "alpha"
+    needs: ClassVar[Needs] = {
+        **dict.fromkeys(("delta1", "lf", "s", "u_end"), ONLY["tube"]),
+        **dict.fromkeys(("beta", "l", "t_end"), ONLY["circular"]),
+    }
+
+    problem: Literal["tube", "circular"] = Field("tube", description="membrane")
+    x: str = Field("", description="first axis; default: delta1 of the tube, beta of the disk")
+    y: str = Field("p", description="second axis; one of both is p")
+    kind: str = Field("all", description=f"kinds of lines, with commas: {', '.join(LINES)}; or all")
+    low: float | None = Field(None, description="smallest value of the parameter that is not p")
+    high: float | None = Field(None, description="largest value of that parameter")
+    p_low: float = Field(0.0, ge=0, le=50, description="smallest pressure")
+    p_high: float | None = Field(None, gt=0, le=50, description="largest pressure; default: none")
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch of the tube")
+    lf: float = Field(6.0, ge=1, le=30, description="stretched length L_f/R_f of the tube")
+    s: float = Field(1.3, gt=1, le=20, description="radius S/R_f of a substrate around the tube")
+    u_end: float = Field(5.0, gt=0.05, le=10, description="largest u_max of the tube")
+    beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch of the disk")
+    l: float = Field(0.5, gt=0.06, le=5, description="height L/R_f of a substrate")  # noqa: E741
+    t_end: float = Field(3.0, gt=0.06, le=10, description="largest pole height of the disk")
+
+    @property
+    def subject(self) -> Subject:
+        """What the diagram is drawn of."""
+        return SUBJECTS[self.problem]
+
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The axes."""
+        return self.x or self.subject.parameters[0], self.y
+
+    @property
+    def vary(self) -> str:
+        """The axis that is not the pressure."""
+        return next((name for name in self.axes if name != LOAD), LOAD)
+
+    @property
+    def known(self) -> dict[str, float]:
+        """Values of the parameters that may be axes: those of the membrane, and constants of its law."""
+        own = {name: getattr(self, name) for name in self.subject.parameters}
+        return own | dict(self.material.constants)
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds of lines that are followed."""
+        allowed = [name for name in LINES if name != "mirror" or self.subject.model.odd is not None]
+        named = [word.strip() for word in self.kind.split(",")]
+        return tuple(allowed if self.kind == "all" else [name for name in LINES if name in named])
+
+    def range_of(self, name: str) -> tuple[float, float]:
+        """Range of a parameter that may be an axis."""
+        limits = self.material.material.constants
+        if name in limits:
+            return limits[name].low, limits[name].high
+        given = type(self).model_fields[name].metadata
+        low, high = (next(getattr(m, side) for m in given if hasattr(m, side)) for side in ("ge", "le"))
+        return low, high
+
+    @property
+    def window(self) -> Window:
+        """The part of the plane."""
+        low, high = USUAL.get(self.vary, (inf, -inf))
+        low, high = low if self.low is None else self.low, high if self.high is None else self.high
+        top = inf if self.p_high is None else self.p_high
+        return Window(self.vary, low, high, self.p_low, top, getattr(self, self.subject.end))
+
+    @property
+    def touch(self) -> float:
+        """Value of the membrane's column ``depth`` at first contact."""
+        return self.subject.touch(getattr(self, self.subject.obstacle))

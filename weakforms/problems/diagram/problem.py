@@ -1,0 +1,175 @@
+"""Problem ``diagram``: lines of critical points in a plane of two parameters, on a family of meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError, InputError, not_among
+from weakforms.problems.branch_problem import BranchProblem, Family
+from weakforms.problems.diagram.about import DIAGRAM, LINES
+from weakforms.problems.diagram.lines import LOAD, LineFamily, LinesOnMesh, Seed
+from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
+from weakforms.problems.disk.problem import POLE, order_at_pole
+from weakforms.problems.meridian.limits import require_bearable, require_taut
+from weakforms.problems.problem import End, Requests, Task
+from weakforms.results import Absence, Result
+
+SCANNED = 9
+"""Number of values of the parameter at which a critical point is searched, if there is none at the first."""
+
+MOVING = 2.0
+"""Order of values at a place that moves through the cells."""
+
+GRADING = 0.6
+"""Concentration of cells at the disks of a tube."""
+
+
+class Diagram(BranchProblem):
+    """Lines of limit points, of mirror breaking, of first wrinkling and of first contact."""
+
+    about, parameters, numerics = DIAGRAM, DiagramParameters, DiagramNumerics
+
+    def check(self, parameters: DiagramParameters, requests: Requests) -> None:
+        """Refuse what the ranges of single parameters cannot.
+
+        Raises:
+            InputError: For a plane, a range or kinds of lines that the membrane does not have.
+        """
+        super().check(parameters, requests)
+        self._check_axes(parameters)
+        self._check_kinds(parameters)
+        self._check_range(parameters)
+        material = parameters.material
+        if parameters.problem == "tube":
+            require_bearable(self.name, material, parameters.delta1, 1.0, "delta1")
+        else:
+            require_taut(self.name, material, parameters.beta, "beta")
+
+    def _check_axes(self, given: DiagramParameters) -> None:
+        x, y = given.axes
+        if x == y:
+            raise InputError(f"diagram: x = y = {x!r}: a plane has two different parameters; change x or y")
+        allowed = [LOAD, *given.known]
+        for axis, name in (("x", x), ("y", y)):
+            if name not in allowed:
+                what = f"{given.problem} with model = {given.model!r}"
+                raise InputError(
+                    f"diagram: {axis} = {name!r} is no parameter of {what}{not_among(name, allowed)}"
+                )
+        if LOAD not in (x, y):
+            raise InputError(f"diagram: x = {x!r}, y = {y!r}: one of both must be p; set x or y to p")
+
+    def _check_kinds(self, given: DiagramParameters) -> None:
+        if given.kind == "all":
+            return
+        for word in given.kind.split(","):
+            name = word.strip()
+            if name not in LINES:
+                raise InputError(f"diagram: kind = {name!r}{not_among(name, [*LINES, 'all'])}")
+            if name == "mirror" and "mirror" not in given.kinds:
+                raise InputError(
+                    f"diagram: kind = 'mirror': problem = {given.problem!r} has no mirror; allowed with "
+                    "problem = 'tube'"
+                )
+
+    def _check_range(self, given: DiagramParameters) -> None:
+        window, (least, most) = given.window, given.range_of(given.vary)
+        named = f"low = {window.low:g}, high = {window.high:g}"
+        if not (np.isfinite(window.low) and np.isfinite(window.high)):
+            raise InputError(
+                f"diagram: set low and high, the range of {given.vary}; allowed: {least:g} to {most:g}"
+            )
+        if not least <= window.low < window.high <= most:
+            raise InputError(
+                f"diagram: {named}: the range of {given.vary} must be increasing and between {least:g} and "
+                f"{most:g}; change low or high"
+            )
+        if not window.p_low < window.p_high:
+            raise InputError(
+                f"diagram: p_low = {window.p_low:g} must be less than p_high = {window.p_high:g}; change one"
+            )
+        here = given.known[given.vary]
+        if given.vary in given.model_fields_set and not window.low <= here <= window.high:
+            raise InputError(
+                f"diagram: {given.vary} = {here:g}, where lines start, is outside of {named}; change one of "
+                "them"
+            )
+
+    def ends(self, parameters: DiagramParameters, _branch: str) -> list[End]:
+        """The sides of the window, the largest displacement, and the start of a closed line."""
+        window, given = parameters.window, parameters
+        sides = (("low", given.vary, window.low), ("high", given.vary, window.high))
+        sides += (("p_low", LOAD, window.p_low), ("p_high", LOAD, window.p_high))
+        found = [End(*side) for side in sides if np.isfinite(side[2])]
+        depth = given.subject.model.depth
+        found.append(End(given.subject.end, depth, window.end))
+        return [*found, End("closed", given.vary, None, "the line returns to its first point")]
+
+    def families(self, task: Task) -> dict[str, Family]:
+        """The lines that pass through critical points of the primary branch.
+
+        Raises:
+            ConvergenceError: If there is no such point.
+        """
+        given, numerics = task.parameters, task.numerics
+        meshes = [_lines_on(cells, task) for cells in numerics.meshes]
+        names, missing = self._seeds(given, meshes[0])
+        caps = {"t_min": MOVING}
+        if given.problem == "circular":
+            caps |= dict.fromkeys(POLE, order_at_pole(numerics.degree))
+        found = {}
+        for k, (name, seed) in enumerate(names.items()):
+            task.progress(f"line {name}", k, len(names))
+            found[name] = LineFamily(meshes, seed, name, 2.0 * numerics.degree, caps)
+        next(iter(found.values())).absent.extend(missing)
+        return found
+
+    def _seeds(self, given: DiagramParameters, coarse: LinesOnMesh) -> tuple[dict[str, Seed], list[Absence]]:
+        """One critical point for each line, from the coarsest mesh, by the line's name; what is not there."""
+        window = given.window
+        first = min(max(given.known[given.vary], window.low), window.high)
+        places = [first, *np.linspace(window.low, window.high, SCANNED).tolist()]
+        names: dict[str, Seed] = {}
+        missing = []
+        for kind in (*given.kinds, *(("end",) if {"fold", "mirror"} & {*given.kinds} else ())):
+            seeds = coarse.seeds(kind, places)
+            names |= {kind + (f"_{k + 1}" if k else ""): seed for k, seed in enumerate(seeds)}
+            if not seeds and kind != "end":
+                missing.append(Absence(f"lines of kind {kind}", _none(given, kind)))
+        if names.keys() <= {"end"}:
+            raise ConvergenceError("; ".join(item.reason for item in missing))
+        return names, missing
+
+    def fill(self, result: Result, task: Task) -> None:
+        """Solve for the lines; say where each begins."""
+        super().fill(result, task)
+        vary = task.parameters.vary
+        result.parameters |= {"x": task.parameters.axes[0], "low": task.parameters.window.low}
+        result.parameters["high"] = task.parameters.window.high
+        begins = {b.name: {n: float(b.columns[n][0]) for n in (vary, LOAD)} for b in result.branches}
+        result.numerics["begins"] = begins
+
+    def points(self, _parameters: DiagramParameters) -> np.ndarray:
+        """61 fractions of the meridian, without a pole, where stretches are limits."""
+        return np.linspace(0.0, 1.0, 61)
+
+
+def _lines_on(cells: int, task: Task) -> LinesOnMesh:
+    """The membrane on a mesh."""
+    given, numerics = task.parameters, task.numerics
+    values = {name: getattr(given, name) for name in given.subject.parameters}
+    constants = dict(given.material.constants)
+    values |= {name: constants[name] for name in (given.vary,) if name in constants}
+    grading = GRADING if given.problem == "tube" else 0.0
+    model = given.subject.model(task.comm, given.material, values, cells, numerics.degree, grading)
+    return LinesOnMesh(model, given.window, given.touch, numerics.step)
+
+
+def _none(given: DiagramParameters, kind: str) -> str:
+    """That there are no critical points of a kind, as text."""
+    window, subject = given.window, given.subject
+    return (
+        f"diagram: no point of kind {kind} on the primary branches at {SCANNED} values of {given.vary} from "
+        f"{window.low:g} to {window.high:g}, up to {subject.model.depth} = {window.end:g}; change low or "
+        f"high, or raise {subject.end}"
+    )

@@ -1,0 +1,189 @@
+"""Pictures of diagrams: lines of critical points, and numbers of negative eigenvalues between them.
+
+At each value of the parameter the states of the primary branch lie between the points at which it crosses
+the lines of limit points and of mirror breaking. At each of these points one eigenvalue changes sign. So the
+number of negative eigenvalues of every state follows from the lines alone. Needs matplotlib.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.results.plot import COLOURS, MARKERS, empty_axes, label_of
+from weakforms.results.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+STYLES = {"fold": "-", "mirror": "-", "wrinkling": "--", "contact": ":", "end": "-."}
+"""Line style of each kind of line."""
+
+COUNTED = {"fold": "n_negative", "mirror": "n_mirror"}
+"""Kinds at which an eigenvalue changes sign, and the column with the number of the other negative ones."""
+
+COLUMNS, ROWS = 121, 161
+"""Number of places at which regions are told apart, along both axes."""
+
+PALE = ("#ffffff", "#e7f0f7", "#fbeee4", "#e6f3ee", "#f4ebf3", "#f4f0e0", "#e6f3f8", "#eeeeef")
+"""Colours of regions."""
+
+TALL = 0.015
+"""Least height of a region with a label, as a part of the axis."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A point at which the primary branch crosses a line, at one value of the parameter."""
+
+    kind: str
+    depth: float
+    p: float
+    others: int
+    """Negative eigenvalues of its class besides the critical one."""
+
+
+def draw_diagram(result: Result, x: str, y: str) -> Figure:
+    """Draw the lines of a diagram, its points of codimension two, and its regions.
+
+    A region's label gives the numbers of negative eigenvalues of its states at given pressure, symmetric and
+    mirror-odd modes together, in the order in which the primary branch meets them.
+
+    Args:
+        result: A result of the problem ``diagram``.
+        x: Column of the abscissa.
+        y: Column of the ordinate.
+
+    Raises:
+        InputError: If there is no line to draw.
+        EnvironmentLackError: If matplotlib is missing.
+    """
+    if not result.branches:
+        raise InputError("there is no line to draw")
+    figure, axes = empty_axes()
+    kinds = list(STYLES)
+    for branch in result.branches:
+        kind = kind_of(branch.name)
+        named = kind if branch.name == kind else None
+        colour = "#5c5c61" if kind == "end" else COLOURS[kinds.index(kind)]
+        axes.plot(branch[x], branch[y], STYLES[kind], color=colour, linewidth=1.4, label=named)
+    seen: set[str] = set()
+    for point in result.special_points:
+        kind = point.kind.replace("_", " ")
+        style = {"color": "#1c1c1e", "markersize": 6, "markeredgecolor": "white", "linestyle": ""}
+        place = [point.values[x]], [point.values[y]]
+        axes.plot(*place, MARKERS[point.kind], label=None if kind in seen else kind, **style)
+        seen.add(kind)
+    if x != "p" and y == "p":
+        _draw_regions(axes, result, x)
+    axes.set_xlabel(label_of(x, result.scales))
+    axes.set_ylabel(label_of(y, result.scales))
+    axes.set_title("diagram: " + str(result.parameters["problem"]), loc="left", fontsize="medium")
+    axes.legend(fontsize="x-small", frameon=False)
+    return figure
+
+
+def kind_of(name: str) -> str:
+    """The kind of a line by its name, such as ``fold_2``."""
+    return name.partition("_")[0]
+
+
+def crossings_at(result: Result, vary: str, value: float) -> list[Crossing]:
+    """Where the primary branch at a value of the parameter crosses lines, in its order."""
+    depth = depth_of(result)
+    found = []
+    for branch in result.branches:
+        kind = kind_of(branch.name)
+        if kind not in (*COUNTED, "end"):
+            continue
+        over = branch[vary] - value
+        for i in np.flatnonzero((over[:-1] * over[1:] < 0) | ((over[:-1] == 0) & (over[1:] != 0))):
+            share = over[i] / (over[i] - over[i + 1])
+            at = {n: float(branch[n][i] + share * (branch[n][i + 1] - branch[n][i])) for n in (depth, "p")}
+            counts = branch[COUNTED[kind]] if kind in COUNTED else np.zeros(len(branch))
+            found.append(Crossing(kind, at[depth], at["p"], int(counts[i])))
+    return sorted(found, key=lambda crossing: crossing.depth)
+
+
+def depth_of(result: Result) -> str:
+    """The column with the largest displacement, which increases along the primary branch."""
+    return "u_max" if "u_max" in result.branches[0].columns else "t0"
+
+
+def states_between(crossings: list[Crossing], low: float) -> list[tuple[float, float, int]]:
+    """The parts of the primary branch between crossings: pressures at both ends, and negative eigenvalues.
+
+    Args:
+        crossings: In the order of the branch, of which the last is its end.
+        low: Pressure at which the branch begins, with a stable state.
+
+    Returns:
+        Nothing if the counts of two neighbouring crossings contradict each other, which means that a line is
+        missing, or if the end is not known.
+    """
+    counts = dict.fromkeys(COUNTED, 0)
+    parts, p = [], low
+    for crossing in crossings:
+        parts.append((p, crossing.p, sum(counts.values())))
+        p = crossing.p
+        if crossing.kind == "end":
+            return parts
+        change = crossing.others - counts[crossing.kind]
+        if change not in (0, -1):
+            return []
+        counts[crossing.kind] += 1 if change == 0 else -1
+    return []
+
+
+def _draw_regions(axes: Axes, result: Result, x: str) -> None:
+    """Colour the regions, and write the numbers of negative eigenvalues of their states."""
+    low, high = (float(result.parameters[name]) for name in ("low", "high"))
+    bottom, top = axes.get_ylim()
+    xs = np.linspace(low, high, COLUMNS + 2)[1:-1]
+    ps = np.linspace(bottom, top, ROWS + 2)[1:-1]
+    start = min(bottom, float(result.parameters["p_low"]))
+    labels = np.full((ROWS, COLUMNS), "", dtype=object)
+    for k, value in enumerate(xs):
+        parts = states_between(crossings_at(result, x, float(value)), start)
+        for i, p in enumerate(ps):
+            labels[i, k] = ", ".join(str(n) for a, b, n in parts if min(a, b) < p < max(a, b))
+    names = sorted(set(labels.ravel()), key=lambda text: (len(text), text))
+    shown = np.vectorize(names.index)(labels)
+    from matplotlib.colors import ListedColormap
+
+    colours = [PALE[k % len(PALE)] for k in range(len(names))]
+    axes.pcolormesh(
+        xs,
+        ps,
+        shown,
+        cmap=ListedColormap(colours),
+        vmin=-0.5,
+        vmax=len(names) - 0.5,
+        zorder=0,
+        shading="nearest",
+    )
+    for k, name in enumerate(names):
+        if name:
+            _write(axes, shown == k, name, xs, ps)
+
+
+def _write(axes: Axes, inside: np.ndarray, text: str, xs: np.ndarray, ps: np.ndarray) -> None:
+    """Write a label where its region is tallest, once for each range of the parameter in which it exists."""
+    heights = np.zeros(inside.shape[1], dtype=int)
+    middles = np.zeros(inside.shape[1], dtype=int)
+    for k in range(inside.shape[1]):
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], inside[:, k].astype(int), [0]])))
+        for a, b in zip(edges[::2], edges[1::2], strict=True):
+            if b - a > heights[k]:
+                heights[k], middles[k] = b - a, (a + b) // 2
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], (heights > 0).astype(int), [0]])))
+    for a, b in zip(edges[::2], edges[1::2], strict=True):
+        tall = np.flatnonzero(heights[a:b] >= 0.9 * heights[a:b].max()) + a
+        k = int(tall[len(tall) // 2])
+        if heights[k] >= TALL * len(ps):
+            style = {"ha": "center", "va": "center", "fontsize": "small", "color": "#3a3a3d"}
+            axes.text(xs[k], ps[middles[k]], text, **style)
