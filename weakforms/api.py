@@ -150,7 +150,7 @@ def prepared(
         EnvironmentLackError: If dolfinx is missing.
     """
     registry = require_environment()
-    from weakforms.problems.accuracy import at_accuracy, require_accuracy
+    from weakforms.problems.accuracy import at_accuracy, on_finer_meshes, require_accuracy
     from weakforms.problems.problem import Requests, silent, validated
     from weakforms.problems.reach import reached, within
 
@@ -170,7 +170,10 @@ def prepared(
         def resolved(given: Any) -> Result:
             return at_accuracy(accuracy, chosen.resolving(given, meshes), partial(solve, given))
 
-        result = reached(chosen, values, requests, solve if accuracy is None else resolved)
+        def usual(given: Any) -> Result:
+            return on_finer_meshes(partial(solve, given), chosen.finer(given, meshes))
+
+        result = reached(chosen, values, requests, usual if accuracy is None else resolved)
         result.warnings.extend(values.without_effect())
         return result
 

@@ -5,9 +5,11 @@ import pytest
 
 import weakforms
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.problems.accuracy import at_accuracy, widest_bound
+from weakforms.problems import registry
+from weakforms.problems.accuracy import at_accuracy, on_finer_meshes, widest_bound
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.results import Absence, Branch, Quantity, Result, SpecialPoint
+from weakforms.problems.problem import validated
+from weakforms.results import Absence, Branch, Failure, Quantity, Result, SpecialPoint
 
 
 def result_with(spread, **more):
@@ -54,6 +56,56 @@ def test_what_fails_or_is_absent_on_coarse_meshes_is_tried_on_finer_ones():
 
     found = at_accuracy(1e-3, MeshNumerics(), solve)
     assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [12, 24, 48], [24, 48, 96]]
+
+
+def answers(*given):
+    """A solve that gives one answer for the default meshes and another for finer ones; errors are raised."""
+
+    def solve(numerics=None):
+        found = given[numerics is not None]
+        if isinstance(found, ConvergenceError):
+            raise found
+        return found
+
+    return solve
+
+
+def test_what_does_not_converge_by_default_is_tried_on_finer_meshes_once():
+    good, bad, worse = result_with(0.0), result_with(0.0), result_with(0.0)
+    bad.failures = [Failure("special points", "differ")]
+    worse.failures = [*bad.failures, Failure("branch", "stalled")]
+    stalled, finer = ConvergenceError("stalled"), MeshNumerics(cells=192)
+    assert on_finer_meshes(answers(good, bad), finer) is good
+    assert on_finer_meshes(answers(bad, good), None) is bad
+    assert on_finer_meshes(answers(bad, worse), finer) is bad
+    assert on_finer_meshes(answers(bad, stalled), finer) is bad
+    assert bad.warnings == worse.warnings == []
+    assert on_finer_meshes(answers(bad, good), finer) is good
+    assert on_finer_meshes(answers(stalled, worse), finer) is worse
+    assert good.warnings == ["solved with cells = 192; on the default meshes: differ"]
+    assert worse.warnings == ["solved with cells = 192; on the default meshes: stalled"]
+    for second, finest in ((bad, None), (ConvergenceError("worse"), finer)):
+        with pytest.raises(ConvergenceError, match=r"^stalled$"):
+            on_finer_meshes(answers(stalled, second), finest)
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "chosen", "cells"),
+    [
+        ("tube", {}, {}, 192),
+        ("tube", {"lf": 26.0}, {}, 384),
+        ("tube", {}, {"cells": 24}, None),
+        ("fluid_tube", {}, {}, 256),
+        ("fluid_tube", {"secondary": True}, {}, None),
+        ("wrinkled_patch", {}, {}, None),
+        ("sphere", {}, {}, None),
+    ],
+)
+def test_finer_meshes_are_those_along_a_line_that_nobody_chose(name, given, chosen, cells):
+    problem = registry.get(name)
+    parameters = validated(problem.parameters, given, name)
+    finer = problem.finer(parameters, validated(problem.numerics, chosen, name))
+    assert getattr(finer, "cells", None) == cells
 
 
 def test_what_is_absent_on_the_default_meshes_is_absent():

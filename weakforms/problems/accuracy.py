@@ -95,6 +95,38 @@ def at_accuracy(accuracy: float, default: MeshNumerics, solve: Callable[[Any], R
     return result
 
 
+def on_finer_meshes(solve: Callable[..., Result], finer: MeshNumerics | None) -> Result:
+    """Solve on the default meshes and, if something does not converge there, on finer ones.
+
+    Args:
+        solve: Solves on meshes, or on the default ones.
+        finer: The finer ones; ``None`` if there are none.
+
+    Returns:
+        The result with fewer failures. If it is the one on finer meshes, a warning says so.
+
+    Raises:
+        ConvergenceError: If there is no result on any mesh; that of the default ones.
+    """
+    first = stalled = None
+    try:
+        first = solve()
+        reasons = [failure.reason for failure in first.failures]
+    except ConvergenceError as error:
+        stalled, reasons = error, [str(error)]
+    if finer is not None and reasons:
+        with suppress(ConvergenceError):
+            again = solve(finer)
+            if first is None or len(again.failures) < len(reasons):
+                again.warnings.append(
+                    f"solved with cells = {finer.cells}; on the default meshes: {reasons[0]}"
+                )
+                return again
+    if stalled is not None:
+        raise stalled
+    return first
+
+
 def _families(default: MeshNumerics) -> list[MeshNumerics]:
     """The default meshes, coarser and finer ones that the problem allows, coarse to fine."""
     found = []

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import asdict, replace
 from math import inf
-from typing import Any, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.problem import Numerics, Problem, StateRequest, Task, ended, sample_points
@@ -121,6 +122,18 @@ class BranchProblem(Problem):
     def families(self, task: Task) -> dict[str, Family]:
         """The branches by name, in the order of the results."""
         raise NotImplementedError
+
+    surfaces: ClassVar[bool] = False
+    """Whether meshes are of surfaces, where twice as many cells along an edge cost many times as much."""
+
+    def finer(self, parameters: Any, numerics: Any) -> Any:
+        """Meshes with twice as many cells; none if their number was asked for, or may not be higher."""
+        known = isinstance(numerics, MeshNumerics) and "cells" not in numerics.model_fields_set
+        if self.surfaces or not known:
+            return None
+        with suppress(ValidationError):
+            return MeshNumerics.scaled(self.resolving(parameters, numerics), 2.0)
+        return None
 
     def points(self, parameters: Any) -> np.ndarray:
         """Default sample points of fields, from one end of the body to the other."""

@@ -175,6 +175,10 @@ class Problem:
         """Numerics that resolve the problem at its parameters, if the default does not."""
         return numerics
 
+    def finer(self, _parameters: Any, _numerics: Any) -> Any:
+        """Finer numerics for what does not converge with the default ones; ``None`` if there are none."""
+        return None
+
     def ends(self, _parameters: Any, _branch: str) -> Sequence[End]:
         """The reasons for which a branch may end, the first that applies first."""
         return ()

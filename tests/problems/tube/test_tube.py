@@ -9,13 +9,15 @@ import pytest
 from mpi4py import MPI
 
 import weakforms.problems.meridian.model as meridian_module
-from weakforms import Axis, Case, Curve, InputError, Panel, Points, solve, tube
+from weakforms import Axis, Case, ConvergenceError, Curve, InputError, Panel, Points, solve, tube
 from weakforms.forms import loads, materials
 from weakforms.problems import registry
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.problem import Requests, validated
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.results import Result, validate
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 from weakforms.verification.cases.discovery import FoundCase
@@ -275,3 +277,14 @@ def test_without_a_fault_the_same_checks_hold(tmp_path):
     assert outcome.status == "passed"
     of_every_case = ("trace", "identities", "marks")
     assert len([v for v in outcome.verdicts if v.check.partition(":")[0] not in of_every_case]) == 6
+
+
+def test_a_first_state_from_which_full_newton_steps_diverge_is_found_by_shorter_ones():
+    """From the uniform tube, the first step leads to stretches at which the law is not defined."""
+    law = Chosen("harmonic", (("shear", 0.6329), ("f2", 0.8175)))
+    model = TubeModel.free(MPI.COMM_SELF, law, 3.253, 6.024, TubeMesh(24, 4, 0.6))
+    with pytest.raises(ConvergenceError):
+        ExtendedNewton(model.system, ["p"]).solve(model.system.initial.copy(), [Held("p", 0.0)])
+    first = free_branch(model.system, 3.253, 0.2, 0.1).points[0]
+    assert first.state.loads["p"] == pytest.approx(0.0, abs=1e-12)
+    assert first.record.norms[-1] < 1e-9

@@ -61,6 +61,10 @@ class FluidTube(BranchProblem):
             if wanted.branch == "secondary" and not parameters.secondary:
                 raise InputError("fluid_tube: the secondary branch is solved for only with secondary = true")
 
+    def finer(self, parameters: FluidTubeParameters, numerics: FluidTubeNumerics) -> FluidTubeNumerics | None:
+        """Finer meshes along the tube, unless the secondary branch, on a surface, is wanted too."""
+        return None if parameters.secondary else super().finer(parameters, numerics)
+
     def ends(self, parameters: FluidTubeParameters, branch: str) -> list[End]:
         """A level below the highest one, or for a law that stiffens its lowest value after that."""
         if branch == "secondary":

@@ -32,6 +32,7 @@ class Rectangle(BranchProblem):
     about = RECTANGLE
     parameters = RectangleParameters
     numerics = RectangleNumerics
+    surfaces = True
 
     def check(self, parameters: RectangleParameters, requests: Requests) -> None:
         """Refuse laws without a relaxed form, stretches beyond a law's end, and states of the other load.

@@ -183,7 +183,10 @@ class Continuation:
             constraint: Equation that selects the point, such as a prescribed functional.
             towards: Requested sign for the change of one functional or load along the curve.
         """
-        state, record = self.solve(guess, constraint)
+        try:
+            state, record = self.solve(guess, constraint)
+        except ConvergenceError:
+            state, record = self.solve(self._approached(guess, constraint), constraint)
         (name, sign), *_ = towards.items()
         with self.system.at(state):
             self.solver.factor.update()
@@ -192,6 +195,11 @@ class Continuation:
             rate = self.rate(name, Tangent(u, loads))
         along = self._unit(u, loads, float(np.sign(rate) * np.sign(sign)))
         return self.point(state, record, along, 0.0)
+
+    def _approached(self, guess: State, constraint: Constraint) -> State:
+        """The state from a guess from which full Newton steps diverge, by steps that are shortened."""
+        careful = ExtendedNewton(self.system, self.solver.scalars, max_iterations=100, line_search="bt")
+        return careful.solve(guess, [*self.fixed, constraint])[0]
 
     def rate(self, name: str, tangent: Tangent) -> float:
         """Derivative of a functional or load along a direction at the state that the system is lent to."""

@@ -154,6 +154,7 @@ class WrinkledPatch(BranchProblem):
     about = WRINKLED_PATCH
     parameters = PatchParameters
     numerics = PatchNumerics
+    surfaces = True
 
     def check(self, parameters: PatchParameters, requests: Requests) -> None:
         """Refuse requests for states without a solution.
