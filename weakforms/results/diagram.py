@@ -76,7 +76,7 @@ def draw_diagram(result: Result, x: str, y: str) -> Figure:
         kind = point.kind.replace("_", " ")
         style = {"color": "#1c1c1e", "markersize": 6, "markeredgecolor": "white", "linestyle": ""}
         place = [point.values[x]], [point.values[y]]
-        axes.plot(*place, MARKERS[point.kind], label=None if kind in seen else kind, **style)
+        axes.plot(*place, marker=MARKERS[point.kind], ls="", label=None if kind in seen else kind, **style)
         seen.add(kind)
     if x != "p" and y == "p":
         _draw_regions(axes, result, x)

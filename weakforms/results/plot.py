@@ -29,8 +29,20 @@ SUFFIXES = (".png", ".svg", ".pdf")
 """Endings of the files that a picture can be written to."""
 
 COLOURS = ("#0b62a4", "#c4500a", "#08805c", "#94478d", "#8a6a00", "#2b8fbf", "#5c5c61")
-MARKERS = dict(zip(KINDS, "os*DPXv^>dxhpH834<21+|_.", strict=True))
-"""Marker of each kind of special point."""
+POLYGONS = (
+    (4, 1, 0),
+    (6, 1, 0),
+    (8, 1, 0),
+    "<",
+    (3, 1, 0),
+    (5, 0, 180),
+    (7, 0, 0),
+    (10, 1, 0),
+    (12, 1, 0),
+    (9, 0, 0),
+)
+MARKERS = dict(zip(KINDS, [*"os*DPXv^>dhpH8", *POLYGONS], strict=True))
+"""Marker of each kind of special point, filled, because its edge is white."""
 
 ASIDE = ("n_negative", "residual", "iterations", "Pi")
 """Columns that are not drawn unless they are asked for."""
@@ -150,7 +162,14 @@ def _draw_branches(axes: Axes, drawn: Mapping[str, tuple[Result, Branch]], x: st
             if point.branch == branch.name and {x, y} <= set(point.values):
                 kinds[point.kind] = None
                 place = point.values[x], point.values[y]
-                axes.plot(*place, MARKERS[point.kind], color=colour, markersize=6, markeredgecolor="white")
+                axes.plot(
+                    *place,
+                    marker=MARKERS[point.kind],
+                    ls="",
+                    color=colour,
+                    markersize=6,
+                    markeredgecolor="white",
+                )
         if branch.ended is not None and len(branch):
             place = float(branch[x][-1]), float(branch[y][-1])
             if _end_text(branch) not in ends:
@@ -159,7 +178,7 @@ def _draw_branches(axes: Axes, drawn: Mapping[str, tuple[Result, Branch]], x: st
             ends.add(_end_text(branch))
             axes.plot(*place, "|", color=colour, markersize=9)
     for kind in kinds:
-        axes.plot([], [], MARKERS[kind], color="#5c5c61", label=kind.replace("_", " "))
+        axes.plot([], [], marker=MARKERS[kind], ls="", color="#5c5c61", label=kind.replace("_", " "))
     if any(unstable for _, branch in drawn.values() for _, unstable in _parts(branch)):
         axes.plot([], [], "--", color="#5c5c61", label="unstable (n_negative > 0)")
 
