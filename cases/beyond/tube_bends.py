@@ -28,7 +28,7 @@ ASKED = {"p": 1e-8, "u_max": 1e-8, "V": 1e-8}
 """Ten times sharper than lines of special points are asked to be, so that their order is not in doubt."""
 ONSET = {"p": 1e-7, "u_max": 1e-7, "V": 1e-7}
 """Of the onset of wrinkling, whose equation is a stretch at one point: it has the order of stretches."""
-BASE = tube(n=FAMILIES).on(degree=6, cells=128)
+BASE = tube(n=FAMILIES).on(degree=6, cells=128, step=0.15)
 
 
 def at(alpha: float, delta1: float, lf: float, u_end: float = 4.0) -> Spec:
