@@ -5,6 +5,7 @@ import pytest
 import ufl
 from mpi4py import MPI
 from scipy.linalg import eigh
+from scipy.optimize import brentq
 
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.problems.meridian.blocks import Blocks
@@ -224,3 +225,30 @@ def test_waves_of_a_balloon_have_its_closed_form(law, lam, n):
     if n == 1:
         assert np.abs(found).min() < 1e-7
         assert np.abs(found - 3 * (w11 + w12 - tau)).min() < 2e-6 * (1 + abs(tau))
+
+
+def test_an_ogden_balloon_becomes_a_pear_where_its_tension_is_extreme():
+    """There, inside the falling branch of the pressure, one wave has a zero besides the translation."""
+
+    def parts(lam):
+        w1, _, w11, w12, _ = derivatives(OGDEN, lam, lam)
+        return w1 / lam, w11 + w12
+
+    stretches = np.linspace(1.1, 4.0, 60)
+    excess = np.array([np.subtract(*parts(lam)[::-1]) for lam in stretches])
+    (changes,) = np.nonzero(excess[:-1] * excess[1:] < 0)
+    assert len(changes) == 2
+    for i in changes:
+        lam = brentq(lambda x: np.subtract(*parts(x)[::-1]), *stretches[i : i + 2])
+        tau, s = parts(lam)
+        assert s < 2 * tau  # the pressure falls
+        model, state, *_ = balloon(OGDEN, lam)
+        waves = Waves(model)
+        waves._sheared.value = 1.0
+        with model.system.at(state):
+            found = np.array(waves.operator(1, (RADIAL, AXIAL), (AXIAL,)).spectrum(8).eigenvalues)
+        assert np.sort(np.abs(found))[:2] == pytest.approx(0.0, abs=1e-6)
+    for law in (LAWS["neo-Hookean"], LAWS["Mooney-Rivlin"]):
+        for lam in stretches:
+            w1, _, w11, w12, _ = derivatives(law, lam, lam)
+            assert w11 + w12 > w1 / lam

@@ -7,6 +7,7 @@ import html
 import inspect
 import re
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 from markdown_it import MarkdownIt
 from markupsafe import Markup
@@ -17,7 +18,12 @@ from matplotlib.mathtext import MathTextParser
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from weakforms.verification.report.figures.canvas import drawing, svg
+from weakforms.verification.report.figures.svg import inline_svg
+from weakforms.verification.report.look import LOOK
 from weakforms.verification.report.wording import html_tex
+
+FIGURE_COLOURS = {value: f"--f-{name}" for name, value in LOOK["light"].items()}
+"""Variables for the colours of figures, which differ on dark pages."""
 
 SIZE = 13.0
 """Font size of formulas in points; on the page they scale with the text."""
@@ -115,6 +121,21 @@ def _blocks(text: str) -> Iterable[tuple[str, str]]:
             yield "code", inspect.cleandoc("\n" + block)
         else:
             yield "text", block.removesuffix("::")
+
+
+def with_pictures(page: Markup, folder: Path) -> Markup:
+    """A page with its drawings as elements, so that it loads no file.
+
+    Args:
+        page: HTML from :func:`markdown`.
+        folder: Folder of the SVG files.
+    """
+
+    def drawn(image: re.Match[str]) -> str:
+        path, words = folder / image[1], html.unescape(image[2])
+        return inline_svg(path.read_text("utf-8"), f"picture-{path.stem}", words, words, FIGURE_COLOURS)
+
+    return Markup(re.sub(r'<img src="([\w-]+\.svg)" alt="([^"]*)" ?/?>', drawn, page))
 
 
 def _section(name: str, text: str) -> str:

@@ -16,7 +16,7 @@ from markupsafe import Markup
 from weakforms.docs import api
 from weakforms.docs.gallery import gallery, scripts
 from weakforms.docs.pictures import pictures
-from weakforms.docs.prose import docstring, formula, markdown
+from weakforms.docs.prose import docstring, formula, markdown, with_pictures
 from weakforms.docs.search import SCRIPT, entries, policy
 from weakforms.errors import InputError
 from weakforms.results import write_atomically
@@ -144,7 +144,7 @@ class Site:
     def guide(self, path: Path) -> None:
         """A page of the folder ``docs``."""
         text = path.read_text("utf-8")
-        body = self._prose(re.sub(r"\A# .*\n", "", text))
+        body = with_pictures(self._prose(re.sub(r"\A# .*\n", "", text)), path.parent)
         self.write(f"{path.stem}.html", "docs.html", _title(path), "Guide", body=body)
 
     def _prose(self, text: str) -> Markup:

@@ -134,6 +134,8 @@ def branch_maker(
         if parameters.n:
             kind = partial(TubeBranch, modes=TubeModes(model, parameters.n, at.full))
         branch = free_branch(model.system, parameters.delta1, parameters.u_end, numerics.step, kind)
+        if isinstance(branch, TubeBranch):
+            branch.end = parameters.u_end
         if branch.ended is not None:
             branch.ended = f"tube: {branch.ended}; lower u_end"
         if branch.stalled is not None:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import ClassVar
+from math import inf
+from typing import Any, ClassVar
 
 import numpy as np
 
-from weakforms.problems.tube.waves import Wave
-from weakforms.results import Quantity
+from weakforms.problems.tube.waves import EXTREMES, Wave
+from weakforms.results import Branch, Quantity, SpecialPoint
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
@@ -28,8 +29,15 @@ ONSET = "wrinkling_onset"
 """Kind of the special point at which the smallest principal resultant passes zero."""
 
 
+SLOPES = 1e-8
+"""Round-off of a resultant and of its place: Newton's last step in a slope on the smallest cells."""
+
+
 class TubeBranch(ModalBranch):
     """Axisymmetric states over the pressure, with the stability against waves."""
+
+    end = inf
+    """``u_max`` at which the branch ends. Its last step goes beyond, on each mesh by another length."""
 
     @property
     def computed(self) -> Sequence[str]:
@@ -38,7 +46,8 @@ class TubeBranch(ModalBranch):
 
     def special(self) -> list[Solved]:
         """Limit points, zeros of every family and onsets of wrinkling, in order along the branch."""
-        return [self._flagged(solved) for solved in super().special()]
+        found = [self._flagged(solved) for solved in super().special()]
+        return [s for s in found if s.kind == "limit_point" or s.values["u_max"] <= self.end]
 
     def _placed(self) -> list[tuple[float, Solved]]:
         found = super()._placed()
@@ -103,6 +112,22 @@ class TubeFamily(ModalFamily):
     marks: ClassVar = ("n", "parity", "direction", "wrinkled")
     located_by: ClassVar = {ONSET: "t_min"}
 
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All columns; the extremes have round-off too."""
+        found = super().branch(with_uncertainty)
+        return replace(found, uncertainty=_with_rounding(found.uncertainty))
+
+    def special_points(self) -> list[SpecialPoint]:
+        """Special points; the extremes have round-off too."""
+        points = super().special_points()
+        return [replace(point, uncertainty=_with_rounding(point.uncertainty)) for point in points]
+
+    def _quantity(
+        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0
+    ) -> Quantity:
+        found = super()._quantity(values, name, held, in_mean)
+        return replace(found, uncertainty=_with_rounding({name: found.uncertainty})[name])
+
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace, with the counts."""
         rows = [self.fine.counted(point.state, point.n_negative) for point in self.fine.points]
@@ -115,3 +140,8 @@ class TubeFamily(ModalFamily):
             return found
         rows = [level.counted(s.state) for level, s in zip(self.levels, solved, strict=True)]
         return found | {name: Quantity(same_count(row[name] for row in rows)) for name in rows[0]}
+
+
+def _with_rounding(uncertainty: Mapping[str, Any]) -> dict[str, Any]:
+    """Uncertainties of columns, those of the extremes with round-off."""
+    return {name: u + SLOPES if name in EXTREMES else u for name, u in uncertainty.items()}

@@ -123,7 +123,7 @@ def _with_states(
     table: Reference | None,
     solutions: Solutions,
     names: tuple[str, ...],
-    counted: tuple[str, ...],
+    counted: tuple[str, ...] = ("n_negative",),
 ) -> dict[str, np.ndarray]:
     """Columns of a branch, with the states at the rows of its table in between.
 
