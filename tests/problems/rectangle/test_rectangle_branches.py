@@ -150,3 +150,23 @@ def test_each_class_is_counted_by_its_own_operator():
         found = modes.observe()
     counts = [found[name] for name in ("n_odd_even", "n_even_odd", "n_odd_odd", "n_all")]
     assert counts == [1, 1, 0, 3]
+
+
+def test_the_sheet_of_a_state_is_whole_and_faces_upwards():
+    """Area of the stress-free sheet, orientation, height and stretches of the triangles of a picture."""
+    found = solve(
+        "rectangle", load="gas", c=1.5, w_end=0.5, at={"w_c": 0.4}, numerics={"cells": 4, "levels": 2}
+    )
+    (state,) = found.states
+    sheet, triangles = (next(f for f in state.fields if f.name == n).columns for n in ("sheet", "triangles"))
+    corners = np.column_stack([triangles[name] for name in "abc"]).astype(int)
+    places = np.column_stack([sheet["X"], sheet["Y"]])[corners]
+    sides = places[:, 1:] - places[:, :1]
+    area = np.linalg.det(sides) / 2
+    assert (area > 0).all()
+    assert area.sum() == pytest.approx(4 * 1.5, rel=1e-12)
+    assert sheet["z"].max() == pytest.approx(0.4, rel=1e-9)
+    assert sheet["x"][np.isclose(sheet["X"], -1)] == pytest.approx(-1.1)
+    assert (triangles["lam1"] >= triangles["lam2"]).all()
+    assert sum(triangles[f"t_{name}"] ** 2 for name in "xyz") == pytest.approx(1.0)
+    assert (triangles["state"] == 1).all()
