@@ -44,7 +44,7 @@ for i, (name, load) in enumerate(LOADS.items(), 1):
     axes = figure.add_subplot(2, 3, i, projection="3d")
     axes.add_collection3d(Poly3DCollection(corners, facecolors=colours, antialiased=False))
     axes.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1, 1))
-    axes.set_box_aspect(None, zoom=1.3)
+    axes.set_box_aspect(None, zoom=1.0)
     axes.set_title(f"{name}\nwrinkled: {state.quantities['f_w'].value:.2%}")
     axes.view_init(elev=35, azim=-60)
     axes.set_axis_off()
