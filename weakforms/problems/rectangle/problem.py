@@ -22,9 +22,6 @@ CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y
 """Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
 deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
 
-WET = 3.0
-"""Highest assumed order under a liquid, whose edge may lie inside elements: the pressure has a kink there."""
-
 SLACK, SLACK_START = 1.05, 0.2
 """Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
 
@@ -73,8 +70,7 @@ class Rectangle(BranchProblem):
             return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
 
         across = LOAD[parameters.load][0], "w_c"
-        cap = 2.0 * numerics.degree if parameters.load == "gas" else min(2.0 * numerics.degree, WET)
-        return {"primary": RectangleFamily(make, numerics.levels, cap, across, caps=CAPS)}
+        return {"primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
 
     def points(self, _parameters: RectangleParameters) -> np.ndarray:
         """41 points of the diagonal, from the centre to the corner, by their ``X``."""
