@@ -98,6 +98,12 @@ def test_bending_comes_before_the_limit_point(tmp_path):
     assert min(numbers(text, "bifurcation_point at zw =")) < limit
 
 
+def test_a_heavy_liquid_keeps_the_corners_taut(tmp_path):
+    gas, light, heavy = numbers(ran("corners", tmp_path), "wrinkled part")
+    assert gas > light > heavy
+    assert heavy == pytest.approx(0.0, abs=1e-9)
+
+
 @pytest.mark.slow
 def test_only_a_bending_stiffness_gives_a_shortest_wave(tmp_path):
     without, beside = ran("wrinkling", tmp_path).splitlines()

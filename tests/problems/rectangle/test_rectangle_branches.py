@@ -2,10 +2,15 @@
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from weakforms import InputError, solve
+from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.rectangle.branch import RectangleModes
+from weakforms.problems.rectangle.model import RectangleModel, Sheet
+from weakforms.solvers.equilibrium.state import State
 
 COARSE = {"cells": 8, "levels": 2}
 
@@ -133,3 +138,35 @@ def test_bad_input_is_one_line(given, words):
 def test_a_load_beyond_the_limit_is_refused_with_the_range():
     with pytest.raises(InputError, match=r"p = 5 is crossed 0 times .* ranges over"):
         solve("rectangle", load="gas", alpha=0.0, at={"p": 5.0}, numerics=COARSE)
+
+
+def test_each_class_is_counted_by_its_own_operator():
+    """A flat sheet under a liquid above three thresholds: unstable in three classes, stable in the fourth."""
+    heavy = 0.97644944 * np.pi**2 / (2 * 1.1**2) * 2.6
+    of = RectangleModel(MPI.COMM_SELF, Sheet(mooney_rivlin_of(0.1), gamma=heavy, cells=4))
+    modes = RectangleModes(of)
+    flat = State(0 * of.system.initial.u, of.system.initial.loads | {"zw": 1e-300})
+    with of.system.at(flat):
+        found = modes.observe()
+    counts = [found[name] for name in ("n_odd_even", "n_even_odd", "n_odd_odd", "n_all")]
+    assert counts == [1, 1, 0, 3]
+
+
+def test_the_sheet_of_a_state_is_whole_and_faces_upwards():
+    """Area of the stress-free sheet, orientation, height and stretches of the triangles of a picture."""
+    found = solve(
+        "rectangle", load="gas", c=1.5, w_end=0.5, at={"w_c": 0.4}, numerics={"cells": 4, "levels": 2}
+    )
+    (state,) = found.states
+    sheet, triangles = (next(f for f in state.fields if f.name == n).columns for n in ("sheet", "triangles"))
+    corners = np.column_stack([triangles[name] for name in "abc"]).astype(int)
+    places = np.column_stack([sheet["X"], sheet["Y"]])[corners]
+    sides = places[:, 1:] - places[:, :1]
+    area = np.linalg.det(sides) / 2
+    assert (area > 0).all()
+    assert area.sum() == pytest.approx(4 * 1.5, rel=1e-12)
+    assert sheet["z"].max() == pytest.approx(0.4, rel=1e-9)
+    assert sheet["x"][np.isclose(sheet["X"], -1)] == pytest.approx(-1.1)
+    assert (triangles["lam1"] >= triangles["lam2"]).all()
+    assert sum(triangles[f"t_{name}"] ** 2 for name in "xyz") == pytest.approx(1.0)
+    assert (triangles["state"] == 1).all()

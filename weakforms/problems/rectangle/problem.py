@@ -11,9 +11,9 @@ from weakforms.problems.meridian.limits import require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.rectangle.about import RECTANGLE
 from weakforms.problems.rectangle.branch import RectangleBranch, traced
+from weakforms.problems.rectangle.family import RectangleFamily
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.parameters import RectangleNumerics, RectangleParameters
-from weakforms.solvers.stability.modal import ModalFamily
 
 LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
 """The load and the amount of each medium."""
@@ -71,7 +71,7 @@ class Rectangle(BranchProblem):
             return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
 
         across = LOAD[parameters.load][0], "w_c"
-        return {"primary": ModalFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
+        return {"primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
 
     def points(self, _parameters: RectangleParameters) -> np.ndarray:
         """41 points of the diagonal, from the centre to the corner, by their ``X``."""

@@ -228,6 +228,10 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     ),
     "wrinkled_linear": (zero("curved"),),
     "wrinkled_sheet": (zero("twist"),),
+    "rectangle": (
+        _over(work("p", lambda _, c: -c["V"]), _gas),
+        _over(work("zw", formulas.standing_liquid), _liquid),
+    ),
     "surface": tuple(
         _over(identity, lambda given: given.get("geometry", "tube") == "tube")
         for identity in (

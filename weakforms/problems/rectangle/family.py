@@ -1,0 +1,38 @@
+"""The branch of a rectangular membrane on a family of meshes, with the deformed sheet of each state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from weakforms.problems.rectangle.branch import RectangleBranch
+from weakforms.problems.rectangle.fields import Shape
+from weakforms.results import Field, State
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.stability.modal import ModalFamily
+
+
+class RectangleFamily(ModalFamily):
+    """As for any modal branch; a state with a profile also has the sheet on the finest mesh."""
+
+    fine: RectangleBranch
+    _last: Solved | None = None
+
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
+        """As for any branch, with corners and triangles before the profile.
+
+        Raises:
+            InputError: If the branch has no such state.
+        """
+        state = super().state(name, value, crossing, profile)
+        if profile is None:
+            return state
+        model = self.fine.modes.model
+        with model.system.at(self._last.state):
+            return replace(state, fields=(*Shape(model)(), *state.fields))
+
+    def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
+        self._last = solved[-1]
+        return super()._profile(solved, points)
