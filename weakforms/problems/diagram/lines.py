@@ -41,6 +41,9 @@ INSIDE = 1e-9
 UNLOADED = 1e-9
 """Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
 
+STEPS = 60
+"""Number of steps over the range of a parameter that is long compared with the usual step."""
+
 LOOP = 4.0
 """Number of steps after which a line that comes within a step of its first point is closed."""
 
@@ -195,8 +198,8 @@ class LinesOnMesh:
         """The line from a point to where it leaves the window, or returns to that point."""
 
         def stop(point: CurvePoint) -> bool:
-            far = point.arclength > LOOP * self.step
-            closed = far and continuation.distance(point.state, first.state) < self.step
+            far = point.arclength > LOOP * self.longest
+            closed = far and continuation.distance(point.state, first.state) < self.longest
             return closed or bool(self._outside(point))
 
         line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
@@ -216,8 +219,13 @@ class LinesOnMesh:
     def _continuation(self, kind: str, at: State) -> LineContinuation:
         """Follows the critical points of a kind, beginning near a state."""
         solver = ExtendedNewton(self.system, [LOAD, self.window.vary])
-        steps = StepControl(first=self.step / 4, largest=self.step)
+        steps = StepControl(first=self.longest / 4, largest=self.longest)
         return LineContinuation(solver, self._condition(kind, at, solver), steps)
+
+    @property
+    def longest(self) -> float:
+        """Largest step along a line; constants of laws have different sizes."""
+        return max(self.step, (self.window.high - self.window.low) / STEPS)
 
     def _condition(self, kind: str, at: State, solver: ExtendedNewton) -> Constraint:
         if kind in ("contact", "end"):
