@@ -1,7 +1,7 @@
 """A plane of tubes: where inflation has a limit point, and where it loses its mirror symmetry.
 
-Each point of a line is one tube at one pressure, solved for. Limit points merge in a cusp (star). The points at
-which the bulge may leave the middle (mirror breaking) end in tips (diamonds). Run:
+Each point of a line is one tube at one pressure, solved for. Limit points merge in a cusp (star). The points
+at which the bulge may leave the middle (mirror breaking) end in tips (diamonds). Run:
 ``./run shell -c "python3 examples/gallery/diagram.py diagram.svg"``.
 """
 

@@ -17,7 +17,7 @@ def test_tube(same_on_ranks):
 def test_lines_in_two_parameters(same_on_ranks):
     plane = {"problem": "diagram", "alpha": 0.0, "high": 1.2, "u_end": 3.5, "numerics": MESH}
     found, *_ = same_on_ranks([plane])
-    assert {branch.name for branch in found.branches} == {"fold", "mirror", "wrinkling", "contact", "end"}
+    assert {"fold", "mirror", "wrinkling", "contact", "end"} <= {branch.name for branch in found.branches}
 
 
 @pytest.mark.paper2

@@ -41,6 +41,9 @@ INSIDE = 1e-9
 UNLOADED = 1e-9
 """Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
 
+PLACE = "S_least"
+"""Where the least resultant is; a number of states on a line of wrinkling."""
+
 STEPS = 60
 """Number of steps over the range of a parameter that is long compared with the usual step."""
 
@@ -303,7 +306,8 @@ class LineFamily(BranchFamily):
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace."""
         own = [self._own(self.models[-1], point.state, 0.0) for point in self.fine.points]
-        return super()._trace() | {name: np.array([row[name] for row in own]) for name in own[0]}
+        names = [name for name in own[0] if name != PLACE]  # it needs a solve for its uncertainty
+        return super()._trace() | {name: np.array([row[name] for row in own]) for name in names}
 
     def _own(self, model: VariedModel, state: State, critical: float) -> dict[str, float]:
         """Negative eigenvalues of mirror-odd modes, without a critical one, and the place of wrinkling."""
@@ -313,15 +317,14 @@ class LineFamily(BranchFamily):
                 found["n_mirror"] = model.mirror.negative_count(AWAY if self.kind == "mirror" else critical)
             if self.kind == "wrinkling":
                 model.least.turn()
-                found["S_least"] = model.least.place
+                found |= {"at_end": int(model.least.at_end), PLACE: model.least.place}
         return found
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """As for any branch, with the same columns as the trace."""
         own = [self._own(m, s.state, critical) for m, s in zip(self.models, solved, strict=True)]
         found = super()._diagnostics(solved, critical)
-        if "n_mirror" in own[-1]:
-            found["n_mirror"] = Quantity(same_count(int(row["n_mirror"]) for row in own))
-        if "S_least" in own[-1]:
-            found["S_least"] = self._quantity([row["S_least"] for row in own], "S_least")
+        for name in own[-1]:
+            values = [row[name] for row in own]
+            found[name] = self._quantity(values, name) if name == PLACE else Quantity(same_count(values))
         return found
