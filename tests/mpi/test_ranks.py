@@ -14,6 +14,13 @@ def test_tube(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_lines_in_two_parameters(same_on_ranks):
+    plane = {"problem": "diagram", "alpha": 0.0, "high": 1.2, "u_end": 3.5, "numerics": MESH}
+    found, *_ = same_on_ranks([plane])
+    assert {"fold", "mirror", "wrinkling", "contact", "end"} <= {branch.name for branch in found.branches}
+
+
+@pytest.mark.paper2
 def test_tube_in_contact(same_on_ranks):
     touching = {"problem": "tube", "contact": "frictionless", "p_end": 1.6, "at": [("p", 1.5)]}
     # The line force of a small patch is a difference of forces, zero but for their round-off.

@@ -161,3 +161,13 @@ def test_a_notebook_runs_from_cell_to_cell(name):
         exec(cell, space)
     exec(last.removesuffix("figure"), space)
     assert sum(len(axes.lines) for axes in space["figure"].axes) >= 2
+
+
+def test_the_plane_of_tubes(tmp_path):
+    said = ran("diagram", tmp_path)
+    table = references.load("beyond", "lines_cusp_alpha")
+    (alpha,) = numbers(said, "cusp_point on the line fold: alpha =")
+    assert alpha == pytest.approx(table.columns["alpha"][0], abs=1e-6)
+    tips = references.load("beyond", "lines_tips_alpha")
+    found = numbers(said, "tip_mirror on the line mirror: alpha =")
+    assert found == pytest.approx(tips.columns["alpha"].tolist(), abs=1e-6)

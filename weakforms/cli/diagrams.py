@@ -60,7 +60,7 @@ def diagram(
 
     x, y = plane
     given = request(None, [*(words or []), *(sets or [])], None, mesh)
-    own = {"problem": problem, "x": x, "y": y, "kind": kind}
+    own = {"body": problem, "x": x, "y": y, "kind": kind}
     twice = sorted(own.keys() & given["parameters"].keys())
     if twice:
         raise InputError(f"--set {twice[0]}: the verb's argument or option of this name gives it")

@@ -82,7 +82,7 @@ def draw_diagram(result: Result, x: str, y: str) -> Figure:
         _draw_regions(axes, result, x)
     axes.set_xlabel(label_of(x, result.scales))
     axes.set_ylabel(label_of(y, result.scales))
-    axes.set_title("diagram: " + str(result.parameters["problem"]), loc="left", fontsize="medium")
+    axes.set_title("diagram: " + str(result.parameters["body"]), loc="left", fontsize="medium")
     axes.legend(fontsize="x-small", frameon=False)
     return figure
 

@@ -41,6 +41,12 @@ INSIDE = 1e-9
 UNLOADED = 1e-9
 """Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
 
+PLACE = "S_least"
+"""Where the least resultant is; a number of states on a line of wrinkling."""
+
+STEPS = 60
+"""Number of steps over the range of a parameter that is long compared with the usual step."""
+
 LOOP = 4.0
 """Number of steps after which a line that comes within a step of its first point is closed."""
 
@@ -195,8 +201,8 @@ class LinesOnMesh:
         """The line from a point to where it leaves the window, or returns to that point."""
 
         def stop(point: CurvePoint) -> bool:
-            far = point.arclength > LOOP * self.step
-            closed = far and continuation.distance(point.state, first.state) < self.step
+            far = point.arclength > LOOP * self.longest
+            closed = far and continuation.distance(point.state, first.state) < self.longest
             return closed or bool(self._outside(point))
 
         line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
@@ -216,8 +222,13 @@ class LinesOnMesh:
     def _continuation(self, kind: str, at: State) -> LineContinuation:
         """Follows the critical points of a kind, beginning near a state."""
         solver = ExtendedNewton(self.system, [LOAD, self.window.vary])
-        steps = StepControl(first=self.step / 4, largest=self.step)
+        steps = StepControl(first=self.longest / 4, largest=self.longest)
         return LineContinuation(solver, self._condition(kind, at, solver), steps)
+
+    @property
+    def longest(self) -> float:
+        """Largest step along a line; constants of laws have different sizes."""
+        return max(self.step, (self.window.high - self.window.low) / STEPS)
 
     def _condition(self, kind: str, at: State, solver: ExtendedNewton) -> Constraint:
         if kind in ("contact", "end"):
@@ -295,7 +306,8 @@ class LineFamily(BranchFamily):
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace."""
         own = [self._own(self.models[-1], point.state, 0.0) for point in self.fine.points]
-        return super()._trace() | {name: np.array([row[name] for row in own]) for name in own[0]}
+        names = [name for name in own[0] if name != PLACE]  # it needs a solve for its uncertainty
+        return super()._trace() | {name: np.array([row[name] for row in own]) for name in names}
 
     def _own(self, model: VariedModel, state: State, critical: float) -> dict[str, float]:
         """Negative eigenvalues of mirror-odd modes, without a critical one, and the place of wrinkling."""
@@ -305,15 +317,14 @@ class LineFamily(BranchFamily):
                 found["n_mirror"] = model.mirror.negative_count(AWAY if self.kind == "mirror" else critical)
             if self.kind == "wrinkling":
                 model.least.turn()
-                found["S_least"] = model.least.place
+                found |= {"at_end": int(model.least.at_end), PLACE: model.least.place}
         return found
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
         """As for any branch, with the same columns as the trace."""
         own = [self._own(m, s.state, critical) for m, s in zip(self.models, solved, strict=True)]
         found = super()._diagnostics(solved, critical)
-        if "n_mirror" in own[-1]:
-            found["n_mirror"] = Quantity(same_count(int(row["n_mirror"]) for row in own))
-        if "S_least" in own[-1]:
-            found["S_least"] = self._quantity([row["S_least"] for row in own], "S_least")
+        for name in own[-1]:
+            values = [row[name] for row in own]
+            found[name] = self._quantity(values, name) if name == PLACE else Quantity(same_count(values))
         return found

@@ -17,7 +17,7 @@ from weakforms.problems.problem import Needs
 USUAL = {"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)}
 """Ranges of the parameters of a plane, if none are given."""
 
-ONLY = {"tube": ({"problem": ("tube",)},), "circular": ({"problem": ("circular",)},)}
+ONLY = {"tube": ({"body": ("tube",)},), "circular": ({"body": ("circular",)},)}
 
 
 class DiagramNumerics(MeshNumerics):
@@ -35,7 +35,7 @@ class DiagramParameters(MaterialChoice):
         **dict.fromkeys(("beta", "l", "t_end"), ONLY["circular"]),
     }
 
-    problem: Literal["tube", "circular"] = Field("tube", description="membrane")
+    body: Literal["tube", "circular"] = Field("tube", description="membrane")
     x: str = Field("", description="first axis; default: delta1 of the tube, beta of the disk")
     y: str = Field("p", description="second axis; one of both is p")
     kind: str = Field("all", description=f"kinds of lines, with commas: {', '.join(LINES)}; or all")
@@ -55,7 +55,7 @@ class DiagramParameters(MaterialChoice):
     @property
     def subject(self) -> Subject:
         """What the diagram is drawn of."""
-        return SUBJECTS[self.problem]
+        return SUBJECTS[self.body]
 
     @property
     def axes(self) -> tuple[str, str]:
@@ -78,7 +78,7 @@ class DiagramParameters(MaterialChoice):
         """The kinds of lines that are followed."""
         allowed = [name for name in LINES if name != "mirror" or self.subject.model.odd is not None]
         named = [word.strip() for word in self.kind.split(",")]
-        return tuple(allowed if self.kind == "all" else [name for name in LINES if name in named])
+        return tuple(allowed if self.kind == "all" else [name for name in allowed if name in named])
 
     def range_of(self, name: str) -> tuple[float, float]:
         """Range of a parameter that may be an axis."""

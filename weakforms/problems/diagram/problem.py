@@ -40,7 +40,7 @@ class Diagram(BranchProblem):
         self._check_kinds(parameters)
         self._check_range(parameters)
         material = parameters.material
-        if parameters.problem == "tube":
+        if parameters.body == "tube":
             require_bearable(self.name, material, parameters.delta1, 1.0, "delta1")
         else:
             require_taut(self.name, material, parameters.beta, "beta")
@@ -52,7 +52,7 @@ class Diagram(BranchProblem):
         allowed = [LOAD, *given.known]
         for axis, name in (("x", x), ("y", y)):
             if name not in allowed:
-                what = f"{given.problem} with model = {given.model!r}"
+                what = f"{given.body} with model = {given.model!r}"
                 raise InputError(
                     f"diagram: {axis} = {name!r} is no parameter of {what}{not_among(name, allowed)}"
                 )
@@ -68,8 +68,8 @@ class Diagram(BranchProblem):
                 raise InputError(f"diagram: kind = {name!r}{not_among(name, [*LINES, 'all'])}")
             if name == "mirror" and "mirror" not in given.kinds:
                 raise InputError(
-                    f"diagram: kind = 'mirror': problem = {given.problem!r} has no mirror; allowed with "
-                    "problem = 'tube'"
+                    f"diagram: kind = 'mirror': body = {given.body!r} has no mirror; allowed with "
+                    "body = 'tube'"
                 )
 
     def _check_range(self, given: DiagramParameters) -> None:
@@ -115,7 +115,7 @@ class Diagram(BranchProblem):
         meshes = [_lines_on(cells, task) for cells in numerics.meshes]
         names, missing = self._seeds(given, meshes[0])
         caps = {"t_min": MOVING}
-        if given.problem == "circular":
+        if given.body == "circular":
             caps |= dict.fromkeys(POLE, order_at_pole(numerics.degree))
         found = {}
         for k, (name, seed) in enumerate(names.items()):
@@ -160,7 +160,7 @@ def _lines_on(cells: int, task: Task) -> LinesOnMesh:
     values = {name: getattr(given, name) for name in given.subject.parameters}
     constants = dict(given.material.constants)
     values |= {name: constants[name] for name in (given.vary,) if name in constants}
-    grading = GRADING if given.problem == "tube" else 0.0
+    grading = GRADING if given.body == "tube" else 0.0
     model = given.subject.model(task.comm, given.material, values, cells, numerics.degree, grading)
     return LinesOnMesh(model, given.window, given.touch, numerics.step)
 

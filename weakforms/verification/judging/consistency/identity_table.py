@@ -62,6 +62,10 @@ def _of_paper(given: Given) -> bool:
     return "model" not in given
 
 
+def _of_tube(given: Given) -> bool:
+    return given.get("body") != "circular"
+
+
 def _gas(given: Given) -> bool:
     return given.get("load") == "gas"
 
@@ -135,6 +139,13 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         read("Pi", "potential of the profile", formulas.tube_potential, _of_paper),
         _over(field("t1", "t1 is that of the law at the stretches", formulas.cauchy_resultant(1)), _of_paper),
         _over(field("t2", "t2 is that of the law at the stretches", formulas.cauchy_resultant(2)), _of_paper),
+    ),
+    "diagram": (
+        read("u_max", "displacement of the middle", formulas.middle_displacement, _of_tube),
+        read("lam1_mid", "meridional stretch of the middle", end("lam1", 0)),
+        read("t0", "height of the pole", end("eta", 0)),
+        read("lam_pole", "stretch of the pole", end("lam1", 0)),
+        read("V", "volume within the profile", enclosed("rho", "eta", 0.5), _of_tube),
     ),
     "hemisphere": (
         stable(),
