@@ -76,7 +76,7 @@ def draw_diagram(result: Result, x: str, y: str) -> Figure:
         kind = point.kind.replace("_", " ")
         style = {"color": "#1c1c1e", "markersize": 6, "markeredgecolor": "white", "linestyle": ""}
         place = [point.values[x]], [point.values[y]]
-        axes.plot(*place, marker=MARKERS[point.kind], ls="", label=None if kind in seen else kind, **style)
+        axes.plot(*place, marker=MARKERS[point.kind], label=None if kind in seen else kind, **style)
         seen.add(kind)
     if x != "p" and y == "p":
         _draw_regions(axes, result, x)
@@ -153,19 +153,8 @@ def _draw_regions(axes: Axes, result: Result, x: str) -> None:
             labels[i, k] = ", ".join(str(n) for a, b, n in parts if min(a, b) < p < max(a, b))
     names = sorted(set(labels.ravel()), key=lambda text: (len(text), text))
     shown = np.vectorize(names.index)(labels)
-    from matplotlib.colors import ListedColormap
-
-    colours = [PALE[k % len(PALE)] for k in range(len(names))]
-    axes.pcolormesh(
-        xs,
-        ps,
-        shown,
-        cmap=ListedColormap(colours),
-        vmin=-0.5,
-        vmax=len(names) - 0.5,
-        zorder=0,
-        shading="nearest",
-    )
+    for k in range(len(names)):  # an outline each, because a picture of so many cells would be large
+        axes.contourf(xs, ps, shown == k, levels=[0.5, 1.5], colors=[PALE[k % len(PALE)]], zorder=0)
     for k, name in enumerate(names):
         if name:
             _write(axes, shown == k, name, xs, ps)

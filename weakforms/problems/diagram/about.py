@@ -3,7 +3,7 @@
 import math
 
 from weakforms.problems import column
-from weakforms.problems.about import LINE, About, Family
+from weakforms.problems.about import LINE, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
 
 LINES = ("fold", "mirror", "wrinkling", "contact")
@@ -67,6 +67,7 @@ DIAGRAM = About(
         *("contact_fold", "contact_mirror"),
     ),
     branches=NAMES,
+    example=Example("delta1", "p", {"kind": "fold"}, numerics={"cells": 32, "levels": 2}),
     tuned=(
         Family(
             {"alpha": (0.05, 0.15), "lf": (5.0, 8.0)},
