@@ -224,11 +224,3 @@ def surface_shape(result: Result) -> Iterator[Found]:
             }
             for name, (here, there) in numbers.items():
                 yield name, str(state.at), compare(here, 0.0, there, 1e-12 * there, there)
-
-
-def standing_liquid(result: Result, c: Columns) -> np.ndarray:
-    """Rate of the potential of a liquid on a framed sheet in its level, with the column over the frame."""
-    given = result.parameters
-    delta_y = given["delta"] if given["delta_y"] is None else given["delta_y"]
-    frame = 4 * given["c"] * given["delta"] * delta_y
-    return -given["gamma"] * (c["V_f"] - frame * np.maximum(c["zw"], 0.0))
