@@ -15,7 +15,7 @@ def test_tube(same_on_ranks):
 
 @pytest.mark.paper2
 def test_lines_in_two_parameters(same_on_ranks):
-    plane = {"problem": "diagram", "alpha": 0.0, "high": 1.2, "u_end": 3.5, "numerics": MESH}
+    plane = {"problem": "diagram", "alpha": 0.0, "high": 1.6, "numerics": {"cells": 48, "levels": 2}}
     found, *_ = same_on_ranks([plane])
     assert {"fold", "mirror", "wrinkling", "contact", "end"} <= {branch.name for branch in found.branches}
 
