@@ -1,8 +1,8 @@
 """Exact statements on framed rectangular sheets: strips, shallow states, ponding, the work of the load.
 
-A strip whose points keep ``y = delta Y`` bends into a cylinder: the pressure is normal, so that ``lam1`` is
+A strip whose points keep y = delta Y bends into a cylinder: the pressure is normal, so that lam1 is
 uniform under gas and under a liquid. A shallow sheet is a stretched membrane with the stress
-``S = 2 (1 - delta^-6)(1 + alpha delta^2)``; its series is that of a linear membrane with a restoring force.
+S = 2 (1 - delta^-6)(1 + alpha delta^2); its series is that of a linear membrane with a restoring force.
 """
 
 from functools import cache

@@ -26,8 +26,9 @@ from weakforms.solvers.continuation.line import (
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.stability.modes import OwnVariation, Singular
-from weakforms.solvers.stability.spectra import Stability, same_count
+from weakforms.solvers.stability.spectra import Stability
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 LOAD = "p"

@@ -13,7 +13,8 @@ from weakforms.problems.triangles.model import SurfaceModel
 from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, hermite
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord, residual_limit
+from weakforms.solvers.equilibrium.newton import ExtendedNewton, residual_limit
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Mode, Stability

@@ -14,7 +14,8 @@ from weakforms.problems.tube.phases import TubePhases
 from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import PiecewiseFamily
-from weakforms.solvers.uncertainty.family import BranchFamily, special_point
+from weakforms.solvers.uncertainty.family import BranchFamily
+from weakforms.solvers.uncertainty.points import special_point
 from weakforms.solvers.uncertainty.refinement import Slow
 
 FIRST_TERMS, MORE_TERMS = 19, 4

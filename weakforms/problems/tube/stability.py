@@ -15,8 +15,8 @@ from weakforms.results import Branch, Quantity, SpecialPoint
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
-from weakforms.solvers.stability.spectra import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 SLACK = 1e-9

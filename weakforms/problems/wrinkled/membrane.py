@@ -15,7 +15,7 @@ from weakforms.problems.wrinkled.fitted import VERGE, FittedMembrane
 from weakforms.problems.wrinkled.model import WrinkledModel
 from weakforms.problems.wrinkled.state import BLOCKS, ZonedState, model_on, solver_of
 from weakforms.solvers.continuation.walk import walk
-from weakforms.solvers.equilibrium.newton import SolveRecord
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 
 HOMOTOPY = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0)

@@ -16,8 +16,9 @@ from weakforms.problems.wrinkled.state import ZonedState, solver_of
 from weakforms.problems.wrinkled.waves.modes import MODE, waves_at
 from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.stability.spectra import same_count, spectrum_of
-from weakforms.solvers.uncertainty.family import special_point
+from weakforms.solvers.stability.agreement import same_count
+from weakforms.solvers.stability.spectra import spectrum_of
+from weakforms.solvers.uncertainty.points import special_point
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate, estimate_in_norm
 
 ROUND_OFF = 1e-10

@@ -16,7 +16,8 @@ from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.model import DRY, WET, Marks
 from weakforms.problems.wrinkled.fields import Zones, zones
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
-from weakforms.solvers.equilibrium.newton import ExtendedNewton, SolveRecord
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 
 BLOCKS = 10

@@ -11,7 +11,8 @@ import numpy as np
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.constraints import Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix
-from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton, SolveRecord
+from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 
 

@@ -22,7 +22,8 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton, SolveRecord
+from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import OwnVariation, Singular, SingularForm
 

@@ -9,7 +9,6 @@ every evaluation, so that every rank knows them. The linear systems are bordered
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 from weakref import proxy
 
@@ -19,11 +18,9 @@ from petsc4py import PETSc
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
+from weakforms.solvers.equilibrium.snes import SolveRecord, run_snes, solve_record
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
-
-_REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
-
 
 RESIDUAL_LIMIT = 1e-8
 """Residual norm above which no state is accepted if forces are of order one, however small the last step is.
@@ -58,17 +55,6 @@ class Constraint(Protocol):
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
         """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system is lent to."""
-
-
-@dataclass(frozen=True)
-class SolveRecord:
-    """The outcome of a solve."""
-
-    reason: str
-    iterations: int
-    factorizations: int
-    norms: tuple[float, ...]
-    """Residual norm of the whole system at each iteration."""
 
 
 def residual_limit(system: System) -> float:
@@ -332,28 +318,3 @@ class _BorderedSolve:
             pc.setFailedReason(PETSc.PC.FailedReason.SUBPC_ERROR)
 
         newton._callbacks.run(lambda: newton._join(out, *newton.bordered.solve(*newton._split(rhs))), spoil)
-
-
-def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
-    """Solve, starting from ``x``; the caller must check whether the solve converged.
-
-    Raises:
-        ConvergenceError: If PETSc raises an error, or a function that it calls fails.
-    """
-    try:
-        try:
-            snes.solve(None, x)
-        finally:
-            callbacks.release()
-    except (ConvergenceError, PETSc.Error, ArithmeticError, np.linalg.LinAlgError) as error:
-        reason = snes.getConvergedReason()
-        raise ConvergenceError(f"SNES ended with {_REASONS.get(reason, reason)}: {error}") from error
-
-
-def solve_record(snes: PETSc.SNES, factorizations: int) -> SolveRecord:
-    """The outcome of the last solve; the caller counts the factorisations."""
-    reason = snes.getConvergedReason()
-    norms, _ = snes.getConvergenceHistory()
-    return SolveRecord(
-        _REASONS.get(reason, str(reason)), snes.getIterationNumber(), factorizations, tuple(norms.tolist())
-    )

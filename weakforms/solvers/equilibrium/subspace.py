@@ -13,7 +13,7 @@ from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
-from weakforms.solvers.equilibrium.newton import SolveRecord, run_snes, solve_record
+from weakforms.solvers.equilibrium.snes import SolveRecord, run_snes, solve_record
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
 

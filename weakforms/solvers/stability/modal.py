@@ -15,9 +15,10 @@ from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.stability.modes import SecondVariation, Singular
-from weakforms.solvers.stability.spectra import same_count
-from weakforms.solvers.uncertainty.family import BranchFamily, special_point
+from weakforms.solvers.uncertainty.family import BranchFamily
+from weakforms.solvers.uncertainty.points import special_point
 
 Family = Hashable
 """Modes of one symmetry: a wave number, or an object that says more."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TypeVar
@@ -29,15 +29,13 @@ LOWEST = -1e12
 """Lower limit of the search for eigenvalues."""
 
 BACKWARD_ERROR = 1e-12
-"""Relative residual of a solve above which a factorisation is too inaccurate and is repeated with
-pivoting."""
+"""Relative residual of a solve above which a factorisation is repeated with pivoting."""
 
 CROWDED = 4
 """Factor of the basis if no eigenvalue converges: then many lie close together, as those of short waves."""
 
 BESIDE = 1e-4
 """Relative distance between a known eigenvalue and the target for its mode."""
-
 
 Found = TypeVar("Found")
 
@@ -346,18 +344,6 @@ def spectrum_of(system: System, state: State, shift: float) -> Spectrum:
     """The lowest eigenvalues of a state, with the mass matrix of its own mesh (which fronts move)."""
     with system.at(state), system.weighed_here():
         return Stability(system).spectrum(state, shift=shift)
-
-
-def same_count(counts: Iterable[int]) -> int:
-    """The number of negative eigenvalues that all meshes agree on.
-
-    Raises:
-        ConvergenceError: If they do not.
-    """
-    found = set(counts)
-    if len(found) != 1:
-        raise ConvergenceError(f"stability depends on the mesh: negative counts {sorted(found)}")
-    return found.pop()
 
 
 def _values(eps: SLEPc.EPS) -> list[float]:

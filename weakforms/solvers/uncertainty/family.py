@@ -24,11 +24,12 @@ from weakforms.results import (
 )
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
-from weakforms.solvers.stability.spectra import Spectrum, same_count, spectrum_of
+from weakforms.solvers.stability.agreement import same_count
+from weakforms.solvers.stability.spectra import Spectrum, spectrum_of
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.support.sampling import Sampler
+from weakforms.solvers.uncertainty.points import special_point
 from weakforms.solvers.uncertainty.refinement import (
-    Estimate,
     Slow,
     doubt,
     estimate,
@@ -324,32 +325,6 @@ class BranchFamily:
             spread = min(spread, SAMPLED * float(estimate(values, cap, None, in_mean, self.slow).uncertainty))
         order = float(found.order)
         return Quantity(float(found.value), spread, order if order > 0 else None)
-
-
-def special_point(
-    same: Sequence[Solved],
-    shown: Sequence[str],
-    cap: float,
-    branch: str,
-    control: str,
-    caps: Mapping[str, float] | None = None,
-    slow: Slow | None = None,
-) -> SpecialPoint:
-    """A special point located on several meshes, coarse to fine, with its uncertainties."""
-    lower = caps or {}
-    values = {k: estimate([s.values[k] for s in same], lower.get(k, cap), slow=slow) for k in shown}
-    return SpecialPoint(
-        same[-1].kind,
-        branch,
-        control,
-        {k: float(v.value) for k, v in values.items()},
-        {k: float(v.uncertainty) for k, v in values.items()},
-        orders=_orders(values),
-    )
-
-
-def _orders(values: dict[str, Estimate]) -> dict[str, float]:
-    return {k: float(v.order) for k, v in values.items() if v.order > 0}
 
 
 def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:

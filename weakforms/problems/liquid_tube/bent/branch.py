@@ -23,7 +23,8 @@ from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import MonitorPlane, Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
-from weakforms.solvers.equilibrium.newton import Constraint, SolveRecord, residual_limit
+from weakforms.solvers.equilibrium.newton import Constraint, residual_limit
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 
 AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)

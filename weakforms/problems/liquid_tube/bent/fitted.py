@@ -16,7 +16,8 @@ from weakforms.problems.liquid_tube.bent.edge_tangents import lobatto
 from weakforms.problems.liquid_tube.bent.front import front_of
 from weakforms.problems.liquid_tube.bent.model import SurfaceModel
 from weakforms.problems.liquid_tube.bent.surface import Shape
-from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton, SolveRecord
+from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
+from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.support.sampling import Sampler
 
