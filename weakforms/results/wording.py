@@ -28,7 +28,11 @@ def short(result: Result) -> str:
 
 def parameters_line(result: Result) -> str:
     """All parameters with their values."""
-    return ", ".join(f"{name} = {value}" for name, value in result.parameters.items() if value is not None)
+    shown = {
+        name: ",".join(map(str, value)) if isinstance(value, list | tuple) else value
+        for name, value in result.parameters.items()
+    }
+    return ", ".join(f"{name} = {value}" for name, value in shown.items() if value not in (None, ""))
 
 
 def extent(branch: Branch) -> str:

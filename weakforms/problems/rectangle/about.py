@@ -42,8 +42,8 @@ RECTANGLE = About(
                 n_held="the same, the volume of the gas or liquid held",
             )
         ),
-        Column("X_least", "X of that stress, on the quarter", derived=True, dimension="length"),
-        Column("Y_least", "Y of that stress, on the quarter", derived=True, dimension="length"),
+        Column("X_least", "X of that stress over {length}, on the quarter", derived=True, dimension="length"),
+        Column("Y_least", "Y of that stress over {length}, on the quarter", derived=True, dimension="length"),
         *column.DIAGNOSTICS,
     ),
     numbers=(
