@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reference_data.solvers.core.newton import newton
+
 Array = np.ndarray
 
 
@@ -119,18 +121,22 @@ def solve(equations: Linear, centre: Array, start: Found, height: float, toleran
     Raises:
         RuntimeError: If it does not converge.
     """
-    u, load = start.u.copy(), start.load
-    n = len(u)
-    for _ in range(30):
+    n = len(start.u)
+
+    def bordered(u: Array, load: float) -> tuple[Array, Array]:
         residual, k, rate = equations(u, load)
-        bordered = np.block([[k, rate[:, None]], [centre[None], np.zeros((1, 1))]])
-        step = np.linalg.solve(bordered, -np.append(residual, centre @ u - height))
-        u, load = u + step[:n], load + step[n]
-        if np.abs(step).max() < tolerance:
-            goal = np.zeros(n + 1)
-            goal[n] = 1.0
-            return Found(u, load, height, float(np.linalg.solve(bordered, goal)[n]))
-    raise RuntimeError(f"no convergence at the height {height:g}: last step {np.abs(step).max():.1e}")
+        matrix = np.block([[k, rate[:, None]], [centre[None], np.zeros((1, 1))]])
+        return matrix, np.append(residual, centre @ u - height)
+
+    def correct(at: tuple[Array, float]) -> tuple[float, Callable[[float], tuple[Array, float]]]:
+        u, load = at
+        step = -np.linalg.solve(*bordered(u, load))
+        return float(np.abs(step).max()), lambda share: (u + share * step[:n], load + share * step[n])
+
+    what = f"height {height:g}"
+    u, load = newton((start.u, start.load), correct, what, longest=np.inf, close=tolerance, most=30, more=0)
+    rate = np.linalg.solve(bordered(u, load)[0], np.append(np.zeros(n), 1.0))[n]
+    return Found(u, load, height, float(rate))
 
 
 def follow(equations: Linear, centre: Array, start: Found, heights: Array) -> list[Found]:

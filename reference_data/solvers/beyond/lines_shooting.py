@@ -16,10 +16,13 @@ steps. With rho(L) = 1, eta(L) = l_f/2 a state is
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
+from reference_data.solvers.core.newton import newton
 
 Array = np.ndarray
 STEP = 1e-30
@@ -154,8 +157,7 @@ def solve(kind: str, tube: dict[str, Any], vary: str, x: Array, u: Array, steps:
     def f(x: Array) -> Array:
         return misses(kind, x[:-1], u, Data(**tube | {vary: x[-1]}), steps)
 
-    small = 0
-    for _ in range(20):
+    def correct(x: Array) -> tuple[float, Callable[[float], Array]]:
         here = f(x)
         columns = []
         for k in range(len(x)):
@@ -164,8 +166,6 @@ def solve(kind: str, tube: dict[str, Any], vary: str, x: Array, u: Array, steps:
             columns.append((f(moved) - here) / DIFFERENCE)
         matrix = np.moveaxis(np.array(columns), 2, 0).transpose(0, 2, 1)
         step = np.linalg.solve(matrix, here.T[..., None])[..., 0].T
-        x = x - step
-        small = small + 1 if np.abs(step).max() < 1e-9 else 0
-        if small > 1:
-            return x
-    raise RuntimeError(f"shooting: {kind} over {vary} does not converge, last step {np.abs(step).max():.1e}")
+        return float(np.abs(step).max()), lambda share: x - share * step
+
+    return newton(x, correct, f"shooting: {kind} over {vary}", longest=np.inf, close=1e-9, most=20)
