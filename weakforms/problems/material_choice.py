@@ -117,17 +117,17 @@ class MaterialChoice(Parameters):
         return Chosen(self.model, self.constants)
 
 
-def require_foldable(what: str, parameters: MaterialChoice, waves: bool) -> None:
+def require_foldable(what: str, parameters: MaterialChoice, invariants: bool) -> None:
     """Refuse a law for which there is no form of a wrinkled membrane.
 
-    Natural width and wrinkling function hold for incompressible laws only; waves around the axis need the law
-    as a function of the invariants.
+    Natural width and wrinkling function hold for incompressible laws only; waves around an axis and
+    triangles in space need the law as a function of the invariants.
 
     Raises:
         InputError: With a message that names the allowed laws.
     """
-    allowed = [name for name, m in MATERIALS.items() if m.incompressible and (not waves or name in LAWS)]
-    require_model(f"{what}: waves around" if waves else what, parameters, allowed)
+    allowed = [name for name, m in MATERIALS.items() if m.incompressible and (not invariants or name in LAWS)]
+    require_model(what, parameters, allowed)
 
 
 def require_model(what: str, parameters: MaterialChoice, allowed: Collection[str]) -> None:

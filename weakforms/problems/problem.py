@@ -234,7 +234,8 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
         parts = []
         for item in error.errors():
             name = ".".join(str(part) for part in item["loc"]) or "parameters"
-            message = item["msg"][0].lower() + item["msg"][1:]
+            message = item["msg"].removeprefix("Value error, ")
+            message = message[0].lower() + message[1:]
             cause = item.get("ctx", {}).get("error")
             together = isinstance(cause, TogetherError)
             parts.append(str(cause) if together else f"{name} = {item['input']!r}: {message}")

@@ -41,7 +41,7 @@ class Rectangle(BranchProblem):
             InputError: With a message that names the value and the allowed ones.
         """
         super().check(parameters, requests)
-        require_foldable(self.name, parameters, waves=True)
+        require_foldable(self.name, parameters, invariants=True)
         for name, value in (("delta", parameters.delta), ("delta_y", parameters.stretch_y)):
             require_taut(self.name, parameters.material, value, name)
         absent = LOAD["gas" if parameters.load == "liquid" else "liquid"]

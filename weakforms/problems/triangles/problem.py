@@ -46,7 +46,7 @@ class Surface(Problem):
             InputError: With a message that names the value and the allowed ones.
         """
         super().check(parameters, requests)
-        require_foldable(self.name, parameters, waves=True)
+        require_foldable(self.name, parameters, invariants=True)
         kind, full = parameters.kind, parameters.filled()
         if kind == "tube":
             require_carried(self.name, full.material, full.delta, full.M)

@@ -45,7 +45,7 @@ class WrinkledTubeThreshold(Problem):
             InputError: For these, or a law without a form.
         """
         super().check(parameters, requests)
-        require_foldable(self.name, parameters, waves=False)
+        require_foldable(self.name, parameters, invariants=False)
         natural = natural_radius(parameters.delta)
         if parameters.Af <= natural:
             raise InputError(

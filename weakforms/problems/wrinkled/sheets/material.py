@@ -49,7 +49,7 @@ class WrinkledMaterial(Problem):
             InputError: For any of these.
         """
         super().check(parameters, requests)
-        require_foldable(self.name, parameters, waves=False)
+        require_foldable(self.name, parameters, invariants=False)
         require_defined(self.name, parameters, parameters.l1, parameters.l2, "l1, l2", parameters.form)
 
     def fill(self, result: Result, task: Task) -> None:

@@ -163,7 +163,7 @@ class WrinkledPatch(BranchProblem):
             InputError: For a column that cannot be prescribed.
         """
         super().check(parameters, requests)
-        require_foldable(self.name, parameters, waves=False)
+        require_foldable(self.name, parameters, invariants=False)
         for wanted in requests.states:
             if not 0 <= wanted.value <= 1:
                 raise InputError(f"wrinkled_patch: e = {wanted.value:g}; allowed: from 0 to 1")
