@@ -62,26 +62,19 @@ CASE = Case(
     checks=(
         Count("cusp_point", {OVER_ALPHA: 1}, "the limit points merge in one cusp"),
         Count("tip_mirror", {OVER_ALPHA: 2, OVER_STRETCH: 1}, "turns of the lines of mirror breaking"),
-        Points(
-            "cusp_point",
-            reference="lines_cusp_alpha",
-            base=OVER_ALPHA,
-            parameters=(),
-            asked={"alpha": 1e-6, "p": 1e-6, "u_max": 1e-6},
-        ),
-        Points(
-            "tip_mirror",
-            reference="lines_tips_alpha",
-            base=OVER_ALPHA,
-            parameters=(),
-            asked={"alpha": 1e-6, "p": 1e-6, "u_max": 1e-6},
-        ),
-        Points(
-            "fold_mirror",
-            reference="lines_fold_mirror_alpha",
-            base=OVER_ALPHA,
-            parameters=(),
-            asked={"alpha": 1e-6, "p": 1e-6, "u_max": 1e-6},
+        *(
+            Points(
+                kind,
+                reference=table,
+                base=OVER_ALPHA,
+                parameters=(),
+                asked={"alpha": 1e-6, "p": 1e-6, "u_max": 1e-6},
+            )
+            for kind, table in (
+                ("cusp_point", "lines_cusp_alpha"),
+                ("tip_mirror", "lines_tips_alpha"),
+                ("fold_mirror", "lines_fold_mirror_alpha"),
+            )
         ),
         Claim(
             "same_coincidence",

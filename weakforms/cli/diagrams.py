@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 from weakforms.cli.app import app, examples
-from weakforms.cli.solving import end_of
+from weakforms.cli.solving import end_of, solved
 from weakforms.errors import InputError
-from weakforms.terminal import complain, console, plain, progress_bar, rank, request
+from weakforms.terminal import complain, console, plain, rank, request
 
 
 @app.command(
@@ -54,7 +54,7 @@ def diagram(
     from weakforms import api
     from weakforms.cli.screen import print_result
     from weakforms.results.diagram import draw_diagram
-    from weakforms.results.io import dumps, require_place_for, validate, write_atomically
+    from weakforms.results.io import dumps, write_atomically
     from weakforms.results.plot import require_picture_name, save
     from weakforms.results.wording import notes
 
@@ -67,12 +67,7 @@ def diagram(
     given["parameters"] |= own
     solve_it = api.prepare("diagram", **given)
     require_picture_name(picture)
-    if out is not None:
-        require_place_for(out)
-    with progress_bar() as progress:
-        result = solve_it(progress)
-    data = result.to_json()
-    validate(data)
+    result, data = solved(solve_it, out)
     if rank() == 0:
         if out is not None:
             write_atomically(out, dumps(data))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -123,7 +124,7 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
     """
     from weakforms import api
     from weakforms.cli.screen import print_result
-    from weakforms.results.io import branch_csv, dumps, require_place_for, validate, write_atomically
+    from weakforms.results.io import branch_csv, dumps, write_atomically
     from weakforms.results.wording import notes
 
     if form not in (None, "json", "csv"):
@@ -132,12 +133,7 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
         raise InputError("--json and --format csv exclude each other")
     given = request(spec, [*(words or []), *(sets or [])], at, mesh)
     solve_it = api.prepare(problem, **given, crossing=_crossing(crossing), branch=branch, accuracy=accuracy)
-    if out is not None:
-        require_place_for(out)
-    with progress_bar() as progress:
-        result = solve_it(progress)
-    data = result.to_json()
-    validate(data)
+    result, data = solved(solve_it, out)
     if rank() == 0:
         text = branch_csv(result) if form == "csv" else dumps(data)
         if out is not None:
@@ -152,6 +148,23 @@ def solve(  # noqa: PLR0913, PLR0917  (one an option)
         for note in notes(result):
             complain(note)
     end_of(result)
+
+
+def solved(solve_it: Callable[[Any], Result], out: Path | None) -> tuple[Result, dict[str, Any]]:
+    """Solve with a progress bar; the result, and its data as JSON, which follow the schema.
+
+    Raises:
+        InputError: If the result cannot be written to its place; nothing was solved then.
+    """
+    from weakforms.results.io import require_place_for, validate
+
+    if out is not None:
+        require_place_for(out)
+    with progress_bar() as progress:
+        result = solve_it(progress)
+    data = result.to_json()
+    validate(data)
+    return result, data
 
 
 def end_of(result: Result) -> None:

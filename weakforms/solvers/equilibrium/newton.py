@@ -43,7 +43,8 @@ step is below the second number."""
 
 STOPPING = (
     "relative Newton step 1e-10 (1e-8 if the residual is round-off); residual norm below 1e-8, but not below "
-    "1e-15 nor above 1e-10 of the nodal forces before they balance, |K| |U|"
+    "1e-15 nor above 1e-10 of the nodal forces before they balance, |K| |U|, or "
+    "below 1e-15 of the forces of a load"
 )
 """Text on these tolerances in results."""
 

@@ -41,7 +41,6 @@ the point where two nearly equal stretches cross, the least stress of a sheet an
 of quadrature, derivatives at a point, wrinkled areas, and counts beside a limit load, which coarse meshes
 have elsewhere. There they are not judged, unless off by more than their wide bound."""
 
-
 SOLVED = 1e-10
 """To what the two solves stop: the relative step of Newton's method, and the eigensolver's tolerance."""
 
