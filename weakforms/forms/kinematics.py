@@ -1,10 +1,10 @@
-"""Axisymmetric membrane kinematics: stretches of a surface of revolution."""
+"""Axisymmetric membrane kinematics: stretches of a surface of revolution, and of a flat twisted sheet."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ufl import sqrt
+from ufl import as_matrix, sqrt
 from ufl.core.expr import Expr
 
 
@@ -42,3 +42,19 @@ def revolution_stretches(
     along, around = scales
     arc = sqrt(r_slope**2 + z_slope**2)
     return Stretches(lam1=along * arc, lam2=around * ratio, cos_beta=z_slope / arc)
+
+
+def polar_metric(ratio: Expr, r: Expr, r_slope: Expr, turn_slope: Expr) -> Expr:
+    r"""Right Cauchy-Green tensor, 2 x 2, of a flat sheet: ``r(R)``, ``theta = Theta + w(R)`` in its plane.
+
+    .. math:: C = \begin{pmatrix} r_{,R}^2 + r^2 w_{,R}^2 & r^2 w_{,R}/R \\ r^2 w_{,R}/R & r^2/R^2
+              \end{pmatrix}
+
+    Args:
+        ratio: ``r/R``.
+        r: Deformed radius.
+        r_slope: Its derivative in ``R``.
+        turn_slope: Derivative of the angle ``w``.
+    """
+    shear = r * turn_slope
+    return as_matrix([[r_slope**2 + shear**2, ratio * shear], [ratio * shear, ratio**2]])

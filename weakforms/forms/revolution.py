@@ -21,7 +21,7 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.fluid import Surface, harmonic, normal
 from weakforms.forms.materials import SurfaceLaw
-from weakforms.forms.wrinkling import COALESCENCE, relaxed
+from weakforms.forms.wrinkling import COALESCENCE, Width, natural_width, relaxed
 
 ANGLES = ((1.0, 0.0), (0.0, 1.0))
 """``(cos, sin)`` of the two angles whose values give the mean over ``Theta``."""
@@ -45,10 +45,10 @@ def gradient_tensor(
     return as_matrix([[dot(a, a), dot(a, b)], [dot(a, b), dot(b, b)]])
 
 
-def strain_energy(c: Expr, taut: Condition, law: SurfaceLaw) -> Expr:
+def strain_energy(c: Expr, taut: Condition, law: SurfaceLaw, width: Width = natural_width) -> Expr:
     r"""Energy per reference volume: full where taut, relaxed with tension along 1 elsewhere.
 
-    .. math:: U_F = w(I, D), \qquad U_R = w(\lambda_1, \lambda_1^{-1/2})
+    .. math:: U_F = w(I, D), \qquad U_R = w(\lambda_1, n(\lambda_1)), \qquad n = \lambda_1^{-1/2}
 
     with ``I = tr C``, ``D = det C``. The taut energy needs no principal stretches and is smooth where they
     coincide. The taut part is *given*: a front that moves with the perturbation changes the energy only at
@@ -59,12 +59,13 @@ def strain_energy(c: Expr, taut: Condition, law: SurfaceLaw) -> Expr:
         c: Right Cauchy-Green tensor, :func:`gradient_tensor`.
         taut: Indicator of the taut part, held fixed.
         law: Energy in both forms.
+        width: Natural width ``n``, if the material is compressible.
     """
     area = c[0, 0] * c[1, 1] - c[0, 1] ** 2
     spread = sqrt((c[0, 0] - c[1, 1]) ** 2 + 4 * c[0, 1] ** 2 + COALESCENCE**2)
     stretch = sqrt((tr(c) + spread) / 2)
     along = stretch if law.bounded else conditional(taut, 1.0, stretch)
-    return conditional(taut, law.where(taut, tr(c), area), relaxed(law.stretches)(along))
+    return conditional(taut, law.where(taut, tr(c), area), relaxed(law.stretches, width)(along))
 
 
 def gas_energy(at: Surface, p: Expr) -> Expr:

@@ -1,0 +1,1 @@
+"""The flat annulus whose inner edge is turned in its plane."""
