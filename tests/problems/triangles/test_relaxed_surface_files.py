@@ -94,6 +94,13 @@ def needle(points, triangles):
     return np.vstack([points, middle]), np.vstack([triangles, [a, b, len(points)]])
 
 
+def hanging(points, triangles):
+    a, b, c = triangles[60]
+    middle = len(points)
+    rest = np.delete(triangles, 60, axis=0)
+    return np.vstack([points, (points[a] + points[b]) / 2]), np.vstack([rest, [a, middle, c], [middle, b, c]])
+
+
 def closed(points, triangles):
     low, high = len(points), len(points) + 1
     ends = [[k, low, (k + 1) % 12] for k in range(12)] + [
@@ -132,6 +139,7 @@ WRONG = {
     twice: "duplicate triangles",
     fin: "not a manifold",
     needle: "without area",
+    hanging: "hangs on the edge",
     closed: "no edge to clamp",
     two_parts: "2 parts",
     hole: "3 edges",

@@ -10,21 +10,17 @@ from dolfinx import fem
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.rectangle.model import RectangleModel
-from weakforms.problems.rectangle.readings import Centre, Points
+from weakforms.problems.rectangle.readings import Centre
+from weakforms.problems.triangles.readings import LeastStress
+from weakforms.problems.triangles.start import first_state
+from weakforms.problems.triangles.weak_form import RULE
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.stability.modes import SecondVariation
-
-TAUT_START = 1.15
-"""Stretch of the frame from which a frame with less stretch is approached, at the same height."""
-
-FIRST_SHARE, LEAST_SHARE = 0.25, 1e-3
-"""First and smallest step of that approach, as a fraction of it."""
 
 ZERO = 1e-6
 """Eigenvalues in the states' class above minus this do not count as negative: at a limit load one is zero."""
@@ -39,7 +35,9 @@ class RectangleModes:
     def __init__(self, model: RectangleModel) -> None:
         self.model = model
         self.square = model.sheet.is_square
-        self._points, self._centre = Points(model), Centre(model)
+        rule = RULE[model.sheet.degree]
+        self._points = LeastStress(model.mesh, model.least_stress, rule, mirrored=True)
+        self._centre = Centre(model)
         self._factor = Factorization(model.system)
         self.amount = "V" if model.sheet.load == "gas" else "V_f"
         self._counted = {} if model.sheet.whole else COUNTED
@@ -144,43 +142,12 @@ def traced(
     control = model.sheet.control
     solver = ExtendedNewton(model.system, [control])
     continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
-    begin = continuation.start(first_state(model, solver, start), Held("w_c", start), towards={"w_c": 1.0})
+    frame = {"delta": model.sheet.delta, "delta_y": model.sheet.delta_y}
+    first = first_state(solver, start, frame, model.cosine(start))
+    begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
 
     def ends(point: CurvePoint) -> bool:
         progress()
         return point.monitors["w_c"] > end
 
     return RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
-
-
-def first_state(model: RectangleModel, solver: ExtendedNewton, height: float) -> State:
-    """Equilibrium with a small height of the centre.
-
-    A frame that stretches the sheet gives it stiffness against deflection, and Newton's method starts from a
-    cosine. A slack frame is approached from a taut one at this height, in steps that are halved if one fails.
-
-    Raises:
-        ConvergenceError: If the state is not reached.
-    """
-    sheet = model.sheet
-    wanted = {"delta": sheet.delta, "delta_y": sheet.delta_y}
-    taut = {name: max(value, TAUT_START) for name, value in wanted.items()}
-    if min(wanted.values()) >= TAUT_START:
-        taut = wanted
-    held = [Held("w_c", height)]
-
-    def at(share: float, guess: State) -> State:
-        frame = {name: value + share * (wanted[name] - value) for name, value in taut.items()}
-        return solver.solve(State(guess.u, guess.loads | frame), held)[0]
-
-    state = at(0.0, State(model.cosine(height), model.system.initial.loads))
-    done, step = 0.0, 1.0 if taut == wanted else FIRST_SHARE
-    while done < 1.0:
-        share = min(1.0, done + step)
-        try:
-            state, done = at(share, state), share
-        except ConvergenceError:
-            step /= 2
-            if step < LEAST_SHARE:
-                raise
-    return State(state.u, state.loads | wanted)

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from weakforms.problems.rectangle.branch import RectangleBranch
-from weakforms.problems.rectangle.fields import Shape
+from weakforms.problems.triangles.shape import Shape
 from weakforms.results import Field, State
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.stability.modal import ModalFamily
+
+ORDER_AT_EDGE = 2.0
+"""Order of the errors if the pressure has a kink inside of elements. Their signs change from mesh to mesh."""
+
+MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))
+"""Signs of ``X`` and ``Y`` of the quarters that make the whole sheet."""
 
 
 class RectangleFamily(ModalFamily):
@@ -19,6 +25,10 @@ class RectangleFamily(ModalFamily):
 
     fine: RectangleBranch
     _last: Solved | None = None
+
+    def smooth_order(self, values: Mapping[str, float]) -> float:
+        """Of a pond that wets a part only, the edge of the wet part crosses elements."""
+        return ORDER_AT_EDGE if values.get("zw", 0.0) < 0 else np.inf
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
         """As for any branch, with corners and triangles before the profile.
@@ -30,8 +40,9 @@ class RectangleFamily(ModalFamily):
         if profile is None:
             return state
         model = self.fine.modes.model
+        mirrors = ((1, 1),) if model.sheet.whole else MIRRORS
         with model.system.at(self._last.state):
-            return replace(state, fields=(*Shape(model)(), *state.fields))
+            return replace(state, fields=(*Shape(model.mesh, model.membrane, mirrors)(), *state.fields))
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         self._last = solved[-1]

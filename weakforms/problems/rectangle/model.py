@@ -17,7 +17,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import basix
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -28,13 +27,11 @@ from ufl.core.expr import Expr
 from weakforms.forms.relaxed_surface import SLACK, WRINKLED, least_stress, state
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.triangles.weak_form import Membrane, scalars
+from weakforms.problems.triangles.readings import corner_weight
+from weakforms.problems.triangles.weak_form import RULE, Membrane, scalars
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.modes import SecondVariation
-
-RULE = {1: 2, 2: 4}
-"""Quadrature degree by the degree of the elements: the load of straight triangles is exact with the first."""
 
 CLASSES = {0: "even_even", 1: "odd_even", 2: "even_odd", 3: "odd_odd"}
 """Parity of ``z`` in ``X`` and ``Y``, by the number of the class."""
@@ -214,22 +211,10 @@ class RectangleModel:
 
     def _centre(self) -> fem.Function:
         r"""The weight ``g`` on one triangle with :math:`\int g\, v\,\mathrm dA = v(0, 0)` on any element."""
-        degree, mesh = self.sheet.degree, self.mesh
-        weight = fem.Function(fem.functionspace(mesh, ("DG", degree)))
+        mesh = self.mesh
         corners = mesh.geometry.x[mesh.geometry.dofmap]
         count = mesh.topology.index_map(2).size_local
-        cell, corner = (found[:1] for found in np.nonzero(np.linalg.norm(corners[:count], axis=2) < 1e-9))
-        first = mesh.comm.allreduce(mesh.comm.rank if len(cell) else mesh.comm.size, op=MPI.MIN)
-        if mesh.comm.rank == first:
-            points, weights = basix.make_quadrature(basix.CellType.triangle, 2 * degree)
-            basis = weight.function_space.element.basix_element.tabulate(0, points)[0, :, :, 0]
-            a, b, c = corners[cell[0], :, :2]
-            size = abs(np.linalg.det([b - a, c - a]))
-            product = size * np.einsum("q,qi,qj->ij", weights, basis, basis)
-            dofs = weight.function_space.dofmap.cell_dofs(cell[0])
-            weight.x.array[dofs] = np.linalg.solve(product, np.eye(len(dofs))[corner[0]])
-        weight.x.scatter_forward()
-        return weight
+        return corner_weight(mesh, self.sheet.degree, np.linalg.norm(corners[:count], axis=2) < 1e-9)
 
     # -- conditions and classes ----------------------------------------------------------------
 

@@ -1,4 +1,4 @@
-"""Checks that a triangulation is a surface suitable for a membrane of revolution."""
+"""Checks that a triangulation is a surface, and one suitable for a membrane of revolution."""
 
 from __future__ import annotations
 
@@ -47,19 +47,34 @@ def require_surface(points: np.ndarray, triangles: np.ndarray, name: str) -> Non
     def refuse(what: str) -> None:
         raise InputError(f"surface: geometry = {name}: {what}")
 
+    size = float(np.ptp(points, axis=0).max())
+    _require_clamped(points, require_manifold(points, triangles, refuse), size, refuse)
+
+
+def require_manifold(points: np.ndarray, triangles: np.ndarray, refuse: Refuse) -> np.ndarray:
+    """Refuse a mesh unless it is one connected and oriented surface, without doubtful nodes and triangles.
+
+    Args:
+        points: Nodes, ``(n, 3)``, each of them used.
+        triangles: ``(m, 3)``.
+        refuse: Raises an error with a text.
+
+    Returns:
+        Edges of one triangle, as pairs of nodes.
+    """
     if not np.isfinite(points).all():
         refuse("a coordinate is not a finite number")
     size = float(np.ptp(points, axis=0).max())
     pairs = cKDTree(points).query_pairs(COINCIDENT * size, output_type="ndarray")
     if len(pairs):
         a, b = pairs[0]
-        refuse(f"{len(pairs)} duplicate nodes, the first {_at(points[b])} ({a} and {b}); merge them")
+        refuse(f"{len(pairs)} duplicate nodes, the first {at(points[b])} ({a} and {b}); merge them")
     _require_triangles(points, triangles, size, refuse)
     edges, count = edges_of(triangles)
     if count.max() > 2:
         a, b = edges[np.argmax(count)]
         refuse(
-            f"not a manifold: the edge from {_at(points[a])} to {_at(points[b])} has {count.max()} "
+            f"not a manifold: the edge from {place(points[a])} to {place(points[b])} has {count.max()} "
             "triangles; allowed: 1 or 2"
         )
     directed, times = np.unique(_directed(triangles), axis=0, return_counts=True)
@@ -67,13 +82,33 @@ def require_surface(points: np.ndarray, triangles: np.ndarray, name: str) -> Non
         a, b = directed[np.argmax(times)]
         refuse(
             f"{np.sum(times > 1)} edges have the same direction in both their triangles, the first "
-            f"{_at(points[a])}; orient all triangles alike"
+            f"{at(points[a])}; orient all triangles alike"
         )
     graph = coo_matrix((np.ones(len(edges)), edges.T), shape=(len(points),) * 2)
     parts, _ = connected_components(graph, directed=False)
     if parts > 1:
         refuse(f"it has {parts} parts that are not connected; allowed: 1")
-    _require_clamped(points, edges[count == 1], size, refuse)
+    _require_conforming(points, edges[count == 1], size, refuse)
+    return edges[count == 1]
+
+
+def _require_conforming(points: np.ndarray, boundary: np.ndarray, size: float, refuse: Refuse) -> None:
+    """Refuse nodes inside of other triangles' edges: the surface is open there without a gap."""
+    if not len(boundary):
+        return
+    nodes = np.unique(boundary)
+    ends = points[boundary]
+    along = ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(along, axis=1)
+    near = cKDTree(points[nodes]).query_ball_point(ends.mean(axis=1), lengths / 2)
+    for (a, b), start, side, length, found in zip(boundary, ends[:, 0], along, lengths, near, strict=True):
+        for node in set(nodes[found].tolist()) - {int(a), int(b)}:
+            off = np.linalg.norm(np.cross(points[node] - start, side)) / length
+            if off < COINCIDENT * size:
+                refuse(
+                    f"node {node} {at(points[node])} hangs on the edge from {place(points[a])} to "
+                    f"{place(points[b])}; allowed: edges that end at common nodes"
+                )
 
 
 def _require_triangles(points: np.ndarray, triangles: np.ndarray, size: float, refuse: Refuse) -> None:
@@ -84,7 +119,7 @@ def _require_triangles(points: np.ndarray, triangles: np.ndarray, size: float, r
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat = np.flatnonzero(np.linalg.norm(normal, axis=1) < 2 * FLAT * size**2)
     if len(flat):
-        refuse(f"{len(flat)} triangles without area, the first {_at(corners[flat[0], 0])}; allowed: none")
+        refuse(f"{len(flat)} triangles without area, the first {at(corners[flat[0], 0])}; allowed: none")
 
 
 def _require_clamped(points: np.ndarray, boundary: np.ndarray, size: float, refuse: Refuse) -> None:
@@ -106,5 +141,11 @@ def _require_clamped(points: np.ndarray, boundary: np.ndarray, size: float, refu
             )
 
 
-def _at(point: np.ndarray) -> str:
-    return "at ({:.6g}, {:.6g}, {:.6g})".format(*point)
+def at(point: np.ndarray) -> str:
+    """Where something is, in a message."""
+    return f"at {place(point)}"
+
+
+def place(point: np.ndarray) -> str:
+    """Coordinates in a message."""
+    return "({:.6g}, {:.6g}, {:.6g})".format(*point)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,15 +12,10 @@ import ufl
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
 
-from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.errors import InputError
 from weakforms.problems.triangles.checks import edges_of, require_surface
+from weakforms.problems.triangles.files import compact, read_mesh
 from weakforms.solvers.support import compat
-
-SUFFIXES = (".msh", ".vtu", ".stl")
-"""Suffixes of files for surfaces."""
-
-MAX_BYTES = 512 * 2**20
-"""Largest size of such a file, in bytes."""
 
 
 @dataclass(frozen=True)
@@ -62,13 +55,24 @@ class Triangulation:
 
     def mesh(self, comm: MPI.Intracomm) -> dmesh.Mesh:
         """The mesh on all ranks: a manifold in space, which is the reference surface."""
-        element = basix.ufl.element("Lagrange", "triangle", 1, shape=(3,))
-        first = comm.rank == 0
-        cells = self.triangles if first else np.empty((0, 3), dtype=np.int64)
-        points = self.points if first else np.empty((0, 3))
-        mesh = compat.create_mesh(comm, cells.astype(np.int64), points, ufl.Mesh(element))
-        mesh.topology.create_connectivity(1, 2)
-        return mesh
+        return in_space(comm, self.points, self.triangles)
+
+
+def in_space(comm: MPI.Intracomm, points: np.ndarray, cells: np.ndarray) -> dmesh.Mesh:
+    """A mesh of given triangles on all ranks, a manifold in space.
+
+    Args:
+        comm: Ranks.
+        points: Nodes, ``(n, 3)``, the same on every rank.
+        cells: Corners, ``(m, 3)``; or ``(m, 6)`` with the nodes opposite to each corner.
+    """
+    count = cells.shape[1]
+    element = basix.ufl.element("Lagrange", "triangle", {3: 1, 6: 2}[count], shape=(3,))
+    if comm.rank:
+        cells, points = np.empty((0, count)), np.empty((0, 3))
+    mesh = compat.create_mesh(comm, cells.astype(np.int64), points, ufl.Mesh(element))
+    mesh.topology.create_connectivity(1, 2)
+    return mesh
 
 
 def tube(length: float, meridional: int, circumferential: int, mirrored: bool = False) -> Triangulation:
@@ -179,39 +183,14 @@ def from_file(path: Path) -> Triangulation:
         InputError: If it cannot be read or is not a suitable surface; the message says what is wrong.
         EnvironmentLackError: Without meshio.
     """
-    try:
-        import meshio
-    except ImportError as error:
-        raise EnvironmentLackError("meshio is not installed here: apt install python3-meshio") from error
-    if not path.is_file():
-        raise InputError(f"surface: geometry = {path}: there is no such file")
-    if path.stat().st_size > MAX_BYTES:
-        raise InputError(f"surface: geometry = {path} is larger than {MAX_BYTES >> 20} MiB")
-    said = io.StringIO()
-    try:
-        with redirect_stderr(said), redirect_stdout(said):  # warnings of meshio become one line, or none
-            read = meshio.read(path)
-    except (Exception, SystemExit) as error:  # readers raise any exception for a damaged file
-        reason = " ".join((said.getvalue() if isinstance(error, SystemExit) else str(error)).split())
-        reason = reason[:200] or type(error).__name__
-        raise InputError(f"surface: geometry = {path} cannot be read: {reason}") from None
-    other = sorted({block.type for block in read.cells} - {"triangle", "line", "vertex"})
-    if other:
-        raise InputError(f"surface: geometry = {path} has cells of type {other[0]}; allowed: triangle")
+    named = f"surface: geometry = {path}"
+    read = read_mesh(path, named, ("triangle",))
     blocks = [block.data for block in read.cells if block.type == "triangle"]
-    if not blocks:
-        raise InputError(f"surface: geometry = {path} has no triangles")
     points, triangles = compact(np.asarray(read.points, float), np.vstack(blocks).astype(np.int64))
     if points.shape[1] != 3:
-        raise InputError(f"surface: geometry = {path} lies in a plane; allowed: a surface in space")
+        raise InputError(f"{named} lies in a plane; allowed: a surface in space")
     require_surface(points, triangles, str(path))
     return outwards(Triangulation(points, triangles))
-
-
-def compact(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The nodes that triangles use, and the triangles with renumbered nodes."""
-    used, inverse = np.unique(triangles, return_inverse=True)
-    return points[used], inverse.reshape(triangles.shape)
 
 
 def outwards(given: Triangulation) -> Triangulation:

@@ -9,8 +9,8 @@ from pydantic import AfterValidator, Field
 
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs, Numerics
+from weakforms.problems.triangles.files import SUFFIXES
 from weakforms.problems.triangles.meshes import (
-    SUFFIXES,
     Triangulation,
     from_file,
     hemisphere,

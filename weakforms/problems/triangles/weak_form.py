@@ -21,6 +21,9 @@ from ufl.core.expr import Expr
 from weakforms.forms.materials import SurfaceLaw
 from weakforms.forms.relaxed_surface import Patch, full_energy, pressure_potential, relaxed_energy
 
+RULE = {1: 2, 2: 4}
+"""Quadrature degree by the degree of the elements: the load of straight triangles is exact with the first."""
+
 Loads = Mapping[str, tuple[fem.Constant, Expr]]
 """Scalars of a form: the constant, and the ``ufl.variable`` by which it enters."""
 

@@ -1,0 +1,105 @@
+"""The branch of a membrane of any shape on one mesh: its start, and what is read at its states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.membrane.model import MembraneModel
+from weakforms.problems.membrane.readings import Highest
+from weakforms.problems.triangles.readings import LeastStress
+from weakforms.problems.triangles.start import first_state
+from weakforms.problems.triangles.weak_form import RULE
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.crossing import Crossing
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.stability.modal import ModalBranch
+from weakforms.solvers.stability.modes import SecondVariation
+
+
+class Readings:
+    """What is computed at a state besides its functionals: largest deflection, least stress and its place."""
+
+    wave_numbers: tuple[int, ...] = ()
+    columns = ("w_max", "S_least", "X_least", "Y_least", "Z_least")
+
+    def __init__(self, model: MembraneModel) -> None:
+        self.model = model
+        self.highest = Highest(model)
+        self._stress = LeastStress(model.mesh, model.least_stress, RULE[model.body.degree])
+
+    def variation(self, n: int) -> SecondVariation:
+        """None: all displacements are those of the states.
+
+        Raises:
+            ConvergenceError: Always.
+        """
+        raise ConvergenceError(f"a membrane of any shape has no class {n} of displacements")
+
+    def observe(self) -> dict[str, float]:
+        """The columns at the state that the system is lent to."""
+        place, least = self._stress.least()
+        return dict(zip(self.columns, (self.highest(), least, *place), strict=True))
+
+
+class MembraneBranch(ModalBranch):
+    """All states over the pressure; limit points and crossings of other branches are located."""
+
+    def special(self) -> list[Solved]:
+        """Limit points, and bifurcation points where the inertia changes away from them.
+
+        Raises:
+            ConvergenceError: If several eigenvalues change sign at once, as where a symmetry is broken.
+        """
+        counts = np.array([p.n_negative for p in self.points])
+        limits = {i for i, p in enumerate(self.points) if any(p is limit for limit, _ in self._limits)}
+        crossed = [i for i in np.flatnonzero(np.diff(counts)).tolist() if not {i, i + 1} & limits]
+        if any(abs(counts[i + 1] - counts[i]) > 1 for i in crossed):
+            raise ConvergenceError(
+                f"several eigenvalues change sign between neighbours (after points {crossed}): shorter "
+                "steps are needed, or a symmetry is broken"
+            )
+        placed = self._placed()
+        for i in crossed:
+            solved = Crossing(self, i).located()
+            placed.append((self._arclength(i, solved), solved))
+        return [self.complete(solved) for _, solved in sorted(placed, key=lambda item: item[0])]
+
+
+def traced(
+    model: MembraneModel, start: float, end: float, step: float, progress: Callable[[float], None]
+) -> MembraneBranch:
+    """The branch from a small deflection to a larger one.
+
+    Args:
+        model: The membrane on one mesh.
+        start: Deflection ``w_c`` at the first point.
+        end: Largest deflection at which the branch ends.
+        step: Largest step.
+        progress: Called with the largest deflection at every point.
+
+    Raises:
+        ConvergenceError: If there is no first state.
+    """
+    solver = ExtendedNewton(model.system, ["p"])
+    continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
+    try:
+        first = first_state(solver, start, {"delta": model.body.delta}, np.zeros(model.system.size))
+    except ConvergenceError as error:
+        raise ConvergenceError(
+            f"no first state at w_c = {start:g}: {error}; choose another numerics start, or a larger delta"
+        ) from error
+    readings = Readings(model)
+    begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
+
+    def ends(point: CurvePoint) -> bool:
+        with model.system.at(point.state):
+            highest = readings.highest()
+        progress(highest)
+        return highest > end
+
+    return MembraneBranch(continuation, "p", begin, ends, readings)

@@ -1,0 +1,43 @@
+"""The branch of a membrane of any shape on a family of meshes, with the deformed surface of each state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from weakforms.problems.membrane.branch import MembraneBranch
+from weakforms.problems.triangles.shape import Shape
+from weakforms.results import Quantity, SpecialPoint, State
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.stability.modal import ModalFamily
+from weakforms.solvers.uncertainty.family import BranchFamily
+
+
+class MembraneFamily(ModalFamily):
+    """As for any branch; a state with a profile has the surface on the finest mesh instead of the profile."""
+
+    fine: MembraneBranch
+    _last: Solved | None = None
+
+    def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
+        """As for any branch, with corners and triangles if a profile is wanted.
+
+        Raises:
+            InputError: If the branch has no such state.
+        """
+        state = super().state(name, value, crossing)
+        if profile is None:
+            return state
+        model = self.fine.modes.model
+        with model.system.at(self._last.state):
+            return replace(state, fields=Shape(model.mesh, model.membrane)())
+
+    def special_points(self) -> list[SpecialPoint]:
+        """As for any branch: there are no classes of modes."""
+        return BranchFamily.special_points(self)
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        self._last = solved[-1]
+        return BranchFamily._diagnostics(self, solved, critical)

@@ -1,0 +1,196 @@
+"""A user's mesh as the stress-free surface of a membrane, and what is refused in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+import numpy as np
+
+from weakforms.errors import InputError, not_among
+from weakforms.problems.membrane.reference import AXES, PLANE, Reference, quadratics
+from weakforms.problems.triangles.checks import at, edges_of, require_manifold
+from weakforms.problems.triangles.files import compact, read_mesh
+
+if TYPE_CHECKING:
+    import meshio
+
+EXTENT = 0.1, 10.0
+"""Allowed half of the largest extent over the unit of length."""
+
+ORDER = [0, 1, 2, 4, 5, 3]
+"""Nodes of a curved triangle of a file in the order of :class:`Reference`."""
+
+NODES = np.array([(0, 0), (1, 0), (0, 1), (0.5, 0.5), (0, 0.5), (0.5, 0)])
+"""Places of the nodes of a curved triangle."""
+
+
+class Refusal:
+    """Raises errors about one file."""
+
+    def __init__(self, path: str) -> None:
+        self.named = f"membrane: mesh = {path}"
+
+    def __call__(self, what: str) -> NoReturn:
+        """Raise the error."""
+        raise InputError(f"{self.named}: {what}")
+
+
+def from_file(path: str, unit: float, held: Sequence[str], mirrors: Sequence[str]) -> Reference:
+    """The surface in a file; read again only if the file has changed.
+
+    Args:
+        path: A file that meshio reads, with straight or quadratic triangles.
+        unit: Length in the units of the file by which all lengths are divided.
+        held: Names of groups of edges that are held; without any, every edge that is on no mirror.
+        mirrors: Names of groups of edges on planes of symmetry.
+
+    Raises:
+        InputError: If it cannot be read, is no suitable surface, or is not supported everywhere.
+    """
+    file = Path(path)
+    status = file.stat() if file.is_file() else None
+    seen = (status.st_mtime_ns, status.st_size) if status else None
+    return _read(path, unit, tuple(held), tuple(mirrors), seen)
+
+
+@lru_cache(maxsize=8)
+def _read(
+    path: str, unit: float, held: tuple[str, ...], mirrors: tuple[str, ...], _seen: tuple[int, int] | None
+) -> Reference:
+    refuse = Refusal(path)
+    read = read_mesh(Path(path), refuse.named, ("triangle", "triangle6"))
+    blocks = [block for block in read.cells if block.type.startswith("triangle")]
+    if len({block.type for block in blocks}) > 1:
+        refuse("it has triangles of 3 and of 6 nodes; allowed: one kind")
+    cells = np.vstack([block.data for block in blocks]).astype(np.int64)
+    cells = cells[:, ORDER] if cells.shape[1] == 6 else cells
+    used = np.unique(cells)
+    points, cells = compact(np.asarray(read.points, float) / unit, cells)
+    points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
+    number = np.full(len(read.points), -1)
+    number[used] = np.arange(len(used))
+    groups = {name: number[edges] for name, edges in _groups(read).items()}
+    open_edges = _require_surface(points, cells, unit, refuse)
+    every, _ = edges_of(cells[:, :3])
+    known = _keys(every)
+    for name in (*held, *mirrors):
+        if name not in groups:
+            refuse(f"no group of edges is called {name!r}{not_among(name, [*groups] or ['none'])}")
+        if not np.isin(_keys(groups[name]), known).all():
+            refuse(f"group {name!r} has edges that are edges of no triangle")
+    planes = _planes(points, {name: groups[name] for name in mirrors}, refuse)
+    reflected = _keys(np.vstack([*planes.values(), np.empty((0, 2), int)]))
+    if held:
+        fixed = np.vstack([groups[name] for name in held])
+    else:
+        fixed = open_edges[~np.isin(_keys(open_edges), reflected)]
+    given = Reference(points, cells, fixed, planes)
+    _require_supported(given, open_edges, [*groups], refuse)
+    return _upwards(given)
+
+
+def _groups(read: meshio.Mesh) -> dict[str, np.ndarray]:
+    """Edges by the name of their physical group, or by its number if it has no name."""
+    names = {(int(tag), int(dim)): name for name, (tag, dim) in read.field_data.items()}
+    parts: dict[str, list[np.ndarray]] = {}
+    for block, tags in zip(read.cells, read.cell_data.get("gmsh:physical", ()), strict=False):
+        if block.type in ("line", "line3"):
+            for tag in np.unique(tags):
+                name = names.get((int(tag), 1), str(int(tag)))
+                parts.setdefault(name, []).append(block.data[tags == tag][:, :2].astype(np.int64))
+    return {name: np.vstack(edges) for name, edges in parts.items()}
+
+
+def _keys(edges: np.ndarray) -> np.ndarray:
+    """One number for each edge, whatever its direction."""
+    low, high = np.sort(edges, axis=1).T
+    return low * 2**31 + high
+
+
+def _require_surface(points: np.ndarray, cells: np.ndarray, unit: float, refuse: Refusal) -> np.ndarray:
+    """Refuse what is no surface of a size near one, and return its open edges."""
+    if len(points) and np.isfinite(points).all():
+        half = float(np.ptp(points, axis=0).max()) / 2
+        if not EXTENT[0] <= half <= EXTENT[1]:
+            refuse(
+                f"half of its largest extent is {half:.4g} times unit = {unit:g}; allowed: {EXTENT[0]:g} to "
+                f"{EXTENT[1]:g}; set unit to the length, as in the file, by which numbers are divided, such "
+                f"as unit = {half * unit:.3g}"
+            )
+    corners, inverse = compact(points, cells[:, :3])
+    edges = require_manifold(corners, inverse, refuse)
+    if cells.shape[1] == 6:
+        _require_regular(points, cells, refuse)
+    return np.unique(cells[:, :3])[edges]
+
+
+def _require_regular(points: np.ndarray, cells: np.ndarray, refuse: Refusal) -> None:
+    """Refuse curved triangles that are turned inside out at one of their nodes."""
+    step = 1e-6
+    x = points[cells]
+    along = [(quadratics(NODES + s) - quadratics(NODES - s)) / (2 * step) for s in step * np.eye(2)]
+    a, b = (np.einsum("qi,mid->mqd", part, x) for part in along)
+    straight = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    wrong = np.flatnonzero((np.einsum("mqd,md->mq", np.cross(a, b), straight) <= 0).any(axis=1))
+    if len(wrong):
+        refuse(
+            f"{len(wrong)} curved triangles are turned inside out at a node, the first {at(x[wrong[0], 0])}; "
+            "allowed: none"
+        )
+
+
+def _planes(points: np.ndarray, groups: dict[str, np.ndarray], refuse: Refusal) -> dict[str, np.ndarray]:
+    """Groups of edges by the coordinate that is constant on each."""
+    out: dict[str, np.ndarray] = {}
+    size = float(np.ptp(points, axis=0).max())
+    for name, edges in groups.items():
+        spread = np.ptp(points[np.unique(edges)], axis=0)
+        constant = np.flatnonzero(spread < PLANE * size)
+        if not len(constant):
+            refuse(f"group {name!r} of mirror lies in no plane X, Y or Z = constant")
+        # Of a flat sheet the edge on a mirror is constant in Z too, which is no mirror of the sheet.
+        axis = AXES[constant[0]]
+        if axis in out:
+            refuse(f"two groups of mirror have {axis} = constant; allowed: one, with the plane's edges in it")
+        out[axis] = edges
+    return out
+
+
+def _require_supported(given: Reference, open_edges: np.ndarray, groups: list[str], refuse: Refusal) -> None:
+    """Refuse edges that are neither held nor on a mirror, triangles turned over, and rigid motions."""
+    supported = _keys(np.vstack([given.held, *given.mirrors.values()]))
+    free = open_edges[~np.isin(_keys(open_edges), supported)]
+    if len(free):
+        names = f"; groups of this file: {', '.join(groups)}" if groups else ""
+        place = at(given.points[free[0]].mean(axis=0))
+        refuse(
+            f"{len(free)} edges are neither held nor on a mirror, the first {place}: "
+            f"a pressure on a membrane with a free edge has no potential; add their group to held{names}"
+        )
+    if not len(given.held) and len(given.mirrors) < 3:
+        refuse(
+            "no edge is held: it may move as a rigid body; allowed without a held edge: mirrors X, Y and Z"
+        )
+    if given.is_flat:
+        if "Z" in given.mirrors and abs(given.direction[2]) > 0.5:
+            refuse(
+                "a group of mirror lies in the plane of the flat sheet; allowed: planes that cut the sheet"
+            )
+        total = given.normals.sum(axis=0)
+        wrong = np.flatnonzero(given.normals @ total <= 0)
+        if len(wrong):
+            place = at(given.points[given.corners[wrong[0], 0]])
+            refuse(
+                f"{len(wrong)} triangles of the flat sheet are turned over, the first {place}; allowed: none"
+            )
+
+
+def _upwards(given: Reference) -> Reference:
+    """A flat sheet with its normal upwards; any other surface keeps the orientation of the file."""
+    if not given.is_flat or given.normals[:, 2].sum() >= 0:
+        return given
+    turned = [0, 2, 1, 3, 5, 4][: given.cells.shape[1]]
+    return Reference(given.points, given.cells[:, turned], given.held, given.mirrors)

@@ -1,0 +1,152 @@
+r"""Weak form of a membrane of any shape under gas, on straight or curved triangles in space.
+
+.. math:: \Pi = \int W(C)\,\mathrm dA - p\,V, \qquad V = \int (z - z_e)\, N_z\,\mathrm dA - V_0
+
+with the stress-free surface as reference. ``V`` is the volume between the membrane and its reference
+surface, stretched by ``delta`` about a point; ``V_0`` is the integral over that surface. Held edges are on
+it. Edges on a plane of symmetry stay in the plane; ``z_e`` is the height of a horizontal one, at which the
+edges of the membrane then carry no load. The unknown is the displacement from the stretched surface.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+from ufl.core.expr import Expr
+
+from weakforms.forms.relaxed_surface import SLACK, WRINKLED, least_stress, state
+from weakforms.problems.material_choice import Chosen
+from weakforms.problems.membrane.reference import AXES, Reference
+from weakforms.problems.triangles.meshes import in_space
+from weakforms.problems.triangles.readings import corner_weight
+from weakforms.problems.triangles.weak_form import RULE, Membrane, scalars
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.system import System
+
+
+@dataclass(frozen=True)
+class Body:
+    """The membrane on one mesh."""
+
+    reference: Reference
+    law: Chosen
+    delta: float = 1.1
+    """Stretch of the supports about :attr:`Reference.middle`."""
+    relaxed: bool = True
+    """Whether the membrane bears no compression."""
+    degree: int = 2
+    """Of the elements, 1 or 2."""
+
+
+class MembraneModel:
+    """The discrete equations on one mesh. Loads: ``p``, and the stretch ``delta`` of the supports.
+
+    Attributes:
+        system: Residual, tangent and columns.
+        direction: Unit vector along which deflections are measured.
+        deflection: The displacement in this direction.
+        node: Node of the reference surface that each vertex of this rank's mesh is.
+    """
+
+    def __init__(self, comm: MPI.Intracomm, body: Body) -> None:
+        self.body = body
+        self.mesh = in_space(comm, body.reference.points, body.reference.cells)
+        self.node = self._nodes()
+        self.space = fem.functionspace(self.mesh, ("Lagrange", body.degree, (3,)))
+        self.unknown = fem.Function(self.space, name="displacement")
+        self.law = body.law.surface_law(self.mesh)
+        self.scalars = scalars(self.mesh, ("p", "zw", "delta"))
+        self.scalars["delta"][0].value = body.delta
+        self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": RULE[body.degree]})
+        self.direction = body.reference.direction
+        self.deflection = ufl.dot(self.unknown, ufl.as_vector(self.direction.tolist()))
+        self.membrane = self._at(self.unknown)
+        self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
+        self.area = comm.allreduce(fem.assemble_scalar(fem.form(ufl.as_ufl(1.0) * self.dx)), op=MPI.SUM)
+        self.system = System(self._formulation())
+
+    def _nodes(self) -> np.ndarray:
+        mesh = self.mesh
+        mesh.topology.create_connectivity(2, 0)
+        count = mesh.topology.index_map(2)
+        cells = count.size_local + count.num_ghosts
+        vertices = mesh.topology.connectivity(2, 0).array.reshape(-1, 3)[:cells]
+        corners = mesh.geometry.dofmap[:cells, :3]
+        out = np.zeros(vertices.max(initial=-1) + 1, dtype=np.int64)
+        out[vertices] = np.asarray(mesh.geometry.input_global_indices)[corners]
+        return out
+
+    # -- form ----------------------------------------------------------------------------------
+
+    def stretched(self) -> Expr:
+        """The reference surface, stretched by ``delta``."""
+        middle = ufl.as_vector(self.body.reference.middle.tolist())
+        return middle + self.scalars["delta"][1] * (ufl.SpatialCoordinate(self.mesh) - middle)
+
+    def _at(self, displacement: Expr | None) -> Membrane:
+        start = self.stretched()
+        given = (self.mesh, self.law, self.scalars, fem.Constant(self.mesh, 0.0))
+        position = start if displacement is None else start + displacement
+        reference = self.body.reference
+        edge = float(reference.middle[2]) if "Z" in reference.mirrors else 0.0
+        return Membrane.at(position, *given, relaxed=self.body.relaxed, edge=edge)
+
+    def _formulation(self) -> Formulation:
+        at, start = self.membrane, self._at(None)
+        test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
+        energy = (at.strain + at.load) * self.dx
+        # Gas alone: the load's potential is -p times the volume.
+        volume = -ufl.diff(at.load - start.load, self.scalars["p"][1])
+        mode = state(at.cauchy_green)
+
+        def share(value: float) -> ufl.Form:
+            return ufl.conditional(ufl.eq(mode, value), 1.0, 0.0) / self.area * self.dx
+
+        reads = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2 * self.body.degree})
+        return Formulation(
+            unknown=self.unknown,
+            residual=ufl.derivative(energy, self.unknown, test),
+            loads={name: self.scalars[name] for name in ("p", "delta")},
+            bcs=self._conditions(),
+            mass=ufl.inner(trial, test) * self.dx,
+            monitors={
+                "w_c": self.deflection * self._centre() * reads,
+                "V": volume * self.dx,
+                "Pi": (at.strain + at.load - start.load) * self.dx,
+                "U": at.strain * self.dx,
+                "f_w": share(WRINKLED),
+                "f_s": share(SLACK),
+            },
+        )
+
+    def _centre(self) -> fem.Function:
+        """The weight that reads a deflection at the reference surface's centre."""
+        cells = self.mesh.topology.index_map(2).size_local
+        vertices = self.mesh.topology.connectivity(2, 0).array.reshape(-1, 3)[:cells]
+        here = self.node[vertices] == self.body.reference.centre
+        return corner_weight(self.mesh, self.body.degree, here)
+
+    # -- supports --------------------------------------------------------------------------------
+
+    def _conditions(self) -> list[fem.DirichletBC]:
+        """No displacement of held edges, and none across a plane of symmetry."""
+        given = self.body.reference
+        out = [self._zero(i, given.held) for i in range(3)]
+        return out + [self._zero(AXES.index(axis), edges) for axis, edges in given.mirrors.items()]
+
+    def _zero(self, component: int, edges: np.ndarray) -> fem.DirichletBC:
+        part = self.space.sub(component)
+        dofs = fem.locate_dofs_topological(part, 1, self.local(edges))
+        return fem.dirichletbc(np.array(0.0), dofs, part)
+
+    def local(self, edges: np.ndarray) -> np.ndarray:
+        """This rank's edges among edges of the reference surface."""
+        self.mesh.topology.create_connectivity(1, 0)
+        own = np.sort(self.node[self.mesh.topology.connectivity(1, 0).array.reshape(-1, 2)], axis=1)
+        base = len(self.body.reference.points)
+        wanted = np.sort(edges, axis=1) @ [base, 1]
+        return np.flatnonzero(np.isin(own @ np.array([base, 1]), wanted)).astype(np.int32)

@@ -1,0 +1,98 @@
+"""Parameters and meshes of the problem ``membrane``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import AfterValidator, Field
+
+from weakforms.problems.branch_problem import MeshNumerics
+from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.membrane.files import from_file
+from weakforms.problems.membrane.model import Body
+from weakforms.problems.membrane.reference import Reference
+from weakforms.problems.membrane.shapes import disk, square
+from weakforms.problems.problem import Needs
+from weakforms.problems.triangles.files import SUFFIXES
+
+BUILT_IN = ("disk", "square")
+
+
+def _known(mesh: str) -> str:
+    if mesh not in BUILT_IN and Path(mesh).suffix.lower() not in SUFFIXES:
+        raise ValueError(f"'disk', 'square' or a file ending in {', '.join(SUFFIXES)} is required")
+    return mesh
+
+
+def names(text: str) -> list[str]:
+    """Names in a list with commas."""
+    return [name.strip() for name in text.split(",") if name.strip()]
+
+
+class MembraneNumerics(MeshNumerics):
+    """Meshes of the membrane: a file is the coarsest one, each next mesh has four triangles for each."""
+
+    degree: int = Field(2, ge=1, le=2, description="polynomial degree of the unknowns")
+    cells: int = Field(
+        16, ge=4, le=512, description="disk, square: triangles along the radius or half a side, finest mesh"
+    )
+    step: float = Field(0.2, ge=0.01, le=0.5, description="largest arc-length step")
+    start: float = Field(0.02, ge=1e-4, le=0.3, description="w_c of the first point")
+
+
+class MembraneParameters(MaterialChoice):
+    """The membrane, its supports and its load."""
+
+    ratio: ClassVar[str] = "alpha"
+    needs: ClassVar[Needs] = {name: [{"mesh": ()}] for name in ("unit", "held", "mirror")}
+    movable: ClassVar = {"w_end": "le"}
+
+    mesh: Annotated[str, AfterValidator(_known)] = Field(
+        "disk",
+        description="disk, square, or a file with triangles (msh, vtu, stl)",
+        examples=["disk", "square"],
+    )
+    unit: float = Field(
+        1.0, gt=0, le=1e9, description="file: the length, as in the file, by which lengths are divided"
+    )
+    held: str = Field(
+        "", max_length=1000, description="file: held groups of edges, with commas; default all but mirror"
+    )
+    mirror: str = Field("", max_length=1000, description="file: groups of edges on planes of symmetry")
+    delta: float = Field(1.1, ge=1, le=3, description="pre-stretch: stretch of the supports about a point")
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    energy: Literal["relaxed", "full"] = Field(
+        "relaxed", description="relaxed: the membrane bears no compression; full: it bears compression"
+    )
+    w_end: float = Field(1.0, gt=0.3, le=10, description="largest deflection w_max at which the branch ends")
+
+    @property
+    def is_file(self) -> bool:
+        """Whether the mesh is a user's."""
+        return self.mesh not in BUILT_IN
+
+    def given(self) -> Reference:
+        """The surface in the file.
+
+        Raises:
+            InputError: If it is not suitable.
+        """
+        return from_file(self.mesh, self.unit, names(self.held), names(self.mirror))
+
+    def body(self, numerics: MembraneNumerics, level: int) -> Body:
+        """The membrane on one mesh.
+
+        Raises:
+            InputError: If the mesh is a file that is not suitable.
+        """
+        cells, degree = numerics.meshes[level], numerics.degree
+        if self.mesh == "disk":
+            reference = disk(cells, degree)
+        elif self.mesh == "square":
+            reference = square(cells)
+        else:
+            reference = self.given()
+            for _ in range(level):
+                reference = reference.refined()
+        return Body(reference, self.material, self.delta, self.energy == "relaxed", degree)

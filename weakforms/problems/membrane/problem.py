@@ -1,0 +1,95 @@
+"""Problem ``membrane``: a membrane of any shape, given by its triangles, under gas."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from weakforms.errors import InputError
+from weakforms.problems.branch_problem import BranchProblem, Family
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.membrane.about import MEMBRANE
+from weakforms.problems.membrane.branch import MembraneBranch, traced
+from weakforms.problems.membrane.family import MembraneFamily
+from weakforms.problems.membrane.model import MembraneModel
+from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
+from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.problem import End, Requests, Task
+from weakforms.results import Quantity, Result
+
+CAPS = dict.fromkeys(("S_least", "X_least", "Y_least", "Z_least", "f_w", "f_s"), 1.0)
+"""Highest assumed orders: of a stress and a place among the points of quadrature, of an area."""
+
+LARGEST = 2_000_000
+"""Largest number of unknowns on the finest mesh."""
+
+
+class Membrane(BranchProblem):
+    """Inflation of a membrane of any shape."""
+
+    about = MEMBRANE
+    parameters = MembraneParameters
+    numerics = MembraneNumerics
+    surfaces = True
+
+    def check(self, parameters: MembraneParameters, requests: Requests) -> None:
+        """Refuse laws without a relaxed form, stretches beyond a law's end, and meshes that are no membrane.
+
+        Raises:
+            InputError: With a message that names the value and the allowed ones, or the place in the mesh.
+        """
+        super().check(parameters, requests)
+        require_foldable(self.name, parameters, invariants=True)
+        require_taut(self.name, parameters.material, parameters.delta, "delta")
+        if parameters.is_file:
+            parameters.given()
+
+    def computed(self, _parameters: MembraneParameters) -> tuple[str, ...]:
+        """The largest deflection, and the least stress, which is zero where the first wrinkle appears."""
+        return ("w_max", "S_least")
+
+    def ends(self, parameters: MembraneParameters, _branch: str) -> list[End]:
+        """The last of the largest deflections."""
+        return [End("w_end", "w_max", parameters.w_end, largest=True)]
+
+    def families(self, task: Task) -> dict[str, Family]:
+        """The branch of all states on all meshes.
+
+        Raises:
+            InputError: If the finest mesh is too large.
+        """
+        parameters, numerics = task.parameters, task.numerics
+        levels = numerics.levels
+        if parameters.is_file:
+            triangles = len(parameters.given().cells) * 4 ** (levels - 1)
+            unknowns = round(1.5 * numerics.degree**2 * triangles)
+            if unknowns > LARGEST:
+                raise InputError(
+                    f"membrane: mesh = {parameters.mesh} has about {unknowns} unknowns after {levels - 1} "
+                    f"refinements; allowed: {LARGEST}; choose a coarser mesh, or numerics levels = 2"
+                )
+
+        def make(level: int) -> MembraneBranch:
+            body = parameters.body(numerics, level)
+            model = MembraneModel(task.comm, body)
+
+            def passed(height: float) -> None:
+                share = min(max(height / parameters.w_end, 0.0), 1.0)
+                task.progress(f"branch, mesh {level + 1} of {levels}", round(100 * share), 100)
+
+            passed(0.0)
+            return traced(model, numerics.start, parameters.w_end, numerics.step, passed)
+
+        return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, ("p", "V"), caps=CAPS)}
+
+    def fill(self, result: Result, task: Task) -> None:
+        """As for any branch; also where the deflection is read, and the numbers of triangles."""
+        reference = task.parameters.body(task.numerics, 0).reference
+        result.quantities |= {
+            f"{name}_c": Quantity(float(x))
+            for name, x in zip("XYZ", reference.points[reference.centre], strict=True)
+        }
+        super().fill(result, task)
+
+    def points(self, _parameters: MembraneParameters) -> np.ndarray:
+        """None along a line: fields are the corners and triangles of the surface."""
+        return np.zeros(1)

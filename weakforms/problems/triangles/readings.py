@@ -1,0 +1,78 @@
+"""Numbers of a state on triangles that need a point: least stress, and the weight that reads a corner."""
+
+from __future__ import annotations
+
+import basix
+import numpy as np
+import ufl
+from dolfinx import fem
+from dolfinx.mesh import Mesh
+from mpi4py import MPI
+from ufl.core.expr import Expr
+
+ALIKE = 1e-9
+"""Relative difference of stresses at points that are images of each other."""
+
+
+class LeastStress:
+    """The least principal stress over the quadrature points.
+
+    Args:
+        mesh: The reference surface.
+        stress: An expression.
+        rule: Degree of the quadrature.
+        mirrored: Whether places are those of the part with positive coordinates.
+    """
+
+    def __init__(self, mesh: Mesh, stress: Expr, rule: int, mirrored: bool = False) -> None:
+        self._mesh, self._mirrored = mesh, mirrored
+        points, _ = basix.make_quadrature(basix.CellType.triangle, rule)
+        self._expression = fem.Expression(ufl.as_vector([stress, *ufl.SpatialCoordinate(mesh)]), points)
+        self._columns = 1 + mesh.geometry.dim
+        self._cells = np.arange(mesh.topology.index_map(2).size_local, dtype=np.int32)
+
+    def least(self) -> tuple[tuple[float, ...], float]:
+        """Its place and its value; of points that share it by symmetry, the one with the largest ``X``."""
+        values = self._expression.eval(self._mesh, self._cells).reshape(-1, self._columns)
+        if self._mirrored:
+            values[:, 1:] = np.abs(values[:, 1:])
+        lowest = values[:, 0].min(initial=np.inf)
+        lowest = min(self._mesh.comm.allgather(lowest))
+        near = values[values[:, 0] <= lowest + ALIKE * abs(lowest)]
+        _, *place = max(
+            (row for rows in self._mesh.comm.allgather(near.tolist()) for row in rows), key=_order
+        )
+        return tuple(place), lowest
+
+
+def _order(row: list[float]) -> tuple[float, ...]:
+    return tuple(round(x, 9) for x in row[1:])
+
+
+def corner_weight(mesh: Mesh, degree: int, here: np.ndarray) -> fem.Function:
+    r"""A function ``g`` on one triangle with :math:`\int g\, v\,\mathrm dA = v(c)` for any ``v`` of a degree.
+
+    The integral is the quadrature of degree ``2 degree``, on straight and on curved triangles.
+
+    Args:
+        mesh: The reference surface.
+        degree: Of the elements.
+        here: Whether a corner of one of this rank's triangles is the node ``c``, ``(m, 3)``.
+    """
+    weight = fem.Function(fem.functionspace(mesh, ("DG", degree)))
+    cell, corner = (found[:1] for found in np.nonzero(here))
+    first = mesh.comm.allreduce(mesh.comm.rank if len(cell) else mesh.comm.size, op=MPI.MIN)
+    if mesh.comm.rank == first:
+        points, weights = basix.make_quadrature(basix.CellType.triangle, 2 * degree)
+        basis = weight.function_space.element.basix_element.tabulate(0, points)[0, :, :, 0]
+        nodes = mesh.geometry.x[mesh.geometry.dofmap[cell[0]]]
+        shape = basix.create_element(
+            basix.ElementFamily.P, basix.CellType.triangle, mesh.geometry.cmap.degree
+        ).tabulate(1, points)[1:, :, :, 0]
+        tangents = np.einsum("dqi,ik->qkd", shape, nodes)
+        area = np.sqrt(np.linalg.det(np.einsum("qkd,qke->qde", tangents, tangents)))
+        product = np.einsum("q,qi,qj->ij", weights * area, basis, basis)
+        dofs = weight.function_space.dofmap.cell_dofs(cell[0])
+        weight.x.array[dofs] = np.linalg.solve(product, np.eye(len(dofs))[corner[0]])
+    weight.x.scatter_forward()
+    return weight
