@@ -18,6 +18,7 @@ from weakforms.terminal import complain, console, plain, rank, request
         "weakforms diagram tube --plane delta1 p --set alpha=0.1 --kind fold",
         "weakforms diagram tube --plane alpha p --out d.json --picture d.svg",
         "weakforms diagram tube --plane lf p --set alpha=0.05 --set low=5 --set high=9",
+        "weakforms diagram tube --plane lf p --kind fold,n1 --set alpha=0 --set u_end=2.5",
         "weakforms diagram circular --plane alpha p",
     )
 )
@@ -30,7 +31,11 @@ def diagram(
         list[str] | None, typer.Argument(metavar="[NAME=VALUE]...", help="Parameters, as with --set.")
     ] = None,
     kind: Annotated[
-        str, typer.Option(metavar="KIND,...", help="fold, mirror, wrinkling, contact; default: all.")
+        str,
+        typer.Option(
+            metavar="KIND,...",
+            help="fold, mirror, n1, n2, n3, wrinkling, contact; default: all without waves around the axis.",
+        ),
     ] = "all",
     sets: Annotated[
         list[str] | None,
@@ -45,7 +50,7 @@ def diagram(
     out: Annotated[Path | None, typer.Option(help="File for the result.")] = None,
     picture: Annotated[Path, typer.Option(help="Picture: .png, .svg or .pdf.")] = Path("diagram.png"),
 ) -> None:
-    """Follow limit points, mirror breaking, first wrinkling and first contact in a plane, and draw them.
+    """Follow limit points, broken symmetry, first wrinkling and first contact in a plane, and draw them.
 
     It solves the problem diagram, and writes the same result. Points at which two conditions hold are
     located: cusps, tips, coincidences. Regions of the picture are labelled with the numbers of negative

@@ -1,8 +1,9 @@
 """Pictures of diagrams: lines of critical points, and numbers of negative eigenvalues between them.
 
 At each value of the parameter the states of the primary branch lie between the points at which it crosses
-the lines of limit points and of mirror breaking. At each of these points one eigenvalue changes sign. So the
-number of negative eigenvalues of every state follows from the lines alone. Needs matplotlib.
+the lines of limit points, of mirror breaking and of neutral waves around the axis. At each of these points
+one eigenvalue changes sign. So the number of negative eigenvalues of every state follows from the lines
+alone. Needs matplotlib.
 """
 
 from __future__ import annotations
@@ -20,10 +21,22 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-STYLES = {"fold": "-", "mirror": "-", "wrinkling": "--", "contact": ":", "end": "-."}
-"""Line style of each kind of line."""
+LOOKS = {
+    "fold": ("-", COLOURS[0]),
+    "mirror": ("-", COLOURS[1]),
+    "n1": ("-", COLOURS[4]),
+    "n2": ("-", COLOURS[5]),
+    "n3": ((0, (6, 1)), COLOURS[1]),
+    "wrinkling": ("--", COLOURS[2]),
+    "contact": (":", COLOURS[3]),
+    "end": ("-.", "#5c5c61"),
+}
+"""Line style and colour of each kind of line."""
 
-COUNTED = {"fold": "n_negative", "mirror": "n_mirror"}
+FAINT = 0.35
+"""Opacity of the parts of lines on which the membrane would be wrinkled."""
+
+COUNTED = {"fold": "n_negative", "mirror": "n_mirror"} | {f"n{n}": f"n_negative_n{n}" for n in (1, 2, 3)}
 """Kinds at which an eigenvalue changes sign, and the column with the number of the other negative ones."""
 
 COLUMNS, ROWS = 121, 161
@@ -50,8 +63,9 @@ class Crossing:
 def draw_diagram(result: Result, x: str, y: str) -> Figure:
     """Draw the lines of a diagram, its points of codimension two, and its regions.
 
-    A region's label gives the numbers of negative eigenvalues of its states at given pressure, symmetric and
-    mirror-odd modes together, in the order in which the primary branch meets them.
+    A region's label gives the numbers of negative eigenvalues of its states at given pressure, those of all
+    kinds of lines in the diagram together, in the order in which the primary branch meets them; waves around
+    the axis count once. Parts of lines on which the membrane would be wrinkled are faint.
 
     Args:
         result: A result of the problem ``diagram``.
@@ -65,16 +79,18 @@ def draw_diagram(result: Result, x: str, y: str) -> Figure:
     if not result.branches:
         raise InputError("there is no line to draw")
     figure, axes = empty_axes()
-    kinds = list(STYLES)
     for branch in result.branches:
         kind = kind_of(branch.name)
-        named = kind if branch.name == kind else None
-        colour = "#5c5c61" if kind == "end" else COLOURS[kinds.index(kind)]
-        axes.plot(branch[x], branch[y], STYLES[kind], color=colour, linewidth=1.4, label=named)
+        style, colour = LOOKS[kind]
+        style = {"linestyle": style, "color": colour, "linewidth": 1.4}
+        wrinkled = branch.columns.get("wrinkled", np.zeros(len(branch))) > 0
+        taut = np.ma.array(branch[y], mask=wrinkled & np.roll(wrinkled, 1) & np.roll(wrinkled, -1))
+        axes.plot(branch[x], branch[y], alpha=FAINT if wrinkled.any() else 1.0, **style)
+        axes.plot(branch[x], taut, label=kind if branch.name == kind else None, **style)
     seen: set[str] = set()
     for point in result.special_points:
         kind = point.kind.replace("_", " ")
-        style = {"color": "#1c1c1e", "markersize": 6, "markeredgecolor": "white", "linestyle": ""}
+        style = {"color": "#1c1c1e", "markersize": 7, "markeredgecolor": "white", "linestyle": ""}
         place = [point.values[x]], [point.values[y]]
         axes.plot(*place, marker=MARKERS[point.kind], label=None if kind in seen else kind, **style)
         seen.add(kind)

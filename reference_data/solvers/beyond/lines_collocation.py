@@ -8,8 +8,11 @@ are further components v of the same chain: with y' = f(y; p, tube), v' = f_y v.
           \text{one component of } v(0) = 1,
 
 with p and a parameter of the tube unknown. At the mid-plane a symmetric null vector (a limit point) has
-v_eta = v_b = 0, one that is odd under the mirror v_rho = v_l1 = 0; both vanish with rho, eta at the disk. Two
-null vectors at once give a coincidence. Where T2 is zero at a front, or at the disk, wrinkling begins.
+v_eta = v_b = 0, one that is odd under the mirror v_rho = v_l1 = 0; both vanish with rho, eta at the disk.
+Waves around the axis have six components, three displacements and three forces, and the linearised equations
+of a surface in space (``tube_waves.strong``); even ones have no axial displacement, and none of the other two
+forces, at the mid-plane. Two null vectors at once give a coincidence. Where T2 is zero at a front, or at the
+disk, wrinkling begins.
 
 The derivative along v is exact, by dual numbers.
 """
@@ -22,13 +25,12 @@ from typing import Any
 
 import numpy as np
 
+from reference_data.solvers.beyond.tube_waves import strong
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.collocation import Array, Ends, Mesh, Problem, Zone
 from reference_data.solvers.core.mooney_rivlin import Tube
 
 MESHES = (Mesh.graded(8, 11, 1.6), Mesh.graded(11, 14, 1.6))
-NULL = {"fold": (0, (1, 3)), "mirror": (3, (0, 2))}
-"""Of each kind of null vector: the component that is 1 at the mid-plane, and those that vanish there."""
 
 
 class Dual:
@@ -116,6 +118,60 @@ def along(y: list[Any], v: list[Any], tube: Tube, p: Any) -> list[Any]:
     return [value.rate for value in found]
 
 
+def wave(n: int) -> Callable[[list[Any], list[Any], Tube, Any], list[Any]]:
+    """Rates of displacements and forces of n waves around the axis, at a state."""
+
+    def of_wave(y: list[Any], v: list[Any], tube: Tube, p: Any) -> list[Any]:
+        base = y[0], y[2], y[3]
+        q, m = v[:3], np.stack(np.broadcast_arrays(*v[3:], y[0], p)[:3], axis=-1)
+        none = [0 * y[0]] * 3
+        by_slope = [strong.forces(tube, n, p, base, none, unit)[0] for unit in np.eye(3)]
+        stiff = np.stack(np.broadcast_arrays(*(part for row in by_slope for part in row)), axis=-1)
+        stiff = np.swapaxes(stiff.reshape(*stiff.shape[:-1], 3, 3), -1, -2)
+        known = strong.forces(tube, n, p, base, q, none)[0]
+        rest = m - np.moveaxis(np.broadcast_to(known, (3, *m.shape[:-1])), 0, -1)
+        slope = np.moveaxis(np.linalg.solve(stiff, rest[..., None])[..., 0], -1, 0)
+        return [*slope, *strong.forces(tube, n, p, base, q, slope)[1]]
+
+    return of_wave
+
+
+@dataclass(frozen=True)
+class Null:
+    """A kind of null vector.
+
+    Attributes:
+        size: Number of its components.
+        one: The component that is 1 at the mid-plane.
+        none: Components that vanish there.
+        disk: Components that vanish at the disk.
+        rates: Its rates at a state.
+    """
+
+    size: int
+    one: int
+    none: tuple[int, ...]
+    disk: tuple[int, ...]
+    rates: Callable[[list[Any], list[Any], Tube, Any], list[Any]]
+
+
+NULL = {
+    "fold": Null(4, 0, (1, 3), (0, 1), along),
+    "mirror": Null(4, 3, (0, 2), (0, 1), along),
+    "n1": Null(6, 0, (2, 3, 4), (0, 1, 2), wave(1)),
+    "n2": Null(6, 0, (2, 3, 4), (0, 1, 2), wave(2)),
+}
+
+
+def parts_of(kinds: Sequence[str], y: list[Any]) -> list[tuple[Null, list[Any]]]:
+    """Each null vector's kind and components, behind the four of the state."""
+    found, begin = [], 4
+    for kind in kinds:
+        found.append((NULL[kind], y[begin : begin + NULL[kind].size]))
+        begin += NULL[kind].size
+    return found
+
+
 @dataclass(frozen=True)
 class Point:
     """A critical point, or a guess: (y, v, ..) of each zone, and p, the parameter, a front.
@@ -159,8 +215,8 @@ def problem(at: Point, held: dict[str, float]) -> Problem:
             tube = tube_of(c)
             share = 1.0 if len(at.y) == 1 else (c[2] if d == 0 else 1 - c[2])
             out = rates(y[:4], tube, c[0])
-            for k in range(len(at.nulls)):
-                out = out + along(y[:4], y[4 * k + 4 : 4 * k + 8], tube, c[0])
+            for null, v in parts_of(at.nulls, y):
+                out = out + null.rates(y[:4], v, tube, c[0])
             length = tube.lf / (2 * tube.delta1) * share
             return [length * value for value in out]
 
@@ -169,10 +225,9 @@ def problem(at: Point, held: dict[str, float]) -> Problem:
     def conditions(left: Ends, end: Ends, c: list[Any]) -> list[Any]:
         tube, first, disk = tube_of(c), left[0], end[-1]
         out = [first[1], first[3], disk[0] - 1, disk[1] - tube.lf / 2]
-        for k, kind in enumerate(at.nulls):
-            one, none = NULL[kind]
-            base = 4 * k + 4
-            out += [first[base + i] for i in none] + [disk[base], disk[base + 1], first[base + one] - 1]
+        pairs = zip(parts_of(at.nulls, first), parts_of(at.nulls, disk), strict=True)
+        for (null, v), (_, last) in pairs:
+            out += [v[i] for i in null.none] + [last[i] for i in null.disk] + [v[null.one] - 1]
         for before, after in zip(end[:-1], left[1:], strict=True):
             out += [a - b for a, b in zip(before, after, strict=True)]
         if at.onset:
@@ -183,14 +238,15 @@ def problem(at: Point, held: dict[str, float]) -> Problem:
         values = {"u_max": first[0] - 1, at.vary: c[1], "p": c[0]}
         return out + [values[name] - value for name, value in held.items()]
 
-    zones = tuple(Zone(_mesh(part), right(d)) for d, part in enumerate(at.y))
+    zones = tuple(Zone(mesh_of(part), right(d)) for d, part in enumerate(at.y))
     return Problem(zones, conditions)
 
 
 _KNOWN: dict[tuple[int, int], Mesh] = {}
 
 
-def _mesh(part: Array) -> Mesh:
+def mesh_of(part: Array) -> Mesh:
+    """The mesh of nodal values."""
     return _KNOWN[part.shape[0], part.shape[1]]
 
 
@@ -234,25 +290,27 @@ def equilibrium(tube: Tube, vary: str, mesh: Mesh, u: float) -> Point:
 def with_nulls(state: Point, kinds: Sequence[str]) -> Point:
     """A guess of a critical point near a state: null vectors from the linear problem without one condition.
 
-    The condition that is left out of each is that on rho at the disk.
+    The condition that is left out of each is that on its first component at the disk.
     """
     parts = [state.y[0]]
-    mesh = _mesh(state.y[0])
+    mesh = mesh_of(state.y[0])
     tube, p = replace(state.tube, **{state.vary: float(state.c[1])}), float(state.c[0])
     length = tube.lf / (2 * tube.delta1)
     for kind in kinds:
-        one, none = NULL[kind]
+        null = NULL[kind]
 
-        def f(v: list[Any], s: Array, _c: list[Any]) -> list[Any]:
+        def f(v: list[Any], s: Array, _c: list[Any], null: Null = null) -> list[Any]:
             y = list(np.moveaxis(mesh.rule.value @ state.y[0], -1, 0))
-            return [length * value for value in along(y, v, tube, p)]
+            return [length * value for value in null.rates(y, v, tube, p)]
 
-        def conditions(left: Ends, end: Ends, c: list[Any], one: int = one, none: Any = none) -> list[Any]:
+        def conditions(left: Ends, end: Ends, c: list[Any], null: Null = null) -> list[Any]:
             first, disk = left[0], end[0]
-            return [*(first[i] for i in none), disk[1], first[one] - 1, c[0]]
+            held = [first[i] for i in null.none] + [disk[i] for i in null.disk[1:]]
+            return [*held, first[null.one] - 1, c[0]]
 
         linear = Problem((Zone(mesh, f),), conditions)
-        y, _ = linear.solve((0 * state.y[0],), np.array([0.0]), f"null vector of {kind}", longest=1e9)
+        zero = np.zeros((*state.y[0].shape[:-1], null.size))
+        y, _ = linear.solve((zero,), np.array([0.0]), f"null vector of {kind}", longest=1e9)
         parts.append(y[0])
     return replace(state, nulls=tuple(kinds), y=(np.concatenate(parts, axis=-1),))
 
@@ -260,14 +318,14 @@ def with_nulls(state: Point, kinds: Sequence[str]) -> Point:
 def recut(point: Point, mesh: Mesh) -> Point:
     """The same point on another mesh, as a guess."""
     _KNOWN[mesh.elements, mesh.degree + 1] = mesh
-    return replace(point, y=tuple(_mesh(part).evaluate(part, mesh.x) for part in point.y))
+    return replace(point, y=tuple(mesh_of(part).evaluate(part, mesh.x) for part in point.y))
 
 
 def cut_at(point: Point, share: float, mesh: Mesh) -> Point:
     """The same state in two zones with a front, as a guess of the onset of wrinkling inside."""
     _KNOWN[mesh.elements, mesh.degree + 1] = mesh
     (part,) = point.y
-    zones = tuple(_mesh(part).evaluate(part, x) for x in (share * mesh.x, share + (1 - share) * mesh.x))
+    zones = tuple(mesh_of(part).evaluate(part, x) for x in (share * mesh.x, share + (1 - share) * mesh.x))
     return replace(point, onset="front", y=zones, c=np.append(point.c[:2], share))
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from reference_data.solvers.beyond import lines_collocation as col
+from reference_data.solvers.beyond import lines_energy as energy
 from reference_data.solvers.beyond import lines_shooting as shoot
+from reference_data.solvers.beyond.lines_energy import FAMILIES
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
 from reference_data.solvers.core.newton import secant
@@ -18,6 +20,8 @@ from reference_data.solvers.registry import Builder
 
 Array = np.ndarray
 ROUNDING = 1e-12
+CLOSE = 1e-9
+"""Distance of two displacements that are the same but for rounding."""
 STEP = 0.1
 """Largest step of u_max along a line."""
 
@@ -42,6 +46,27 @@ SERIES = Series(
     "Newton takes two more steps after the first one below 1e-9: rounding only",
 )
 
+WAVES = replace(
+    SERIES,
+    method="Two codes that share the data of the tube and no equation: (a) the energy of a surface in space, "
+    "by polynomials of high degree, with second derivatives by complex steps of its gradient and midpoint "
+    "sums in theta, an eigenvalue of which is zero; (b) collocation of the equations of paper 2 and of the "
+    "linearised equations of a membrane in space, with the wave as further unknowns. " + rule("b"),
+    grid=f"(a) {' and '.join(f'{b.elements} elements of degree {b.degree}' for b in energy.BASES)}; (b) "
+    f"{MESHES}, graded to the disk",
+    tolerance="(a) secants in the parameter to 1e-9, the last step of which is more accurate; (b) Newton "
+    "takes two more steps after the first one below 1e-9: rounding only",
+)
+ROUNDING_OF_WAVES = 3e-11
+"""Relative rounding of the eigenvalues of (a), which lose digits to small elements."""
+
+TITLES = {
+    "fold": "a limit point",
+    "mirror": "mirror breaking",
+    "n1": "bending",
+    "n2": "two waves around",
+}
+
 
 def traced(first: col.Point, targets: Array) -> list[col.Point]:
     """Critical points at values of u_max, from a guess near the first one; steps between are short."""
@@ -50,7 +75,7 @@ def traced(first: col.Point, targets: Array) -> list[col.Point]:
     for target in targets:
         for u in np.linspace(here.u_max, target, 1 + max(1, int(np.ceil((target - here.u_max) / STEP))))[1:]:
             guess = here if before is None else _ahead(before, here, float(u))
-            if u > here.u_max:
+            if u > here.u_max + CLOSE:
                 before, here = here, col.solve(guess, u_max=float(u))
         found.append(here)
     return found
@@ -66,7 +91,7 @@ def _ahead(a: col.Point, b: col.Point, u: float) -> col.Point:
 def start(kind: str, tube: Tube, vary: str, u: float) -> col.Point:
     """A guess of a critical point of a kind: the state of one tube with that displacement."""
     state = col.equilibrium(tube, vary, col.MESHES[0], u)
-    if kind in ("fold", "mirror"):
+    if kind in col.NULL:
         return col.with_nulls(state, [kind])
     if kind == "wrinkling":
         return replace(state, onset="end")
@@ -113,20 +138,42 @@ def line(name: str, kind: str, tube: Tube, vary: str, targets: Array, begin: flo
         begin: That of the guess.
     """
     coarse, fine = on_both(traced(start(kind, tube, vary, begin), targets))
-    by_shooting = shot(kind, tube, vary, fine)
+    other = other_of(kind)
+    by_other = other.solve(kind, tube, vary, fine)
     columns = SERIES.keys(u_max=targets)
     wanted = [("p", 1), (vary, -1), *([("S_least", 2)] if kind == "wrinkling_front" else [])]
     for column, row in wanted:
-        a = Levels(*(x[row] for x in by_shooting), rounding=ROUNDING)
+        a = Levels(*(x[row] for x in by_other), rounding=other.rounding)
         b = Levels(*([at.numbers[column] for at in level] for level in (coarse, fine)), rounding=ROUNDING)
-        columns.append(_agreed(name, column, a, b))
+        columns.append(_agreed(name, column, a, b, other))
     parameters = {n: float(getattr(tube, n)) for n in ("alpha", "delta1", "lf") if n != vary}
     title = f"Line of kind {kind.partition('_')[0]} over {vary}"
-    return SERIES.table(name, title, "", parameters, columns)
+    return other.series.table(name, title, "", parameters, columns)
 
 
-def _agreed(name: str, column: str, a: Levels, b: Levels) -> Column:
-    return agreed(name, column, a, b, COLUMNS[column], other="shooting")
+@dataclass(frozen=True)
+class Other:
+    """The other method: its name, what its tables say, the same points by it, and their rounding."""
+
+    name: str
+    series: Series
+    solve: Callable[[str, Tube, str, Sequence[col.Point]], list[Array]]
+    """(kind, tube, vary, points) to arrays with p in the row 1 and the parameter in the last one."""
+    rounding: float
+    rounding_at_turns: float
+    """The same where a parameter is stationary, or two conditions hold."""
+
+
+def other_of(kind: str) -> Other:
+    """The other method for a kind of lines: shooting, or the energy in space for waves around the axis."""
+    if kind in FAMILIES:
+        rounding = ROUNDING_OF_WAVES
+        return Other("energy in space", WAVES, energy.solve, rounding=rounding, rounding_at_turns=rounding)
+    return Other("shooting", SERIES, shot, rounding=ROUNDING, rounding_at_turns=1e-10)
+
+
+def _agreed(name: str, column: str, a: Levels, b: Levels, other: Other) -> Column:
+    return agreed(name, column, a, b, COLUMNS[column], other=other.name)
 
 
 def turns(name: str, kind: str, tube: Tube, vary: str, brackets: Sequence[float], begin: float) -> Table:
@@ -148,38 +195,60 @@ def turns(name: str, kind: str, tube: Tube, vary: str, brackets: Sequence[float]
             u = secant(rate, point.u_max, point.u_max + 1e-3, 0.05)[0]
             row.append(col.solve(here[0], u_max=u))
         found.append(row)
-    by_shooting = shot(kind, tube, vary, found[1])
+    other = other_of(kind)
+    by_other = other.solve(kind, tube, vary, found[1])
     # Where the parameter is stationary, p of the line may still vary with u_max.
     columns = SERIES.keys(order=[1.0 + k for k in range(len(points))])
     u_levels = Levels(*([at.u_max for at in row] for row in found), rounding=1e-9)
     columns.append(Column("u_max", u_levels.value, float(u_levels.uncertainty.max()), *COLUMNS["u_max"]))
     for column, k in (("p", 1), (vary, -1)):
-        a = Levels(*(x[k] for x in by_shooting), rounding=1e-10)
+        a = Levels(*(x[k] for x in by_other), rounding=other.rounding_at_turns)
         b = Levels(*([at.numbers[column] for at in row] for row in found), rounding=1e-10)
-        columns.append(_agreed(name, column, a, b))
+        columns.append(_agreed(name, column, a, b, other))
     parameters = {n: float(getattr(tube, n)) for n in ("alpha", "delta1", "lf") if n != vary}
     title = f"Turning points of {vary} along a line of kind {kind}"
-    return SERIES.table(name, title, "", parameters, columns, extra={"keys": ["order"]})
+    return other.series.table(name, title, "", parameters, columns, extra={"keys": ["order"]})
 
 
-def coincidence(name: str, tube: Tube, vary: str, u: float, near: float) -> Table:
-    """The point that is a limit point and a point of mirror breaking at once."""
-    state = traced(start("mirror", tube, vary, u), np.array([u, near]))[1]
-    plain = replace(state, nulls=(), y=(state.y[0][..., :4],))
-    both = col.with_nulls(plain, ["fold", "mirror"])
-    found = [col.solve(col.recut(both, mesh)) for mesh in col.MESHES]
-    pair = [shot(kind, tube, vary, [found[1]]) for kind in ("fold", "mirror")]
-    columns = SERIES.keys(order=[1.0])
+def coincidence(name: str, pair: tuple[str, str], tubes: Sequence[Tube], vary: str, near: Array) -> Table:
+    """Points at which two kinds of lines meet, one of each tube.
+
+    Args:
+        name: Of the table.
+        pair: The kinds; a guess is a point of the second one.
+        tubes: Tubes, with a value of the parameter near that at the first displacement.
+        vary: The parameter.
+        near: Of each tube, the displacements of a guess of a point of the second kind, and of the meeting.
+    """
+    found = []
+    for tube, (u, last) in zip(tubes, near, strict=True):
+        state = traced(start(pair[1], tube, vary, u), np.array([u, last]))[1]
+        plain = replace(state, nulls=(), y=(state.y[0][..., :4],))
+        both = col.with_nulls(plain, pair)
+        found.append([col.solve(col.recut(both, mesh)) for mesh in col.MESHES])
+    levels = list(zip(*found, strict=True))
+    names = [n for n in ("alpha", "delta1", "lf") if n != vary and len({getattr(t, n) for t in tubes}) > 1]
+    columns = SERIES.keys(**{n: [float(getattr(t, n)) for t in tubes] for n in names})
+    columns = columns or SERIES.keys(order=[1.0])
+    others = [other_of(kind) for kind in pair]
+    by_others = []
+    for kind, other in zip(pair, others, strict=True):
+        rows = [other.solve(kind, tube, vary, [point]) for tube, point in zip(tubes, levels[1], strict=True)]
+        by_others.append([np.concatenate(level, axis=1) for level in zip(*rows, strict=True)])
     for column, k in (("p", 1), (vary, -1)):
-        b = Levels(*([at.numbers[column]] for at in found), rounding=1e-10)
-        shots = [Levels(*(x[k] for x in levels), rounding=1e-10) for levels in pair]
-        by_fold, _by_mirror = (_agreed(name, column, a, b) for a in shots)  # both must agree
-        columns.append(by_fold)
-    u_levels = Levels(*([at.u_max] for at in found), rounding=1e-10)
+        b = Levels(*([at.numbers[column] for at in level] for level in levels), rounding=1e-10)
+        compared = [
+            _agreed(name, column, Levels(*(x[k] for x in rows), rounding=other.rounding_at_turns), b, other)
+            for rows, other in zip(by_others, others, strict=True)
+        ]  # both must agree
+        columns.append(max(compared, key=lambda item: item.uncertainty))
+    u_levels = Levels(*([at.u_max for at in level] for level in levels), rounding=1e-10)
     columns.append(Column("u_max", u_levels.value, float(u_levels.uncertainty.max()), *COLUMNS["u_max"]))
-    parameters = {n: float(getattr(tube, n)) for n in ("alpha", "delta1", "lf") if n != vary}
-    title = "Coincidence of a limit point with mirror breaking"
-    return SERIES.table(name, title, "", parameters, columns, extra={"keys": ["order"]})
+    parameters = {
+        n: float(getattr(tubes[0], n)) for n in ("alpha", "delta1", "lf") if n not in (vary, *names)
+    }
+    title = "Coincidence of " + " with ".join(TITLES[kind] for kind in pair)
+    return others[1].series.table(name, title, "", parameters, columns, extra={"keys": names or ["order"]})
 
 
 TABLES: dict[str, Builder] = {
@@ -207,6 +276,30 @@ TABLES: dict[str, Builder] = {
         turns, "lines_tips_alpha", "mirror", Tube(0.0, 1.0, 6.0), "alpha", (2.24, 3.53), 1.33
     ),
     "lines_fold_mirror_alpha": partial(
-        coincidence, "lines_fold_mirror_alpha", Tube(0.0, 1.0, 6.0), "alpha", 1.33, 4.27
+        coincidence, "lines_fold_mirror_alpha", ("fold", "mirror"), (Tube(0.0, 1.0, 6.0),), "alpha",
+        ((1.33, 4.27),),
+    ),
+    "lines_n1_lf": partial(
+        line, "lines_n1_lf", "n1", Tube(0.0, 1.0, 9.8), "lf", steps(0.65, 1.85, 0.15), 0.642
+    ),
+    "lines_n1_delta1": partial(
+        line, "lines_n1_delta1", "n1", Tube(0.0, 1.0, 6.0), "delta1", steps(1.1, 1.65, 0.05), 1.0976
+    ),
+    "lines_n2_delta1": partial(
+        line, "lines_n2_delta1", "n2", Tube(0.0, 2.0, 6.0), "delta1", steps(3.6, 3.9, 0.1), 3.756
+    ),
+    "lines_tip_n1_lf": partial(
+        turns, "lines_tip_n1_lf", "n1", Tube(0.0, 1.0, 9.8), "lf", (1.34,), 0.642
+    ),
+    "lines_tip_n1_delta1": partial(
+        turns, "lines_tip_n1_delta1", "n1", Tube(0.0, 1.0, 6.0), "delta1", (1.507,), 1.0976
+    ),
+    "lines_mirror_n1_lf": partial(
+        coincidence, "lines_mirror_n1_lf", ("mirror", "n1"), (Tube(0.0, 1.0, 5.6),), "lf", ((1.4, 1.405),)
+    ),
+    "lines_fold_n1_lf": partial(
+        coincidence, "lines_fold_n1_lf", ("fold", "n1"),
+        (Tube(0.0, 1.0, 7.92), Tube(0.05, 1.0, 8.19), Tube(0.1, 1.0, 8.5)), "lf",
+        ((0.8, 0.8054), (0.895, 0.89976), (1.005, 1.0103)),
     ),
 }  # fmt: skip

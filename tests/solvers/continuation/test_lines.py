@@ -66,7 +66,7 @@ def test_a_line_of_symmetry_breaking_passes_folds_and_its_tip():
     own = OwnVariation(ExtendedNewton(base, ["load"]))
     meetings = [
         Meeting("tip_mirror", tips),
-        Meeting("fold_mirror", singular_too(own, Stability(base).nearest_by_index)),
+        Meeting("fold_mirror", singular_too(lambda: own, Stability(base).nearest_by_index)),
         Meeting("wrinkling_mirror", zeros_of(lambda columns: columns["u"] - 0.3)),
     ]
     line = mirror_line(base, form, meetings)
@@ -88,7 +88,7 @@ def test_inertia_beside_a_line_differs_by_one_across_it():
     """On both sides of a line the number of negative eigenvalues is that on it, and one more."""
     base, form = systems()
     line = mirror_line(base, form, ())
-    assert line.counts(form, 1e-6).tolist() == [0] * len(line.points)
+    assert line.counts(lambda: form, 1e-6).tolist() == [0] * len(line.points)
     at = line.points[3].state
     counts = []
     for change in (-1e-6, 1e-6):

@@ -5,8 +5,15 @@ import math
 from weakforms.problems import column
 from weakforms.problems.about import LINE, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
+from weakforms.results import WITH_WAVES
 
-LINES = ("fold", "mirror", "wrinkling", "contact")
+WAVES = ("n1", "n2", "n3")
+"""Kinds of lines at which one, two or three waves around the axis are neutral."""
+
+PLAIN = ("fold", "mirror", "wrinkling", "contact")
+"""Kinds of lines without waves."""
+
+LINES = (*PLAIN[:2], *WAVES, *PLAIN[2:])
 """Kinds of lines, and names of the first line of each."""
 
 MOST = 4
@@ -42,6 +49,16 @@ DIAGRAM = About(
                 "least principal Cauchy resultant over {resultant}; negative: the membrane would be wrinkled",
             ),
             Column("n_mirror", "negative eigenvalues of modes that are odd under the mirror, 1"),
+            *(
+                Column(
+                    f"n_negative_{kind}",
+                    f"negative eigenvalues of {kind[1]} wave{'s' * (kind != 'n1')} around the axis (each of "
+                    "them twice: cos and sin), 1",
+                )
+                for kind in WAVES
+            ),
+            Column("wrinkled", "1 if the membrane is compressed somewhere (t_min < 0), else 0"),
+            Column("parity", "along the axis, of the waves that are neutral on the line: 1 even, -1 odd"),
             Column("at_end", "whether the least resultant is at the disk or clamp (1), or inside (0)"),
         ),
         *column.DIAGNOSTICS,
@@ -64,7 +81,7 @@ DIAGRAM = About(
     ),
     special_points=(
         *("cusp_point", "fold_mirror", "tip_mirror", "wrinkling_fold", "wrinkling_mirror"),
-        *("contact_fold", "contact_mirror"),
+        *("contact_fold", "contact_mirror", *WITH_WAVES),
     ),
     branches=NAMES,
     example=Example("delta1", "p", {"kind": "fold"}, numerics={"cells": 32, "levels": 2}),
@@ -76,6 +93,14 @@ DIAGRAM = About(
             at=(("u_max", 1.4),),
             branch="fold",
             label="folds",
+        ),
+        Family(
+            {"alpha": (0.0, 0.04)},
+            **LINE,
+            fixed={"kind": "n1", "x": "lf", "low": 7.0, "high": 10.0, "u_end": 1.5},
+            at=(("lf", 8.5),),
+            branch="n1",
+            label="bending",
         ),
         Family(
             {"lf": (5.5, 8.0)},

@@ -7,9 +7,10 @@ from a shape that moves with its supports.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf
 from typing import ClassVar
 
@@ -27,6 +28,7 @@ from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, one_end
 from weakforms.problems.meridian.body import Body, EndPosition
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.problems.tube.model import free_branch, resistance
+from weakforms.problems.tube.waves import AT_MIDDLE, EVEN, ODD, TubeWaves
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
@@ -35,6 +37,12 @@ from weakforms.solvers.equilibrium.least import LeastValue
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
+
+WAVES = re.compile(r"n([1-9])")
+"""Kinds of lines at which waves around the axis are neutral."""
+
+Kind = Callable[..., EquilibriumBranch]
+"""The class of a curve."""
 
 
 class VariedModel(MeridianModel):
@@ -53,6 +61,8 @@ class VariedModel(MeridianModel):
     odd: ClassVar[EndPosition | None] = None
     """What holds at ``S = 0`` for displacements that are odd under the mirror there; ``None`` without a
     mirror."""
+    parities: ClassVar[tuple[int, ...]] = ()
+    """Parities along the axis of waves around it; none if waves are not computed."""
     depth: ClassVar[str]
     """Column of the largest displacement."""
 
@@ -116,6 +126,22 @@ class VariedModel(MeridianModel):
         )
         return SecondVariation(form, self.system)
 
+    @classmethod
+    def breaks(cls, kind: str) -> bool:
+        """Whether lines of a kind, ``mirror`` or ``n1`` to ``n3``, are known for this membrane."""
+        return cls.odd is not None if kind == "mirror" else bool(cls.parities)
+
+    def operators(self, kind: str) -> dict[int, Callable[[], SecondVariation]]:
+        """The second variations whose null vectors break a symmetry, by their parity along the axis.
+
+        Args:
+            kind: ``mirror``, or ``n1`` for one wave around the axis, and so on. None for other kinds.
+
+        Returns:
+            Functions, because the operators of one parity share their forms.
+        """
+        return {ODD: lambda: self.mirror} if kind == "mirror" and self.odd is not None else {}
+
     def held_at(self, ends: Mapping[int, EndPosition]) -> list[fem.DirichletBC]:
         """Conditions that make displacements zero at ends, where they are not free."""
         out = []
@@ -127,12 +153,13 @@ class VariedModel(MeridianModel):
                     out.append(fem.dirichletbc(np.array(0.0), dofs, part))
         return out
 
-    def primary(self, end: float, step: float) -> EquilibriumBranch:
+    def primary(self, end: float, step: float, kind: Kind = EquilibriumBranch) -> EquilibriumBranch:
         """The primary branch over ``p`` at the loads of the initial state.
 
         Args:
             end: Value of :attr:`depth` at which it ends.
             step: Largest arc-length step.
+            kind: The class of the curve.
         """
         raise NotImplementedError
 
@@ -148,6 +175,7 @@ class VariedTube(VariedModel):
     name = "tube"
     depth = "u_max"
     odd = (0.0, None)
+    parities = EVEN, ODD
     body_of = Body(
         name="tube",
         parameters=(),
@@ -169,9 +197,21 @@ class VariedTube(VariedModel):
         }
         return replace(given, monitors=own | dict(given.monitors))
 
-    def primary(self, end: float, step: float) -> EquilibriumBranch:
+    @cached_property
+    def _waves(self) -> TubeWaves:
+        return TubeWaves(self)
+
+    def operators(self, kind: str) -> dict[int, Callable[[], SecondVariation]]:
+        """As for any body, with waves around the axis, even or odd along it."""
+        numbered = WAVES.fullmatch(kind)
+        if numbered is None:
+            return super().operators(kind)
+        waves = partial(self._waves.operator, int(numbered[1]))
+        return {parity: partial(waves, AT_MIDDLE[parity]) for parity in self.parities}
+
+    def primary(self, end: float, step: float, kind: Kind = EquilibriumBranch) -> EquilibriumBranch:
         """Free inflation up to ``u_max = end``."""
-        return free_branch(self.system, self.system.initial.loads["delta1"], end, step)
+        return free_branch(self.system, self.system.initial.loads["delta1"], end, step, kind)
 
 
 class VariedDisk(VariedModel):
@@ -202,26 +242,26 @@ class VariedDisk(VariedModel):
         own = {"t0": e["z"] * pole, "lam_pole": e["lam2"] * pole}
         return replace(given, monitors=own | dict(given.monitors))
 
-    def primary(self, end: float, step: float) -> EquilibriumBranch:
+    def primary(self, end: float, step: float, kind: Kind = EquilibriumBranch) -> EquilibriumBranch:
         """Free inflation up to ``t0 = end``, from rest or, if slack there, from a small height."""
         beta = self.system.initial.loads["beta"]
         if beta >= TAUT:
-            return from_rest(self.system, "p", "t0", end, step)
+            return from_rest(self.system, "p", "t0", end, step, kind=kind)
         stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
         guess = self.system.initial.copy()
         guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
         guess.u[1::2] = (FIRST_T0 * (1 - radius**2))[1::2]
         tension = evaluated(self.material_law, stretch, stretch)["W1"]
         guess.loads["p"] = 4 * FIRST_T0 * tension / beta
-        return grown(self, guess, end, step)
+        return grown(self, guess, end, step, kind)
 
 
-def grown(model: VariedModel, guess: State, end: float, step: float) -> EquilibriumBranch:
+def grown(model: VariedModel, guess: State, end: float, step: float, kind: Kind) -> EquilibriumBranch:
     """Equilibria by arc length from a first state of small displacement to a larger one."""
     steps = StepControl(first=step / 4, largest=step, usual_load=inf)
     continuation = Continuation(ExtendedNewton(model.system, ["p"]), control=steps)
     start = continuation.start(guess, Held(model.depth, FIRST_T0), towards={model.depth: 1.0})
-    return EquilibriumBranch(continuation, "p", start, lambda at: at.monitors[model.depth] > end)
+    return kind(continuation, "p", start, lambda at: at.monitors[model.depth] > end)
 
 
 @dataclass(frozen=True)

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.diagram.bodies import VariedModel
-from weakforms.results import Quantity
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
-from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.line import (
-    AWAY,
     CUSP,
+    Bracket,
     CriticalLine,
     LineContinuation,
     Meeting,
@@ -26,10 +24,8 @@ from weakforms.solvers.continuation.line import (
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.stability.agreement import same_count
-from weakforms.solvers.stability.modes import OwnVariation, Singular
+from weakforms.solvers.stability.modes import OwnVariation, SecondVariation, Singular
 from weakforms.solvers.stability.spectra import Stability
-from weakforms.solvers.uncertainty.family import BranchFamily
 
 LOAD = "p"
 
@@ -42,14 +38,17 @@ INSIDE = 1e-9
 UNLOADED = 1e-9
 """Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
 
-PLACE = "S_least"
-"""Where the least resultant is; a number of states on a line of wrinkling."""
-
 STEPS = 60
 """Number of steps over the range of a parameter that is long compared with the usual step."""
 
 LOOP = 4.0
 """Number of steps after which a line that comes within a step of its first point is closed."""
+
+ORDER = ("fold", "mirror", "n1", "n2", "n3").index
+"""Order of two kinds in the name of a point that is of both."""
+
+Operator = Callable[[], SecondVariation]
+"""Returns a second variation outside of the unknowns' symmetry, at the state that the base is lent to."""
 
 
 @dataclass(frozen=True)
@@ -93,10 +92,14 @@ class LinesOnMesh:
         window: The part of the plane.
         touch: Value of the column ``depth`` at first contact.
         step: Largest arc-length step.
+        waves: Kinds of waves around the axis that are looked for on lines of other kinds.
     """
 
-    def __init__(self, model: VariedModel, window: Window, touch: float, step: float) -> None:
+    def __init__(
+        self, model: VariedModel, window: Window, touch: float, step: float, waves: Sequence[str] = ()
+    ) -> None:
         self.model, self.window, self.touch, self.step = model, window, touch, step
+        self.waves = tuple(waves)
         self.system, self.depth = model.system, model.depth
         self._branches: dict[float, EquilibriumBranch] = {}
         self._lines: dict[Seed, CriticalLine] = {}
@@ -111,8 +114,17 @@ class LinesOnMesh:
     # -- critical points of the primary branch ---------------------------------------------------
 
     def starts(self, kind: str, at: float) -> list[State]:
-        """The critical points of a kind, in order along the primary branch."""
-        return getattr(self, f"_{kind}")(self.branch(at))
+        """The critical points of a kind in the window, in order along the primary branch.
+
+        The branch's last step may pass the largest displacement.
+        """
+        branch, broken = self.branch(at), self.model.operators(kind).values()
+        if broken:
+            found = [state for form in broken for state in self._neutral(branch, form)]
+            found.sort(key=lambda state: self._place_of(state)[0])
+        else:
+            found = getattr(self, f"_{kind}")(branch)
+        return [state for state in found if not self._outside(self._columns(state))]
 
     def seeds(self, kind: str, places: Sequence[float]) -> list[Seed]:
         """One critical point for each line that crosses a primary branch at one of some values."""
@@ -126,20 +138,20 @@ class LinesOnMesh:
     def _fold(self, branch: EquilibriumBranch) -> list[State]:
         return [found.state for found in branch.special() if found.kind == "limit_point"]
 
-    def _mirror(self, branch: EquilibriumBranch) -> list[State]:
-        form = self.model.mirror
+    def _neutral(self, branch: EquilibriumBranch, form: Operator) -> list[State]:
+        """Points at which a second variation outside of the unknowns' symmetry is singular."""
 
         def count(state: State) -> int:
             with self.system.at(state):
-                return form.negative_count()
+                return form().negative_count()
 
         counts = [count(point.state) for point in branch.points]
         found = []
         for i in np.flatnonzero(np.diff(counts)).tolist():
             guess = branch.between(i, branch.narrowed(i, count, counts[i], counts[i + 1]))
             with self.system.at(guess):
-                border = form.mass_times(form.highest_negative().vector)
-            found.append(self._solved(branch, i, guess, Singular(lambda: form, border)))
+                border = form().mass_times(form().highest_negative().vector)
+            found.append(self._solved(branch, i, guess, Singular(form, border)))
         return found
 
     def _contact(self, branch: EquilibriumBranch) -> list[State]:
@@ -204,16 +216,20 @@ class LinesOnMesh:
         def stop(point: CurvePoint) -> bool:
             far = point.arclength > LOOP * self.longest
             closed = far and continuation.distance(point.state, first.state) < self.longest
-            return closed or bool(self._outside(point))
+            return closed or bool(self._outside(point.monitors | point.state.loads))
 
         line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
-        while line.stalled is None and (outside := self._outside(line.points[-1])):
+        while line.stalled is None and (outside := self._outside(self._columns(line.points[-1].state))):
             line.end_at(*outside[0])
         return line
 
-    def _outside(self, point: CurvePoint) -> list[tuple[str, float]]:
+    def _columns(self, state: State) -> dict[str, float]:
+        """The columns of the window's sides."""
+        with self.system.at(state):
+            return {self.depth: self.system.monitor(self.depth), **state.loads}
+
+    def _outside(self, columns: Mapping[str, float]) -> list[tuple[str, float]]:
         """Sides of the window beyond which a point lies: column and value."""
-        columns = point.monitors | point.state.loads
         return [
             (name, side)
             for name, side, sign in self.window.bounds(self.depth)
@@ -240,27 +256,30 @@ class LinesOnMesh:
             own = OwnVariation(solver)
             mode = Stability(self.system).modes(at, 1)[0]
             return Singular(lambda: own, self.system.mass_times(mode.vector))
-        form = self.model.mirror
         with self.system.at(at):
-            return Singular(lambda: form, form.mass_times(form.nearest().vector))
+            found = [(form, form().nearest()) for form in self.model.operators(kind).values()]
+            form, mode = min(found, key=lambda item: abs(item[1].eigenvalue))
+            return Singular(form, form().mass_times(mode.vector))
 
     def _meetings(self, kind: str) -> list[Meeting]:
         """The points of codimension two that are looked for on a line."""
-        if kind not in ("fold", "mirror"):
+        if kind != "fold" and not self.model.operators(kind):
             return []
         onsets = [Meeting(f"wrinkling_{kind}", zeros_of(lambda columns: columns["t_min"]))]
         if self.touch < self.window.end:
             gap = zeros_of(lambda columns: columns[self.depth] - self.touch)
             onsets.append(Meeting(f"contact_{kind}", gap))
-        if kind == "mirror":
-            own, stability = OwnVariation(ExtendedNewton(self.system, [LOAD])), Stability(self.system)
-            folds = singular_too(own, stability.nearest_by_index)
-            return [Meeting("tip_mirror", tips), Meeting("fold_mirror", folds), *onsets]
-        if self.model.odd is None:
-            return [CUSP, *onsets]
-        form = self.model.mirror
-        breaking = singular_too(form, lambda _state, index: form.eigenvalue(index))
-        return [CUSP, Meeting("fold_mirror", breaking), *onsets]
+        others = [
+            Meeting("_".join(sorted((kind, other), key=ORDER)), neutral_too(form))
+            for other in ("mirror", *self.waves)
+            if other != kind
+            for form in self.model.operators(other).values()
+        ]
+        if kind == "fold":
+            return [CUSP, *others, *onsets]
+        own, stability = OwnVariation(ExtendedNewton(self.system, [LOAD])), Stability(self.system)
+        folds = Meeting(f"fold_{kind}", singular_too(lambda: own, stability.nearest_by_index))
+        return [Meeting(f"tip_{kind}", tips), folds, *others, *onsets]
 
     def has(self, line: CriticalLine, state: State) -> bool:
         """Whether a critical point of a primary branch lies on a line, as far as interpolation tells."""
@@ -274,8 +293,13 @@ class LinesOnMesh:
 
     def _place_of(self, state: State) -> np.ndarray:
         """Largest displacement and pressure."""
-        with self.system.at(state):
-            return np.array([self.system.monitor(self.depth), state.loads[LOAD]])
+        columns = self._columns(state)
+        return np.array([columns[self.depth], columns[LOAD]])
+
+
+def neutral_too(form: Operator) -> Callable[[CriticalLine], Iterable[Bracket]]:
+    """Points of a line at which a second variation outside of the unknowns' symmetry is singular too."""
+    return singular_too(form, lambda _state, index: form().eigenvalue(index))
 
 
 def _reversed(point: CurvePoint) -> CurvePoint:
@@ -284,48 +308,3 @@ def _reversed(point: CurvePoint) -> CurvePoint:
     dual = None if along.dual is None else -along.dual
     back = Tangent(-along.u, {name: -rate for name, rate in along.loads.items()}, dual)
     return replace(point, tangent=back, arclength=0.0)
-
-
-class LineFamily(BranchFamily):
-    """A line on all meshes; its trace also has the number of negative eigenvalues of mirror-odd modes.
-
-    Args:
-        meshes: Primary branches and lines, coarse to fine.
-        seed: Where the line starts.
-        name: Name of the line.
-        cap: Highest order of convergence.
-        caps: Lower ones of some columns.
-    """
-
-    def __init__(
-        self, meshes: Sequence[LinesOnMesh], seed: Seed, name: str, cap: float, caps: Mapping[str, float]
-    ) -> None:
-        self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
-        across = meshes[0].window.vary, meshes[0].depth
-        super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
-
-    def _trace(self) -> dict[str, np.ndarray]:
-        """Columns of the finest mesh's trace."""
-        own = [self._own(self.models[-1], point.state, 0.0) for point in self.fine.points]
-        names = [name for name in own[0] if name != PLACE]  # it needs a solve for its uncertainty
-        return super()._trace() | {name: np.array([row[name] for row in own]) for name in names}
-
-    def _own(self, model: VariedModel, state: State, critical: float) -> dict[str, float]:
-        """Negative eigenvalues of mirror-odd modes, without a critical one, and the place of wrinkling."""
-        found: dict[str, float] = {}
-        with model.system.at(state):
-            if model.odd is not None:
-                found["n_mirror"] = model.mirror.negative_count(AWAY if self.kind == "mirror" else critical)
-            if self.kind == "wrinkling":
-                model.least.turn()
-                found |= {"at_end": int(model.least.at_end), PLACE: model.least.place}
-        return found
-
-    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """As for any branch, with the same columns as the trace."""
-        own = [self._own(m, s.state, critical) for m, s in zip(self.models, solved, strict=True)]
-        found = super()._diagnostics(solved, critical)
-        for name in own[-1]:
-            values = [row[name] for row in own]
-            found[name] = self._quantity(values, name) if name == PLACE else Quantity(same_count(values))
-        return found

@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.problems.diagram.about import LINES
+from weakforms.problems.diagram.about import LINES, PLAIN, WAVES
 from weakforms.problems.diagram.bodies import SUBJECTS, Subject
 from weakforms.problems.diagram.lines import LOAD, Window
 from weakforms.problems.material_choice import MaterialChoice
@@ -38,7 +38,9 @@ class DiagramParameters(MaterialChoice):
     body: Literal["tube", "circular"] = Field("tube", description="membrane")
     x: str = Field("", description="first axis; default: delta1 of the tube, beta of the disk")
     y: str = Field("p", description="second axis; one of both is p")
-    kind: str = Field("all", description=f"kinds of lines, with commas: {', '.join(LINES)}; or all")
+    kind: str = Field(
+        "all", description=f"kinds of lines, with commas: {', '.join(LINES)}; all: those without waves"
+    )
     low: float | None = Field(None, description="smallest value of the parameter that is not p")
     high: float | None = Field(None, description="largest value of that parameter")
     p_low: float = Field(0.0, ge=0, le=50, description="smallest pressure")
@@ -76,9 +78,15 @@ class DiagramParameters(MaterialChoice):
     @property
     def kinds(self) -> tuple[str, ...]:
         """The kinds of lines that are followed."""
-        allowed = [name for name in LINES if name != "mirror" or self.subject.model.odd is not None]
-        named = [word.strip() for word in self.kind.split(",")]
-        return tuple(allowed if self.kind == "all" else [name for name in allowed if name in named])
+        broken = ("mirror", *WAVES)
+        allowed = [name for name in LINES if name not in broken or self.subject.model.breaks(name)]
+        named = PLAIN if self.kind == "all" else [word.strip() for word in self.kind.split(",")]
+        return tuple(name for name in allowed if name in named)
+
+    @property
+    def waves(self) -> tuple[str, ...]:
+        """The kinds of waves around the axis among them."""
+        return tuple(name for name in self.kinds if name in WAVES)
 
     def range_of(self, name: str) -> tuple[float, float]:
         """Range of a parameter that may be an axis."""

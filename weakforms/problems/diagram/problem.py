@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError, not_among
+from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.diagram.about import DIAGRAM, LINES
-from weakforms.problems.diagram.lines import LOAD, LineFamily, LinesOnMesh, Seed
+from weakforms.problems.diagram.family import LineFamily
+from weakforms.problems.diagram.lines import LOAD, LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
+from weakforms.problems.material_choice import require_model
 from weakforms.problems.meridian.limits import require_bearable, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.results import Absence, Result
@@ -25,7 +28,7 @@ GRADING = 0.6
 
 
 class Diagram(BranchProblem):
-    """Lines of limit points, of mirror breaking, of first wrinkling and of first contact."""
+    """Lines of limit points, of broken symmetry, of first wrinkling and of first contact."""
 
     about, parameters, numerics = DIAGRAM, DiagramParameters, DiagramNumerics
 
@@ -40,6 +43,8 @@ class Diagram(BranchProblem):
         self._check_kinds(parameters)
         self._check_range(parameters)
         material = parameters.material
+        if parameters.waves:
+            require_model("diagram: waves around", parameters, tuple(LAWS))
         if parameters.body == "tube":
             require_bearable(self.name, material, parameters.delta1, 1.0, "delta1")
         else:
@@ -66,10 +71,10 @@ class Diagram(BranchProblem):
             name = word.strip()
             if name not in LINES:
                 raise InputError(f"diagram: kind = {name!r}{not_among(name, [*LINES, 'all'])}")
-            if name == "mirror" and "mirror" not in given.kinds:
+            if name not in (*given.kinds, "all"):
+                what = "no mirror" if name == "mirror" else "no lines of waves around its axis"
                 raise InputError(
-                    f"diagram: kind = 'mirror': body = {given.body!r} has no mirror; allowed with "
-                    "body = 'tube'"
+                    f"diagram: kind = {name!r}: body = {given.body!r} has {what}; allowed with body = 'tube'"
                 )
 
     def _check_range(self, given: DiagramParameters) -> None:
@@ -131,7 +136,8 @@ class Diagram(BranchProblem):
         places = [first, *np.linspace(window.low, window.high, SCANNED).tolist()]
         names: dict[str, Seed] = {}
         missing = []
-        for kind in (*given.kinds, *(("end",) if {"fold", "mirror"} & {*given.kinds} else ())):
+        counted = {"fold", "mirror", *given.waves} & {*given.kinds}
+        for kind in (*given.kinds, *(("end",) if counted else ())):
             seeds = coarse.seeds(kind, places)
             names |= {kind + (f"_{k + 1}" if k else ""): seed for k, seed in enumerate(seeds)}
             if not seeds and kind != "end":
@@ -162,7 +168,7 @@ def _lines_on(cells: int, task: Task) -> LinesOnMesh:
     values |= {name: constants[name] for name in (given.vary,) if name in constants}
     grading = GRADING if given.body == "tube" else 0.0
     model = given.subject.model(task.comm, given.material, values, cells, numerics.degree, grading)
-    return LinesOnMesh(model, given.window, given.touch, numerics.step)
+    return LinesOnMesh(model, given.window, given.touch, numerics.step, given.waves)
 
 
 def _none(given: DiagramParameters, kind: str) -> str:

@@ -1,0 +1,85 @@
+"""A line on a family of meshes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from weakforms.problems.diagram.lines import LinesOnMesh, Seed
+from weakforms.problems.tube.stability import is_wrinkled
+from weakforms.results import Quantity, SpecialPoint
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.line import AWAY
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.stability.agreement import same_count
+from weakforms.solvers.uncertainty.family import BranchFamily
+
+PLACE = "S_least"
+"""Where the least resultant is; a number of states on a line of wrinkling."""
+
+COUNTS = {"mirror": "n_mirror"}
+"""Column with the number of negative eigenvalues of a kind, if it is not that of waves."""
+
+
+class LineFamily(BranchFamily):
+    """A line on all meshes; its trace also has numbers of negative eigenvalues of other symmetries.
+
+    Args:
+        meshes: Primary branches and lines, coarse to fine.
+        seed: Where the line starts.
+        name: Name of the line.
+        cap: Highest order of convergence.
+        caps: Lower ones of some columns.
+    """
+
+    def __init__(
+        self, meshes: Sequence[LinesOnMesh], seed: Seed, name: str, cap: float, caps: Mapping[str, float]
+    ) -> None:
+        self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
+        self.counted = ("mirror", *meshes[0].waves)
+        across = meshes[0].window.vary, meshes[0].depth
+        super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
+
+    def _trace(self) -> dict[str, np.ndarray]:
+        """Columns of the finest mesh's trace."""
+        own = [self._own(-1, point.state, 0.0) for point in self.fine.points]
+        names = [name for name in own[0] if name != PLACE]  # it needs a solve for its uncertainty
+        return super()._trace() | {name: np.array([row[name] for row in own]) for name in names}
+
+    def special_points(self) -> list[SpecialPoint]:
+        """Points at which a second condition holds, with ``wrinkled``: 1 if their membrane is compressed."""
+        points = super().special_points()
+        for point in points:
+            point.values["wrinkled"] = float(is_wrinkled(point.values["t_min"]))
+            point.uncertainty["wrinkled"] = 0.0
+        return points
+
+    def _own(self, level: int, state: State, critical: float) -> dict[str, float]:
+        """Negative eigenvalues of other symmetries without a critical one, and what is said of wrinkling."""
+        model, line = self.models[level], self.levels[level]
+        found: dict[str, float] = {}
+        with model.system.at(state):
+            for kind in self.counted:
+                shift = AWAY if self.kind == kind else critical
+                counts = [form().negative_count(shift) for form in model.operators(kind).values()]
+                if counts:
+                    found[COUNTS.get(kind, f"n_negative_{kind}")] = sum(counts)
+            if self.kind == "wrinkling":
+                model.least.turn()
+                found |= {"at_end": int(model.least.at_end), PLACE: model.least.place}
+            else:
+                found["wrinkled"] = int(is_wrinkled(model.system.monitors()["t_min"]))
+            for parity, form in model.operators(self.kind).items():
+                if form() is line.condition.variation():
+                    found["parity"] = parity
+        return found
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """As for any branch, with the same columns as the trace."""
+        own = [self._own(k, s.state, critical) for k, s in enumerate(solved)]
+        found = super()._diagnostics(solved, critical)
+        for name in own[-1]:
+            values = [row[name] for row in own]
+            found[name] = self._quantity(values, name) if name == PLACE else Quantity(same_count(values))
+        return found
