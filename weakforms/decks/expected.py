@@ -103,18 +103,22 @@ def expected(result: Result, body: Body, cells: int, way: str) -> Expected:
         result: The solution.
         body: The body.
         cells: Number of cells along the meridian.
-        way: ``section`` (a wall in the plane), ``wall`` (a wall in space) or ``surface`` (a membrane).
+        way: ``section`` (a wall in the plane), ``wall`` (a wall in space), ``surface`` (a membrane of curved
+            triangles) or ``facets`` (each of them as four flat ones).
     """
     quantities = [state.quantities for state in result.states]
     loads = np.array([q[body.load].value for q in quantities])
     over = [q[body.over] for q in quantities]
     known = body.problem != "wrinkled_tube"
-    errors = {"meridian": _meridian(result, body, cells)} if known else {}
-    if known and way != "section":
-        angle = np.pi / 2 / cells_around(cells, body)
+    degree, halves = (1, 2) if way == "facets" else (2, 1)
+    errors = {"meridian": _meridian(result, body, halves * cells, degree)} if known else {}
+    angle = np.pi / 2 / cells_around(cells, body)
+    if known and way == "facets":
+        errors["circumference"] = around(angle / halves, degree)
+    elif known and way != "section":
         errors["circumference"] = around(angle, 2)
         errors["edges"] = _edges(result, body, angle, quantities)
-    if known and way != "surface":
+    if known and way in ("section", "wall"):
         errors["wall"] = WALL if body.clamps else WALL**2
         errors["compression"] = 2 * (1 + body.ratio) / BULK
     return Expected(
@@ -127,20 +131,20 @@ def expected(result: Result, body: Body, cells: int, way: str) -> Expected:
     )
 
 
-def _meridian(result: Result, body: Body, cells: int) -> float:
-    """Error of the load at the last state on quadratic elements along the meridian, by a solution on them.
+def _meridian(result: Result, body: Body, cells: int, degree: int) -> float:
+    """Error of the load at the last state on elements of a degree along the meridian, by a solution on them.
 
     The meridian of a sphere is a circle, whose error is known.
     """
     if body.problem == "sphere":
-        return around(np.pi / 2 / cells, 2)
+        return around(np.pi / 2 / cells, degree)
     given = {k: v for k, v in result.parameters.items() if v is not None}
-    numerics: dict[str, Any] = {"degree": 2, "cells": cells, "levels": 2}
+    numerics: dict[str, Any] = {"degree": degree, "cells": cells, "levels": 2}
     last = result.states[-1].quantities
     value = float(last[body.over].value)
     coarse = api.prepare(body.problem, given, numerics, [(body.over, value)])(None)
     if not coarse.states:
-        raise ConvergenceError(f"deck {body.problem}: no state on {cells} quadratic cells")
+        raise ConvergenceError(f"deck {body.problem}: no state on {cells} cells of degree {degree}")
     return abs(float(coarse.states[0].quantities[body.load].value) / float(last[body.load].value) - 1)
 
 

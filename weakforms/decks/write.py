@@ -25,9 +25,16 @@ CODES = {
     "calculix": ("ccx deck && python3 curve.py", "section"),
     "febio": ("febio4 -i deck.feb && python3 curve.py", "wall"),
     "ngsolve": ("python3 deck.py", "surface"),
+    "sfepy": ("python3 deck.py", "facets"),
     "gmsh": ("gmsh deck.msh", "surface"),
 }
 """The codes, each with the command that runs its deck, and the kind of its mesh."""
+
+WITHOUT_TENSION_FIELD = ("calculix", "febio", "sfepy")
+"""Codes whose deck bears compression, and has gas only."""
+
+SURFACES = ("surface", "facets")
+"""Kinds of mesh that are a membrane: of curved triangles, or of each of these as four flat ones."""
 
 UNITS = "lengths and pressures in the problem's own scaling, in which C1 h = 1"
 
@@ -45,12 +52,12 @@ def require_code(code: str, problem: str, values: Mapping[str, Any]) -> None:
     """
     if code not in CODES:
         raise InputError(f"--for {code!r}: there is no deck for it{not_among(code, CODES, 'decks are for')}")
-    if problem == "wrinkled_tube" and CODES[code][1] != "surface" and values["load"] != "gas":
+    if problem == "wrinkled_tube" and code in WITHOUT_TENSION_FIELD and values["load"] != "gas":
         raise InputError(f"deck wrinkled_tube --for {code}: it has no fluid; allowed: load=gas")
 
 
 def require_taut(problem: str, code: str, result: Result) -> None:
-    """Refuse a solid wall of a membrane that wrinkles: it would buckle into more waves than its mesh shows.
+    """Refuse a solid wall of a membrane that wrinkles: it bears compression, and would buckle.
 
     Raises:
         InputError: If a state is wrinkled.
@@ -107,7 +114,7 @@ def write_deck(
         from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 
         constants["gamma"] = PAPER_GAMMA
-    if CODES[code][1] != "surface":
+    if code in WITHOUT_TENSION_FIELD:
         require_taut(problem, code, result)
     body = body_of(problem, {**values, **constants}, float(critical.value) if critical else 1.0)
     cells = cells or cells_along(body)
@@ -143,7 +150,7 @@ def _files(code: str, found: Expected, cells: int) -> dict[str, str]:
     stages = stages_of(body, found.loads)
     kind = way(code, body)
     about = _about(found, code)
-    mid = surface_mesh(body, cells, kind != "surface") if kind != "section" else None
+    mid = surface_mesh(body, cells, kind not in SURFACES) if kind != "section" else None
     solid = section(body, cells, WALL) if mid is None else wall(mid, WALL)
     shared = {"expected.json": dumps(found.result.to_json()), "reading.py": _script("reading")}
     if code == "calculix":
@@ -155,8 +162,8 @@ def _files(code: str, found: Expected, cells: int) -> dict[str, str]:
         own = {"deck.feb": febio.input_file(body, solid, stages, about), "curve.py": _script("febio_curve")}
     else:
         own = {"deck.msh": surfaces.msh(body, mid)}
-        if code == "ngsolve":
-            own["deck.py"] = _script("ngsolve_deck")
+        if code != "gmsh":
+            own["deck.py"] = _script(f"{code}_deck")
         else:
             del shared["reading.py"]
     facts = _facts(found, code, stages, solid)
