@@ -113,7 +113,7 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
         raise InputError("faults: --random, --measure and a selection of seeded faults exclude each other")
     shared = out, jobs, resume, as_json, console()
     if measured:
-        _ended(lambda: verb.measure_verb(expression, out, resume, console()))
+        _ended(lambda: verb.measure_verb(expression, out, jobs, resume, console()))
     elif random is not None:
         _ended(lambda: verb.random_verb(random, seed, budget, *shared, listed))
     else:

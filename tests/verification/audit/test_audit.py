@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 from io import StringIO
 from pathlib import Path
 from typing import Literal
@@ -151,7 +152,7 @@ def test_a_solve_that_hangs_is_ended():
 
 def test_time_spent_waiting_for_the_processor_does_not_count(monkeypatch):
     """A process that only waits is ended late, one that computes at the limit."""
-    monkeypatch.setattr(runner, "WAITING", 8.0)
+    monkeypatch.setattr(runner, "WAITING", 15.0)  # a busy machine makes all of it slow
     for work, ended in (
         ("time.sleep(2.5)", False),
         ("time.sleep(30)", True),
@@ -185,6 +186,10 @@ def test_the_table_names_every_set_that_is_not_answered_and_repeats_it():
     assert "2 of 3 sets of parameters answered (66.7%), seed 7" in text
 
 
+def test_an_audit_without_draws_states_no_share():
+    assert replace(canned_run(), draws=[]).headline == "0 of 0 sets of parameters answered, seed 7"
+
+
 def test_a_file_that_is_no_audit_is_a_problem_to_be_shown(tmp_path):
     assert Audited.beside(tmp_path) == Audited()
     data = canned_run().to_json()
@@ -192,6 +197,7 @@ def test_a_file_that_is_no_audit_is_a_problem_to_be_shown(tmp_path):
         (tmp_path / NAME).write_text(json.dumps(wrong))
         assert Audited.beside(tmp_path).run is None
         assert Audited.beside(tmp_path).problem
+    assert "draws/0/" in Audited.beside(tmp_path).problem, "the place in the file"
     data["draws"][0]["status"] = "fine"
     (tmp_path / NAME).write_text(json.dumps(data))
     assert "status 'fine'" in Audited.beside(tmp_path).problem

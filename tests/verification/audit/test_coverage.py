@@ -4,9 +4,11 @@ import json
 import math
 from dataclasses import replace
 from io import StringIO
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 from rich.console import Console
 
 from weakforms.errors import ConvergenceError, InputError
@@ -68,6 +70,15 @@ def test_ranges_are_wider_as_far_as_the_problem_allows():
         for name, (low, high) in family.ranges.items():
             least, most = by_name[family.name][name]
             assert least <= low < high < most
+
+
+def test_a_range_that_the_problem_does_not_limit_grows_on_both_sides(monkeypatch):
+    class Free(BaseModel):
+        x: float = 1.0
+
+    monkeypatch.setattr(hold_out, "get", lambda _: SimpleNamespace(parameters=Free))
+    family = replace(FAMILIES[0], ranges={"x": (4.0, 6.0)})
+    assert hold_out.widened(family).ranges["x"] == pytest.approx((3.5, 6.5))
 
 
 @pytest.mark.parametrize("family", hold_out.held_out(), ids=lambda family: family.name)

@@ -169,6 +169,20 @@ def test_lines_are_noted_once_and_kept(tmp_path, monkeypatch):
     assert test in [text for text, _ in first[:4]]
 
 
+def test_units_measured_side_by_side_are_all_kept_and_failures_counted(tmp_path, monkeypatch):
+    def run(_self, _root, units, *_args, **_kwargs):
+        return [Answer(units[0], "failed" if units[0] == "b" else "passed", 1.0, [], [])], ""
+
+    monkeypatch.setattr(Children, "run", run)
+    monkeypatch.setattr(lines, "digest", lambda _: "")
+    told = []
+    assert measure(list("abcd"), tmp_path, False, lambda *said: told.append(said), jobs=2) == 1
+    failing = {found.unit for found in measured(tmp_path) if not found.passed}
+    assert (len(measured(tmp_path)), failing) == (4, {"b"})
+    assert [k for k, *_ in told] == [1, 2, 3, 4]
+    assert sorted(unit for *_, unit in told) == list("abcd")
+
+
 def known(unit, own=None, **seen):
     seconds = {f"{unit}::{name}": float(k) for k, name in enumerate(seen, 1)}
     noted = {f"{unit}::{name}": {"weakforms/x.py": numbers} for name, numbers in seen.items()}
@@ -189,6 +203,17 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
     assert found == [*(f"tests/a.py::{name}" for name in order), "tests/c.py::guessed"]
     changed = replace(here, digests={"weakforms/x.py": "another"})
     assert changed.sees("tests/a.py::quick", "weakforms/x.py", 3, ROOT), "any line of a file that changed"
+
+
+def test_a_line_that_no_measured_unit_ran_is_guessed_at_by_imports_of_all_units(tmp_path, monkeypatch):
+    monkeypatch.setattr(lines, "measured", lambda _: [known("tests/a.py", quick=[4])])
+    near = SimpleNamespace(
+        watching=lambda _, _line, known: iter(sorted(known) or ["all"]), reach=lambda _: {}
+    )
+    monkeypatch.setattr(lines, "Imports", lambda _: near)
+    watchers = Watchers(tmp_path)
+    assert [text for text, _ in watchers.of("weakforms/x.py", 4)][-1] == "tests/a.py"
+    assert [text for text, _ in watchers.of("weakforms/x.py", 20)] == ["all"]
 
 
 def test_a_line_that_runs_on_import_is_seen_by_those_who_use_what_it_defines(tmp_path):
@@ -225,6 +250,14 @@ def test_without_a_measurement_imports_say_who_may_see_it(tmp_path):
         in tables
     )
     assert not any("test_faults" in text for text in found)
+
+
+def test_files_that_few_words_of_the_line_point_to_are_guessed_first(tmp_path):
+    about = "weakforms/problems/wrinkled/sheets/about.py"
+    lines_ = (ROOT / about).read_text("utf-8").split("\n")
+    line = next(k for k, text in enumerate(lines_, 1) if "held_out=" in text)
+    found = [text for text, _ in Watchers(tmp_path).of(about, line)]
+    assert "audit/test_coverage.py" in found[0]
 
 
 # -- what becomes of one -----------------------------------------------------------------------------

@@ -13,6 +13,7 @@ import re
 import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import zip_longest
@@ -39,6 +40,9 @@ REGISTERED = re.compile(r"reference_data/solvers/\w+/tables\w*\.py")
 
 PROBLEMS = "weakforms/problems/registry.py"
 """What imports every module beside it in the same way."""
+
+WORD = re.compile(r"[A-Za-z_]{4,}")
+"""Words of a line that may say which tests are about it."""
 
 UNKNOWN = 10.0
 """Seconds that a case or a test is taken to need before it was measured."""
@@ -154,20 +158,39 @@ def units(root: Path = ROOT) -> list[str]:
     return [*(name for name in tests if not name.startswith(UNSEEN)), *cases]
 
 
-def measure(wanted: list[str], out: Path, resume: bool, report: Callable[[float, float, str], None]) -> int:
-    """Run units and note their lines below ``out``; the number of those that do not pass."""
-    children, failing = Children(), 0
+def measure(
+    wanted: list[str], out: Path, resume: bool, report: Callable[[float, float, str], None], jobs: int = 1
+) -> int:
+    """Run units and note their lines below ``out``; the number of those that do not pass.
+
+    Args:
+        wanted: Test files and cases.
+        out: Output folder.
+        resume: Take over what was measured there, if the file is still the same.
+        report: Told about the progress.
+        jobs: Units side by side.
+    """
+    children = Children()
     known = {found.unit: found for found in measured(out)} if resume else {}
-    try:
-        for k, unit in enumerate(wanted):
-            report(k, len(wanted), unit)
-            found = known.get(unit)
-            if found is None or found.digests.get(_file(unit)) != digest(ROOT / _file(unit)):
-                found = _measured(unit, children, out)
-            failing += not found.passed
-    except BaseException:
-        children.end()
-        raise
+
+    def one(unit: str) -> Measured:
+        found = known.get(unit)
+        if found is None or found.digests.get(_file(unit)) != digest(ROOT / _file(unit)):
+            found = _measured(unit, children, out)
+        return found
+
+    failing = 0
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            running = [pool.submit(one, unit) for unit in wanted]
+            for k, ended in enumerate(as_completed(running), 1):
+                found = ended.result()
+                failing += not found.passed
+                report(k, len(wanted), found.unit)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            children.end()
+            raise
     return failing
 
 
@@ -207,7 +230,8 @@ class Watchers:
     """Who sees a line: measured ones that run it, tables, those beside them, those that import its file.
 
     A test that finds a solution in a fixture or a cache does not run the lines that made it, so the other
-    tests of a file that runs the line follow.
+    tests of a file that runs the line follow. A line that was run before lines were noted (in a file that
+    every process imports) was run by none of them: imports say who may see it, measured or not.
 
     Args:
         out: Folder with what was measured.
@@ -232,8 +256,8 @@ class Watchers:
             if seeing or found.sees("", file, line, self._root):
                 beside |= {text: seconds for text, seconds in found.seconds.items() if text not in seeing}
                 near |= {text for text in beside if file in found.lines.get(text, {})}
-        known = {found.unit for found in self._measured}
-        guessed = [(text, UNKNOWN) for text in self._near.watching(file, known)]
+        known = {found.unit for found in self._measured} if direct or beside else set()
+        guessed = [(text, UNKNOWN) for text in self._near.watching(file, line, known)]
         again = [(text, UNKNOWN) for text in tables.watching(file, line, self._near.reach(file))]
         return [*_fastest(direct, near), *again, *_fastest(beside, near), *guessed]
 
@@ -260,28 +284,39 @@ class Imports:
             if name.startswith("weakforms/problems/") and name != PROBLEMS:
                 self._used_by[name].add(PROBLEMS)
 
-    def watching(self, file: str, known: set[str]) -> Iterator[str]:
-        """Test functions and cases that reach a file by imports, the nearest first.
+    def watching(self, file: str, line: int, known: set[str]) -> Iterator[str]:
+        """Test functions and cases that reach a file by imports, those about it first, then the nearest.
 
         Args:
             file: Relative to the tree.
+            line: Its words and those of the next one (an argument that is left out stands there), if few
+                files use them, say which tests and cases are about it.
             known: Units that were measured: they are not guessed at.
         """
         reach = self.reach(file)
-        near = sorted((self._rank(name, far, file), name) for name, far in reach.items())
-        tests = [functions(self._root / name, name) for _, name in near if _is_test(name, known)]
-        cases = [[_case(name)] for _, name in near if name.startswith("cases/")]
+        texts = {name: self._files[name].read_text("utf-8") for name in reach}
+        source = (self._root / file).read_text("utf-8").split("\n") if (self._root / file).exists() else []
+        words = set(WORD.findall(" ".join(source[line - 1 : line + 1])))
+        users = {word: {name for name, text in texts.items() if word in text} for word in words}
+
+        def order(name: str) -> tuple[int, float, int]:
+            shared = sum(1 / len(found) for found in users.values() if name in found)
+            return self._rank(name, texts[name], file), -shared, reach[name]
+
+        near = sorted(reach, key=lambda name: (order(name), name))
+        tests = [functions(self._root / name, name) for name in near if _is_test(name, known)]
+        cases = [[_case(name)] for name in near if name.startswith("cases/")]
         cases = [case for case in cases if case[0] not in known and _quick(case[0])]
         for pair in zip_longest(tests, cases, fillvalue=[]):
-            for texts in pair:
-                yield from texts
+            for found in pair:
+                yield from found
 
-    def _rank(self, name: str, far: int, file: str) -> tuple[int, int]:
-        """First those named as the file is, or as it begins; cases by what they say; then the way there."""
+    def _rank(self, name: str, text: str, file: str) -> int:
+        """First those named as the file is, or as it begins; cases by what they say."""
         words = Path(file).stem.split("_")
         beginnings = ["_".join(words[:k]) for k in range(len(words), 0, -1)]
-        place = name if name.startswith("tests/") else self._files[name].read_text("utf-8")
-        return next((k for k, word in enumerate(beginnings) if word in place), len(words)), far
+        place = name if name.startswith("tests/") else text
+        return next((k for k, word in enumerate(beginnings) if word in place), len(words))
 
     def reach(self, file: str) -> dict[str, int]:
         """Files that import it, with the length of the shortest way."""

@@ -27,7 +27,7 @@ AT_ONCE = 20.0
 SAYING = ("comparison", "test")
 """Kinds of findings that say what is wrong; all others are crashes."""
 
-MOST = 25
+MOST = 60
 """Expectations that one process is given."""
 
 AFTER_CRASH = 0.2

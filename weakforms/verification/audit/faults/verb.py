@@ -94,7 +94,7 @@ def random_verb(
     return _shown(run, out / RANDOM, as_json, screen)
 
 
-def measure_verb(expression: str | None, out: Path, resume: bool, screen: Console) -> int:
+def measure_verb(expression: str | None, out: Path, jobs: int, resume: bool, screen: Console) -> int:
     """Note which lines tests and cases run; the exit status.
 
     Raises:
@@ -110,7 +110,7 @@ def measure_verb(expression: str | None, out: Path, resume: bool, screen: Consol
     chosen = Expression(expression) if expression else None
     wanted = [unit for unit in units() if chosen is None or chosen.matches(unit.lower())]
     with progress_bar() as progress:
-        failing = measure(wanted, out, resume, lambda done, total, what: progress(what, done, total))
+        failing = measure(wanted, out, resume, lambda done, total, what: progress(what, done, total), jobs)
     screen.print(f"lines: {out / 'faults' / 'lines'}", soft_wrap=True)
     if failing:
         screen.print(f"{plural(failing, 'file')} of tests or cases did not pass or did not end")
