@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
 from math import inf
@@ -93,6 +93,7 @@ def from_rest(
     step: float,
     begin: Equilibrium | None = None,
     usual_load: float = inf,
+    kind: Callable[..., EquilibriumBranch] = EquilibriumBranch,
 ) -> EquilibriumBranch:
     """Equilibria by arc length from the state without load, until a column passes its end.
 
@@ -104,6 +105,7 @@ def from_rest(
         step: Largest step.
         begin: Guess of the first state; by default the state of rest.
         usual_load: Load above which steps grow in proportion to it.
+        kind: The class of the curve.
     """
     steps = StepControl(first=step / 4, largest=step, usual_load=usual_load)
     continuation = Continuation(ExtendedNewton(system, [load]), control=steps)
@@ -111,9 +113,7 @@ def from_rest(
     with system.at(begin):
         rising = 1.0 if end > system.monitor(along) else -1.0
     start = continuation.start(begin, Held(load, 0.0), towards={along: rising})
-    return EquilibriumBranch(
-        continuation, load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0
-    )
+    return kind(continuation, load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0)
 
 
 class BranchProblem(Problem):

@@ -1,0 +1,1 @@
+"""Controls of inflation: a gas of given pressure, given mass or given volume."""
