@@ -30,7 +30,7 @@ signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 CASE = re.compile(r"test_cases\.py::\w+\[([^]:]+)")
 RANKS = "tests/mpi"
 """Several ranks each: one of them at a time."""
-LONG = (*(f"paper3.{name}" for name in ("secondary", "fig02", "fig03", "fig06", "fig08")), RANKS)
+LONG = ("paper3.secondary", "paper3.fig06", RANKS)
 """What takes minutes begins first, so that no worker is left to be waited for."""
 SILENCE = 60.0
 """Seconds after which a log shows how far the tests are."""
@@ -44,18 +44,35 @@ def pytest_xdist_auto_num_workers(config) -> int:
     return len(os.sched_getaffinity(0))
 
 
+def groups_of_cases() -> dict[str, str]:
+    """The group of each case: cases that share a solution are in one, and one worker solves for it once."""
+    from weakforms.verification.cases.discovery import select
+    from weakforms.verification.run.plan import case_wants
+
+    groups, owner = {}, {}
+    for found in select(None, None):
+        groups[found.id] = found.id
+        for spec, _ in case_wants(found):
+            mine, other = groups[found.id], groups[owner.setdefault(spec, found.id)]
+            groups = {case: other if group == mine else group for case, group in groups.items()}
+    return groups
+
+
 def pytest_xdist_make_scheduler(config, log):
     """Distribute cases and files; another ``--dist`` than ours is left alone."""
     from xdist.scheduler import LoadScopeScheduling
 
+    groups = groups_of_cases()
+    long = [groups.get(name, name) for name in LONG]
+
     class CasesAndFiles(LoadScopeScheduling):
         def _split_scope(self, nodeid):
             if case := CASE.search(nodeid):
-                return case[1]
+                return groups.get(case[1], case[1])
             return RANKS if nodeid.startswith(f"{RANKS}/") else nodeid.split("::")[0]
 
         def _assign_work_unit(self, node):
-            for scope in reversed(LONG):
+            for scope in reversed(long):
                 if scope in self.workqueue:
                     self.workqueue.move_to_end(scope, last=False)
             super()._assign_work_unit(node)

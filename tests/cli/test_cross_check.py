@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 from xml.etree import ElementTree
 
 import jsonschema
@@ -78,7 +79,10 @@ def test_a_curve_with_units(weakforms, tmp_path):
 @pytest.mark.parametrize(
     ("constants", "said"),
     [
-        ({"R_f": 0.02, "C1": 2e5}, "constant h_o is missing"),
+        (
+            {"R_f": 0.02, "C1": 2e5},
+            "h_o is missing: length is divided by R_f; .* volume is divided by 2 pi R_f",
+        ),
         (CONSTANTS | {"h_o": 0.0}, "h_o = 0 must be positive"),
         (CONSTANTS | {"h_o": math.nan}, "h_o = nan must be positive"),
         (CONSTANTS | {"h": 1.0}, "no constant 'h'; its scaling takes R_f, C1, h_o"),
@@ -302,7 +306,10 @@ def test_what_has_no_table_is_not_offered(weakforms):
     assert "closed_form.sphere, closed_form.test_pieces" in called.err
     curves = {entry["id"]: entry.get("curves") for entry in json.loads(weakforms("list", "--json").out)}
     assert (curves["closed_form.disk"], CURVE in curves[CASE]) == ([], True)
-    assert "curves to compare with: none" in weakforms("show", "closed_form.disk").out
+    shown = weakforms("show", "closed_form.disk").out
+    assert "curves to compare with: none" in shown
+    assert "accuracy asked (relative): each check has its own" in shown
+    assert re.search(r"accuracy asked \(relative\): \w+ \d", weakforms("show", CASE).out)
 
 
 # -- folders of requests -------------------------------------------------------------------------

@@ -13,7 +13,7 @@ import pytest
 
 from weakforms import __version__
 from weakforms.cli import app
-from weakforms.results import validate
+from weakforms.results import load_result, validate
 from weakforms.terminal import guarded
 
 TUBE = ("solve", "tube", "delta1=1.1", "--mesh", "cells=32", "--mesh", "levels=2")
@@ -223,3 +223,54 @@ def test_a_real_terminal_is_recognised():
     assert done.returncode == 0
     assert "quantities" in text
     assert '"schema"' not in text
+
+
+# -- diagram -------------------------------------------------------------------------------------
+
+COARSE = ("--mesh", "cells=16", "--mesh", "degree=3", "--mesh", "levels=2")
+
+
+@pytest.fixture(scope="module")
+def drawn(weakforms, tmp_path_factory):
+    """One small diagram from the command line, with its picture and its result."""
+    folder = tmp_path_factory.mktemp("diagram")
+    given = ("diagram", "tube", "--plane", "alpha", "p", "high=0.02", "--set", "u_end=1.2", "--kind", "fold")
+    called = weakforms(*given, *COARSE, "--out", folder / "d.json", "--picture", folder / "d.svg")
+    return called, folder
+
+
+def test_diagram_solves_its_problem_and_stores_its_result(drawn):
+    called, folder = drawn
+    assert called.status == 0, called.err
+    result = load_result(folder / "d.json")
+    assert result.problem == "diagram"
+    assert result.parameters["body"] == "tube"
+    assert (result.parameters["x"], result.parameters["y"]) == ("alpha", "p")
+    assert {branch.name for branch in result.branches} == {"fold", "end"}
+    assert sorted(result.branch("fold").columns["alpha"][[0, -1]]) == pytest.approx([0.0, 0.02])
+
+
+def test_diagram_draws_its_picture_and_says_where_it_is(drawn):
+    called, folder = drawn
+    assert (folder / "d.svg").read_text().startswith("<?xml")
+    assert f"picture: {folder / 'd.svg'}" in called.out.replace("\n", "")
+    assert "branch fold" in called.out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("tube", "--plane", "p", "p"), "x = y = 'p'"),
+        (("tube", "--plane", "alpha", "p", "--kind", "n7"), "kind = 'n7'"),
+        (("circular", "--plane", "alpha", "p", "--kind", "n1"), "body = 'circular' has no lines of waves"),
+        (("tube", "--plane", "alpha", "p", "--set", "x=lf"), "--set x: the verb's argument or option"),
+        (("tube", "--plane", "alpha", "p", "--picture", "d.txt"), "cannot draw into d.txt"),
+        (("sphere", "--plane", "alpha", "p"), "body = 'sphere'"),
+    ],
+)
+def test_diagram_refuses_bad_input_in_one_line(weakforms, solves, words, message):
+    called = weakforms("diagram", *words)
+    assert called.status == 2
+    assert len(called.complaints) == 1
+    assert message in called.complaints[0]
+    assert solves == []

@@ -345,6 +345,40 @@ def test_every_law_says_where_it_is_from():
         assert not material.refusal({n: c.default for n, c in material.constants.items()})
 
 
+DEFAULTS = {
+    "neo_hookean": {},
+    "mooney_rivlin": {"alpha": 0.1},
+    "rivlin": {"c10": 1, "c01": 0.1, "c20": 0.01, "c11": 1e-3, "c02": 0, "c30": 1e-4}
+    | dict.fromkeys(("c21", "c12", "c03"), 0),
+    "ogden": {"mu1": 1.491, "alpha1": 1.3, "mu2": 0.003, "alpha2": 5, "mu3": -0.023, "alpha3": -2},
+    "biderman": {"c10": 1, "c01": 0.1, "c20": -0.01, "c30": 0.002},
+    "rivlin_saunders": {"c10": 1, "c01": 0.2, "q": 3},
+    "three_chain": {"nkt": 2, "links": 26.5},
+    "arruda_boyce": {"nkt": 2, "links": 26.5},
+    "beda_chevalier": {"k1": 1, "k2": 2.36, "k3": 1e-3, "power": 5},
+    "saint_venant_kirchhoff": {"shear": 2, "poisson": 0.5},
+    "varga": {"shear": 2},
+    "gent": {"shear": 2, "jm": 97.2},
+    "harmonic": {"shear": 2, "f2": 2},
+}
+"""What a user gets who names a law only: other numbers would change all results."""
+
+
+def test_the_defaults_of_a_law_are_those_that_stored_results_were_computed_with():
+    assert {
+        name: {n: c.default for n, c in material.constants.items()} for name, material in MATERIALS.items()
+    } == DEFAULTS
+
+
+@pytest.mark.parametrize("model", [name for name in MATERIALS if name != "saint_venant_kirchhoff"])
+def test_the_unit_of_stress_states_the_shear_modulus_of_the_defaults(model):
+    e = 1e-3  # pure shear keeps the area, so that a law without incompressibility has no more to say
+    shear = numbers(model, 1 + e, 1 / (1 + e))[NAMES.index("W")] / (2 * e**2)
+    says_two = "shear modulus 2 S" in MATERIALS[model].scale
+    assert says_two == (abs(shear / 2 - 1) < 0.05 and model != "neo_hookean"), shear
+    assert ("S = mu" in MATERIALS[model].scale) == (abs(shear - 1) < 0.01), shear
+
+
 @pytest.mark.parametrize("term", [1, 2, 3])
 def test_exponents_of_ogden_have_another_range_than_moduli(term):
     """With an exponent of -1000 no number can be computed; a modulus of -1000 is merely another rubber."""

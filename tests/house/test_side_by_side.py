@@ -75,6 +75,19 @@ def test_a_case_and_a_file_stay_in_one_worker(start):
     assert len({worker for _, worker in ran}) == 2
 
 
+def test_cases_that_share_solutions_stay_in_one_worker(start):
+    names = ["paper3.fig06", "paper3.fig08", "paper1.fig11", "paper2.fig12"]
+    case = CASES.replace(
+        '"paper1.a", "paper1.a:one", "paper1.a:two [m]", "paper2.b", "paper2.b:one"', str(names)[1:-1]
+    )
+    run = start({"cases/test_cases.py": case}, "-n", "2", "-rP", "tests")
+    said, _ = run.communicate(timeout=180)
+    assert run.returncode == 0, said
+    worker = dict(re.findall(r"^ran (\S+) (\d+)$", said, re.M))
+    assert sorted(worker) == sorted(names)
+    assert worker["paper3.fig06"] == worker["paper3.fig08"] != worker["paper1.fig11"]
+
+
 def test_a_crash_of_a_worker_is_said_and_the_rest_goes_on(start):
     run = start({"test_crash.py": CRASH, "test_one.py": FILE}, "-n", "2", "tests")
     said, _ = run.communicate(timeout=180)

@@ -21,6 +21,20 @@ def test_lines_in_two_parameters(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_lines_of_bending(same_on_ranks):
+    plane = {"problem": "diagram", "alpha": 0.0, "x": "lf", "kind": "fold,n1", "low": 7.0, "high": 9.0}
+    found, *_ = same_on_ranks([plane | {"u_end": 1.5, "numerics": {"cells": 48, "levels": 2}}])
+    assert [point.kind for point in found.special_points].count("fold_n1") == 2
+
+
+@pytest.mark.paper2
+def test_controls_of_inflation(same_on_ranks):
+    inflated = {"problem": "controls", "alpha": 0.0, "V_r": 20.0, "numerics": {"cells": 48, "levels": 2}}
+    tube, _ = same_on_ranks([inflated | {"u_end": 2.0}, inflated | {"body": "circular"}])
+    assert "mass_fold" in {point.kind for point in tube.special_points}
+
+
+@pytest.mark.paper2
 def test_tube_in_contact(same_on_ranks):
     touching = {"problem": "tube", "contact": "frictionless", "p_end": 1.6, "at": [("p", 1.5)]}
     # The line force of a small patch is a difference of forces, zero but for their round-off.

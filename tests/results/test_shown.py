@@ -7,11 +7,12 @@ import sys
 
 import numpy as np
 import pytest
+from matplotlib.markers import MarkerStyle
 
 import weakforms
 from weakforms import EnvironmentLackError
 from weakforms.results import Absence, Branch, Ended, Failure, Field, Quantity, Result, SpecialPoint, State
-from weakforms.results.plot import draw_results
+from weakforms.results.plot import MARKERS, draw_results
 from weakforms.results.uncertain import uncertain
 from weakforms.results.wording import point_rows
 
@@ -210,7 +211,8 @@ def test_branches_become_datasets_of_xarray(result):
     data = result.to_xarray()
     assert data["p"].attrs["scale"] == "P R_f/(C1 h_o)"
     assert (data.sizes["point"], data.attrs["problem"]) == (11, "tube")
-    assert result.branch().to_xarray().attrs["ended"] == "u_max = 5 (u_end)"
+    own = {"branch": "primary", "control": "p", "ended": "u_max = 5 (u_end)"}
+    assert result.branch().to_xarray().attrs == own
 
 
 def test_the_package_shows_first_what_most_people_need():
@@ -227,3 +229,9 @@ def test_the_package_tells_type_checkers_that_it_is_annotated():
     code = "from importlib.resources import files; print(files('weakforms').joinpath('py.typed').is_file())"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "True\n"
+
+
+def test_every_kind_of_special_point_has_a_marker_of_its_own_with_a_face():
+    assert len(set(map(str, MARKERS.values()))) == len(MARKERS)
+    # A marker without a face is drawn with an edge alone, and vanishes where edges are white.
+    assert all(MarkerStyle(marker).is_filled() for marker in MARKERS.values())

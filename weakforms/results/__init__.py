@@ -5,6 +5,7 @@ from weakforms.results.io import load_result, validate, write_atomically
 from weakforms.results.model import (
     SYMMETRY_BREAKING,
     TWO_CONDITIONS,
+    WITH_WAVES,
     Absence,
     Branch,
     Ended,
@@ -19,6 +20,7 @@ from weakforms.results.result import Result
 __all__ = [
     "SYMMETRY_BREAKING",
     "TWO_CONDITIONS",
+    "WITH_WAVES",
     "Absence",
     "Branch",
     "CurveFile",

@@ -47,11 +47,19 @@ TWO_CONDITIONS = (
 )
 """Points of the lines of a diagram at which a second condition holds, besides cusps."""
 
+WITH_WAVES = (
+    *(f"{other}_n{n}" for n in range(1, 4) for other in ("fold", "mirror", "tip", "wrinkling", "contact")),
+    *("n1_n2", "n1_n3", "n2_n3"),
+)
+"""The same on lines at which 1 to 3 waves around the axis are neutral."""
+
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
     *("pull_off", "zone_opening", "zone_closing", "volume_fold", "wrinkling_onset"),
     *TWO_CONDITIONS,
     *SYMMETRY_BREAKING,
+    *WITH_WAVES,
+    "mass_fold",
 )
 """Kinds of special points, as in the schema."""
 
@@ -218,9 +226,10 @@ class SpecialPoint:
     """A point solved for by an extended system, not interpolated in a table.
 
     ``kind`` is one of limit_point, bifurcation_point, cusp_point, contact_onset, front,
-    stability_change, pull_off, zone_opening, zone_closing, volume_fold, wrinkling_onset,
+    stability_change, pull_off, zone_opening, zone_closing, volume_fold, mass_fold, wrinkling_onset,
     mirror_breaking, bifurcation_n1 to bifurcation_n6; where two conditions hold on a line of a diagram,
-    fold_mirror, tip_mirror, wrinkling_fold, wrinkling_mirror, contact_fold, contact_mirror.
+    fold_mirror, tip_mirror, wrinkling_fold, wrinkling_mirror, contact_fold, contact_mirror, and
+    with n1 to n3 in place of mirror; mirror_n1 to mirror_n3, n1_n2, n1_n3, n2_n3.
     """
 
     kind: str

@@ -40,6 +40,12 @@ POLYGONS = (
     (10, 1, 0),
     (12, 1, 0),
     (9, 0, 0),
+    (5, 1, 36),
+    (4, 0, 20),
+    (3, 0, 60),
+    (5, 0, 36),
+    (6, 1, 30),
+    *((sides, 1, 25) for sides in range(3, 17)),
 )
 MARKERS = dict(zip(KINDS, [*"os*DPXv^>dhpH8", *POLYGONS], strict=True))
 """Marker of each kind of special point, filled, because its edge is white."""

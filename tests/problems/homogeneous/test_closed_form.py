@@ -27,6 +27,13 @@ def test_balloon_has_its_closed_form_and_its_maximum():
     assert top.values["P"] == pytest.approx(4 * (7 ** (-1 / 6) - 7 ** (-7 / 6)), rel=1e-12)
 
 
+@pytest.mark.parametrize("problem", ["sphere", "infinite_tube"])
+def test_each_mesh_is_announced(problem):
+    said = []
+    solve(problem, numerics={"levels": 3}, progress=lambda *words: said.append(words))
+    assert [word for word in said if word[0] == "branch"] == [("branch", level, 3) for level in range(3)]
+
+
 def test_limit_points_merge_in_a_constant():
     result = solve("sphere", alpha=0.15, vary="alpha", vary_end=0.3)
     (merged,) = result.points("cusp_point")

@@ -138,7 +138,7 @@ def half_the_waves(monkeypatch):
 
 
 def second_invariant_forgotten(monkeypatch):
-    monkeypatch.setattr(revolution, "relaxed", lambda _law: lambda a: a**2 + 2 / a - 3)
+    monkeypatch.setattr(revolution, "relaxed", lambda *_: lambda a: a**2 + 2 / a - 3)
 
 
 FAULTS = [folds_taken_for_taut, half_the_liquid, half_the_waves, second_invariant_forgotten]

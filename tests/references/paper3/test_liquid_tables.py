@@ -207,3 +207,13 @@ def test_deformation_concentrates_below_after_the_limit_point():
 
 def test_tables_belong_to_the_sets_of_the_paper():
     assert {FluidTube(L, d) for L, d in SETS} == set(paper3.PAPER) == set(paper3_secondary.LEVELS)
+
+
+LEVELS = paper3_secondary.LEVELS | paper3_secondary.DENSER
+
+
+@pytest.mark.parametrize("tube", LEVELS, ids=str)
+def test_the_levels_of_the_secondary_branch_are_those_of_its_committed_table(tube):
+    density = f"_gamma_{tube.gamma:g}" if tube in paper3_secondary.DENSER else ""
+    _, columns = read(f"secondary_L_{tube.L:g}_delta_{tube.delta:g}{density}")
+    assert tuple(columns["zw"]) == LEVELS[tube]

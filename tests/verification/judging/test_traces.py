@@ -9,6 +9,7 @@ from weakforms import tube
 from weakforms.results import Branch, Quantity, Result, SpecialPoint, State
 from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.verification.cases.references import Reference
+from weakforms.verification.judging.bounds import Comparison
 from weakforms.verification.judging.consistency import table_traces, traces
 from weakforms.verification.run.solutions import Solutions
 
@@ -50,6 +51,16 @@ def test_a_trace_that_is_its_states_passes():
 @pytest.mark.parametrize("factor", [1.01, -1.0, np.nan])
 def test_a_column_that_is_off_all_along_fails(name, factor):
     assert not verdicts(stored(**{name: factor * COLUMNS[name]}))["trace"]
+
+
+def test_what_is_said_is_about_the_worst_of_many_numbers():
+    def found(name, error):
+        one = np.array([error])
+        return name, "u = 1", Comparison(one, np.array([1e-6]), one / 9, 0.0, 1.0)
+
+    numbers = [found("a", 1e-9), found("b", 3e-7), found("z", 2e-9)]
+    verdict = traces.worst("trace", "they agree", numbers, "states")
+    assert (verdict.where, verdict.error, verdict.passed) == ("b, u = 1", 3e-7, True)
 
 
 def test_a_count_is_a_whole_number_and_not_negative():

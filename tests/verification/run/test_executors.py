@@ -1,8 +1,11 @@
 """Solves handed to an engine: the same answers, one writer, and a clear word if the engine is not there."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -113,3 +116,22 @@ def test_ranks_check_a_case(tmp_path):
     assert done.returncode == 0, done.stderr
     report = json.loads((tmp_path / "out" / "report" / "report.json").read_text("utf-8"))
     assert [case["status"] for case in report["cases"]] == ["passed"]
+
+
+@pytest.mark.slow
+def test_a_killed_rank_ends_the_run_and_a_resumed_run_keeps_what_was_stored(tmp_path):
+    check = [sys.executable, "-m", "weakforms", "check", "paper2.fig03", "--out", str(tmp_path / "out")]
+    words = ["mpirun", "--oversubscribe", "-n", "3", *check, "--executor", "mpi"]
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
+        while not (stored := list((tmp_path / "out" / "solutions").glob("*.json"))):
+            assert run.poll() is None, run.stderr.read()
+            time.sleep(0.1)
+        ranks = subprocess.run(
+            ["pgrep", "-P", str(run.pid)], capture_output=True, text=True, check=True
+        ).stdout.split()
+        os.kill(int(ranks[-1]), signal.SIGKILL)
+        assert run.wait(timeout=60) != 0
+    before = {path: path.stat().st_mtime_ns for path in stored}
+    done = subprocess.run([*check, "--resume"], capture_output=True, text=True, timeout=240, check=False)
+    assert done.returncode == 0, done.stderr
+    assert {path: path.stat().st_mtime_ns for path in stored} == before

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import ufl
@@ -94,6 +94,26 @@ class Meridian:
             best = value, float(first[rows[row]] + t * lengths[rows[row]])
         value, x = max(self._comm.allgather(best))
         return sign * value, x
+
+
+def carried(
+    sampled: Callable[[np.ndarray], Mapping[str, np.ndarray]],
+    model: MeridianModel,
+    loads: Mapping[str, float],
+) -> np.ndarray:
+    """Degrees of freedom of this rank on another mesh, from samples of ``u`` and ``w`` at material points.
+
+    Args:
+        sampled: The samples; called by all ranks with the same points.
+        model: The model on the other mesh.
+        loads: Its loads, which may move the mesh.
+    """
+    own, comm = model.nodes(), model.mesh.comm
+    everywhere = comm.allgather(own)
+    found = sampled(model.material(np.concatenate(everywhere), loads))
+    first = sum(len(part) for part in everywhere[: comm.rank])
+    mine = slice(first, first + len(own))
+    return np.column_stack([found["u"][mine], found["w"][mine]]).ravel()
 
 
 def _top(places: np.ndarray, values: np.ndarray) -> tuple[float, int, float]:

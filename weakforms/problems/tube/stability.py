@@ -123,9 +123,9 @@ class TubeFamily(ModalFamily):
         return [replace(point, uncertainty=_with_rounding(point.uncertainty)) for point in points]
 
     def _quantity(
-        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0
+        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0, most: float = np.inf
     ) -> Quantity:
-        found = super()._quantity(values, name, held, in_mean)
+        found = super()._quantity(values, name, held, in_mean, most)
         return replace(found, uncertainty=_with_rounding({name: found.uncertainty})[name])
 
     def _trace(self) -> dict[str, np.ndarray]:

@@ -11,6 +11,7 @@ from mpi4py import MPI
 from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.fields import carried
 from weakforms.problems.meridian.model import BY_STATE, Marks
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.model import WrinkledModel
@@ -287,13 +288,6 @@ class FittedMembrane:
         loads = {k: v for k, v in start.state.loads.items() if not (k[0] == "b" and k[1:].isdigit())}
         loads |= {f"b{k}": float(breaks[k]) for k in range(1, model.blocks)}
         loads["residual_stiffness"] = 0.0
-        own = model.space.tabulate_dof_coordinates()[: model.system.size // 2, 0]
-        comm = model.mesh.comm
-        everywhere = comm.allgather(own)
-        s = model.material(np.concatenate(everywhere), loads)
-        found = start.sampled(s)
-        first = sum(len(part) for part in everywhere[: comm.rank])
-        mine = slice(first, first + len(own))
-        u = np.column_stack([found["u"][mine], found["w"][mine]]).ravel()
+        u = carried(start.sampled, model, loads)
         u[model.system.bc_dofs] = 0.0
         return State(u, loads, marks)

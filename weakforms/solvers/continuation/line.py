@@ -113,12 +113,12 @@ class CriticalLine(SolutionCurve):
         before = self.points[i]
         return before.arclength + self.continuation.distance(state, before.state)
 
-    def counts(self, form: SingularForm, shift: float = 0.0) -> np.ndarray:
+    def counts(self, form: Callable[[], SingularForm], shift: float = 0.0) -> np.ndarray:
         """Number of eigenvalues of a form below ``-shift`` at each point of the line, by inertia."""
         found = []
         for point in self.points:
             with self.system.at(point.state):
-                found.append(form.negative_count(shift))
+                found.append(form().negative_count(shift))
         return np.array(found)
 
 
@@ -209,12 +209,12 @@ def zeros_of(column: Callable[[Mapping[str, float]], float]) -> Callable[[Critic
 
 
 def singular_too(
-    form: SingularForm, eigenvalue: Callable[[State, int], float]
+    form: Callable[[], SingularForm], eigenvalue: Callable[[State, int], float]
 ) -> Callable[[CriticalLine], Iterable[Bracket]]:
     """Points at which a second form is singular, by its inertia at each point of the line.
 
     Args:
-        form: The second form.
+        form: Returns the second form, because one object may be used for several wave numbers.
         eigenvalue: Its eigenvalue of a number in ascending order, from 0, at a state that the system of the
             line is lent to.
     """

@@ -128,7 +128,6 @@ class System(Lendable):
         """
         self.bc_dofs = np.concatenate([self.bc_dofs[: self._fixed], dofs]).astype(np.int32)
         self._bc_values = np.concatenate([self._bc_values[: self._fixed], values])
-        self.matrix.setOption(PETSc.Mat.Option.KEEP_NONZERO_PATTERN, True)
 
     # -- assembly ----------------------------------------------------------------------------
 
@@ -167,7 +166,7 @@ class System(Lendable):
         self.matrix.assemble()
         held = self.bc_dofs[self._fixed :]
         if self.sum(len(held)):
-            self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0], diag=1.0)
+            self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0])
         return self.matrix
 
     def monitors(self) -> dict[str, float]:

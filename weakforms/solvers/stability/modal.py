@@ -241,7 +241,7 @@ class ModalFamily(BranchFamily):
         points = []
         for same in self._special():
             held = self.located_by.get(same[-1].kind, "")
-            caps = self.caps | ({name: self._cap(name, held) for name in self.fine.shown} if held else {})
+            caps = self._caps_at(same[-1].values, held)
             point = special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, caps)
             for mark in self.marks:
                 if mark in same[-1].values:

@@ -14,6 +14,7 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import (
     SYMMETRY_BREAKING,
     TWO_CONDITIONS,
+    WITH_WAVES,
     Absence,
     Branch,
     Failure,
@@ -38,9 +39,18 @@ from weakforms.solvers.uncertainty.refinement import (
 )
 
 KINDS = (
-    *("limit_point", "bifurcation_point", "cusp_point", "pull_off", "volume_fold", "wrinkling_onset"),
+    *(
+        "limit_point",
+        "bifurcation_point",
+        "cusp_point",
+        "pull_off",
+        "volume_fold",
+        "mass_fold",
+        "wrinkling_onset",
+    ),
     *TWO_CONDITIONS,
     *SYMMETRY_BREAKING,
+    *WITH_WAVES,
 )
 """Kinds of special points that are located on a curve; a state can be requested at one."""
 
@@ -147,7 +157,7 @@ class BranchFamily:
         if not with_uncertainty:
             return Branch(self.name, control, columns)
         table = np.array([[[values[n] for n in names] for values in levels] for levels, _ in kept])
-        caps = np.array([self._cap(name, *self.across) for name in names])
+        caps = np.array([[*self._caps_at(levels[-1], *self.across).values()] for levels, _ in kept])
         found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow).uncertainty
         spread = _widen(found) if self.traced_on_finest else found
         return Branch(self.name, control, columns, dict(zip(names, spread.T, strict=True)))
@@ -179,7 +189,7 @@ class BranchFamily:
         points = []
         for same in self._special():
             held = self.located_by.get(same[-1].kind, "")
-            caps = {name: self._cap(name, held) for name in self.fine.shown}
+            caps = self._caps_at(same[-1].values, held)
             about = self.fine.shown, self.cap, self.name, self.fine.control, caps
             points.append(special_point(same, *about, self.slow))
         return points
@@ -229,10 +239,10 @@ class BranchFamily:
         self, solved: Sequence[Solved], held: str, orders: Mapping[str, float]
     ) -> dict[str, Quantity]:
         """The finest mesh's columns with uncertainties; an error of the column ``held`` is in all of them."""
+        most = self.smooth_order(solved[-1].values)
+        in_mean = {name: orders.get(self.points_of.get(name, ""), 0.0) for name in self.fine.shown}
         return {
-            name: self._quantity(
-                [s.values[name] for s in solved], name, held, orders.get(self.points_of.get(name, ""), 0.0)
-            )
+            name: self._quantity([s.values[name] for s in solved], name, held, in_mean[name], most)
             for name in self.fine.shown
         }
 
@@ -310,15 +320,24 @@ class BranchFamily:
         """Highest assumed order for a number that contains the errors of some columns."""
         return min(self.caps.get(name, self.cap) for name in names)
 
+    def smooth_order(self, _values: Mapping[str, float]) -> float:
+        """Highest order of any number at a state: lower if the solution has a kink inside of elements."""
+        return np.inf
+
+    def _caps_at(self, values: Mapping[str, float], *held: str) -> dict[str, float]:
+        """Highest assumed order of each column at a state."""
+        most = self.smooth_order(values)
+        return {name: min(self._cap(name, *held), most) for name in self.fine.shown}
+
     def _quantity(
-        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0
+        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0, most: float = np.inf
     ) -> Quantity:
         """A number with its uncertainty.
 
         The differences at a point depend on its position in the cell, so that their order is accidental. The
         order of the field, ``in_mean``, is used if it is higher.
         """
-        cap = self._cap(name, held)
+        cap = min(self._cap(name, held), most)
         found = estimate(values, cap, least=self.least.get(name, 0.0), slow=self.slow)
         spread = float(found.uncertainty)
         if in_mean:

@@ -217,7 +217,7 @@ def _print_case(facts: dict[str, Any], console: Console) -> None:
     console.print("checks:")
     for check in facts["checks"]:
         console.print(f"  {plain_tex(check)}", markup=False)
-    asked = ", ".join(f"{name} {value:g}" for name, value in facts["asked"].items())
+    asked = ", ".join(f"{name} {value:g}" for name, value in facts["asked"].items()) or OF_EACH
     console.print(f"accuracy asked (relative): {asked}")
     curves = ", ".join(facts["curves"]) or "none (no table over an abscissa)"
     console.print(f"curves to compare with: {curves}", markup=False, soft_wrap=True)
@@ -266,6 +266,8 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
     if verdicts.left_out:
         line(f"left out: {', '.join(verdicts.left_out)}")
 
+
+OF_EACH = "each check has its own"
 
 WORDS = {PASSED: "within", FAILED: "OUT OF BOUNDS", NOT_JUDGED: "NOT JUDGED"}
 """Texts of the table for the status of a column."""

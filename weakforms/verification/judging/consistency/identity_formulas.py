@@ -224,3 +224,9 @@ def surface_shape(result: Result) -> Iterator[Found]:
             }
             for name, (here, there) in numbers.items():
                 yield name, str(state.at), compare(here, 0.0, there, 1e-12 * there, there)
+
+
+def inside_of_front(result: Result, state: State, _: Field) -> quadrature.Estimated:
+    """Part of the area of an annulus inside of its front."""
+    a, front = result.parameters["a"], state.quantities["R_front"]
+    return (front.value**2 - a**2) / (1 - a**2), 2 * (front.uncertainty or 0.0) / (1 - a**2)

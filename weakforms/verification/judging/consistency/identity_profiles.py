@@ -30,8 +30,9 @@ def read(
 
     def look(result: Result) -> Iterator[Found]:
         for state, field in profiles(result):
-            quantity, found = state.quantities.get(column), reading(result, state, field)
-            if quantity is not None and found is not None:
+            quantity = state.quantities.get(column)
+            found = None if quantity is None else reading(result, state, field)
+            if found is not None:
                 size = max(abs(found[0]), abs(quantity.value), SMALL)
                 place = ", ".join(f"{k} = {v:.6g}" for k, v in state.at.items())
                 numbers = quantity.value, quantity.uncertainty or 0.0, *found

@@ -63,7 +63,7 @@ def _of_paper(given: Given) -> bool:
 
 
 def _of_tube(given: Given) -> bool:
-    return given.get("body") != "circular"
+    return given.get("body", "tube") == "tube"
 
 
 def _gas(given: Given) -> bool:
@@ -87,6 +87,15 @@ LOAD = of_events("load", "load is the control's value", lambda point: point.valu
 
 
 SMALLEST_RESULTANT = "the smallest resultant is that of the profile"
+
+OF_BODY = (
+    read("u_max", "displacement of the middle", formulas.middle_displacement, _of_tube),
+    read("lam1_mid", "meridional stretch of the middle", end("lam1", 0)),
+    read("t0", "height of the pole", end("eta", 0)),
+    read("lam_pole", "stretch of the pole", end("lam1", 0)),
+    read("V", "volume within the profile", enclosed("rho", "eta", 0.5), _of_tube),
+)
+"""Of problems that take a tube or a disk by name."""
 
 IDENTITIES: dict[str, tuple[Identity, ...]] = {
     "circular": (
@@ -140,13 +149,8 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         _over(field("t1", "t1 is that of the law at the stretches", formulas.cauchy_resultant(1)), _of_paper),
         _over(field("t2", "t2 is that of the law at the stretches", formulas.cauchy_resultant(2)), _of_paper),
     ),
-    "diagram": (
-        read("u_max", "displacement of the middle", formulas.middle_displacement, _of_tube),
-        read("lam1_mid", "meridional stretch of the middle", end("lam1", 0)),
-        read("t0", "height of the pole", end("eta", 0)),
-        read("lam_pole", "stretch of the pole", end("lam1", 0)),
-        read("V", "volume within the profile", enclosed("rho", "eta", 0.5), _of_tube),
-    ),
+    "diagram": OF_BODY,
+    "controls": (work("p", lambda _, c: -c["V"]), stable(), *OF_BODY),
     "hemisphere": (
         stable(),
         _over(work("p", lambda _, c: -c["V"]), _gas),
@@ -239,7 +243,25 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     ),
     "wrinkled_linear": (zero("curved"),),
     "wrinkled_sheet": (zero("twist"),),
+    "annulus": (
+        slope("U", "psi", "M"),
+        stable(),
+        equal("U_edges", "U by stretches and stresses at the edges", lambda c: c["U"]),
+        equal("M_in", "the stress at the inner edge gives the torque", lambda c: c["M"]),
+        equal("M_out", "the stress at the outer edge gives the torque", lambda c: c["M"]),
+        *(
+            read(f"{name}_{edge}", f"{name} of the profile at that edge", end(name, index))
+            for name in ("lam1", "gw")
+            for edge, index in (("in", 0), ("out", -1))
+        ),
+        read("f_w", "area inside of the front", formulas.inside_of_front),
+        _over(
+            field("gw", "gw = lam2 sqrt(lam1)", lambda _, __, c: c["lam2"] * np.sqrt(c["lam1"])),
+            lambda given: given.get("model") != "saint_venant_kirchhoff",
+        ),
+    ),
     # Traces over a level that turns twice are too coarse for its work; a claim integrates it by polynomials.
+    "membrane": (work("p", lambda _, c: -c["V"]),),
     "rectangle": (_over(work("p", lambda _, c: -c["V"]), _gas),),
     "surface": tuple(
         _over(identity, lambda given: given.get("geometry", "tube") == "tube")
