@@ -6,8 +6,12 @@ import time
 import pytest
 from mpi4py import MPI
 
+from weakforms.problems.triangles.branch import SurfaceRun
+from weakforms.problems.triangles.meshes import tube
+from weakforms.problems.triangles.model import Body, SurfaceModel
+from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 from weakforms.solvers.equilibrium.linear import Factorization
-from weakforms.verification.audit import bench, bench_work
+from weakforms.verification.audit import bench, bench_surface, bench_work
 
 
 @pytest.fixture
@@ -52,6 +56,19 @@ def test_a_run_is_held_against_the_last_one_by_its_ratios(weakforms, small, monk
     file.write_text("{}\n", "utf-8")
     called = weakforms(*words, "--against", str(file))
     assert (called.status, "is no history of the benchmark" in called.err) == (2, True)
+
+
+def test_the_surface_is_measured_at_the_level_that_is_stated(monkeypatch):
+    monkeypatch.setattr(bench_surface, "ROWS", 8)
+    monkeypatch.setattr(bench_surface, "COLUMNS", 12)
+    table = bench_surface.run_surface_bench(1)
+    (row,) = table["rows"]
+    body = Body(tube(8.0, 8, 12), M=1.5, delta=3.0, Af=0.4362, c2=0.01, gamma=PAPER_GAMMA)
+    run = SurfaceRun(SurfaceModel(MPI.COMM_SELF, body), "zw", {"p": 0.0, "zw": 0.0})
+    for level in (2.0, 4.0):
+        point = run.at(level)
+    assert table["zw"] == 4.0
+    assert row["V"] == pytest.approx(run.columns(point, 0)["V"], rel=1e-9)
 
 
 def test_unknown_problem_is_one_line(weakforms):

@@ -5,10 +5,14 @@ import pytest
 from matplotlib import pyplot
 
 from weakforms.results import Branch, Result, SpecialPoint
-from weakforms.results.diagram import Crossing, draw_diagram, states_between
+from weakforms.results.diagram import LOOKS, Crossing, draw_diagram, states_between
 
 FIRST = Crossing("fold", 1.0, 1.9, 0)
 END = Crossing("end", 3.0, 2.5, 0)
+
+
+def test_no_two_kinds_of_line_look_alike():
+    assert len({(str(style), colour) for style, colour in LOOKS.values()}) == len(LOOKS)
 
 
 def test_a_limit_point_adds_a_negative_eigenvalue_and_the_next_one_takes_it_away():

@@ -22,7 +22,7 @@ from weakforms.results import (
     validate,
     write_atomically,
 )
-from weakforms.results.io import branch_csv, dumps, require_place_for, require_writable
+from weakforms.results.io import branch_csv, dumps, require_place_for, require_writable, sole_use
 from weakforms.results.tables import csv_text, other_rows
 
 VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "1")
@@ -217,6 +217,13 @@ def test_links_are_followed_and_devices_are_not_replaced(tmp_path):
     write_atomically(tmp_path / "null", "gone")
     assert (tmp_path / "null").is_symlink()
     assert (tmp_path / "null").is_char_device()
+
+
+def test_a_folder_is_locked_only_while_it_is_written_to(tmp_path):
+    with sole_use(tmp_path), pytest.raises(InputError, match="another run is writing"), sole_use(tmp_path):
+        pass
+    with sole_use(tmp_path):
+        pass
 
 
 def test_places_are_tried_before_solving(tmp_path):

@@ -82,6 +82,8 @@ def test_a_form_is_locked_where_files_can_be_locked(tmp_path, monkeypatch):
         raise OSError("no locks here")
 
     monkeypatch.setattr(jit_cache.fcntl, "flock", without_locks)
+    before = len(os.listdir("/proc/self/fd"))
     assert not jit_cache._lock(tmp_path / "form.lock")
     assert len(held) == 1
+    assert len(os.listdir("/proc/self/fd")) == before  # each form would leave a file open
     os.close(held[0])
