@@ -10,7 +10,7 @@ import numpy as np
 
 from weakforms.errors import InputError
 from weakforms.results import Absence, Branch, Failure, Quantity, SpecialPoint, State
-from weakforms.solvers.uncertainty.family import KINDS, BranchFamily
+from weakforms.solvers.uncertainty.family import LOCATED, BranchFamily
 
 Part = TypeVar("Part")
 
@@ -91,7 +91,7 @@ class PiecewiseFamily:
         Raises:
             InputError: If no part has such a state.
         """
-        special, ranges = name in KINDS, []
+        special, ranges = name in LOCATED, []
 
         def count(piece: Piece) -> int:
             family = piece.family

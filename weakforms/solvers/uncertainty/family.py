@@ -11,18 +11,8 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
-from weakforms.results import (
-    SYMMETRY_BREAKING,
-    TWO_CONDITIONS,
-    WITH_WAVES,
-    Absence,
-    Branch,
-    Failure,
-    Field,
-    Quantity,
-    SpecialPoint,
-    State,
-)
+from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
+from weakforms.results.model import KINDS
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.stability.agreement import same_count
@@ -38,20 +28,10 @@ from weakforms.solvers.uncertainty.refinement import (
     order_in_mean,
 )
 
-KINDS = (
-    *(
-        "limit_point",
-        "bifurcation_point",
-        "cusp_point",
-        "pull_off",
-        "volume_fold",
-        "mass_fold",
-        "wrinkling_onset",
-    ),
-    *TWO_CONDITIONS,
-    *SYMMETRY_BREAKING,
-    *WITH_WAVES,
-)
+NOT_LOCATED = ("contact_onset", "front", "stability_change", "zone_opening", "zone_closing")
+"""Kinds of special points that are found by other means."""
+
+LOCATED = tuple(kind for kind in KINDS if kind not in NOT_LOCATED)
 """Kinds of special points that are located on a curve; a state can be requested at one."""
 
 CRITICAL = 1e-6
@@ -217,7 +197,7 @@ class BranchFamily:
         Raises:
             InputError: If the branch has no such state.
         """
-        special = name in KINDS
+        special = name in LOCATED
         if special:
             points = [same for same in self._special() if same[-1].kind == name]
             if not 1 <= value <= len(points):
