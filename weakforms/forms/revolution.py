@@ -27,9 +27,7 @@ ANGLES = ((1.0, 0.0), (0.0, 1.0))
 """``(cos, sin)`` of the two angles whose values give the mean over ``Theta``."""
 
 
-def gradient_tensor(
-    at: Surface, radius: Expr, scales: tuple[Expr | float, Expr | float] = (1.0, 1.0)
-) -> Expr:
+def gradient_tensor(at: Surface, radius: Expr, scales: tuple[Expr | float, Expr | float]) -> Expr:
     r"""Right Cauchy-Green tensor of a surface in the orthonormal frame of its reference, 2 x 2.
 
     .. math:: C = \begin{pmatrix} a^2 g_{11} & a b\, g_{12}/R \\ a b\, g_{12}/R & b^2 g_{22}/R^2 \end{pmatrix}

@@ -28,6 +28,7 @@ def test_a_panel_has_the_curve_the_table_and_the_error_of_every_judged_row(of_pa
     shown = picture(table, own, judged, panels)
     (curve,) = shown.curves
     assert (curve.x, curve.y) == ([1, 2, 3], [2, 4, 6])
+    assert (curve.name, curve.reference_name, curve.reference_kind) == (table.name, table.name, table.kind)
     assert curve.reference_x == table.columns[over].tolist()
     assert curve.reference_y == table.columns["p"].tolist()
     assert (curve.residual_abscissa, curve.residual_x) == (over, [3, 2, 1])
