@@ -71,4 +71,4 @@ class FluidTubeParameters(MaterialChoice):
     zw_end: float = Field(
         ZW_END, ge=0.3, lt=1, description="fraction of the highest level at which the branch ends"
     )
-    secondary: bool = Field(False, description="also solve for the secondary branch")
+    secondary: bool = Field(False, description="also solve for the secondary branch (delta up to 8)")

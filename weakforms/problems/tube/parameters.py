@@ -54,7 +54,7 @@ class TubeParameters(MaterialChoice):
         6.0, ge=1, le=60, description=f"stretched length L_f/R_f; of extent = full up to {LONGEST_WHOLE:g}"
     )
     k: float = Field(20.0, ge=0, le=1e4, description="substrate stiffness K R_f^2/(C1 h_o)")
-    s: float = Field(1.3, gt=1, le=20, description="substrate radius S/R_f")
+    s: float = Field(1.3, gt=1, le=10, description="substrate radius S/R_f")
     contact: Literal["none", "frictionless", "adhesive"] = Field("none", description="contact law")
     phase: Literal["inflation", "deflation"] = Field("inflation", description="loading phase")
     spring: Literal["bilateral", "unilateral"] = Field("bilateral", description="bond in deflation")
