@@ -12,6 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from weakforms import api
+from weakforms.errors import EnvironmentLackError
+from weakforms.problems import registry
 from weakforms.verification.cases import references
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -209,3 +212,12 @@ def test_nothing_of_ours_takes_a_users_names(installed, folder):
     assert done.stdout.split() == [str(folder / name / "__init__.py") for name in ("cases", "reference_data")]
     done = run(installed / "python", "-P", "-c", "import cases", cwd=folder)
     assert "No module named 'cases'" in done.stderr
+
+
+def test_a_library_that_a_problem_needs_is_named_before_anything_is_solved(monkeypatch):
+    def missing() -> None:
+        raise ModuleNotFoundError("No module named 'slepc4py'", name="slepc4py.lib")
+
+    monkeypatch.setattr(registry, "problems", missing)
+    with pytest.raises(EnvironmentLackError, match="slepc4py is not installed here; use ./run"):
+        api.require_environment()

@@ -1,6 +1,7 @@
 """What figures reckon about their texts before they are drawn agrees with what is drawn."""
 
 import re
+import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -76,3 +77,19 @@ def test_short_paths_have_the_points_of_the_long_ones(parts):
     short = svg._differences(text)
     assert followed(short) == followed(text)
     assert len(short) < len(text) * 0.8
+
+
+def test_equal_marks_become_one_path_with_the_same_shape_at_the_same_places():
+    places = [(1.0, 2.0), (3.0, 5.0), (4.0, 4.0), (9.0, 1.0)]
+    uses = "".join(f'<use href="#m" x="{x}" y="{y}"/>' for x, y in places)
+    root = ET.fromstring(
+        f'<svg><defs><path id="m" d="M0 0L1 1" style="fill: red"/></defs><g>{uses}</g></svg>'
+    )
+    svg._with_markers(root)
+    assert list(root.iter("use")) == []  # each mark is drawn once
+    (marker,) = root.iter("marker")
+    (shape,) = marker
+    assert shape.attrib == {"d": "M0 0L1 1", "style": "fill: red"}
+    (path,) = (path for path in root.iter("path") if "marker-start" in path.attrib)
+    assert {path.get(f"marker-{at}") for at in ("start", "mid", "end")} == {f"url(#{marker.get('id')})"}
+    assert path.get("d") == "M" + "L".join(f"{x} {y}" for x, y in places)

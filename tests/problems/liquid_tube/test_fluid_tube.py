@@ -385,7 +385,10 @@ def test_a_dropped_load_stiffness_is_noticed_by_the_eigenvalues(monkeypatch):
         ({"gamma": 0.0}, "gamma = 0.0: input should be greater than 0"),
         ({"n_max": 9}, "n_max = 9: input should be less than or equal to 6"),
         ({"at": {"zw": -1.0}}, "zw = -1 is below the tube"),
-        ({"delta": 9.0, "secondary": True}, "delta = 9 is too large for secondary = true; allowed: delta up to 8"),
+        (
+            {"delta": 9.0, "secondary": True},
+            "delta = 9 is too large for secondary = true; allowed: .* up to 8",
+        ),
         ({"at": {"Lambda_n5": 0.1}}, "n up to n_max = 3"),
         ({"at": {"zw": 7.3}, "branch": "secondary"}, "secondary = true"),
     ],

@@ -146,8 +146,9 @@ def test_a_highest_level_below_the_first_one_is_an_absence():
         ({}, ("p", 0.5), "with load = 'fluid' there is no p; the load is zw"),
         ({"load": "gas"}, ("p", 0.001), "p = 0.001; allowed: from 0.002 to below 100"),
         ({}, ("zw", 0.1), "zw = 0.1; allowed: from -1.18 to below 0, the equator"),
+        ({"load": "gas", "volume_end": 1.0}, ("p", 0.5), "volume_end = 1.0: input should be greater than 1"),
     ],
-    ids=["level of a gas", "pressure of a liquid", "too small", "above the equator"],
+    ids=["level of a gas", "pressure of a liquid", "too small", "above the equator", "no volume gained"],
 )
 def test_a_load_that_the_hemisphere_does_not_have_is_refused(given, asked, message):
     with pytest.raises(InputError, match=message):

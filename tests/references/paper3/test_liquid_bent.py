@@ -1,6 +1,7 @@
 """Reference codes of the fluid-loaded tube without axial symmetry: the secondary branch."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -123,3 +124,7 @@ def test_interpolation_to_a_finer_grid_keeps_the_state(bent):
     finer = bent.moved_to(Grid(Elements(8, 4, 8, 1.0), 14, 44))
     at, theta = np.linspace(0, TUBE.length, 9), np.linspace(0, np.pi, 5)
     assert np.abs(finer.evaluate(at, theta)[0] - bent.evaluate(at, theta)[0]).max() < 1e-4
+
+
+def test_an_over_filled_tube_has_no_free_surface():
+    assert states.surface_area(SimpleNamespace(partial=False)) == 0.0

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from reference_data.solvers.paper4.methods import differences as fd
 from reference_data.solvers.paper4.methods import measures as msr
 from reference_data.solvers.paper4.methods import shooting as shoot
 from reference_data.solvers.paper4.methods import states as sta
+from reference_data.solvers.paper4.methods.shooting_measures import Reading
 
 pytestmark = pytest.mark.paper4
 STEP = 1e-30
@@ -265,3 +267,10 @@ def test_a_fault_in_one_method_is_noticed(fault, monkeypatch):
     row = cas.Pair(np.array([right.coarse]), np.array([right.fine]))
     with pytest.raises(DisagreementError, match=r"table T, column V, row 0"):
         cas.agreed("T", "V", row, wrong, ("1", "volume"))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_sign_that_changes_between_two_parts_of_a_shot_has_the_direction_of_the_change(sign):
+    parts = SimpleNamespace(s=np.array([0.0, 1.0]), h=np.ones(2), parts=[0, 1])
+    first, last = sign * np.array([-5.0, 1.0]), sign * np.array([-4.0, 2.0])
+    assert Reading.zeros(parts, first, last, None) == [(1.0, 0, 1.0, sign)]

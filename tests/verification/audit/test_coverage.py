@@ -200,3 +200,9 @@ def test_a_field_with_uncertainties_by_row_is_judged_where_it_is_worst():
     item = judged._judged("tube", (), Number(fine.place, "x", 1 + errors, spread), fine)
     assert (item.error, item.uncertainty, item.truth) == pytest.approx((5e-9, 1e-9, 1e-12), rel=1e-6)
     assert not item.bounded
+
+
+@pytest.mark.parametrize(("size", "floor"), [(100.0, 1e-8), (0.01, 1e-10)])
+def test_round_off_is_allowed_in_proportion_to_numbers_above_one(size, floor):
+    fine = Number("quantity p", "p", np.array([size]), np.array([1e-12]))
+    assert judged._judged("tube", (), fine, fine).floor == pytest.approx(floor)

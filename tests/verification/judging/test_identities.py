@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from weakforms import circular, hemisphere, homogeneous, infinite_tube, sphere, tube
+from weakforms import circular, fluid_tube, hemisphere, homogeneous, infinite_tube, sphere, tube
 from weakforms.results import Field, Quantity, State
 from weakforms.verification.judging.consistency import quadrature
 from weakforms.verification.judging.consistency.identities import Identities
@@ -21,12 +21,14 @@ SPECS = {
     "circular": circular(t_end=0.5),
     "sphere": sphere(model="mooney_rivlin", lam_end=2.0),
     "infinite_tube": infinite_tube(model="mooney_rivlin"),
+    "fluid_tube": fluid_tube(L=6, n_max=1).on(cells=32),
 }
 SEEN = {
     "tube": ("Pi", "V", "p", "lam1_mid", "t1_mid", "field:t1", "field:t2", "field:lam1", "field:rho"),
     "circular": ("Pi", "V", "p", "t_min", "t0", "lam_pole", "lam1_rim", "field:t2", "field:eta"),
     "sphere": ("Pi", "P", "lam", "lam1", "lam2"),
     "infinite_tube": ("Pi", "p", "V", "lam1", "lam2"),
+    "fluid_tube": ("Pi", "V", "T1_ring", "r_mid", "field:T1", "field:r"),
 }
 """Columns that an identity sees, everywhere in a solution."""
 
