@@ -219,5 +219,5 @@ def test_a_library_that_a_problem_needs_is_named_before_anything_is_solved(monke
         raise ModuleNotFoundError("No module named 'slepc4py'", name="slepc4py.lib")
 
     monkeypatch.setattr(registry, "problems", missing)
-    with pytest.raises(EnvironmentLackError, match="slepc4py is not installed here; use ./run"):
+    with pytest.raises(EnvironmentLackError, match="slepc4py is not installed here"):
         api.require_environment()
