@@ -2,6 +2,8 @@
 
 import math
 import re
+from fractions import Fraction
+from math import comb, factorial
 
 import numpy as np
 import pytest
@@ -388,3 +390,16 @@ def test_exponents_of_ogden_have_another_range_than_moduli(term):
     assert modulus.low < -1000 < 1000 < modulus.high
     with pytest.raises(InputError, match=f"alpha{term}"):
         solve("material", model="ogden", l1=1.1, l2=1.0, **{f"alpha{term}": -1000.0})
+
+
+def test_the_series_of_chains_has_the_coefficients_of_bernoullis_numbers():
+    """ln(sinh y/y) = sum 2^(2k - 1) B_2k / (k (2k)!) y^(2k)."""
+    from weakforms.forms.materials.chains import SERIES
+
+    bernoulli = [Fraction(1)]
+    for n in range(1, 2 * len(SERIES) + 1):
+        bernoulli.append(-sum(comb(n + 1, k) * bernoulli[k] for k in range(n)) / (n + 1))
+    exact = [
+        Fraction(2 ** (2 * k - 1), k * factorial(2 * k)) * bernoulli[2 * k] for k in range(1, len(SERIES) + 1)
+    ]
+    assert [float(value) for value in exact] == pytest.approx(list(SERIES), rel=1e-15)

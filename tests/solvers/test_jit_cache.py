@@ -73,6 +73,14 @@ def test_forms_compiled_together_are_one_module_and_are_found_alone_on_every_mes
     assert alone.module is not one.module
 
 
+def test_no_form_is_locked_once_it_is_compiled():
+    here = mesh.create_unit_interval(MPI.COMM_SELF, 2)
+    x = ufl.SpatialCoordinate(here)[0]
+    fem.form(x**7 * ufl.dx)
+    fem.Expression(x**9, np.array([[0.5]]))
+    assert jit_cache._held == []
+
+
 def test_a_form_is_locked_where_files_can_be_locked(tmp_path, monkeypatch):
     monkeypatch.setattr(jit_cache, "_held", held := [])
     assert jit_cache._lock(tmp_path / "form.lock")

@@ -284,3 +284,8 @@ def test_a_count_that_differs_between_meshes_is_taken_at_the_state_itself(stiffe
     )
     point = SimpleNamespace(n_negative=1)
     assert SecondaryFamily._negative_count(SimpleNamespace(fine=fine), point, None) == found
+
+
+def test_every_number_of_a_state_is_described(state):
+    assert {"Lambda_1", "Lambda_3", "V"} <= state.quantities.keys()
+    assert state.quantities.keys() - PROBLEM.scales.keys() <= {"n_negative"}

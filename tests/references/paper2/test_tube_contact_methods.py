@@ -3,6 +3,7 @@
 import tomllib
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -320,3 +321,17 @@ def test_inflation_and_deflation_meet_at_the_highest_pressure(case):
     assert np.all(bilateral["t2_min"] > 0)
     assert bilateral["u_max"][0] > 0.2
     assert bilateral["kappa"][0] > 0 > bilateral["kappa"][-1]
+
+
+@pytest.mark.parametrize(("spring", "force"), [("bilateral", -2.0 * (-0.3 + 0.09 / 2)), ("unilateral", 0.0)])
+def test_a_unilateral_spring_does_not_push_at_the_edge_of_the_patch(spring, force, monkeypatch):
+    """The membrane is at rho = 1 there, inside of a substrate at s = 1.3 with k = 2."""
+    y = np.array([1.4, 0.0, 1.0, 1.0, 1.0, 2.0])  # rho and eta of two nodes, and two further unknowns
+    upright = np.zeros(2), np.ones(2)
+    monkeypatch.setattr(defl.his, "tractions", lambda *_: np.zeros(2))
+    monkeypatch.setattr(defl.fd, "node_slopes", lambda *_: upright)
+    monkeypatch.setattr(defl.his, "inner_slopes", lambda *_: (0.0, 1.0, None))
+    glued = SimpleNamespace(substrate=SimpleNamespace(s=1.3, k=2.0), tube=None, grid=None)
+    state = SimpleNamespace(glued=glued, y=y, front=1, gap=np.array([0.1, 0.0]), spring=spring, p=1.0)
+    _, f_k = defl.tractions(state)
+    assert f_k == pytest.approx([-2.0 * (0.1 + 0.01 / 2.8), force])
