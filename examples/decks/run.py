@@ -24,6 +24,7 @@ DECKS = (
     ("ngsolve", "tube delta1=1.1 --at p=1.5 --cells 16"),
     ("ngsolve", "circular beta=1.1 --at p=2 --cells 16"),
     ("ngsolve", "sphere --at P=2 --cells 16"),
+    ("ngsolve", "wrinkled_tube M=0.5 load=gas --at p=0.3 --cells 24"),
     ("sfepy", "tube delta1=1.1 --at p=1.5"),
     ("sfepy", "circular beta=1.1 --at p=2"),
     ("sfepy", "sphere --at P=2"),

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Protocol, Self
 import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
-from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError, not_among
 from weakforms.problems.problem import Numerics, Problem, StateRequest, Task, ended, sample_points
 from weakforms.problems.reach import BeyondEndError, farthest, limit_points_beyond
 from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
@@ -168,6 +168,9 @@ class BranchProblem(Problem):
         for i, wanted in enumerate(requests.states):
             progress("states", i, len(requests.states))
             points = sample_points(wanted.profile, default_points)
+            if wanted.branch not in families:  # a line of another kind, or of a higher number than there is
+                what = f"{self.name} at these parameters has no branch {wanted.branch!r}"
+                raise InputError(what + not_among(wanted.branch, families))
             family = families[wanted.branch]
             for crossing, count in asked_crossings(result.branch(wanted.branch), wanted):
                 try:

@@ -75,6 +75,12 @@ def test_states_on_a_line_of_limit_points_have_a_zero_eigenvalue(alpha_plane):
     assert state.quantities["n_negative"].value == 0
 
 
+def test_a_state_on_a_line_of_another_kind_is_refused():
+    said = "diagram at these parameters has no branch 'mirror'; it has fold, end"
+    with pytest.raises(InputError, match=said):
+        solve("diagram", x="alpha", kind="fold", numerics=COARSE, at={"u_max": 1.2}, branch="mirror")
+
+
 def test_the_parameter_falls_like_a_square_root_of_the_distance_from_a_tip(alpha_plane):
     tip = alpha_plane.points("tip_mirror")[0].values
     line = alpha_plane.branch("mirror").columns

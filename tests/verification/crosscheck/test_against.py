@@ -1,6 +1,7 @@
 """A curve compared with a solution at its own abscissae or with a result, and what explains its errors."""
 
 import json
+from dataclasses import replace
 
 import jsonschema
 import numpy as np
@@ -81,6 +82,20 @@ def test_a_result_takes_the_place_of_a_table(tmp_path):
         compare("tube", {"u_max": [0.1, 0.2], "p": [1, 1.1]}, against=result, over="u_max")
     with pytest.raises(InputError, match="P turns along the branch; compare over lam"):
         compare("sphere", {"P": [1.0, 1.1, 1.2], "lam": [1.1, 1.2, 1.3]}, against=result, over="P")
+
+
+@pytest.mark.parametrize("falls", [False, True])
+def test_states_of_a_result_are_rows_of_its_table(falls):
+    """A closed form at the abscissae of a curve is met to 1e-9, which no interpolation gives."""
+    result = weakforms.solve("sphere", alpha=0.1, at=[("lam", lam) for lam in LAM])
+    if falls:
+        of = result.branches[0]
+        result.branches[0] = replace(of, columns={name: values[::-1] for name, values in of.columns.items()})
+    right = checked(compare("sphere", {"lam": LAM, "P": balloon()}, against=result, accuracy=1e-9))
+    assert (right.status, right.unjudged_rows) == ("passed", {"P": 0})
+    assert right.table_rows > len(LAM) + 6, "the points of the branch are rows too"
+    wrong = compare("sphere", {"lam": LAM, "P": balloon() * (1 + 3e-9)}, against=result, accuracy=1e-9)
+    assert wrong.status == "failed"
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 from weakforms import api
 from weakforms.errors import ConvergenceError, InputError, not_among
 from weakforms.problems.registry import abouts
-from weakforms.results import Branch, Result, load_result
+from weakforms.results import Branch, Result, State, load_result
 from weakforms.verification.cases import references
 from weakforms.verification.cases.discovery import FoundCase, find_cases, get_case
 from weakforms.verification.cases.panels import Panel
@@ -24,6 +24,10 @@ Against = Mapping[str, Any] | Result | str | Path
 
 NOT_COMPARED = ("residual", "iterations", "n_negative")
 """Columns that describe a solution and are no answer of another code."""
+
+
+CLOSE = 0.02
+"""Part of the mean distance of a branch's rows within which a requested state takes the place of a row."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +106,8 @@ def of_solution(
 def of_result(problem: str, result: Result | str | Path, over: str, branch: str) -> Target:
     """The branch of a stored result, over a column that rises or falls all along it.
 
+    Its requested states are rows of the table too, so that nothing is interpolated at their abscissae.
+
     Raises:
         InputError: If the result is of another problem, or has no such branch or column.
     """
@@ -123,7 +129,23 @@ def of_result(problem: str, result: Result | str | Path, over: str, branch: str)
         if column not in NOT_COMPARED and np.all(np.isfinite(np.asarray(values, float)))
     }
     uncertainty = {c: float(np.nanmax(of.uncertainty[c])) if c in of.uncertainty else 0.0 for c in columns}
+    for state in stored.states:
+        if state.branch == branch:
+            _add(state, over, columns, uncertainty)
     return _of_result(stored, name.removesuffix(".json"), f"the result {name}", over, columns, uncertainty)
+
+
+def _add(state: State, over: str, columns: dict[str, np.ndarray], uncertainty: dict[str, float]) -> None:
+    """Add a state to a table, in place of a row that is so close that a spline would not bear both."""
+    found = {column: state.quantities.get(column) for column in columns}
+    if any(quantity is None for quantity in found.values()):
+        return
+    x, value = columns[over], float(found[over].value)
+    apart = np.abs(x - value) > np.ptp(x) / len(x) * CLOSE
+    place = int(np.sum((x < value) if x[0] < x[-1] else (x > value), where=apart))
+    for column, quantity in found.items():
+        columns[column] = np.insert(columns[column][apart], place, float(quantity.value))
+        uncertainty[column] = max(uncertainty[column], float(quantity.uncertainty or 0.0))
 
 
 def _of_result(
