@@ -10,8 +10,8 @@ from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.problems.tube.stability import TubeBranch
 from weakforms.problems.tube.waves import EVEN, ODD, TubeModes, Wave
 from weakforms.results import validate
-from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.linear import Factorization
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import rated
 from weakforms.solvers.stability.spectra import Stability
 
