@@ -179,7 +179,7 @@ def _planes(
                 f"of group {name!r}, such as {place}; allowed: one side"
             )
         if AXES[i] in out:
-            refuse(f"two groups of mirror have {AXES[i]} = constant; allowed: one, with all edges in the plane")
+            refuse(f"two groups of mirror have {AXES[i]} = constant; allowed: one, with all its edges")
         out[AXES[i]] = edges
     return out
 
