@@ -117,17 +117,25 @@ class MaterialChoice(Parameters):
         return Chosen(self.model, self.constants)
 
 
-def require_foldable(what: str, parameters: MaterialChoice, invariants: bool) -> None:
+def require_foldable(
+    what: str, parameters: MaterialChoice, invariants: bool, others: Collection[str] = ()
+) -> None:
     """Refuse a law for which there is no form of a wrinkled membrane.
 
     Natural width and wrinkling function hold for incompressible laws only; waves around an axis and
     triangles in space need the law as a function of the invariants.
 
+    Args:
+        what: The problem, for the message.
+        parameters: Its parameters.
+        invariants: Whether a function of the invariants is needed.
+        others: Compressible laws for which the problem has a natural width.
+
     Raises:
         InputError: With a message that names the allowed laws.
     """
     allowed = [name for name, m in MATERIALS.items() if m.incompressible and (not invariants or name in LAWS)]
-    require_model(what, parameters, allowed)
+    require_model(what, parameters, [*allowed, *others])
 
 
 def require_model(what: str, parameters: MaterialChoice, allowed: Collection[str]) -> None:

@@ -2,8 +2,13 @@
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from weakforms import InputError, solve
+from weakforms.problems.annulus.model import AnnulusModel, Ring
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
+from weakforms.problems.meridian.fields import Meridian
+from weakforms.solvers.equilibrium.state import State
 
 COARSE = {"cells": 16, "levels": 2}
 KIRCHHOFF = {"model": "saint_venant_kirchhoff", "shear": 1.0, "poisson": 0.3}
@@ -91,6 +96,76 @@ def test_the_branch_ends_where_the_sheet_folds_over():
     assert "folds over at the inner edge" in found.branch().ended.reason
 
 
+def mooney_rivlin(l1, l2, alpha=0.2):
+    area = (l1 * l2) ** 2
+    return l1**2 + l2**2 + 1 / area - 3 + alpha * (area + 1 / l1**2 + 1 / l2**2 - 3)
+
+
+def kirchhoff(l1, l2, nu=0.3):
+    """With ``shear = 1``, so that ``E = 2 (1 + nu)``."""
+    e1, e2 = (l1**2 - 1) / 2, (l2**2 - 1) / 2
+    return (e1**2 + e2**2 + 2 * nu * e1 * e2) / (1 - nu)
+
+
+LAWS = {
+    "mooney_rivlin": (mooney_rivlin_of(0.2), mooney_rivlin, lambda x: x**-0.5),
+    # The hoop stress e2 + nu e1 is zero at its natural width.
+    "kirchhoff": (
+        Chosen("saint_venant_kirchhoff", (("shear", 1.0), ("poisson", 0.3))),
+        kirchhoff,
+        lambda x: np.sqrt(1 - 0.3 * (x**2 - 1)),
+    ),
+}
+
+
+@pytest.mark.parametrize("zones", ["taut", "wrinkled", "front"])
+@pytest.mark.parametrize("name", LAWS)
+def test_the_energy_of_any_state_is_that_of_its_principal_stretches(name, zones):
+    """By singular values of the gradient, whose slopes are differences of the sampled position."""
+    law, energy, width = LAWS[name]
+    a, s, front = 0.4, 1.1, 0.63
+    model = AnnulusModel(MPI.COMM_SELF, Ring(law, a, s), zones, 8, 4)
+    system = model.system
+    loads = system.initial.loads | {"psi": 0.25} | ({"R_front": front} if zones == "front" else {})
+    hump = np.sin(np.pi * (model.material(model.nodes(), loads) - a) / (1 - a))
+    shape = np.column_stack([-0.05 * hump, 0.04 * hump]).ravel()
+    shape[system.bc_dofs] = 0.0
+    state = State(system.initial.u + shape, loads, model.marks)
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    cells, step = 8 // model.blocks, 1e-5
+    x = (np.arange(8)[:, None] + (nodes + 1) / 2) / cells
+    fields = Meridian(model, {key: model.expressions[key] for key in ("r", "turn", "gw")})
+
+    def sampled(by):
+        with system.at(state):
+            return {n: v.reshape(x.shape) for n, v in fields.at((x + by).ravel()).items()}
+
+    here, above, below = (sampled(by) for by in (0.0, step, -step))
+    place, up, down = (model.material((x + by).ravel(), loads).reshape(x.shape) for by in (0.0, step, -step))
+    slopes = [(above[n] - below[n]) / (up - down) for n in ("r", "turn")]
+    hoop, zero = here["r"] / place, np.zeros_like(place)
+    gradient = np.array([[slopes[0], zero], [here["r"] * slopes[1], hoop]]).transpose(2, 3, 0, 1)
+    l1, l2 = np.moveaxis(np.linalg.svd(gradient, compute_uv=False), -1, 0)
+    wrinkled = {"taut": place < 0, "wrinkled": place > 0, "front": place < front}[zones]
+    density = energy(l1, np.where(wrinkled, width(l1), l2))
+    measure = 2 * np.pi * place * (up - down) / (2 * step) * weights / (2 * cells)
+    assert here["gw"] == pytest.approx(l2 / width(l1), rel=1e-5)
+    with system.at(state):
+        found = system.monitors()
+        forces = system.residual()
+    assert found["U"] == pytest.approx(np.sum(density * measure), rel=1e-8)
+
+    def energy_at(u, loads):
+        with system.at(State(u, loads, model.marks)):
+            return system.monitor("U")
+
+    by = 1e-6
+    up, down = (energy_at(state.u + sign * by * shape, loads) for sign in (1, -1))
+    assert (up - down) / (2 * by) == pytest.approx(2 * np.pi * (forces @ shape), rel=1e-5)
+    up, down = (energy_at(state.u, loads | {"psi": 0.25 + sign * by}) for sign in (1, -1))
+    assert (up - down) / (2 * by) == pytest.approx(found["M"], rel=1e-7)
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [
@@ -98,6 +173,7 @@ def test_the_branch_ends_where_the_sheet_folds_over():
         ({"s": 0.9}, "s = 0.9"),
         ({"psi_end": 1.5}, "psi_end = 1.5"),
         ({"model": "harmonic"}, "model = 'harmonic'; allowed: neo_hookean"),
+        ({"model": "harmonic"}, "gent, saint_venant_kirchhoff"),
         ({**KIRCHHOFF, "energy": "full"}, "allowed: energy = 'relaxed'"),
         ({"model": "gent", "jm": 0.5, "s": 1.5}, "lower s"),
         ({"at": {"torque": 1.0}}, "cannot ask for a state at 'torque'"),

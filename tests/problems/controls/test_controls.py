@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from mpi4py import MPI
+from scipy.sparse import csr_matrix
 
 from weakforms import solve
 from weakforms.errors import InputError
@@ -47,10 +48,10 @@ def test_extrema_of_the_mass_are_those_of_the_closed_form():
     assert len(found) == 2
 
 
-def branch_of(body, gas):
+def branch_of(body, gas, lf=6.0):
     given = ControlsParameters(alpha=0.0)
     if body == "tube":
-        model = VariedTube(MPI.COMM_WORLD, given.material, {"delta1": 1.0, "lf": 6.0}, 16, 3, 0.6)
+        model = VariedTube(MPI.COMM_WORLD, given.material, {"delta1": 1.0, "lf": lf}, 16, 3, 0.6)
     else:
         model = VariedDisk(MPI.COMM_WORLD, given.material, {"beta": 1.0}, 16, 3, 0.0)
     end, along = (2.0, "u_max") if body == "tube" else (1.5, "t0")
@@ -72,6 +73,65 @@ def test_counts_are_those_of_the_eigenvalues_of_the_second_variation_at_given_ma
         assert count["n_fixed_V"] <= count["n_fixed_m"] <= point.n_negative
         seen.add(count["n_fixed_m"])
     assert seen == ({0, 1} if gas.reservoir == 1000.0 else seen)
+
+
+def negatives(matrix):
+    return int(np.sum(np.linalg.eigvalsh(matrix) < 0))
+
+
+@pytest.mark.parametrize(("body", "lf"), [("tube", 6.0), ("tube", 20.0), ("circular", 6.0)])
+def test_counts_are_those_of_full_matrices(body, lf):
+    """``K``, ``K`` on the displacements that keep the volume, and ``K + s d d^T``, as dense matrices."""
+    gas, seen = Gas(1.3, 0.7, 3.0), set()
+    branch = branch_of(body, gas, lf)
+    system = branch.system
+    free = np.setdiff1d(np.arange(system.size), system.bc_dofs)
+    for point in branch.points[1::2]:
+        with system.at(point.state):
+            rows, columns, values = system.tangent().getValuesCSR()
+            stiffness = csr_matrix((values, columns, rows)).toarray()[np.ix_(free, free)]
+            d, volume = -system.load_derivative("p")[free], system.monitor("V")
+        keeping = np.linalg.svd(d[None])[2][1:].T
+        rate = gas.kappa * (point.state.loads["p"] + gas.p_atm) / (volume + gas.reservoir)
+        counts = branch.counts(point.state)
+        assert counts["n_fixed_V"] == negatives(keeping.T @ stiffness @ keeping)
+        assert counts["n_fixed_m"] == negatives(stiffness + rate * np.outer(d, d))
+        assert point.n_negative == negatives(stiffness)
+        seen.add(counts["n_fixed_V"])
+    assert seen == ({0, 1} if lf == 20.0 else {0})
+
+
+def test_a_long_tube_is_unstable_at_given_volume_between_two_extrema_of_the_volume():
+    gas = Gas(1.0, 1.0, 5.0)
+    branch = branch_of("tube", gas, lf=20.0)
+    first, second = (at for at in branch.special() if at.kind == "volume_fold")
+    volumes = np.array([point.monitors["V"] for point in branch.points])
+    places = np.array([point.monitors["u_max"] for point in branch.points])
+    between = (places > first.values["u_max"]) & (places < second.values["u_max"])
+    counts = [branch.counts(point.state)["n_fixed_V"] for point in branch.points]
+    assert np.array_equal(counts, between)
+    assert np.all(np.diff(volumes[between]) < 0)
+    assert first.values["V"] > volumes[between].max()
+    assert second.values["V"] < volumes[between].min()
+    for at in (first, second):  # the eigenvalue that is zero there does not count
+        assert branch.counts(at.state)["n_fixed_V"] == 0
+
+
+def test_a_state_at_the_limit_point_of_a_sphere_is_answered():
+    """Its second variation is zero to the last digit."""
+    found = solve("controls", body="sphere", alpha=0.0, V_r=20.0, at={"limit_point": 1})
+    assert found.failures == []
+    counts = found.states[0].quantities
+    assert [counts[name].value for name in ("n_negative", "n_fixed_m", "n_fixed_V")] == [0, 0, 0]
+
+
+def test_a_disk_with_a_large_pre_stretch_is_followed_although_its_pressures_are_large():
+    given = ControlsParameters(body="circular", alpha=0.4, beta=4.7)
+    model = VariedDisk(MPI.COMM_WORLD, given.material, {"beta": 4.7}, 8, 3, 0.0)
+    branch = model.primary(4.0, 0.1)
+    assert branch.stalled is None
+    assert branch.points[-1].monitors["t0"] > 4.0
+    assert branch.points[-1].state.loads["p"] > 200
 
 
 def test_the_mass_is_largest_between_the_neighbours_of_its_extremum():
@@ -104,7 +164,7 @@ def test_a_gas_of_given_mass_is_between_given_volume_and_given_pressure():
         ({"p_atm": -1.0}, "p_atm = -1"),
         ({"V_r": -1.0}, "V_r = -1"),
         ({"body": "hemisphere"}, "body = 'hemisphere'"),
-        ({"lf": 20.0}, "lf = 20"),
+        ({"lf": 31.0}, "lf = 31"),
     ],
 )
 def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, message):

@@ -141,7 +141,23 @@ def nan(points, triangles):
     return points, triangles
 
 
+def one(points, triangles):
+    return np.eye(3)[:, :2] @ np.eye(2, 3), np.array([[0, 1, 2]])
+
+
+def no_such_node(points, triangles):
+    triangles[3, 2] = 100_000
+    return points, triangles
+
+
+def one_place(points, triangles):
+    return 0 * points, triangles
+
+
 WRONG = {
+    one: "every corner of a triangle is held",
+    no_such_node: "a triangle with node 100000; its nodes are 0 to 84",
+    one_place: "all its nodes are at one point",
     duplicate_node: "1 duplicate nodes, the first at (",
     turned: "same direction in both their triangles, the first at (",
     turned_over: "turned over, the first at (",
@@ -181,21 +197,72 @@ def test_groups_and_supports_that_are_refused(tmp_path):
         ({"held": "rim"}, "neither held nor on a mirror, the first at .*groups of this file: rim, hole"),
         ({"held": "rim,hoel"}, "no group of edges is called 'hoel'"),
         ({"mirror": "rim"}, "lies in the plane of the flat sheet"),
+        ({"held": "rim,hole", "mirror": "hole"}, "group 'hole' is both in held and in mirror"),
     ):
         with pytest.raises(InputError, match=words):
             solve("membrane", mesh=holed, **given)
     ball = str(shapes.written(tmp_path / "round.msh", shapes.octant, 0.5))
     with pytest.raises(InputError, match="neither held nor on a mirror"):
-        solve("membrane", mesh=ball, mirror="x,y", held="y")
+        solve("membrane", mesh=ball, mirror="x", held="y")
+
+
+QUARTER_TURNS = {"XY": [0, 1, 2], "YZ": [2, 0, 1], "XZ": [1, 2, 0]}
+
+
+@pytest.mark.parametrize("plane", QUARTER_TURNS)
+def test_the_mirror_of_a_flat_sheet_is_the_plane_that_cuts_it(tmp_path, plane):
+    """Of a sheet in the plane ``X = 0`` a straight edge has two constant coordinates, and ``X`` is one."""
+    file = shapes.written(tmp_path / "flat.msh", shapes.quarter_disk, 0.4)
+    mesh = meshio.read(file)
+    mesh.points = mesh.points[:, QUARTER_TURNS[plane]]
+    mesh.write(tmp_path / "turned.msh", file_format="gmsh")
+    read = from_file(str(tmp_path / "turned.msh"), 1.0, [], ["left", "bottom"])
+    assert {*read.mirrors} == {*plane}
+
+
+def test_edges_that_are_no_mirrors(tmp_path):
+    def crossed():
+        """A square with a line of edges across it, and a notch beyond one of its sides."""
+        sides = shapes.polygon([(0, 0), (1, 0), (1, 1), (0, 1), (-0.5, 0.5), (0, 0.5)])
+        return {"axis": [sides[5]], "rim": sides[:5]}
+
+    def divided():
+        geo = shapes.gmsh.model.geo
+        points = [geo.addPoint(x, y, 0) for x, y in ((-1, 0), (0, 0), (1, 0), (1, 1), (0, 1), (-1, 1))]
+        rim = [geo.addLine(points[i], points[(i + 1) % 6]) for i in range(6)]
+        middle = geo.addLine(points[1], points[4])
+        for loop in ([rim[0], middle, rim[4], rim[5]], [rim[1], rim[2], rim[3], -middle]):
+            geo.addPlaneSurface([geo.addCurveLoop(loop)])
+        geo.synchronize()
+        return {"rim": rim, "middle": [middle]}
+
+    for draw, name, words in (
+        (crossed, "axis", "nodes on both sides of the mirror X = 0 of group 'axis', such as at \\(-0.5, 0.5"),
+        (divided, "middle", "group 'middle' of mirror is inside of the surface at \\(0, "),
+    ):
+        path = shapes.written(tmp_path / f"{name}.msh", draw, 0.5)
+        with pytest.raises(InputError, match=words):
+            from_file(str(path), 1.0, [], [name])
+
+
+def test_parameters_of_files_have_no_effect_on_shapes_without_a_file():
+    from weakforms.problems.membrane.parameters import MembraneParameters
+
+    for mesh in ("disk", "square"):
+        (said,) = MembraneParameters(mesh=mesh, unit=2.0).without_effect()
+        assert said == "unit = 2.0 has no effect here; it needs mesh = a file"
+    assert MembraneParameters(mesh="part.msh", unit=2.0).without_effect() == []
 
 
 def test_other_files(tmp_path, sheet):
-    quads, text = tmp_path / "quads.vtu", tmp_path / "text.msh"
+    quads, text, empty = tmp_path / "quads.vtu", tmp_path / "text.msh", tmp_path / "empty.msh"
+    empty.touch()
     meshio.Mesh(sheet[0], [("quad", np.array([[0, 1, 8, 7]]))]).write(quads)
     text.write_text("no mesh")
     for path, what in (
         (quads, "cells of type quad"),
         (text, "cannot be read"),
+        (empty, "is an empty file"),
         (tmp_path / "none.stl", "no such file"),
         ("part.step", "'disk', 'square' or a file ending in .msh, .vtu, .stl is required"),
     ):

@@ -64,9 +64,8 @@ class Annulus(BranchProblem):
             InputError: With a message that names the value and the allowed ones.
         """
         super().check(parameters, requests)
-        if parameters.model != KIRCHHOFF:
-            require_foldable(self.name, parameters, invariants=True)
-        elif parameters.energy == "full":
+        require_foldable(self.name, parameters, invariants=True, others=[KIRCHHOFF])
+        if parameters.model == KIRCHHOFF and parameters.energy == "full":
             raise InputError(
                 f"annulus: model = {KIRCHHOFF!r} with energy = 'full' loses its ellipticity in compression; "
                 "allowed: energy = 'relaxed'"

@@ -27,10 +27,8 @@ from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.agreement import same_count
+from weakforms.solvers.stability.modes import NO_RATE, rated
 from weakforms.solvers.uncertainty.family import BranchFamily
-
-ZERO = 1e-7
-"""Relative size below which the sum in the rule of the mass is zero, at its limit point."""
 
 
 @dataclass(frozen=True)
@@ -116,18 +114,14 @@ class ControlledBranch(EquilibriumBranch):
     def counts(self, state: State) -> dict[str, int]:
         """Negative eigenvalues at given volume and at given mass, in the symmetry of the unknowns.
 
-        An eigenvalue that is zero at a limit point does not count.
+        An eigenvalue that is zero, at an extremum of the pressure, the volume or the mass, does not count.
         """
-        factor = self.solver.factor
         with self.system.at(state):
-            factor.update()
-            count, volume = factor.negative_count(), self.system.monitor("V")
-            force = self.system.load_derivative("p")
-            flexibility = self.system.dot(force, factor.solve(force))
+            found, volume = rated(self.system, self.solver.factor, "p"), self.system.monitor("V")
         p = state.loads["p"]
-        parts = self.gas.balance(p, volume, 1.0, 0.0), self.gas.balance(p, volume, 0.0, flexibility)
-        removed = sum(parts) < ZERO * max(map(abs, parts))
-        return {"n_fixed_V": count - int(flexibility < 0), "n_fixed_m": count - int(removed)}
+        parts = self.gas.balance(p, volume, 1.0, 0.0), self.gas.balance(p, volume, 0.0, found.rate)
+        removed = sum(parts) < NO_RATE * max(map(abs, parts))
+        return {"n_fixed_V": found.count_at_fixed, "n_fixed_m": found.count - int(removed)}
 
 
 def _volume(_p: float, _volume: float, _by_p: float, by_volume: float) -> float:

@@ -47,7 +47,7 @@ class ControlsParameters(MaterialChoice):
     body: Literal["tube", "circular", "sphere"] = Field("tube", description="membrane")
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch of the tube")
-    lf: float = Field(6.0, ge=1, le=16, description="stretched length L_f/R_f of the tube")
+    lf: float = Field(6.0, ge=1, le=30, description="stretched length L_f/R_f of the tube")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch of the disk")
     kappa: float = Field(1.0, ge=1, le=2, description="1: isothermal gas; ratio of specific heats: adiabatic")
     p_atm: float = Field(1.0, ge=0, le=1e4, description="absolute pressure outside; 0 is a vacuum")

@@ -11,7 +11,6 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from math import inf
 from typing import ClassVar
 
 import numpy as np
@@ -21,7 +20,7 @@ from mpi4py import MPI
 
 from weakforms.forms.materials import SurfaceLaw, surface_law
 from weakforms.problems.branch_problem import from_rest
-from weakforms.problems.disk.phases import FIRST_T0, TAUT
+from weakforms.problems.disk.phases import FIRST_T0, TAUT, USUAL_LOAD
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, one_end
@@ -246,7 +245,7 @@ class VariedDisk(VariedModel):
         """Free inflation up to ``t0 = end``, from rest or, if slack there, from a small height."""
         beta = self.system.initial.loads["beta"]
         if beta >= TAUT:
-            return from_rest(self.system, "p", "t0", end, step, kind=kind)
+            return from_rest(self.system, "p", "t0", end, step, usual_load=USUAL_LOAD, kind=kind)
         stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
         guess = self.system.initial.copy()
         guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
@@ -258,7 +257,7 @@ class VariedDisk(VariedModel):
 
 def grown(model: VariedModel, guess: State, end: float, step: float, kind: Kind) -> EquilibriumBranch:
     """Equilibria by arc length from a first state of small displacement to a larger one."""
-    steps = StepControl(first=step / 4, largest=step, usual_load=inf)
+    steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
     continuation = Continuation(ExtendedNewton(model.system, ["p"]), control=steps)
     start = continuation.start(guess, Held(model.depth, FIRST_T0), towards={model.depth: 1.0})
     return kind(continuation, "p", start, lambda at: at.monitors[model.depth] > end)

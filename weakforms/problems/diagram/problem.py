@@ -44,7 +44,7 @@ class Diagram(BranchProblem):
         self._check_range(parameters)
         material = parameters.material
         if parameters.waves:
-            require_model("diagram: waves around", parameters, tuple(LAWS))
+            require_model("diagram: waves around the axis", parameters, tuple(LAWS))
         if parameters.body == "tube":
             require_bearable(self.name, material, parameters.delta1, 1.0, "delta1")
         else:

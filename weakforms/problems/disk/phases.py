@@ -42,6 +42,9 @@ FIRST_T0 = 0.05
 TAUT = 1.02
 """Pre-stretch above which the branch starts at ``p = 0``."""
 
+USUAL_LOAD = 10.0
+"""Pressure above which steps grow with it: at a large pre-stretch it dominates the arc length."""
+
 THIN = 20.0
 """Largest stretch of a pole thinner than the clamp, over the pre-stretch."""
 
@@ -130,7 +133,7 @@ class DiskPhases(ContactPhases):
     whole = "radius"
     highest_p = HIGHEST_P
     first_front, last_front = 0.02, 0.97
-    usual_load = 10.0  # at large pre-stretch the pressure dominates the arc length
+    usual_load = USUAL_LOAD
 
     def __init__(
         self, comm: MPI.Intracomm, data: DiskData, adhesion: str, p_end: float, step: float, terms: int

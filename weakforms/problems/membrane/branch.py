@@ -11,7 +11,6 @@ from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.readings import Highest
 from weakforms.problems.triangles.readings import LeastStress
 from weakforms.problems.triangles.start import first_state
-from weakforms.problems.triangles.weak_form import RULE
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import Solved
@@ -30,7 +29,7 @@ class Readings:
     def __init__(self, model: MembraneModel) -> None:
         self.model = model
         self.highest = Highest(model)
-        self._stress = LeastStress(model.mesh, model.least_stress, RULE[model.body.degree])
+        self._stress = LeastStress(model.mesh, model.least_stress, model.rule)
 
     def variation(self, n: int) -> SecondVariation:
         """None: all displacements are those of the states.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 import numpy as np
 
 from weakforms.errors import InputError, not_among
-from weakforms.problems.membrane.reference import AXES, PLANE, Reference, quadratics
+from weakforms.problems.membrane.reference import AXES, OPPOSITE, PLANE, Reference, quadratics
 from weakforms.problems.triangles.checks import at, edges_of, require_manifold
 from weakforms.problems.triangles.files import compact, read_mesh
 
@@ -76,12 +76,14 @@ def _read(
     open_edges = _require_surface(points, cells, unit, refuse)
     every, _ = edges_of(cells[:, :3])
     known = _keys(every)
+    for name in {*held} & {*mirrors}:
+        refuse(f"group {name!r} is both in held and in mirror; allowed: in one of them")
     for name in (*held, *mirrors):
         if name not in groups:
             refuse(f"no group of edges is called {name!r}{not_among(name, [*groups] or ['none'])}")
         if not np.isin(_keys(groups[name]), known).all():
             refuse(f"group {name!r} has edges that are edges of no triangle")
-    planes = _planes(points, {name: groups[name] for name in mirrors}, refuse)
+    planes = _planes(points, cells[:, :3], {name: groups[name] for name in mirrors}, refuse)
     reflected = _keys(np.vstack([*planes.values(), np.empty((0, 2), int)]))
     if held:
         fixed = np.vstack([groups[name] for name in held])
@@ -114,6 +116,8 @@ def _require_surface(points: np.ndarray, cells: np.ndarray, unit: float, refuse:
     """Refuse what is no surface of a size near one, and return its open edges."""
     if len(points) and np.isfinite(points).all():
         half = float(np.ptp(points, axis=0).max()) / 2
+        if not half:
+            refuse("all its nodes are at one point")
         if not EXTENT[0] <= half <= EXTENT[1]:
             refuse(
                 f"half of its largest extent is {half:.4g} times unit = {unit:g}; allowed: {EXTENT[0]:g} to "
@@ -142,20 +146,41 @@ def _require_regular(points: np.ndarray, cells: np.ndarray, refuse: Refusal) -> 
         )
 
 
-def _planes(points: np.ndarray, groups: dict[str, np.ndarray], refuse: Refusal) -> dict[str, np.ndarray]:
-    """Groups of edges by the coordinate that is constant on each."""
+def _planes(
+    points: np.ndarray, corners: np.ndarray, groups: dict[str, np.ndarray], refuse: Refusal
+) -> dict[str, np.ndarray]:
+    """Groups of edges by the coordinate that is constant on each; the surface is on one side of it."""
     out: dict[str, np.ndarray] = {}
     size = float(np.ptp(points, axis=0).max())
+    a, b, c = (points[corners[:, i]] for i in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    every, count = edges_of(corners)
+    open_keys = _keys(every[count == 1])
+    sides = np.column_stack([_keys(corners[:, ends]) for ends in OPPOSITE])
     for name, edges in groups.items():
         spread = np.ptp(points[np.unique(edges)], axis=0)
         constant = np.flatnonzero(spread < PLANE * size)
         if not len(constant):
             refuse(f"group {name!r} of mirror lies in no plane X, Y or Z = constant")
-        # Of a flat sheet the edge on a mirror is constant in Z too, which is no mirror of the sheet.
-        axis = AXES[constant[0]]
-        if axis in out:
-            refuse(f"two groups of mirror have {axis} = constant; allowed: one, with the plane's edges in it")
-        out[axis] = edges
+        inner = edges[~np.isin(_keys(edges), open_keys)]
+        if len(inner):
+            place = at(points[inner[0]].mean(axis=0))
+            refuse(f"group {name!r} of mirror is inside of the surface {place}; allowed: open edges")
+        # The surface goes on beyond its mirror. A straight edge has two constant coordinates, one of which
+        # may be that of the plane in which the surface lies beside it.
+        beside = normals[np.isin(sides, _keys(edges)).any(axis=1)]
+        i = constant[np.argmin(np.abs(beside[:, constant]).mean(axis=0))]
+        away = points[:, i] - points[edges[0, 0], i]
+        if away.min() < -PLANE * size and away.max() > PLANE * size:
+            place = at(points[np.argmin(np.sign(away.sum()) * away)])
+            refuse(
+                f"the surface has nodes on both sides of the mirror {AXES[i]} = {points[edges[0, 0], i]:.6g} "
+                f"of group {name!r}, such as {place}; allowed: one side"
+            )
+        if AXES[i] in out:
+            refuse(f"two groups of mirror have {AXES[i]} = constant; allowed: one, with all its edges")
+        out[AXES[i]] = edges
     return out
 
 
@@ -170,12 +195,14 @@ def _require_supported(given: Reference, open_edges: np.ndarray, groups: list[st
             f"{len(free)} edges are neither held nor on a mirror, the first {place}: "
             f"a pressure on a membrane with a free edge has no potential; add their group to held{names}"
         )
+    if np.isin(given.corners, given.held).all():
+        refuse("every corner of a triangle is held; allowed: a surface with corners that are free to move")
     if not len(given.held) and len(given.mirrors) < 3:
         refuse(
             "no edge is held: it may move as a rigid body; allowed without a held edge: mirrors X, Y and Z"
         )
     if given.is_flat:
-        if "Z" in given.mirrors and abs(given.direction[2]) > 0.5:
+        if any(abs(given.direction[AXES.index(axis)]) > 0.5 for axis in given.mirrors):
             refuse(
                 "a group of mirror lies in the plane of the flat sheet; allowed: planes that cut the sheet"
             )

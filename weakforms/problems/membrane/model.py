@@ -49,6 +49,7 @@ class MembraneModel:
         system: Residual, tangent and columns.
         direction: Unit vector along which deflections are measured.
         deflection: The displacement in this direction.
+        rule: Degree of the quadrature, with which the load of the gas is exact.
         node: Node of the reference surface that each vertex of this rank's mesh is.
     """
 
@@ -61,7 +62,9 @@ class MembraneModel:
         self.law = body.law.surface_law(self.mesh)
         self.scalars = scalars(self.mesh, ("p", "zw", "delta"))
         self.scalars["delta"][0].value = body.delta
-        self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": RULE[body.degree]})
+        # On curved triangles the position is quadratic, whatever the degree of the displacement.
+        self.rule = RULE[max(body.degree, self.mesh.geometry.cmap.degree)]
+        self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": self.rule})
         self.direction = body.reference.direction
         self.deflection = ufl.dot(self.unknown, ufl.as_vector(self.direction.tolist()))
         self.membrane = self._at(self.unknown)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -45,7 +45,7 @@ class MembraneParameters(MaterialChoice):
     """The membrane, its supports and its load."""
 
     ratio: ClassVar[str] = "alpha"
-    needs: ClassVar[Needs] = {name: [{"mesh": ()}] for name in ("unit", "held", "mirror")}
+    needs: ClassVar[Needs] = {name: [{"mesh": ("a file",)}] for name in ("unit", "held", "mirror")}
     movable: ClassVar = {"w_end": "le"}
 
     mesh: Annotated[str, AfterValidator(_known)] = Field(
@@ -71,6 +71,9 @@ class MembraneParameters(MaterialChoice):
     def is_file(self) -> bool:
         """Whether the mesh is a user's."""
         return self.mesh not in BUILT_IN
+
+    def _has(self, name: str, values: tuple[Any, ...]) -> bool:
+        return self.is_file if name == "mesh" else super()._has(name, values)
 
     def given(self) -> Reference:
         """The surface in the file.

@@ -43,6 +43,8 @@ def read_mesh(path: Path, named: str, allowed: Sequence[str]) -> meshio.Mesh:
         raise EnvironmentLackError("meshio is not installed here: apt install python3-meshio") from error
     if not path.is_file():
         raise InputError(f"{named}: there is no such file")
+    if not path.stat().st_size:
+        raise InputError(f"{named} is an empty file")
     if path.stat().st_size > MAX_BYTES:
         raise InputError(f"{named} is larger than {MAX_BYTES >> 20} MiB")
     said = io.StringIO()
@@ -57,7 +59,13 @@ def read_mesh(path: Path, named: str, allowed: Sequence[str]) -> meshio.Mesh:
     other = sorted(found - {*allowed, *IGNORED})
     if other:
         raise InputError(f"{named} has cells of type {other[0]}; allowed: {', '.join(allowed)}")
-    if not found & {*allowed}:
+    count = len(read.points)
+    for block in read.cells:
+        wrong = block.data[(block.data < 0) | (block.data >= count)]
+        if wrong.size:
+            what = f"a {block.type} with node {wrong[0]}; its nodes are 0 to {count - 1}"
+            raise InputError(f"{named} has {what}")
+    if not sum(len(block.data) for block in read.cells if block.type in allowed):
         raise InputError(f"{named} has no triangles")
     return read
 

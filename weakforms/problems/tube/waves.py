@@ -18,7 +18,7 @@ from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.waves import AXIAL, CLAMPED, HOOP, RADIAL, MeridianWaves
 from weakforms.problems.tube.model import TubeModel
 from weakforms.problems.wave_numbers import LOWEST, eigenvalue_names
-from weakforms.solvers.stability.modes import SecondVariation, judged
+from weakforms.solvers.stability.modes import SecondVariation, judged, rated
 from weakforms.solvers.stability.spectra import Stability
 
 EVEN, ODD, WHOLE = 1, -1, 0
@@ -111,20 +111,7 @@ class TubeModes:
             if n:
                 out[f"n_negative_n{n}"] = broken
             else:
-                here, held = self._own_counts()
-                out["n_negative_n0"] = broken + (here if own is None else own)
-                out["n_negative_volume"] = broken + held
+                here = rated(self.model.system, self._own.factor, "p")
+                out["n_negative_n0"] = broken + (here.count if own is None else own)
+                out["n_negative_volume"] = broken + here.count_at_fixed  # waves do not change the volume
         return out
-
-    def _own_counts(self) -> tuple[int, int]:
-        r"""Negative eigenvalues in the symmetry of the unknowns, at fixed pressure and at fixed volume.
-
-        With the volume's gradient ``d``, the inertia of :math:`(K, d; d^T, 0)` is that of ``K`` and of
-        :math:`-d^T K^{-1} d`; less one negative eigenvalue it is that of ``K`` on :math:`d^T x = 0`. Other
-        waves do not change the volume.
-        """
-        system, factor = self.model.system, self._own.factor
-        factor.update()
-        border = system.load_derivative("p")
-        count = factor.negative_count()
-        return count, count - int(system.dot(border, factor.solve(border)) < 0)

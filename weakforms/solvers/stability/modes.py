@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import ufl
@@ -28,6 +28,9 @@ from weakforms.solvers.stability.spectra import Mode, Spectrum, Stability
 
 CRITICAL = 1e-6
 """An eigenvalue of uncertain sign below this magnitude counts as the zero eigenvalue of a critical point."""
+
+NO_RATE = 1e-7
+"""Relative size below which a rate is zero, where the conjugate of a load has an extremum."""
 
 
 class SecondVariation(System):
@@ -161,6 +164,38 @@ def counted(system: System, factor: Factorization, shift: float) -> int:
     factor.stiffened = None
     factor.refactor()
     return factor.negative_count()
+
+
+class Rated(NamedTuple):
+    """Negative eigenvalues of ``K``, and the rate at which a load's conjugate rises with the load."""
+
+    count: int
+    rate: float
+    """``V_p = dᵀ K⁻¹ d``."""
+    size: float
+    """``|d| |K⁻¹ d|``, which bounds the rate."""
+
+    @property
+    def count_at_fixed(self) -> int:
+        """Negative eigenvalues where the conjugate is given, on ``dᵀ x = 0``; zero does not count."""
+        return self.count - int(self.rate < NO_RATE * self.size)
+
+
+def rated(system: System, factor: Factorization, load: str) -> Rated:
+    r"""Inertia of ``K`` at the lent state, and the rate of what is conjugate to a load (of gas: the volume).
+
+    With the conjugate's gradient ``d`` the inertia of :math:`(K, d; d^T, 0)` is that of ``K`` and of
+    :math:`-d^T K^{-1} d`; less one negative eigenvalue it is that of ``K`` on :math:`d^T x = 0`. Where ``K``
+    is exactly singular, at a limit point, its zero eigenvalue does not count as negative.
+    """
+    factor.update()
+    if factor.failed:
+        system.shift(CRITICAL)
+        factor.refactor()
+    count, force = factor.negative_count(), system.load_derivative(load)
+    answer = factor.solve(force)
+    size = np.sqrt(system.dot(force, force) * system.dot(answer, answer))
+    return Rated(count, system.dot(force, answer), float(size))
 
 
 class SingularForm(Protocol):
