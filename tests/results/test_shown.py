@@ -155,6 +155,7 @@ def test_unstable_parts_are_dashed_and_special_points_marked(result):
     solid, dashed = axes.get_lines()[:2]
     assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
     assert solid.get_xdata()[-1] == dashed.get_xdata()[0] == 2.5
+    assert solid.get_xdata()[0] == result.branch()["u_max"][0]
     assert [2.5] in [list(line.get_xdata()) for line in axes.get_lines() if line.get_marker() == "o"]
     assert [text.get_text() for text in axes.texts] == ["u_max = 5 (u_end)"]
     assert [

@@ -46,6 +46,12 @@ def test_the_neo_hookean_tube_bends_after_its_limit_point(neo):
     validate(neo.to_json())
 
 
+def test_numbers_of_its_special_points_are_described(neo):
+    named = {name for point in neo.special_points for name in point.values}
+    assert {"n", "parity", "direction"} <= named
+    assert named - neo.scales.keys() <= {"n_negative"}
+
+
 def test_the_eigenvalue_is_zero_at_the_bifurcation_point(neo):
     state = neo.states[1].quantities
     assert abs(state["Lambda_n1_1"].value) < 1e-8

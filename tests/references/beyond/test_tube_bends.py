@@ -1,6 +1,7 @@
 """Waves around the tube by two methods: closed forms, agreement, and disagreement that is refused."""
 
 import csv
+import re
 import tomllib
 from pathlib import Path
 
@@ -124,3 +125,16 @@ def test_points_that_one_method_misses_are_refused(monkeypatch):
 def test_families_are_named_once():
     assert len(set(FAMILIES)) == len(FAMILIES) == 5
     assert all(sorted((*f.zero, *f.free)) == [0, 1, 2] for f in FAMILIES)
+
+
+@pytest.mark.parametrize("name", ["tube_waves", "tube_waves_limits", "tube_waves_wrinkling"])
+def test_the_tables_speak_of_each_tube_that_is_searched(name):
+    with (DATA / f"{name}.csv").open(encoding="utf-8") as stream:
+        found = {
+            (float(row["alpha"]), float(row["delta1"]), float(row["lf"])) for row in csv.DictReader(stream)
+        }
+    notes = tomllib.loads((DATA / f"{name}.toml").read_text("utf-8"))["notes"]
+    without = re.findall(r"\(([\d.]+), ([\d.]+), ([\d.]+)\)", notes.partition("None for")[2])
+    assert found | {tuple(map(float, numbers)) for numbers in without} == {
+        (t.alpha, t.delta1, t.lf) for t in bends.TUBES
+    }

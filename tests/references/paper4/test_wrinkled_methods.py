@@ -86,6 +86,7 @@ def test_both_methods_find_the_same_state(membrane, load):
         assert gap.max() < 1e-11, name
     for a, b in (state.fronts, *(state.scalar(name) for name in msr.SCALARS)):
         assert np.all(np.abs(a.fine - b.fine) < 1e-10)
+        assert np.all(np.maximum(a.uncertainty, b.uncertainty) < 1e-7)
 
 
 def test_the_pattern_of_figure_4_is_found_by_all_three():

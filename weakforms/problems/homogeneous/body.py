@@ -85,15 +85,11 @@ def system_of(body: Body, chosen: Chosen, vary: str = "", copies: int = 1) -> Sy
             loads=loads,
             bcs=[],
             mass=ufl.inner(ufl.TrialFunction(space), ufl.TestFunction(space)) * dx,
-            monitors={name: _read(value) * dx for name, value in monitors.items()},
+            monitors={name: ufl.as_ufl(value) * dx for name, value in monitors.items()},
             profile={name: monitors[name] for name in ("lam1", "lam2")},
             abscissa="x",
         )
     )
-
-
-def _read(value: Expr | float) -> Expr:
-    return value if isinstance(value, Expr) else ufl.as_ufl(value)
 
 
 def sphere() -> Body:
