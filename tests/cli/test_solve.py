@@ -140,6 +140,7 @@ def test_parameters_need_no_option(weakforms):
         ("solv tube", "there is no verb 'solv'; did you mean 'solve'?"),
         ("solve tub", "unknown problem 'tub'; did you mean 'tube'?"),
         ("solve tube delta=2", "no parameter 'delta'; did you mean 'delta1'?"),
+        ("solve tube alfa=2", "no parameter 'alfa'; did you mean 'alpha'?"),
         ("solve tube --at umax=2", "a state at 'umax'; did you mean 'u_max'?"),
         ("solve tube --at limit_points=2", "did you mean 'limit_point'?"),
         ("solve fluid_tube --branch secundary", "no branch 'secundary'; did you mean 'secondary'?"),

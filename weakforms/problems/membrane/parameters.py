@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -45,7 +45,7 @@ class MembraneParameters(MaterialChoice):
     """The membrane, its supports and its load."""
 
     ratio: ClassVar[str] = "alpha"
-    needs: ClassVar[Needs] = {name: [{"mesh": ()}] for name in ("unit", "held", "mirror")}
+    needs: ClassVar[Needs] = {name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror")}
     movable: ClassVar = {"w_end": "le"}
 
     mesh: Annotated[str, AfterValidator(_known)] = Field(
@@ -66,6 +66,9 @@ class MembraneParameters(MaterialChoice):
         "relaxed", description="relaxed: the membrane bears no compression; full: it bears compression"
     )
     w_end: float = Field(1.0, gt=0.3, le=10, description="largest deflection w_max at which the branch ends")
+
+    def _has(self, name: str, values: tuple[Any, ...]) -> bool:
+        return self.is_file if name == "mesh" else super()._has(name, values)
 
     @property
     def is_file(self) -> bool:
