@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
 
 import pytest
 
@@ -16,6 +17,7 @@ from weakforms.cli import app
 from weakforms.results import load_result, validate
 from weakforms.terminal import guarded
 
+ROOT = Path(__file__).resolve().parents[2]
 TUBE = ("solve", "tube", "delta1=1.1", "--mesh", "cells=32", "--mesh", "levels=2")
 VERBS = [info.name or info.callback.__name__ for info in app.registered_commands if not info.hidden]
 ANSI = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
@@ -161,6 +163,11 @@ def test_a_name_like_no_other_is_answered_with_all_names(weakforms):
 
 def test_the_version_is_shown(weakforms):
     assert weakforms("--version").out == f"weakforms {__version__}\n"
+
+
+def test_the_help_of_the_script_names_every_verb():
+    said = subprocess.run([ROOT / "run", "--help"], capture_output=True, text=True, check=True).stdout
+    assert set(VERBS) <= set(re.findall(r"[a-z]+", said.partition("Where the command runs")[0]))
 
 
 @pytest.mark.parametrize("verb", VERBS)
