@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 
 
 class WeakformsError(Exception):
@@ -65,10 +65,17 @@ def lacking(error: ImportError) -> EnvironmentLackError | None:
 
 
 def closest(name: object, known: Iterable[str]) -> str:
-    """The known name that is most like a wrong one; empty if none is."""
-    by_lower = {word.lower(): word for word in known}
-    found = get_close_matches(str(name).lower(), list(by_lower), n=1, cutoff=0.6)
-    return by_lower[found[0]] if found else ""
+    """The known name that is most like a wrong one; of equally like ones that with its first letter.
+
+    It is empty if none is like it.
+    """
+    by_lower, wrong = {word.lower(): word for word in known}, str(name).lower()
+
+    def likeness(word: str) -> tuple[float, bool]:
+        return SequenceMatcher(None, word, wrong).ratio(), word[:1] == wrong[:1]
+
+    found = get_close_matches(wrong, list(by_lower), n=3, cutoff=0.6)
+    return by_lower[max(found, key=likeness)] if found else ""
 
 
 def not_among(name: object, known: Iterable[str], has: str = "it has") -> str:

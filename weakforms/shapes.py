@@ -67,7 +67,8 @@ def surface(field: Field) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """The surface in space that a profile describes.
 
     A field with ``x, y, z`` over ``Z, Theta`` that covers half the circumference is mirrored in the plane
-    ``y = 0``; a meridian ``r, z`` or ``rho, eta`` is rotated about the axis.
+    ``y = 0``; a meridian ``r, z`` or ``rho, eta`` is rotated about the axis. So is the radius ``r, turn`` of
+    a flat sheet in the plane ``z = 0``, after each of its points was turned by the angle ``turn``.
 
     Returns:
         Points of shape ``(rows, meridians, 3)``, and every other column over ``(rows, meridians)``.
@@ -81,6 +82,9 @@ def surface(field: Field) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     for radius, height in (("r", "z"), ("rho", "eta")):
         if {radius, height} <= set(columns):
             return _revolved(columns, radius, height)
+    if {"r", "turn"} <= set(columns):
+        flat = columns | {"z": np.zeros_like(columns["r"])}
+        return _revolved(flat, "r", "z", columns["turn"])
     raise InputError(f"a profile with the columns {', '.join(columns)} is not a surface in space")
 
 
@@ -97,12 +101,13 @@ def _mirrored(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, dict[str, np.
 
 
 def _revolved(
-    columns: dict[str, np.ndarray], radius: str, height: str
+    columns: dict[str, np.ndarray], radius: str, height: str, turn: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     theta = np.linspace(0, 2 * np.pi, TURNS)
     r = columns[radius][:, None]
     z = np.broadcast_to(columns[height][:, None], (len(r), TURNS))
-    points = np.stack([r * np.cos(theta), r * np.sin(theta), z], axis=-1)
+    angle = theta + np.reshape(turn, (-1, 1))
+    points = np.stack([r * np.cos(angle), r * np.sin(angle), z], axis=-1)
     rest = {k: np.tile(v[:, None], (1, TURNS)) for k, v in columns.items() if k not in (radius, height)}
     return points, rest | {"Theta": np.tile(theta, (len(r), 1))}
 

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
 
 import pytest
 
@@ -16,6 +17,7 @@ from weakforms.cli import app
 from weakforms.results import load_result, validate
 from weakforms.terminal import guarded
 
+ROOT = Path(__file__).resolve().parents[2]
 TUBE = ("solve", "tube", "delta1=1.1", "--mesh", "cells=32", "--mesh", "levels=2")
 VERBS = [info.name or info.callback.__name__ for info in app.registered_commands if not info.hidden]
 ANSI = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
@@ -140,6 +142,7 @@ def test_parameters_need_no_option(weakforms):
         ("solv tube", "there is no verb 'solv'; did you mean 'solve'?"),
         ("solve tub", "unknown problem 'tub'; did you mean 'tube'?"),
         ("solve tube delta=2", "no parameter 'delta'; did you mean 'delta1'?"),
+        ("solve tube alfa=2", "no parameter 'alfa'; did you mean 'alpha'?"),
         ("solve tube --at umax=2", "a state at 'umax'; did you mean 'u_max'?"),
         ("solve tube --at limit_points=2", "did you mean 'limit_point'?"),
         ("solve fluid_tube --branch secundary", "no branch 'secundary'; did you mean 'secondary'?"),
@@ -160,6 +163,11 @@ def test_a_name_like_no_other_is_answered_with_all_names(weakforms):
 
 def test_the_version_is_shown(weakforms):
     assert weakforms("--version").out == f"weakforms {__version__}\n"
+
+
+def test_the_help_of_the_script_names_every_verb():
+    said = subprocess.run([ROOT / "run", "--help"], capture_output=True, text=True, check=True).stdout
+    assert set(VERBS) <= set(re.findall(r"[a-z]+", said.partition("Where the command runs")[0]))
 
 
 @pytest.mark.parametrize("verb", VERBS)

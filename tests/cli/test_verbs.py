@@ -211,7 +211,9 @@ def test_a_state_that_is_not_there_is_named_with_the_range(weakforms):
     )
     called = weakforms(*TUBE, *SHORT, "--at", "u_max=0.4", "--crossing", 2)
     assert (called.status, called.out, called.err.count("\n")) == (2, "", 1)
-    assert "u_max = 0.4 is crossed 1 times on this branch, not 2; u_max ranges over" in called.err
+    assert (
+        "u_max = 0.4 is taken once on this branch, so there is no crossing 2; u_max ranges over" in called.err
+    )
 
 
 # -- compare -------------------------------------------------------------------------------------

@@ -253,7 +253,7 @@ def test_a_level_without_a_state_names_what_to_change(monkeypatch):
 @pytest.mark.parametrize("stalled", [None, "steps too small"])
 def test_a_sheet_has_no_state_at_a_load_that_its_branch_does_not_reach(stalled, monkeypatch):
     def near(*_):
-        raise InputError("p = 32 is crossed 0 times on this branch, not 1; p ranges over [0, 5.8]")
+        raise InputError("p = 32 is not taken on this branch; p ranges over [0, 5.8]")
 
     branch = SimpleNamespace(near=near, trace=SimpleNamespace(stalled=stalled))
     plain = SimpleNamespace(control="p", plain=None, meshes=[SimpleNamespace(degree=6)])

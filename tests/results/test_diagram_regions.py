@@ -75,6 +75,17 @@ def texts(plane, x, y):
     return found, regions, names
 
 
+def test_a_result_with_a_diagram_draws_it_in_its_plane(plane):
+    """``plot r.json`` as the verb ``diagram`` does: not the parameter over the pressure, and with regions."""
+    plane.parameters |= {"x": "alpha", "y": "p"}
+    axes = plane.plot().axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("alpha", "p:  P R_f/(C1 h_o)")
+    assert len(axes.collections) >= 2
+    assert plane.plot("u_max", "p").axes[0].get_xlabel() == "u_max"
+    plane.parameters |= {"x": "beta"}  # of a file that was changed: no such column
+    assert plane.plot().axes[0].get_ylabel() == "alpha"
+
+
 def test_a_region_is_named_by_its_negative_eigenvalues_where_it_is(plane):
     found, regions, names = texts(plane, "alpha", "p")
     assert names == ["fold", "end", "cusp point"]

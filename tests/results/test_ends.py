@@ -154,10 +154,15 @@ def test_a_branch_that_ends_before_a_limit_point_says_so(problem, given, reason)
 @pytest.mark.parametrize(
     ("problem", "given", "at", "said"),
     [
-        ("tube", {"u_end": 1.5}, {"p": 2.5}, "p = 2.5 is crossed 0 times .* the branch ends at u_max = 1.5"),
+        ("tube", {"u_end": 1.5}, {"p": 2.5}, "p = 2.5 is not taken .* the branch ends at u_max = 1.5"),
         ("tube", {"model": "ogden", "u_end": 0.5}, {"p": 2.5}, "ends at u_max = 0.5 .u_end."),
         ("tube", TOUCHING, {"u_max": 4.0}, "u_max = 4 is not taken .* the branch ends at p = 2.5 .p_end."),
-        ("sphere", {"lam_end": 1.2}, {"limit_point": 1}, "0 of them; the branch ends at lam = 1.2 .lam_end."),
+        (
+            "sphere",
+            {"lam_end": 1.2},
+            {"limit_point": 1},
+            "this branch has none; the branch ends at lam = 1.2 .lam_end.",
+        ),
     ],
 )
 def test_a_state_that_is_not_on_the_branch_is_answered_with_its_end(problem, given, at, said):
@@ -209,6 +214,13 @@ def test_a_parameter_without_effect_is_a_warning_and_changes_no_number(problem, 
 )
 def test_a_parameter_with_an_effect_is_no_warning(problem, given):
     assert registry.get(problem).parameters(**given).without_effect() == []
+
+
+@pytest.mark.parametrize("given", [{"unit": 2.0}, {"mesh": "square", "held": "rim"}, {"mirror": "left"}])
+def test_what_describes_a_file_has_no_effect_on_a_membrane_without_one(given):
+    (said,) = registry.get("membrane").parameters(**given).without_effect()
+    assert said.endswith("has no effect here; it needs mesh = FILE")
+    assert registry.get("membrane").parameters(**given | {"mesh": "part.msh"}).without_effect() == []
 
 
 def test_parameters_left_at_their_defaults_are_no_warning():

@@ -7,6 +7,7 @@ import pytest
 from weakforms.cli import app
 from weakforms.results import Field, Quantity, Result, State
 from weakforms.results.io import dumps
+from weakforms.shapes import shape_mesh
 from weakforms.terminal import guarded
 
 pytestmark = pytest.mark.paper3
@@ -33,6 +34,19 @@ def test_writes_a_shape(stored, tmp_path):
     assert call("shape", stored, tmp_path / "tube.vtu") in (0, None)
     mesh = meshio.read(tmp_path / "tube.vtu")
     assert np.hypot(*mesh.points[:, :2].T).max() == pytest.approx(2.0)
+
+
+def test_a_flat_sheet_that_is_turned_in_its_plane_is_a_surface():
+    """As of ``annulus``: each circle is turned by its own angle."""
+    field = Field(
+        "profile", {"R": np.array([0.4, 1.0]), "r": np.array([0.5, 1.1]), "turn": np.array([0.3, 0.0])}
+    )
+    mesh = shape_mesh(field)
+    inner = mesh.points[: len(mesh.points) // 2]
+    assert np.hypot(*inner[:, :2].T) == pytest.approx(0.5)
+    assert inner[0] == pytest.approx([0.5 * np.cos(0.3), 0.5 * np.sin(0.3), 0.0])
+    assert mesh.points[len(inner)] == pytest.approx([1.1, 0.0, 0.0])
+    assert {"R", "turn", "Theta"} <= set(mesh.point_data)
 
 
 @pytest.mark.parametrize(

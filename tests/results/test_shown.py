@@ -12,7 +12,7 @@ from matplotlib.markers import MarkerStyle
 import weakforms
 from weakforms import EnvironmentLackError
 from weakforms.results import Absence, Branch, Ended, Failure, Field, Quantity, Result, SpecialPoint, State
-from weakforms.results.plot import MARKERS, draw_results
+from weakforms.results.plot import MARKERS, draw_results, label_of
 from weakforms.results.uncertain import uncertain
 from weakforms.results.wording import point_rows
 
@@ -163,6 +163,45 @@ def test_unstable_parts_are_dashed_and_special_points_marked(result):
     ] == [[5.0, 0.0]]
     assert axes.texts[0].xy == (5.0, 0.0)
     assert "limit point" in [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+@pytest.mark.parametrize(
+    "curve",
+    [
+        lambda s: (s, s**3),
+        lambda s: (s, np.sqrt(s)),
+        lambda s: (s, 1 - s**2),
+        lambda s: (s * (1.4 - s), s),
+        lambda s: (1 - s, np.sqrt(1.01 - s)),
+    ],
+)
+def test_what_ends_a_branch_is_written_beside_the_branch(result, curve):
+    """Rising, rising to a plateau, falling, turning back, and falling to the left."""
+    u, p = curve(np.linspace(0, 1, 400))
+    result.branches = [Branch("primary", "p", {"p": p, "u_max": u}, ended=Ended("u_end", "u_max", 5.0))]
+    result.special_points = []
+    figure = draw_results({"": result})
+    figure.canvas.draw()
+    (text,) = figure.axes[0].texts
+    box = text.get_window_extent()
+    assert not any(box.contains(*point) for point in figure.axes[0].transData.transform(np.c_[u, p]))
+    frame = figure.axes[0].get_window_extent()
+    assert all(frame.contains(*corner) for corner in box.corners())
+
+
+def test_the_first_column_of_the_problem_is_drawn_whatever_the_order_of_a_branch(result):
+    """A load that is a column too, such as the place of a front, comes first in a branch."""
+    u = np.linspace(0, 5, 11)
+    columns = {"p": u, "R_front": u**2, "u_max": u}
+    result.branches, result.special_points = [Branch("primary", "p", columns)], []
+    result.scales = {"p": "P", "u_max": "u", "R_front": "R"}
+    assert draw_results({"": result}).axes[0].get_xlabel() == "u_max:  u"
+    assert draw_results({"": result}, y="R_front").axes[0].get_xlabel() == "u_max:  u"
+
+
+def test_lines_of_a_label_have_similar_lengths():
+    text = label_of("zw", {"zw": "level of the liquid above the edge of the mid-plane"})
+    assert text == "zw:  level of the liquid above\nthe edge of the mid-plane"
 
 
 def test_a_long_scaling_is_not_cut_off(result):

@@ -114,7 +114,7 @@ def test_functional_is_held_exactly_and_crossings_are_told_apart():
     assert branch.at("square", 0.25, 1).values["u"] == pytest.approx(-0.5, abs=1e-12)
     assert branch.at("square", 0.25, 2).values["u"] == pytest.approx(0.5, abs=1e-12)
     assert branch.at("load", 0.75, 2).values["u"] == pytest.approx(0.5, abs=1e-12)
-    with pytest.raises(InputError, match="crossed 2 times"):
+    with pytest.raises(InputError, match="taken 2 times on this branch, so there is no crossing 3"):
         branch.at("load", 0.75, 3)
     with pytest.raises(InputError, match="ranges over"):
         branch.at("load", 7.0)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from weakforms.verification.audit.diff import Diff
     from weakforms.verification.run.sweep import Sweep
 
-TELLING = (*LABELS, "n_negative")
+TELLING = (*LABELS, "n_negative", "n_fixed_V", "n_fixed_m", "n_held")
 """Columns that say what a point is and whether it is stable: they stand early."""
 
 SHOWN = 25

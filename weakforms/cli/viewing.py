@@ -32,15 +32,17 @@ def plot(
     """Draw branches with their special points, stability and ends, or profiles of states.
 
     Unstable parts are dashed. If both columns belong to profiles, such as Z and rho, the profiles are drawn.
+    A diagram is drawn in its plane.
     """
     from weakforms.results import load_result
-    from weakforms.results.plot import draw_results, require_picture_name, save
+    from weakforms.results.diagram import draw
+    from weakforms.results.plot import require_picture_name, save
 
     require_picture_name(out)
     names = [file.stem for file in files]
     keys = names if len(set(names)) == len(names) else [str(file) for file in files]
     results = {key: load_result(file) for key, file in zip(keys, files, strict=True)}
-    save(draw_results(results if len(results) > 1 else {"": results[keys[0]]}, x, y), out)
+    save(draw(results if len(results) > 1 else {"": results[keys[0]]}, x, y), out)
     console().print(f"picture: {plain(out)}", soft_wrap=True)
 
 

@@ -8,13 +8,14 @@ alone. Needs matplotlib.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from weakforms.errors import InputError
-from weakforms.results.plot import COLOURS, MARKERS, empty_axes, label_of
+from weakforms.results.plot import COLOURS, MARKERS, draw_results, empty_axes, label_of
 from weakforms.results.result import Result
 
 if TYPE_CHECKING:
@@ -58,6 +59,21 @@ class Crossing:
     p: float
     others: int
     """Negative eigenvalues of its class besides the critical one."""
+
+
+def draw(results: Mapping[str, Result], x: str = "", y: str = "") -> Figure:
+    """Draw results as :func:`draw_results` does, but a single diagram in its own plane, as its verb draws it.
+
+    Raises:
+        InputError: If there is nothing to draw, or a column is missing.
+        EnvironmentLackError: If matplotlib is missing.
+    """
+    first = next(iter(results.values()))
+    if len(results) > 1 or x or y or first.problem != "diagram" or not first.branches:
+        return draw_results(results, x, y)
+    plane = (first.parameters.get("x"), first.parameters.get("y"))
+    known = set.intersection(*(set(branch.columns) for branch in first.branches))
+    return draw_diagram(first, *plane) if set(plane) <= known else draw_results(results)
 
 
 def draw_diagram(result: Result, x: str, y: str) -> Figure:

@@ -11,7 +11,7 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
-from textwrap import fill
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -90,7 +90,7 @@ def draw_results(results: Mapping[str, Result], x: str = "", y: str = "") -> Fig
     if not (x and y) and first is None:
         raise InputError("there is no branch to draw; name two columns of a profile as x and y")
     if not (x and y):
-        x, y = _chosen(first, x, y)
+        x, y = _chosen(first, x, y, next(iter(results.values())).scales)
     drawn = {k: pair for k, pair in branches.items() if {x, y} <= set(pair[1].columns)}
     if drawn:
         _draw_branches(axes, drawn, x, y)
@@ -111,10 +111,14 @@ def draw_results(results: Mapping[str, Result], x: str = "", y: str = "") -> Fig
     return figure
 
 
-def _chosen(branch: Branch, x: str, y: str) -> tuple[str, str]:
-    """The control over the first other column that varies along a branch, where no column is given."""
+def _chosen(branch: Branch, x: str, y: str, scales: Mapping[str, str]) -> tuple[str, str]:
+    """The control over the first other column that varies along a branch, where no column is given.
+
+    The first is that of the problem's list, which the scales follow: a branch has its loads before others.
+    """
     varies = [n for n, v in branch.columns.items() if n not in ASIDE and np.ptp(np.nan_to_num(v)) > 0]
-    names = sorted(varies or branch.columns, key=lambda name: name == branch.control)
+    rank = {name: k for k, name in enumerate(scales)}
+    names = sorted(varies or branch.columns, key=lambda n: (n == branch.control, rank.get(n, len(rank))))
     x = x or next((name for name in names if name != y), names[0])
     y = y or next((name for name in reversed(names) if name != x), x)
     return x, y
@@ -151,6 +155,7 @@ def empty_axes() -> tuple[Figure, Axes]:
     figure = FigureCanvasAgg(Figure(figsize=SIZE, layout="constrained")).figure
     axes = figure.add_subplot()
     axes.grid(color="#e6e6e2", linewidth=0.5)
+    axes.margins(y=0.07)
     axes.set_axisbelow(True)
     return figure, axes
 
@@ -179,14 +184,24 @@ def _draw_branches(axes: Axes, drawn: Mapping[str, tuple[Result, Branch]], x: st
         if branch.ended is not None and len(branch):
             place = float(branch[x][-1]), float(branch[y][-1])
             if _end_text(branch) not in ends:
-                offset = {"textcoords": "offset points", "ha": "right", "fontsize": "x-small"}
-                axes.annotate(_end_text(branch), place, (-4, -10), **offset)
+                _annotate_end(axes, branch, x, y)
             ends.add(_end_text(branch))
             axes.plot(*place, "|", color=colour, markersize=9)
     for kind in kinds:
         axes.plot([], [], marker=MARKERS[kind], ls="", color="#5c5c61", label=kind.replace("_", " "))
     if any(unstable for _, branch in drawn.values() for _, unstable in _parts(branch)):
         axes.plot([], [], "--", color="#5c5c61", label="unstable (n_negative > 0)")
+
+
+def _annotate_end(axes: Axes, branch: Branch, x: str, y: str) -> None:
+    """Say beside the last point what ends a branch: above a branch that comes from below, else below it."""
+    over, up = (float(branch[name][-1] - branch[name][max(len(branch) - 2, 0)]) for name in (x, y))
+    place = float(branch[x][-1]), float(branch[y][-1])
+    ha, va = "left" if over < 0 else "right", "bottom" if up > 0 else "top"
+    offset = (4 if over < 0 else -4), (3 if up > 0 else -5)
+    axes.annotate(
+        _end_text(branch), place, offset, textcoords="offset points", ha=ha, va=va, fontsize="x-small"
+    )
 
 
 def _literal(text: str) -> str:
@@ -248,5 +263,11 @@ def _label(key: str, branch: str, count: int) -> str:
 
 
 def label_of(name: str, scales: Mapping[str, str]) -> str:
-    """Label of an axis: a column and its meaning."""
-    return fill(f"{name}:  {scales[name]}", WIDTH) if name in scales else name
+    """Label of an axis: a column and its meaning, in lines of similar length."""
+    if name not in scales:
+        return name
+    text = f"{name}:  {scales[name]}"
+    count = len(wrap(text, WIDTH, break_on_hyphens=False))
+    widths = range(len(text) // max(count, 1), WIDTH + 1)
+    tried = (wrap(text, max(width, 1), break_on_hyphens=False) for width in widths)
+    return "\n".join(next(lines for lines in tried if len(lines) <= count))

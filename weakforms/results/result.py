@@ -68,10 +68,17 @@ class Result:
         return html(self)
 
     def plot(self, x: str = "", y: str = "") -> Figure:
-        """Draw one column over another with special points and stability (:mod:`weakforms.results.plot`)."""
-        from weakforms.results.plot import draw_results
+        """Draw one column over another with special points and stability, or a diagram in its plane.
 
-        return draw_results({"": self}, x, y)
+        :mod:`weakforms.results.plot` has the details.
+
+        Raises:
+            InputError: If a column is missing, or there is nothing to draw.
+            EnvironmentLackError: If matplotlib is missing.
+        """
+        from weakforms.results.diagram import draw
+
+        return draw({"": self}, x, y)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A ``DataFrame`` of :func:`weakforms.results.frames.result_frame`."""

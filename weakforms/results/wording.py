@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 
 from weakforms.results.model import Branch
 from weakforms.results.result import Result
@@ -72,6 +73,23 @@ def state_rows(result: Result) -> list[tuple[str, dict[str, str]]]:
 def _on(branch: str, result: Result) -> str:
     """The branch, if a result has several."""
     return f" on {branch}" if len(result.branches) > 1 else ""
+
+
+def not_crossed(name: str, value: float, crossing: int, count: int, values: Sequence[float]) -> str:
+    """Why there is no such crossing of a value, which a branch takes ``count`` times.
+
+    Args:
+        name: Column.
+        value: Its value that was asked for.
+        crossing: The crossing that was asked for, from 1.
+        count: Number of crossings, less than that.
+        values: The column along the branch.
+    """
+    taken = f"{name} = {value:g} is not taken on this branch"
+    if count:
+        times = "once" if count == 1 else f"{count} times"
+        taken = f"{name} = {value:g} is taken {times} on this branch, so there is no crossing {crossing}"
+    return f"{taken}; {name} ranges over [{min(values):.6g}, {max(values):.6g}]"
 
 
 def notes(result: Result) -> list[str]:

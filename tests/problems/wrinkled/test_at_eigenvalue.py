@@ -37,7 +37,7 @@ def test_an_eigenvalue_that_is_not_computed_is_refused_with_those_that_are(probl
 
 
 def test_a_value_that_an_eigenvalue_never_has_is_refused_with_its_range():
-    with pytest.raises(InputError, match=r"Lambda_n2_1 = 9 is crossed 0 times .* ranges over \[0\.18"):
+    with pytest.raises(InputError, match=r"Lambda_n2_1 = 9 is not taken .* ranges over \[0\.18"):
         solve("wrinkled_tube", n=[2], at={"Lambda_n2_1": 9.0}, **TUBE)
 
 

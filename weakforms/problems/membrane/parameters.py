@@ -45,7 +45,7 @@ class MembraneParameters(MaterialChoice):
     """The membrane, its supports and its load."""
 
     ratio: ClassVar[str] = "alpha"
-    needs: ClassVar[Needs] = {name: [{"mesh": ("a file",)}] for name in ("unit", "held", "mirror")}
+    needs: ClassVar[Needs] = {name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror")}
     movable: ClassVar = {"w_end": "le"}
 
     mesh: Annotated[str, AfterValidator(_known)] = Field(

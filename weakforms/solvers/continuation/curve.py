@@ -9,6 +9,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results.model import ROUND_OFF, crossings
+from weakforms.results.wording import not_crossed
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, hermite
 from weakforms.solvers.equilibrium.constraints import Held, MonitorPlane
 from weakforms.solvers.equilibrium.newton import Constraint
@@ -129,11 +130,7 @@ class SolutionCurve:
         """
         hits = self.crossings(name, value)
         if len(hits) < crossing:
-            column = self.over_points(name)
-            raise InputError(
-                f"{name} = {value:g} is crossed {len(hits)} times on this branch, not {crossing}; "
-                f"{name} ranges over [{column.min():.6g}, {column.max():.6g}]"
-            )
+            raise InputError(not_crossed(name, value, crossing, len(hits), self.over_points(name)))
         i = int(hits[crossing - 1])
         if name in self.computed:
             return replace(self._root(i, lambda solved: self._computed(solved, name) - value, name), kind="")

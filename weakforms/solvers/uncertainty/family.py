@@ -201,7 +201,8 @@ class BranchFamily:
         if special:
             points = [same for same in self._special() if same[-1].kind == name]
             if not 1 <= value <= len(points):
-                raise InputError(f"{name} = {value:g}: this branch has {len(points)} of them")
+                number = f"only {len(points)}" if points else "none"
+                raise InputError(f"{name} = {value:g}: this branch has {number}")
             solved = points[int(value) - 1]
         else:
             solved = self._at(name, value, crossing)

@@ -11,6 +11,7 @@ from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.results import Failure
+from weakforms.results.wording import not_crossed
 from weakforms.solvers.equilibrium import constraints as fixed
 
 TOLERANCE = 1e-11
@@ -118,10 +119,7 @@ class StabilityChanges:
             if self.failures:
                 raise ConvergenceError(f"{self.failures[0].what}: {self.failures[0].reason}")
             over = [self.lowest(held) + value for *_, held in points]
-            raise InputError(
-                f"{name} = {value:g} is crossed {len(found)} times on this branch, not {crossing}; "
-                f"{name} ranges over [{min(over):.6g}, {max(over):.6g}]"
-            )
+            raise InputError(not_crossed(name, value, crossing, len(found), over))
         change, control = found[crossing - 1], self.membrane.control
         if change.beside is not None:
             at = f"{control} = {change.levels[-1].state.loads[control]:.9g}"
