@@ -156,13 +156,22 @@ class WorkProgress:
     def line(self, text: str) -> None:
         """Report that something is finished: a line in a log; a terminal shows only the bar."""
 
+    def plan(self, text: str) -> None:
+        """Say what will be done, before it begins: a line in a log, or above the bar of a terminal."""
+        self.line(text)
+
 
 class _Bar(WorkProgress):
     def __init__(self, bar: Any) -> None:
         self._bar, self._task = bar, bar.add_task("starting", total=None)
 
     def __call__(self, what: str, done: float, total: float) -> None:
-        self._bar.update(self._task, description=plain(what), completed=done, total=total)
+        # As a share: rich forgets the speed, and with it the time that is left, whenever a total changes.
+        share = done / total if total else 0.0
+        self._bar.update(self._task, description=plain(what), completed=share, total=1.0)
+
+    def plan(self, text: str) -> None:
+        self._bar.console.print(plain(text), soft_wrap=True)
 
 
 class _Log(WorkProgress):

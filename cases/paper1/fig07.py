@@ -113,7 +113,7 @@ CASE = Case(
             "b",
             x=Axis("p", 0, 7),
             y=Axis("X_iso", 0, 0.35),
-            title="radius of the zone with |lam1 - lam2| < 1e-4",
+            title=r"radius of the zone with $|\lambda_1 - \lambda_2| < 10^{-4}$",
             markers="contact_onset",
             curves=(Curve(SLIP, r"$\alpha = 0.1$, $\beta = 1$", reference="fig07b_iso"),),
         ),

@@ -8,9 +8,12 @@ import signal
 import subprocess
 import sys
 import time
+from io import StringIO
 from types import SimpleNamespace
 
 import pytest
+from rich.console import Console
+from rich.progress import Progress, TextColumn, TimeRemainingColumn
 
 from weakforms import api, terminal, tube
 from weakforms.errors import ConvergenceError
@@ -144,6 +147,8 @@ def test_a_log_says_what_is_planned_and_how_each_case_went(weakforms, tiny, tmp_
     assert all(re.match(r"\[\d+:\d\d\] ", line) for line in lines)
     said = [line.partition("] ")[2] for line in lines]
     assert said[0] == "1 case: 2 solutions to solve"
+    again = weakforms("verify", "--out", tmp_path / "out").err.splitlines()
+    assert re.search(r"2 solutions to solve, about .+ s by the times of the last run$", again[0])
     assert sum(line.startswith("1 of 1 case: paper2.tiny passed, 1 check, ") for line in said) == 1
     assert any(line.startswith("0 of 2 solved; tube(") for line in said)  # where the work is, meanwhile
 
@@ -163,6 +168,20 @@ def test_a_log_tells_the_time_that_is_left_at_the_speed_of_this_run(monkeypatch)
         now[0] = second
         log("solving", share, 1.0)
         assert log._left() == text
+
+
+def test_a_terminal_shows_the_plan_and_the_time_that_is_left_while_estimates_change():
+    now = [0.0]
+    screen = Console(file=StringIO(), force_terminal=True, width=100, highlight=False)
+    columns = (TextColumn("{task.description}"), TimeRemainingColumn())
+    with Progress(*columns, console=screen, get_time=lambda: now[0], auto_refresh=False) as shown:
+        bar = terminal._Bar(shown)
+        bar.plan("3 cases: 40 solutions to solve")
+        for second, done, total in ((0, 0.0, 30.0), (10, 10.0, 55.0), (20, 20.0, 60.0), (30, 30.0, 58.0)):
+            now[0] = second
+            bar("solving", done, total)
+        assert shown.tasks[0].time_remaining == pytest.approx(28, abs=2)
+    assert "3 cases: 40 solutions to solve" in screen.file.getvalue()
 
 
 def test_work_is_shared_by_all_cores_unless_ranks_share_it(monkeypatch):
@@ -319,5 +338,8 @@ def test_progress_counts_seconds_not_solutions(tmp_path):
     again.finish(specs[1])
     assert again.share() == (1.0, 33.0)
     assert again.count == "1 of 3"
+    assert again.expected(2) == 16.0
+    assert first.expected(1) == 0
+    assert Effort(tmp_path / "times.json", [*specs, tube(alpha=0.3)]).expected(1) is None
     (tmp_path / "times.json").write_text("[1")
     assert Effort(tmp_path / "times.json", specs).share() == (0, 3.0)

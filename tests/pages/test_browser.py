@@ -7,6 +7,7 @@ from canned_run import failing_case, passing_case, sample
 from headless import CONTRASTS, SIZES, Browser
 
 from weakforms.errors import EnvironmentLackError
+from weakforms.verification.judging.outcome import Verdict
 from weakforms.verification.report.pdf import browser, write_pdf
 from weakforms.verification.report.report import write_report
 
@@ -100,6 +101,21 @@ def test_a_fault_would_be_seen(window, tmp_path, fault, sense):
     }
     assert seen.pop(sense)
     assert not any(seen.values()) or "not-there" in fault
+
+
+def test_a_print_shows_failed_checks_and_leaves_the_usual_ones_to_the_count(window, tmp_path):
+    case = failing_case()
+    case.verdicts += [
+        Verdict("trace:a", "trace", True, "The branch is one."),
+        Verdict("trace:b", "trace", False, "The branch is two."),
+    ]
+    write_report(sample(case), tmp_path)
+    window.open(tmp_path / "paper2.html", 1280, "light")
+    seen = "[...document.querySelectorAll('table.checks tbody tr')].filter(e => e.checkVisibility()).length"
+    assert window.evaluate(seen) == 5
+    window.call("Emulation.setEmulatedMedia", media="print")
+    assert window.evaluate(seen) == 4
+    window.call("Emulation.setEmulatedMedia", media="")
 
 
 def test_the_whole_report_as_a_pdf(opened, tmp_path):

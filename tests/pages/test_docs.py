@@ -41,7 +41,7 @@ def readers(folder):
 def test_there_is_a_page_for_everything(readers, folder):
     wanted = {f"problems/{name}.html" for name in registry.abouts()}
     wanted |= {f"api/{group}.html" for group in api.GROUPS}
-    wanted |= {"index.html", "cases.html", "gallery.html", "search.html", "CONTRIBUTING.html"}
+    wanted |= {"index.html", "cases.html", "gallery.html", "symbols.html", "search.html", "CONTRIBUTING.html"}
     wanted |= {f"{path.stem}.html" for path in (site.ROOT / "docs").glob("*.md")}
     assert set(readers) == wanted
     assert all(reader.open == [] for reader in readers.values())
@@ -85,6 +85,14 @@ def test_a_problem_is_shown_with_its_form_and_a_right_example(name, readers):
         validated(problem.numerics, dict(spec.numerics), name)
     if not shown.values:
         assert {shown.x, shown.y} <= {column.name for column in about.columns}
+
+
+def test_every_number_with_a_meaning_is_in_the_table_of_symbols(readers):
+    text = " ".join(" ".join(readers["symbols.html"].words).split())
+    for about in registry.abouts().values():
+        for name, meaning in about.scales.items():
+            assert f"{name} {' '.join(meaning.split())}" in text
+    assert "λ 1 lam1 meridional stretch, 1" in text
 
 
 def test_show_prints_what_the_page_has():

@@ -19,6 +19,7 @@ from weakforms.docs.pictures import pictures
 from weakforms.docs.prose import docstring, formula, markdown, with_pictures
 from weakforms.docs.search import SCRIPT, entries, policy
 from weakforms.errors import InputError
+from weakforms.problems import registry
 from weakforms.results import write_atomically
 from weakforms.results.io import require_writable
 from weakforms.solvers.support.provenance import revision
@@ -28,7 +29,7 @@ from weakforms.verification.cases.catalogue import describe
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import ROOT
 from weakforms.verification.report.look import LOOK, TEMPLATES
-from weakforms.verification.report.wording import html_tex
+from weakforms.verification.report.wording import html_tex, symbol
 
 VARIATIONS = (
     r"\delta\Pi(u; v) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} \Pi(u + \epsilon v) \,|_{\epsilon = 0} = 0, "
@@ -52,8 +53,6 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
     Raises:
         InputError: If the folder cannot be written to.
     """
-    from weakforms.problems import registry
-
     for folder in (out, out / "problems", out / "api"):
         require_writable(folder)
     names = list(registry.abouts())
@@ -65,6 +64,7 @@ def write_docs(out: Path, jobs: int = 1, solve: bool = True, progress: WorkProgr
         site.write(
             f"api/{group}.html", "api.html", f"{group}", "API", about=title, modules=api.modules(group)
         )
+    site.write("symbols.html", "symbols.html", "Symbols", "Guide", symbols=_symbols())
     site.write("cases.html", "cases.html", "Cases", "Documentation", cases=find_cases())
     if scripts():
         shown = gallery(out / "gallery", scripts() if solve else (), progress)
@@ -92,7 +92,16 @@ class Site:
         guides = [(_title(p), f"{p.stem}.html") for p in self.guides]
         shown = [("Gallery", "gallery.html")] * bool(scripts())
         self.contents = [
-            ("Guide", [("Home", "index.html"), ("Search", "search.html"), *shown, *guides]),
+            (
+                "Guide",
+                [
+                    ("Home", "index.html"),
+                    ("Search", "search.html"),
+                    ("Symbols", "symbols.html"),
+                    *shown,
+                    *guides,
+                ],
+            ),
             ("Problems", [(name, f"problems/{name}.html") for name in names]),
             ("Reference", [("cases", "cases.html"), *((g, f"api/{g}.html") for g in api.GROUPS)]),
         ]
@@ -175,6 +184,15 @@ class Site:
             caption=caption,
             cases=_cases_of(name),
         )
+
+
+def _symbols() -> dict[tuple[str, str, str], list[str]]:
+    """The problems that have a number, by its symbol, name and meaning, in the order of the alphabet."""
+    found: dict[tuple[str, str, str], list[str]] = {}
+    for about in registry.abouts().values():
+        for name, meaning in about.scales.items():
+            found.setdefault((registry.symbol(name) or symbol(name), name, meaning), []).append(about.name)
+    return dict(sorted(found.items(), key=lambda item: (item[0][1].lower(), item[0])))
 
 
 def _title(path: Path) -> str:

@@ -13,6 +13,7 @@ from weakforms.verification.cases.panels import Panel
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.judging.checks.curve import Curve
 from weakforms.verification.judging.outcome import CurveOutcome, Marker, PanelOutcome, PathOutcome
+from weakforms.verification.report.wording import kind_of_point
 from weakforms.verification.run.solutions import Solutions
 
 AXIAL = ("Z", "eta")
@@ -192,4 +193,4 @@ def _edge(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
 
 def _marker_label(point: SpecialPoint) -> str:
     """The label of a marker; the legend shows its kind."""
-    return f"n = {point.values['n']:g}" if point.values.get("n") else point.kind.replace("_", " ")
+    return f"n = {point.values['n']:g}" if point.values.get("n") else kind_of_point(point.kind)

@@ -13,12 +13,18 @@ from markupsafe import Markup
 
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import part
-from weakforms.verification.judging.outcome import CaseOutcome, Convergence, PanelOutcome, Verdict
+from weakforms.verification.judging.outcome import (
+    CaseOutcome,
+    Convergence,
+    PanelOutcome,
+    SurfaceOutcome,
+    Verdict,
+)
 from weakforms.verification.report import summary, wording
 from weakforms.verification.report.figures.canvas import Picture
 from weakforms.verification.report.figures.convergence import convergence_figure
 from weakforms.verification.report.figures.panel import panel_picture
-from weakforms.verification.report.figures.surfaces import surface_figure
+from weakforms.verification.report.figures.surfaces import surface_picture
 from weakforms.verification.report.figures.svg import standalone
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.manual import manual, references
@@ -51,6 +57,7 @@ def case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> 
             "verdict": verdict,
             "anchor": anchor(f"{top}:{verdict.check}", taken),
             "numbers": _numbers(verdict),
+            "sentence": "" if verdict.passed else what_differs(verdict),
         }
         for verdict in case.verdicts
     ]
@@ -84,28 +91,41 @@ def _file_of(case: str) -> str:
 def _figures(case: CaseOutcome, top: str, taken: set[str], shapes: Mapping[int, str]) -> list[dict[str, Any]]:
     """The pictures of a case: its panels, then its surfaces with their files for ParaView."""
     figures = []
-    for panel in case.panels:
-        ident = anchor(f"{top}:panel-{panel.name}", taken)
-        drawing = partial(panel_picture, panel, anchor("f", taken), case.verdicts)
+    for panel in (*case.panels, *case.surfaces):
+        surface = isinstance(panel, SurfaceOutcome)
+        ident = anchor(f"{top}:{'surface' if surface else 'panel'}-{panel.name}", taken)
+        place = anchor("f", taken)
+        drawing = (
+            partial(surface_picture, panel, place)
+            if surface
+            else partial(panel_picture, panel, place, case.verdicts)
+        )
         stem = unused(f"figures/{file_name(f'{case.id}-{panel.name}')}", taken)
         files = [f"{stem}.csv", f"{stem}.svg", f"{stem}.pdf"]
-        figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": None, "files": files})
-    for surface in case.surfaces:
-        ident = anchor(f"{top}:surface-{surface.name}", taken)
-        picture = partial(surface_figure, surface, anchor("f", taken))
-        figures.append(
-            {"panel": surface, "anchor": ident, "svg": picture, "shape": shapes[id(surface)], "files": []}
-        )
+        shape = shapes.get(id(panel))
+        figures.append({"panel": panel, "anchor": ident, "svg": drawing, "shape": shape, "files": files})
     return figures
 
 
 def figure_files(views: Iterable[dict[str, Any]]) -> dict[str, str | bytes]:
     """Every panel as files by name: its numbers as CSV, its picture as SVG and as PDF."""
     files: dict[str, str | bytes] = {}
-    for item in (item for view in views for item in view["figures"] if item["files"]):
+    for item in (item for view in views for item in view["figures"]):
         numbers, drawing, printed = item["files"]
-        files |= {numbers: panel_csv(item["panel"]), drawing: standalone(item["svg"]), printed: item["pdf"]}
+        write = surface_csv if item["shape"] else panel_csv
+        files |= {numbers: write(item["panel"]), drawing: standalone(item["svg"]), printed: item["pdf"]}
     return files
+
+
+def surface_csv(surface: SurfaceOutcome) -> str:
+    """The numbers of a surface, one row for each of its points."""
+    columns = dict(zip("xyz", surface.position, strict=True)) | surface.fields
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    for rows in zip(*columns.values(), strict=True):
+        writer.writerows(zip(*rows, strict=True))
+    return clean(text.getvalue())
 
 
 def panel_csv(panel: PanelOutcome) -> str:
@@ -134,6 +154,27 @@ def _numbers(verdict: Verdict) -> dict[str, str]:
         if len({texts[n] for n, v in values.items() if v is not None}) == len(set(known)):
             break
     return texts
+
+
+def what_differs(verdict: Verdict) -> str:
+    """A failed numerical check in one sentence; empty for others, whose statement and numbers say it."""
+    if verdict.bound is None or verdict.error is None:
+        return ""
+    column, numbers = wording.typeset(verdict.check.rpartition(":")[2]), _numbers(verdict)
+    if not verdict.error <= verdict.bound:
+        against = f" from {verdict.reference}" if verdict.reference else ""
+        where = f" at {wording.typeset(verdict.where)}" if verdict.where else ""
+        times = wording.fraction(summary.ratio(verdict))
+        return (
+            f"{column} differs{against} by {numbers['error']} of its scale{where}; "
+            f"this is {times} times the bound of {numbers['bound']}."
+        )
+    if verdict.asked is not None:
+        return (
+            f"{column} agrees within its bound, but the bound of {numbers['bound']} is wider than the "
+            f"accuracy of {numbers['asked']} that the case asks for."
+        )
+    return ""
 
 
 def _by_quantity(records: Iterable[Convergence]) -> list[list[Convergence]]:

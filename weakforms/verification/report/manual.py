@@ -12,11 +12,23 @@ from weakforms.verification.report.wording import symbol
 SKETCHES = {
     "circular": "disk",
     "tube": "tube",
+    "controls": "tube",
+    "diagram": "tube",
+    "infinite": "cylinder",
     "fluid": "liquid",
     "wrinkled": "wrinkled",
+    "surface": "wrinkled",
+    "wrinkled_material": "piece",
+    "wrinkled_patch": "piece",
+    "hemisphere": "hemisphere",
     "sphere": "balloon",
+    "rectangle": "rectangle",
+    "membrane": "outline",
+    "annulus": "annulus",
+    "homogeneous": "piece",
+    "material": "piece",
 }
-"""Sketch by the first word of a problem's name."""
+"""Sketch by a problem's name, or by the first word of it."""
 
 KINDS = {
     "exact": "a closed form",
@@ -46,12 +58,17 @@ def manual(case: CaseOutcome) -> list[dict[str, Any]]:
         out.append(
             {
                 "about": about,
-                "sketch": SKETCHES.get(name.partition("_")[0], ""),
+                "sketch": sketch(name),
                 "symbols": symbols,
                 "data": _data(data),
             }
         )
     return out
+
+
+def sketch(problem: str) -> str:
+    """The name of the sketch of a problem; empty if it has none."""
+    return SKETCHES.get(problem, SKETCHES.get(problem.partition("_")[0], ""))
 
 
 def references(case: CaseOutcome) -> dict[str, list[str]]:

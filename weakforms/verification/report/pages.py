@@ -228,6 +228,7 @@ def _facts(
         "loose": [a for a in summary.accuracies(run) if a.ratio > summary.LOOSE],
         "groups": groups,
         "ledger": summary.ledger_counts(run.cases),
+        "meanings": summary.MEANINGS,
         "differing": _differing(views),
         "panels": thesis.panels(run),
         "statements": thesis.statements(run),

@@ -32,7 +32,8 @@ ORDER = {"error": 0, "failed": 1, "passed": 2}
 LOST = "not recoverable"
 LABELS = {
     "misprint": "misprint proven",
-    "grid of a scan": "on a scan's grid",
+    "cut off": "truncated, not rounded",
+    "grid of a scan": "resolution of the printed grid",
     "input, not judged": "not judged",
     "input, decoded": "input recovered",
     "input, not decoded": LOST,
@@ -41,6 +42,21 @@ LABELS = {
     LOST: LOST,
 }
 """Labels of the status of a printed number; any other status is its own label."""
+
+MEANINGS = {
+    "reproduced": "the computed value rounds to every printed digit",
+    "state found": "a figure shows a state at this value, and the branch of the paper has it",
+    "input recovered": "the number is an input of a figure, and follows from a round value of another one",
+    LABELS["cut off"]: "the printed digits are those of the computed value, without rounding",
+    LABELS["grid of a scan"]: "the printed number is a multiple of a step, and the computed value lies less "
+    "than a step beside it",
+    "misprint proven": "the computed value rounds to another number, which the entry gives with its reason",
+    LOST: "the number is an input of a figure, and no round value of another quantity gives it",
+    "not reproduced": "the computed value rounds to other digits, and no explanation of this was proven",
+    "not judged": "the computed value is not accurate enough, or lies outside of what was searched",
+    "state not found": "the branch of the paper has no state at this value",
+}
+"""What the labels of printed numbers mean."""
 
 
 @dataclass(frozen=True)
@@ -191,8 +207,8 @@ def ledger_counts(cases: Iterable[CaseOutcome]) -> dict[str, int]:
         "reproduced",
         "state found",
         "input recovered",
-        "cut off",
-        "on a scan's grid",
+        LABELS["cut off"],
+        LABELS["grid of a scan"],
         "misprint proven",
         LOST,
     )

@@ -17,8 +17,17 @@ def plain_tex(text: str) -> str:
 
 GREEK = "alpha beta gamma delta eta kappa lam mu rho sigma theta Lambda Pi Theta"
 """Names of numbers that begin with a Greek letter; ``lam`` is lambda."""
-NAMED = re.compile(rf"({'|'.join(GREEK.split())}|[A-Za-z]{{1,2}})(\d*)((?:_[A-Za-z0-9]+)*)")
-"""A name as a symbol: a letter, a number, and words or numbers after underlines."""
+NAMED = re.compile(
+    rf"({'|'.join(GREEK.split())}|[A-Za-z]{{1,2}})((?<=[a-z]{{3}})[A-Z]|\d*)((?:_[A-Za-z0-9]+)*)"
+)
+"""A name as a symbol: a letter, a number (after LambdaV a capital), and words or numbers after underlines."""
+LINES = {
+    "fold": "limit point",
+    "mirror": "mirror breaking",
+    "wrinkling": "first wrinkling",
+    "contact": "first contact",
+}
+"""Conditions on whose lines two at once hold, or that turn, at a special point."""
 WORDS = {"of", "in", "at", "to", "is", "or", "no", "on", "an", "as", "by", "a"}
 """Words that look like symbols."""
 
@@ -34,6 +43,23 @@ def symbol(name: str) -> str:
         stem, number = letter[0], letter[1] + number
     parts = [number] * bool(number) + [p if len(p) < 2 else rf"\mathrm{{{p}}}" for p in rest.split("_")[1:]]
     return f"${stem}_{{{','.join(parts)}}}$" if parts else f"${stem}$"
+
+
+def kind_of_point(kind: str) -> str:
+    """A kind of special points in words: ``fold_n1`` is a limit point and a bifurcation with one wave."""
+
+    def line(word: str) -> str:
+        waves = re.fullmatch(r"n(\d+)", word)
+        return f"$n = {waves[1]}$" if waves else LINES.get(word, "")
+
+    first, _, second = kind.partition("_")
+    if first == "tip" and line(second):
+        return f"turn of {line(second)}"
+    if line(first) and line(second):
+        return f"{line(first)} and {line(second)}"
+    if first == "bifurcation" and second not in LINES and line(second):
+        return f"{first}, {line(second)}"
+    return kind.replace("_", " ")
 
 
 def typeset(text: str) -> str:
@@ -56,8 +82,8 @@ def typeset(text: str) -> str:
         number = re.fullmatch(r"-?\d+(\.\d+)?", word)
         if number and out and NAMED.fullmatch(out[-1]):
             out[-1] = f"{symbol(out[-1])} = {word}"
-        else:
-            out.append(word)
+        else:  # case2 is case 2
+            out.append(word if NAMED.fullmatch(word) else re.sub(r"^([a-z]{3,})(\d+)$", r"\1 \2", word))
     return ", ".join(out) if any("$" in part for part in out) else text
 
 

@@ -14,6 +14,9 @@ from statistics import fmean
 from weakforms.results import write_atomically
 from weakforms.verification.cases.specs import Spec
 
+TIMES = "times.json"
+"""File of an output folder with the seconds that its solutions took."""
+
 
 class Effort:
     """Seconds that solutions took, from earlier runs into the same folder and from this one.
@@ -53,6 +56,11 @@ class Effort:
 
         total = sum(map(expected, self._specs))
         return sum(map(expected, self._done)), total
+
+    def expected(self, at_once: int) -> float | None:
+        """Seconds that what is not yet done will take, so many at a time; ``None`` if a time is not known."""
+        left = [self._seconds.get(str(spec)) for spec in self._specs if spec not in self._done]
+        return None if None in left else sum(filter(None, left)) / at_once
 
     @property
     def count(self) -> str:

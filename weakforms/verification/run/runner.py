@@ -19,7 +19,8 @@ from weakforms.verification.judging.consistency import marks
 from weakforms.verification.judging.outcome import CaseOutcome, Convergence, RunOutcome, Verdict
 from weakforms.verification.judging.panels import draw_panel
 from weakforms.verification.report.summary import case_line
-from weakforms.verification.report.wording import plural
+from weakforms.verification.report.wording import duration, plural
+from weakforms.verification.run.effort import TIMES, Effort
 from weakforms.verification.run.machine import environment
 from weakforms.verification.run.plan import Plan, checks_of
 from weakforms.verification.run.solutions import Solutions
@@ -167,7 +168,12 @@ def verify(
     progress = progress or WorkProgress()
     count = at_once(jobs)
     together = f", {count} at a time" if count > 1 else ""
-    progress.line(f"{plural(len(cases), 'case')}: {plural(len(plan.states), 'solution')} to solve{together}")
+    # Known from an earlier run into this folder; what a resumed run keeps takes no time again.
+    usual = None if resume else Effort(out / TIMES, plan.states).expected(count)
+    long = "" if usual is None else f", about {duration(usual)} by the times of the last run"
+    progress.plan(
+        f"{plural(len(cases), 'case')}: {plural(len(plan.states), 'solution')} to solve{together}{long}"
+    )
     solver = Solver(out / "solutions", jobs, resume, writes)
     outcomes: dict[str, CaseOutcome] = {}
     missing = {found.id: set(plan.by_case[found.id]) for found in cases}

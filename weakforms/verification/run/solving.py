@@ -16,7 +16,7 @@ from weakforms.results.io import dumps
 from weakforms.terminal import WorkProgress
 from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.judging.consistency import traces
-from weakforms.verification.run.effort import Effort
+from weakforms.verification.run.effort import TIMES, Effort
 from weakforms.verification.run.plan import Plan
 from weakforms.verification.run.workers import in_this_process, workers
 
@@ -138,7 +138,7 @@ class Solver:
             settled: Called with each spec when its result is available or has failed.
         """
         progress = progress or WorkProgress()
-        effort = Effort(self.folder.parent / "times.json", plan.states)
+        effort = Effort(self.folder.parent / TIMES, plan.states)
         todo = []
         for spec, states in plan.states.items():
             path = self.folder / f"{solution_key(spec, states)}.json"

@@ -23,9 +23,13 @@ from weakforms.verification.report.figures.canvas import (
     new_ruler,
 )
 from weakforms.verification.report.look import LEFT, LOOK
+from weakforms.verification.report.wording import kind_of_point
 
 POINTS = LOOK["points"]
 """Markers of special points."""
+
+FAILED = {"marker": "o", "ms": 11, "mew": 1.8, "mfc": "none", "color": INK, "ls": ""}
+"""Ring around a row at which a check fails."""
 
 
 def key(label: str, index: int | None, **style: Any) -> Line2D:
@@ -35,8 +39,13 @@ def key(label: str, index: int | None, **style: Any) -> Line2D:
     return Line2D([], [], **usual | style)
 
 
-def panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
-    """Legend entries: the curves, and below them the meaning of lines and marks."""
+def panel_keys(panel: PanelOutcome, failed: bool = False) -> list[list[Line2D]]:
+    """Legend entries: the curves, and below them the meaning of lines and marks.
+
+    Args:
+        panel: What is drawn.
+        failed: Whether rows at which a check fails are marked.
+    """
     curves = panel.curves
     named = [key(as_math(curve.label or curve.name), i) for i, curve in enumerate(curves)]
     if any(any(curve.unstable) for curve in curves):
@@ -49,7 +58,8 @@ def panel_keys(panel: PanelOutcome) -> list[list[Line2D]]:
         keys.append(key(as_math(f"reference ({kind})".replace(" ()", "")), None, marker="o", ls=""))
     for kind in sorted({point.kind for point in panel.markers}):
         style = {"marker": POINTS.get(kind, "d"), "mfc": INK, "color": INK, "ls": ""}
-        keys.append(key(as_math(kind.replace("_", " ")), None, **style))
+        keys.append(key(as_math(kind_of_point(kind)), None, **style))
+    keys += [key("a check fails here", None, **FAILED)] * failed
     return [named, keys]
 
 
@@ -61,7 +71,7 @@ def with_legend(groups: list[list[Line2D]], width: float, above: float, below: f
     for keys in filter(None, groups):
         wide = [_key_width(figure, key, ruler) for key in keys]
         columns = min(6, len(keys))
-        while columns > 1 and _legend_width(wide, columns) > figure.dpi * (width - LEFT + 0.05):
+        while columns > 1 and _legend_width(wide, columns) > figure.dpi * (width - LEFT):
             columns -= 1
         legend = figure.legend(handles=_by_rows(keys, columns), ncols=columns, loc="upper left")
         legends.append((legend, above + keyed))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -24,11 +25,11 @@ from weakforms.verification.report.figures.canvas import (
     pdf,
     svg,
 )
-from weakforms.verification.report.figures.legend import panel_keys, with_legend
+from weakforms.verification.report.figures.legend import FAILED, panel_keys, with_legend
 from weakforms.verification.report.figures.points import draw_points
 from weakforms.verification.report.figures.residuals import draw_residuals
 from weakforms.verification.report.look import HEIGHT, WIDTH
-from weakforms.verification.report.summary import describe
+from weakforms.verification.report.summary import describe, of_curve
 from weakforms.verification.report.wording import plain_tex
 
 SHOWN = 22
@@ -54,7 +55,8 @@ def panel_picture(
     residuals = any(len(curve.residual) for curve in panel.curves)
     lower = 1.97 if residuals else 0.0
     with drawing(ident):
-        figure, keyed = with_legend(panel_keys(panel), WIDTH, HEIGHT + FOOT, lower)
+        failed = [row for curve in panel.curves for row in failed_rows(curve, verdicts)]
+        figure, keyed = with_legend(panel_keys(panel, bool(failed)), WIDTH, HEIGHT + FOOT, lower)
         place = (lower + keyed + FOOT, HEIGHT)
         axes = new_axes(figure, *place, as_math(panel.x_label), as_math(panel.y_label))
         for limits, setter in ((panel.x_range, axes.set_xlim), (panel.y_range, axes.set_ylim)):
@@ -67,11 +69,28 @@ def panel_picture(
         for path in panel.paths:
             axes.plot(path.x, path.y, ls=":", lw=0.9, color=MUTED, zorder=1)
         draw_points(axes, panel)
+        for row in failed:
+            axes.plot(*row, **FAILED, zorder=5)
         if residuals:
             draw_residuals(new_axes(figure, FOOT, 1.12), panel, verdicts)
         title = plain_tex(panel.title or panel.name)
         shown = svg(figure, ident, title, describe(panel, verdicts))
         return Picture(shown, pdf(figure, title) if printed else b"")
+
+
+def failed_rows(curve: CurveOutcome, verdicts: Sequence[Verdict]) -> list[tuple[float, float]]:
+    """The rows of a curve's reference at which a check on it fails most, as points of the panel."""
+    found = []
+    for verdict in of_curve(curve, verdicts):
+        place = re.search(r" = (-?\d[-+.e\d]*)", verdict.where)
+        if verdict.passed or place is None or not curve.residual_x or not curve.reference_x:
+            continue
+        row = int(np.argmin(np.abs(np.asarray(curve.residual_x, float) - float(place[1]))))
+        row += len(curve.reference_x) - len(curve.residual_x)  # profiles are mirrored to both sides
+        point = (curve.reference_x[row], curve.reference_y[row])
+        if point not in found:
+            found.append(point)
+    return found
 
 
 def _draw_curve(axes: Axes, curve: CurveOutcome, index: int) -> None:

@@ -48,7 +48,7 @@ def draw_residuals(axes: Axes, panel: PanelOutcome, verdicts: Sequence[Verdict])
     axes.set_ylabel("relative error", fontsize=10)
     note = "open: error; filled: out of bound; line: bound"
     note += "; dash-dotted: asked" * bool(judged) + "; at the foot: zero" * zeros
-    note += "; worst of neighbouring rows" * any(len(c.residual) > ERRORS for c in curves)
+    note += ";\nworst of neighbouring rows" * any(len(c.residual) > ERRORS for c in curves)
     axes.text(0, 1.05, note, transform=axes.transAxes, fontsize=8.5, color=MUTED)
 
 

@@ -40,13 +40,15 @@ def inline_svg(drawing: str, ident: str, title: str, description: str, colours: 
             if child.tag.rpartition("}")[2] in ("metadata", "style"):
                 parent.remove(child)
     used = set(re.findall(r"#([\w-]+)", " ".join(v for e in root.iter() for v in e.attrib.values())))
+    names = [name for name in (e.get("id") for e in root.iter()) if name in used]
+    short = {name: name if name.startswith("STIX") else str(k) for k, name in enumerate(names)}
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
         attributes = {key.rpartition("}")[2]: value for key, value in element.attrib.items()}
         element.attrib.clear()
         for key, value in attributes.items():
             if key != "id" or value in used:
-                element.set(key, _rewritten(key, value, ident, colours))
+                element.set(key, _rewritten(key, value, ident, colours, short))
     box = root.get("viewBox", "")
     root.attrib.clear()
     root.attrib |= {"xmlns": "http://www.w3.org/2000/svg", "viewBox": box, "role": "img"}
@@ -59,6 +61,7 @@ def inline_svg(drawing: str, ident: str, title: str, description: str, colours: 
             for use in group:
                 del use.attrib["style"]
     _with_markers(root)
+    _unwrap(root)
     for place, (tag, text) in enumerate((("title", title), ("desc", description))):
         element = ET.Element(tag, id=f"{ident}--{tag}")
         element.text = clean(text)
@@ -66,21 +69,33 @@ def inline_svg(drawing: str, ident: str, title: str, description: str, colours: 
     for element in root.iter():
         element.tail = None
         element.text = (element.text or "").strip() or None
-    return ET.tostring(root, encoding="unicode", short_empty_elements=True)
+    return ET.tostring(root, encoding="unicode", short_empty_elements=True).replace(" />", "/>")
 
 
-def _rewritten(key: str, value: str, ident: str, colours: Mapping[str, str]) -> str:
+def _unwrap(element: ET.Element) -> None:
+    """Leave out what shows nothing: groups without a style or a place, and areas without a colour."""
+    kept: list[ET.Element] = []
+    for child in element:
+        _unwrap(child)
+        if child.tag == "path" and child.get("style") == "fill: none" and not child.get("id"):
+            continue
+        bare = child.tag in ("g", "defs") and not child.attrib
+        kept.extend(child if bare and (child.tag == "g" or not len(child)) else [child])
+    element[:] = kept
+
+
+def _rewritten(key: str, value: str, ident: str, colours: Mapping[str, str], short: Mapping[str, str]) -> str:
     if key == "id":
-        return f"{ident}--{value}"
+        return f"{ident}--{short[value]}"
     if key == "href":
-        return value.replace("#", f"#{ident}--")
+        return f"#{ident}--{short[value[1:]]}"
     if key == "d" and not re.search("[^MLz0-9. -]", value):
         return _differences(value)
     if key in ("d", "x", "y"):
         return " ".join(re.sub(r"(\.\d\d)\d+", r"\1", value).split())
     if key == "transform":
         return re.sub(r"translate\([^)]*\)", lambda hit: re.sub(r"-?\d+\.\d+", _rounded, hit[0]), value)
-    value = value.replace("url(#", f"url(#{ident}--")
+    value = re.sub(r"url\(#([\w-]+)", lambda hit: f"url(#{ident}--{short[hit[1]]}", value)
     return re.sub(
         "#[0-9a-f]{6}",
         lambda hit: f"var({colours[hit[0]]},{hit[0]})" if hit[0] in colours else hit[0],
