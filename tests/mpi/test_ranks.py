@@ -1,6 +1,7 @@
 """The tube and the disk: the same numbers serially and on two ranks."""
 
 import pytest
+from on_ranks import start
 
 pytestmark = pytest.mark.mpi
 MESH = {"cells": 32, "degree": 3, "levels": 2}
@@ -72,3 +73,26 @@ def test_disk(same_on_ranks):
     # The stuck patch's history is a fixed point, known to 2e-11; derivatives at its edge multiply that.
     same_on_ranks([free | {"numerics": MESH}])
     same_on_ranks([item | {"numerics": MESH} for item in (stuck, peeled)])
+
+
+LEAST = """
+import numpy as np
+from mpi4py import MPI
+from tests.solvers.continuation.test_lines import bowed
+from weakforms.solvers.equilibrium.state import State
+comm = MPI.COMM_WORLD
+system, least = bowed(8, comm)
+for s in (0.1, 0.9):
+    with system.at(State(np.full(system.size, 0.45), {"load": 0.45, "s": s})):
+        least.turn()
+    places = comm.allgather(least.place)
+    if comm.rank == 0:
+        print("PLACES", *places)
+"""
+
+
+def test_all_ranks_know_the_place_of_a_least_value(launcher):
+    lines = [line.split()[1:] for line in start(["-c", LEAST], 2).splitlines() if line.startswith("PLACES")]
+    assert [[float(text) for text in line] for line in lines] == [
+        pytest.approx([place, place], abs=1e-9) for place in (0.1, 0.9)
+    ]

@@ -250,7 +250,7 @@ def test_parameters_of_files_have_no_effect_on_shapes_without_a_file():
 
     for mesh in ("disk", "square"):
         (said,) = MembraneParameters(mesh=mesh, unit=2.0).without_effect()
-        assert said == "unit = 2.0 has no effect here; it needs mesh = a file"
+        assert said == "unit = 2.0 has no effect here; it needs mesh = FILE"
     assert MembraneParameters(mesh="part.msh", unit=2.0).without_effect() == []
 
 

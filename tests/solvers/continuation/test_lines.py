@@ -126,9 +126,9 @@ def test_the_border_turns_with_the_null_vector_and_keeps_its_sense():
     assert condition.border == pytest.approx([-1.0, 0.0])
 
 
-def bowed(cells=7):
+def bowed(cells=7, comm=COMM):
     """``u = load``, and the expression ``(x - s)^2 + u - 1/2`` on the unit interval, with ``s`` a load."""
-    domain = mesh.create_unit_interval(COMM, cells)
+    domain = mesh.create_unit_interval(comm, cells)
     space = fem.functionspace(domain, ("Lagrange", 3))
     u, v, trial = fem.Function(space), ufl.TestFunction(space), ufl.TrialFunction(space)
     loads = {name: (c := fem.Constant(domain, 0.3), ufl.variable(c)) for name in ("load", "s")}
