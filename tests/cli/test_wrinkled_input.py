@@ -23,6 +23,7 @@ pytestmark = pytest.mark.paper4
         (["--set", "c2=-0.1"], "greater than or equal to 0"),
         (["--set", "L=0"], "greater than or equal to 1"),
         (["--set", "wind=1"], "no parameter 'wind'"),
+        (["--mesh", "degree=1"], "degree = '1': input should be greater than or equal to 2"),
         (["--at", "p=0.1"], "there is no p"),
         (["--set", "load=gas", "--at", "zw=3"], "there is no zw"),
         (["--at", "zw=-1"], "must be 0 or more"),

@@ -402,4 +402,4 @@ def test_the_series_of_chains_has_the_coefficients_of_bernoullis_numbers():
     exact = [
         Fraction(2 ** (2 * k - 1), k * factorial(2 * k)) * bernoulli[2 * k] for k in range(1, len(SERIES) + 1)
     ]
-    assert [float(value) for value in exact] == pytest.approx(list(SERIES), rel=1e-15)
+    assert [float(value) for value in exact] == pytest.approx(list(SERIES), rel=1e-15, abs=0)
