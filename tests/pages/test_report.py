@@ -90,6 +90,7 @@ def test_junit_parses_and_counts(run):
     root = ET.fromstring(junit_xml(run).encode())
     assert [suite.get("name") for suite in root] == [clean(case.id) for case in run.cases]
     assert (root.get("tests"), root.get("failures"), root.get("errors")) == ("9", "4", "1")
+    assert sum(int(suite.get("tests")) for suite in root) == 9
     cases = {(item.get("classname"), item.get("name")): item for item in root.iter("testcase")}
     failure = cases["paper2.fig02", "bad:p"].find("failure")
     assert "12 rows out of bound" in failure.text

@@ -111,3 +111,12 @@ def test_stretches_at_which_the_law_is_not_defined_are_no_state():
         System._maxima(held)
     held._peaks = {"t": lambda: 2.0}
     assert System._maxima(held) == {"t": 2.0}
+
+
+def test_a_law_that_hardly_gives_is_not_advised_a_substrate_inside_of_the_tube():
+    law = {"model": "beda_chevalier", "k1": 0.8082, "k2": 21.58, "k3": 0.00424, "power": 16.8}
+    given = law | {"delta1": 3.375, "lf": 27.88, "s": 1.343, "contact": "adhesive", "phase": "deflation"}
+    with pytest.raises(
+        InputError, match="all but inextensible; choose less pre-stretch, or constants of the law"
+    ):
+        solve("tube", **given, numerics={"cells": 32, "levels": 2})

@@ -221,3 +221,9 @@ def test_fronts_in_the_documentation_rise_and_match_the_profile(path):
         above = words[i] in ("taut", "gw>1")
         room = about["columns"]["gw"]["uncertainty"]
         assert np.all(gw > 1 - room) if above else np.all(gw < 1 + room)
+
+
+@pytest.mark.parametrize("name", paper4_branches.SETS)
+def test_the_tables_of_branches_have_the_loads_that_are_solved_for(name):
+    membrane, loads, _ = paper4_branches.SETS[name]
+    assert read(name)[1][membrane.control] == pytest.approx(loads, abs=1e-10)

@@ -22,6 +22,9 @@ from weakforms.solvers.equilibrium.state import State
 SOFTEST = -5.0
 """Power of ten by which springs are softened at first, if the first state in contact is not found."""
 
+STIFF = 1e-3
+"""Fraction of the way to the substrate below which a nearer substrate is no advice."""
+
 PASSED = 0.1
 """By how much of ``p_end`` a step of deflation may pass its last pressure."""
 
@@ -95,9 +98,11 @@ class Inflation:
         branch = self.inflated
         if branch.points[-1].monitors[self.depth] < self.data.touch:
             (place, rest), why = self.place, branch.ended or branch.stalled
-            reached = rest + max(point.monitors[self.depth] for point in branch.points)
+            deepest = max(point.monitors[self.depth] for point in branch.points)
+            nearer = f"lower {place} to less than {rest + deepest:.6g}"
+            softer = "choose less pre-stretch, or constants of the law with which it stiffens less"
             refused = f"{self.name}: {place} = {rest + self.data.touch:g} is not touched: {why}; "
-            refused += f"lower {place} to less than {reached:.6g}"
+            refused += nearer if deepest > STIFF * self.data.touch else softer
             if branch.ended:
                 raise AbsentError("contact", refused)
             raise ConvergenceError(refused)
