@@ -93,7 +93,7 @@ def _data(parameters: list[dict[str, Any]]) -> list[tuple[str, str]]:
     values: dict[str, list[str]] = {}
     for of in parameters:
         for name, value in of.items():
-            if isinstance(value, int | float | str) and not isinstance(value, bool):
+            if isinstance(value, int | float | str) and not isinstance(value, bool) and value != "":
                 text = f"{value:g}" if isinstance(value, float) else str(value)
                 seen = values.setdefault(name, [])
                 if text not in seen:
