@@ -168,6 +168,22 @@ def test_a_scheme_of_a_law_that_makes_a_neck_without_pressure_reaches_a_low_one(
     assert result.quantities["u_max"].value == pytest.approx(free.quantities["u_max"].value, rel=1e-3)
 
 
+def test_a_scheme_that_loses_contact_beyond_a_limit_point_says_so():
+    """First contact is behind a limit point; the scheme's steps up to p_end lead back before it."""
+    given = {
+        "model": "varga",
+        "shear": 3.56,
+        "delta1": 3.245,
+        "lf": 1.875,
+        "k": 0.0,
+        "s": 13.68,
+        "p_end": 0.9191,
+    }
+    result = solve("tube_scheme", **given, scheme="pressure_steps", numerics={"cells": 40, "steps": 8})
+    assert result.quantities["contact_length"].value == 0
+    assert "lead to a state without contact; choose a smaller s" in result.absent[0].reason
+
+
 @pytest.mark.parametrize(("counts", "first"), [((0, 1, 1), 1), ((1, 1, 1), 1), ((1, 0, 0), 1)])
 def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stability_there(
     counts, first, monkeypatch

@@ -76,10 +76,10 @@ def diagram(
     if rank() == 0:
         if out is not None:
             write_atomically(out, dumps(data))
+        print_result(result, console(), str(out or ""))
         if result.branches:
             save(draw_diagram(result, x, y), picture)
-        print_result(result, console(), str(out or ""))
-        console().print(f"picture: {plain(picture)}", soft_wrap=True)
+            console().print(f"picture: {plain(picture)}", soft_wrap=True)
         for note in notes(result):
             complain(note)
     end_of(result)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from weakforms import solve
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import InputError
 
 COARSE = {"cells": 24, "degree": 4, "levels": 2}
 MESH = {"cells": 48, "degree": 4, "levels": 2}
@@ -190,7 +190,11 @@ def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, messa
 
 
 def test_a_plane_without_a_line_says_what_was_searched():
-    with pytest.raises(
-        ConvergenceError, match=r"no point of kind mirror .* 9 values of alpha from 0.2 to 0.3"
-    ):
-        solve("diagram", alpha=0.25, x="alpha", low=0.2, kind="mirror", numerics=COARSE)
+    plane = {"alpha": 0.25, "x": "alpha", "low": 0.2, "kind": "mirror", "numerics": COARSE}
+    result = solve("diagram", **plane)
+    assert result.branches == []
+    (absence,) = result.absent
+    assert "no point of kind mirror" in absence.reason
+    assert "9 values of alpha from 0.2 to 0.3" in absence.reason
+    with pytest.raises(InputError, match="no point of kind mirror"):
+        solve("diagram", **plane, at={"alpha": 0.22}, branch="mirror")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from weakforms.errors import ConvergenceError, InputError, not_among
+from weakforms.errors import AbsentError, InputError, not_among
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.diagram.about import DIAGRAM, LINES
@@ -114,7 +114,7 @@ class Diagram(BranchProblem):
         """The lines that pass through critical points of the primary branch.
 
         Raises:
-            ConvergenceError: If there is no such point.
+            AbsentError: If there is no such point.
         """
         given, numerics = task.parameters, task.numerics
         meshes = [_lines_on(cells, task) for cells in numerics.meshes]
@@ -143,7 +143,7 @@ class Diagram(BranchProblem):
             if not seeds and kind != "end":
                 missing.append(Absence(f"lines of kind {kind}", _none(given, kind)))
         if names.keys() <= {"end"}:
-            raise ConvergenceError("; ".join(item.reason for item in missing))
+            raise AbsentError("lines", "; ".join(item.reason for item in missing))
         return names, missing
 
     def fill(self, result: Result, task: Task) -> None:

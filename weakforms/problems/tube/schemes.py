@@ -140,6 +140,10 @@ class FixedMesh(TubeModel):
         self._at = np.concatenate([self._at, state.u[fresh]])
         self.system.hold(self._held, self._at)
 
+    def untouched(self, state: State) -> dict[str, float]:
+        """The same as :meth:`outcome` for a state without contact."""
+        return {"u_max": float(state.u[self.radial[0]] - 1), "contact_length": 0.0}
+
     def outcome(self, state: State) -> dict[str, float]:
         """``u_max`` and contact length, with linear interpolation of the front between nodes."""
         rho, eta = state.u[self.radial], state.u[self.radial + 1]
@@ -191,9 +195,17 @@ def _run(
             "(allowed: up to 20) or choose a smaller s"
         )
         absent.append(Absence("contact", reason))
-        return {"u_max": float(state.u[tube.radial[0]] - 1), "contact_length": 0.0}
+        return tube.untouched(state)
     if parameters.scheme == "front_nodes":
         state = tube.front_nodes(state)
     else:
+        first = state.loads["p"]
         state = tube.pressure_steps(state, steps, stick=parameters.scheme == "pressure_steps")
+        if not np.any(state.u[tube.radial] > parameters.s):
+            reason = (
+                f"tube_scheme: first contact is at p = {first:.6g}, where the pressure falls; steps up to "
+                f"p_end = {parameters.p_end:g} lead to a state without contact; choose a smaller s"
+            )
+            absent.append(Absence("contact at p_end", reason))
+            return tube.untouched(state)
     return tube.outcome(state)
