@@ -305,7 +305,7 @@ def details(out) -> list[str]:
 def test_an_interrupted_run_goes_on_where_it_was(undisturbed, tmp_path, ending, jobs, status):
     start, out = starter(tmp_path), tmp_path / "out"
     running = start("-j", jobs, "--out", out)
-    stored, end = out / "solutions", time.monotonic() + 60
+    stored, end = out / "solutions", time.monotonic() + 300
     while len(list(stored.glob("tube-*.json"))) < 2 and time.monotonic() < end:
         time.sleep(0.002)
     os.killpg(running.pid, ending) if jobs == 1 else running.send_signal(ending)

@@ -172,7 +172,7 @@ def test_every_line_says_where_it_begins_and_why_it_ends(alpha_plane):
         ({"kind": "n4"}, "kind = 'n4'"),
         ({"kind": "fold,n0"}, "kind = 'n0'"),
         ({"body": "circular", "kind": "n1"}, "body = 'circular' has no lines of waves around its axis"),
-        ({"model": "three_chain", "kind": "n1"}, "waves around: model = 'three_chain'"),
+        ({"model": "three_chain", "kind": "n1"}, "waves around the axis: model = 'three_chain'"),
         ({"body": "circular", "kind": "mirror"}, "body = 'circular' has no mirror"),
         ({"low": 2.0, "high": 1.5}, "the range of delta1 must be increasing"),
         ({"low": 0.5}, "between 1 and 5"),

@@ -113,7 +113,7 @@ def _require_waves_possible(parameters: TubeParameters) -> None:
             f"tube: n = {','.join(map(str, parameters.n))} with contact = {parameters.contact!r}: stability "
             "against waves is computed for free inflation; set contact = 'none', or n = ()"
         )
-    require_model("tube: waves around", parameters, tuple(LAWS))
+    require_model("tube: waves around the axis", parameters, tuple(LAWS))
 
 
 def branch_maker(

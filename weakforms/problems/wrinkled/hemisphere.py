@@ -220,7 +220,7 @@ class Hemisphere(BranchProblem):
         """
         require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
-        what = f"{self.name}: waves around" if parameters.n else self.name
+        what = f"{self.name}: waves around the axis" if parameters.n else self.name
         require_foldable(what, parameters, invariants=bool(parameters.n))
         require_thickness(self.name, parameters.own_thickness, math.pi / 2)
         _require_hanging(parameters, [wanted.value for wanted in requests.states if wanted.name == "zw"])

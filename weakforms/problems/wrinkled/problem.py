@@ -144,7 +144,7 @@ class WrinkledTube(BranchProblem):
         """
         require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
-        what = f"{self.name}: waves around" if parameters.n else self.name
+        what = f"{self.name}: waves around the axis" if parameters.n else self.name
         require_foldable(what, parameters, invariants=bool(parameters.n))
         delta = parameters.delta
         require_bearable(self.name, parameters.material, delta, delta**-0.5, "delta")

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from io import StringIO
 from operator import call
+from pathlib import Path
 from typing import Any
 
 from markupsafe import Markup
 
 from weakforms.verification.cases.discovery import find_cases
-from weakforms.verification.cases.references import part
 from weakforms.verification.judging.outcome import (
     CaseOutcome,
     Convergence,
@@ -84,8 +84,10 @@ def case_view(case: CaseOutcome, taken: set[str], shapes: Mapping[int, str]) -> 
 
 
 def _file_of(case: str) -> str:
-    """The file of a case, as a path in the tree; empty if the tree has no such case."""
-    return next((f"cases/{f.path.relative_to(part('cases'))}" for f in find_cases() if f.id == case), "")
+    """The file of a case, as a path in the tree, also of an installed package; empty without such a case."""
+    path = next((found.path for found in find_cases() if found.id == case), Path())
+    folder = next((above for above in path.parents if above.name in ("cases", "_cases")), None)
+    return f"cases/{path.relative_to(folder)}" if folder else path.name
 
 
 def _figures(case: CaseOutcome, top: str, taken: set[str], shapes: Mapping[int, str]) -> list[dict[str, Any]]:

@@ -188,7 +188,7 @@ class WrinkledSheet(Problem):
     def check(self, parameters: SheetParameters, requests: Requests) -> None:
         """Refuse requests for states, because there is only one, and laws without a two-dimensional form."""
         super().check(parameters, requests)
-        require_foldable(f"{self.name}: waves around", parameters, invariants=True)
+        require_foldable(f"{self.name}: waves around the axis", parameters, invariants=True)
         parameters.require_carried(self.name)
 
     def fill(self, result: Result, task: Task) -> None:

@@ -75,7 +75,7 @@ class AtLevel(Problem):
     def check(self, parameters: Any, requests: Requests) -> None:
         """Refuse requests for states, because there is only one, and laws without a form for waves."""
         super().check(parameters, requests)
-        require_foldable(f"{self.name}: waves around", parameters, invariants=True)
+        require_foldable(f"{self.name}: waves around the axis", parameters, invariants=True)
         require_carried(self.name, parameters.material, parameters.delta, parameters.M)
 
     def fill(self, result: Result, task: Task) -> None:
