@@ -180,7 +180,7 @@ def test_another_law_bends_too():
         ({"n": 7}, "whole numbers from 0 to 6 are wanted"),
         ({"n": 1.5}, "whole numbers from 0 to 6 are wanted"),
         ({"n": -1}, "whole numbers from 0 to 6 are wanted"),
-        ({"n": 1, "model": "three_chain"}, "waves around the axis: model = 'three_chain'; allowed: neo_hookean"),
+        ({"n": 1, "model": "three_chain"}, "waves around the axis: model = 'three_chain'; allowed: "),
         ({"n": 1, "at": {"Lambda_n2_1": 0.0}}, "Lambda_n2_1"),
         ({"n": 1, "at": {"n_negative_n1": 1}}, "n_negative_n1"),
         ({"n": 1, "at": {"bifurcation_n1": 1.5}}, "must be a whole number from 1"),
