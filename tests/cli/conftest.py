@@ -48,7 +48,7 @@ def weakforms():
 
 @pytest.fixture(autouse=True)
 def silent_solves(monkeypatch):
-    """No signs of life: on a busy machine a short solve may take long enough for one on standard error."""
+    """Switch signs of life off: on a busy machine a short solve may take long enough to print one."""
     monkeypatch.setattr(terminal, "PULSE", 3600.0)
 
 
