@@ -162,9 +162,8 @@ def test_lines_are_noted_once_and_kept(tmp_path, monkeypatch):
     assert 0 < found.seconds[test] < 60
     monkeypatch.setattr(Children, "run", lambda *_: pytest.fail("it was run again"))
     assert measure([BOUNDS], tmp_path, True, lambda *_: None) == 0
-    monkeypatch.setattr(
-        lines, "Imports", lambda _: SimpleNamespace(watching=lambda *_: iter([]), reach=lambda _: {})
-    )
+    nothing = SimpleNamespace(watching=lambda *_: iter([]), reach=lambda _: {}, first=lambda *_: [])
+    monkeypatch.setattr(lines, "Imports", lambda _: nothing)
     first = Watchers(tmp_path).of("weakforms/verification/judging/bounds.py", line)
     assert test in [text for text, _ in first[:4]]
 
@@ -194,13 +193,18 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
     here = known("tests/a.py", slow=[3], quick=[4], other=[3])
     there = known("tests/b.py", elsewhere=[9])
     monkeypatch.setattr(lines, "measured", lambda _: [there, here])
-    near = SimpleNamespace(watching=lambda *_: iter(["tests/c.py::guessed"]), reach=lambda _: {})
+    near = SimpleNamespace(
+        watching=lambda *_: iter(["tests/c.py::guessed", "tests/d.py::contract"]),
+        reach=lambda _: {},
+        first=lambda *_: ["tests/d.py::contract"],
+    )
     monkeypatch.setattr(lines, "Imports", lambda _: near)
     watchers = Watchers(tmp_path)
     here.seconds["tests/a.py::elsewhere"] = 0.1  # the fastest, and it runs nothing of the file
     order = ["slow", "other", "quick", "elsewhere"]
     found = [text for text, _ in watchers.of("weakforms/x.py", 3)]
-    assert found == [*(f"tests/a.py::{name}" for name in order), "tests/c.py::guessed"]
+    tests = [*(f"tests/a.py::{name}" for name in order), "tests/c.py::guessed"]
+    assert found == ["tests/d.py::contract", *tests]
     changed = replace(here, digests={"weakforms/x.py": "another"})
     assert changed.sees("tests/a.py::quick", "weakforms/x.py", 3, ROOT), "any line of a file that changed"
 
@@ -208,7 +212,9 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
 def test_a_line_that_no_measured_unit_ran_is_guessed_at_by_imports_of_all_units(tmp_path, monkeypatch):
     monkeypatch.setattr(lines, "measured", lambda _: [known("tests/a.py", quick=[4])])
     near = SimpleNamespace(
-        watching=lambda _, _line, known: iter(sorted(known) or ["all"]), reach=lambda _: {}
+        watching=lambda _, _line, known: iter(sorted(known) or ["all"]),
+        reach=lambda _: {},
+        first=lambda *_: [],
     )
     monkeypatch.setattr(lines, "Imports", lambda _: near)
     watchers = Watchers(tmp_path)
@@ -257,7 +263,25 @@ def test_files_that_few_words_of_the_line_point_to_are_guessed_first(tmp_path):
     lines_ = (ROOT / about).read_text("utf-8").split("\n")
     line = next(k for k, text in enumerate(lines_, 1) if "held_out=" in text)
     found = [text for text, _ in Watchers(tmp_path).of(about, line)]
-    assert "audit/test_coverage.py" in found[0]
+    assert found[0].startswith("tests/house/test_contract.py::")
+    assert "audit/test_coverage.py" in next(text for text in found if "test_contract" not in text)
+
+
+@pytest.mark.parametrize(
+    ("file", "said", "first"),
+    [
+        ("weakforms/solvers/equilibrium/state.py", "scatter_forward()", "tests/mpi/"),
+        ("weakforms/problems/triangles/readings.py", "comm.", "tests/mpi/"),
+        ("weakforms/solvers/uncertainty/refinement.py", "spread = float", "tests/solvers/"),
+    ],
+)
+def test_a_line_that_speaks_of_ranks_is_tried_on_ranks(file, said, first, tmp_path):
+    rows = (ROOT / file).read_text("utf-8").split("\n")
+    line = next(k for k, text in enumerate(rows, 1) if said in text)
+    found = [text for text, _ in Watchers(tmp_path).of(file, line) if "test_contract" not in text]
+    assert found[0].startswith(first)
+    assert not any(text.startswith("tests/mpi/test_every_case") for text in found)
+    assert len(found) == len(set(found))
 
 
 # -- what becomes of one -----------------------------------------------------------------------------

@@ -14,6 +14,24 @@ from weakforms.verification.cases.discovery import find_cases
 UNSEEN = ("tests/mpi/", "tests/verification/audit/test_faults", "tests/cases/test_cases")
 """Tests that show nothing here: processes of their own, the machinery itself, the cases once more."""
 
+CONTRACT = "tests/house/test_contract.py"
+"""What holds all that is declared of a problem or of a law against a stored copy, in a second or two."""
+
+DECLARING = ("weakforms/problems/", "weakforms/forms/materials/")
+"""Folders of what it holds."""
+
+RANKS = "tests/mpi"
+"""Folder of the tests that start several ranks."""
+
+LONG = "test_every_case_ranks.py"
+"""The file among them that takes minutes."""
+
+SPEAKS_OF_RANKS = re.compile(r"comm\b|\branks?\b|bcast|gather|reduce\b|scatter|ghost|owne[rd]|size_local")
+"""What a line contains if its change may show on several ranks only."""
+
+FEW = 4
+"""Number of tests on ranks that are run for such a line: each takes half a minute."""
+
 REGISTRY = "reference_data/solvers/registry.py"
 REGISTERED = re.compile(r"reference_data/solvers/\w+/tables\w*\.py")
 """What finds the modules of tables, and their names: it imports them without naming them."""
@@ -69,6 +87,26 @@ class Imports:
             for found in pair:
                 yield from found
 
+    def first(self, file: str, line: int) -> list[str]:
+        """Test functions to run before the others: the contract of problems, and tests on several ranks.
+
+        Tests on ranks are chosen by the words that their functions share with the name of the file.
+        """
+        path = self._root / file
+        contract = self._root / CONTRACT
+        found = functions(contract, CONTRACT) if file.startswith(DECLARING) and contract.exists() else []
+        text = path.read_text("utf-8").split("\n")[line - 1] if path.exists() else ""
+        if not (file.startswith("weakforms/") and SPEAKS_OF_RANKS.search(text)):
+            return found
+        words = set(re.findall("[a-z]+", file))
+        tests = [
+            (-len(words & set(re.findall("[a-z]+", said))), name)
+            for path in sorted((self._root / RANKS).glob("test_*.py"))
+            if path.name != LONG
+            for name, said in _bodies(path, f"{RANKS}/{path.name}").items()
+        ]
+        return [*found, *(name for _, name in sorted(tests)[:FEW])]
+
     def _rank(self, name: str, text: str, file: str) -> int:
         """First those named as the file is, or as it begins; cases by what they say."""
         words = Path(file).stem.split("_")
@@ -111,6 +149,16 @@ def functions(path: Path, name: str) -> list[str]:
     tests = [n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name.startswith("test_")]
     kept = [n for n in tests if not any("mark.slow" in ast.unparse(d) for d in n.decorator_list)]
     return [f"{name}::{node.name}" for node in kept]
+
+
+def _bodies(path: Path, name: str) -> dict[str, str]:
+    """Test functions of a file as pytest names them, with their text and the name of the file."""
+    tree = ast.parse(path.read_text("utf-8"))
+    wanted = functions(path, name)
+    texts = {
+        f"{name}::{node.name}": ast.unparse(node) for node in tree.body if isinstance(node, ast.FunctionDef)
+    }
+    return {test: f"{name} {texts[test]}" for test in wanted}
 
 
 def _case(name: str) -> str:

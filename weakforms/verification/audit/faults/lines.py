@@ -215,6 +215,8 @@ def measured(out: Path) -> list[Measured]:
 class Watchers:
     """Who sees a line: measured ones that run it, tables, those beside them, those that import its file.
 
+    Before them stand the stored contract of the problems, and tests on ranks if the line speaks of ranks.
+
     A test that finds a solution in a fixture or a cache does not run the lines that made it, so the other
     tests of a file that runs the line follow. A line that was run before lines were noted (in a file that
     every process imports) was run by none of them: imports say who may see it, measured or not.
@@ -245,7 +247,11 @@ class Watchers:
         known = {found.unit for found in self._measured} if direct or beside else set()
         guessed = [(text, UNKNOWN) for text in self._near.watching(file, line, known)]
         again = [(text, UNKNOWN) for text in tables.watching(file, line, self._near.reach(file))]
-        return [*_fastest(direct, near), *again, *_fastest(beside, near), *guessed]
+        first = [(text, UNKNOWN) for text in self._near.first(file, line)]
+        found: dict[str, float] = {}
+        for text, seconds in [*first, *_fastest(direct, near), *again, *_fastest(beside, near), *guessed]:
+            found.setdefault(text, seconds)
+        return list(found.items())
 
 
 def _fastest(seconds: dict[str, float], near: set[str]) -> list[tuple[str, float]]:
