@@ -68,8 +68,8 @@ class Mutation:
 def mutations(text: str) -> list[Mutation]:
     """Every change of a source file, in the order of the text; a few are not :meth:`~Mutation.is_sound`.
 
-    Left alone are texts and messages, annotations, decorators, imports and asserts: what they say is not
-    what the program computes.
+    Left alone are texts and messages, annotations (and what is imported for them only), decorators, imports and
+    asserts: what they say is not what the program computes. So is ``strict=True``: it only refuses.
 
     Raises:
         SyntaxError: When the text is no Python.
@@ -83,6 +83,10 @@ def _nodes(node: ast.AST, operand: bool = False) -> Iterator[ast.AST]:
     """Nodes that may change; a number knows whether it stands in arithmetic."""
     skipped = {"annotation", "returns", "decorator_list", "type_comment", "names", "msg"}
     if isinstance(node, ast.JoinedStr | ast.Assert | ast.Raise):
+        return
+    if isinstance(node, ast.keyword) and node.arg == "strict":
+        return
+    if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
         return
     node.in_arithmetic = operand
     yield node
