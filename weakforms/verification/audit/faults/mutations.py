@@ -68,8 +68,8 @@ class Mutation:
 def mutations(text: str) -> list[Mutation]:
     """Every change of a source file, in the order of the text; a few are not :meth:`~Mutation.is_sound`.
 
-    Left alone are texts and messages, annotations (and what is imported for them only), decorators, imports and
-    asserts: what they say is not what the program computes. So is ``strict=True``: it only refuses.
+    Left alone are texts and messages, annotations (and what is imported for them only), decorators, imports
+    and asserts: what they say is not what the program computes. So is ``strict=True``: it only refuses.
 
     Raises:
         SyntaxError: When the text is no Python.
