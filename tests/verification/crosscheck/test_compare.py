@@ -94,6 +94,27 @@ def test_the_first_rows_count_as_much_as_the_last(which, part, upto):
     assert verdicts.verdicts[0].where in ("t0 = 0.05", "t0 = 0.1", "t0 = 0.15")
 
 
+@pytest.mark.parametrize(
+    ("rows", "factor", "said"),
+    [
+        (slice(0, 3), 1.5, "3 of 100 rows out of bounds, at u_max = 0.05 to 0.15, above the table"),
+        (slice(9, 10), 0.9, "1 of 100 rows out of bounds, at u_max = 0.5, below the table"),
+        (
+            slice(0, 10, 9),
+            np.array([0.9, 1.1]),
+            "2 of 100 rows out of bounds, at u_max = 0.05 to 0.5, on both",
+        ),
+        (slice(0, 60), 0.9, "the errors lie below the table and fall with u_max"),
+    ],
+)
+def test_the_rows_out_of_bounds_are_named_and_on_which_side_they_lie(rows, factor, said):
+    curve = columns_of(TUBE)
+    curve["p"] = curve["p"].copy()
+    curve["p"][rows] *= factor
+    verdicts = verdict_on(TUBE, curve, accuracy=1e-3, only=["p"])
+    assert verdicts.verdicts[0].trend.startswith(said)
+
+
 def test_where_a_column_passes_through_zero_there_is_a_floor():
     x = np.linspace(-1, 1, 11)
     scale, floor = scale_of(x, x[3:8], x[3:8])

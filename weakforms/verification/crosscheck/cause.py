@@ -30,6 +30,9 @@ STEP = 1e-3
 EXPLAINED = 0.1
 """Part of the errors that an explanation may leave over: what is left must be a tenth of them at most."""
 
+FEW = 0.2
+"""Part of the rows: if no more are out of bounds, a sentence names them and says nothing of the others."""
+
 NEUTRAL = {"delta1": 1.0, "beta": 1.0}
 """Parameters with the value that means that there is no pre-stretch."""
 
@@ -38,27 +41,30 @@ NEAR_POWER = 0.02
 
 
 def trend(judged: JudgedColumn, over: str) -> str:
-    """The errors of a column along the curve, in words: their ratio to the table, or how they grow.
+    """The errors of a column in words: their ratio to the table, the rows out of bounds, or how errors grow.
 
     Args:
         judged: A column out of bounds.
         over: Name of the abscissa.
     """
-    error = judged.error[np.argsort(judged.x)]
-    sign = "above" if np.median(error) > 0 else "below"
-    size = np.abs(error)
-    mixed = (
-        np.any(error > 0)
-        and np.any(error < 0)
-        and min(np.ptp(error[error > 0]), np.ptp(error[error < 0])) > 0
-    )
+    order = np.argsort(judged.x)
+    error, size = judged.error[order], np.abs(judged.error[order])
+    beyond = np.flatnonzero(size > judged.bound[order])
+    if not len(beyond):
+        return ""  # what is not finite has no size
+    side = "above" if error[beyond].sum() > 0 else "below"
     if np.ptp(error) <= EXPLAINED * size.max():
-        return f"every row lies {size.mean():.2g} of the table's value {sign} it"
+        return f"every row lies {size.mean():.2g} of the table's value {side} it"
+    both = np.unique(np.sign(error[beyond])).size > 1
+    where = "on both sides of the table" if both else f"{side} the table"
+    if len(beyond) <= FEW * len(error):
+        first, last = judged.x[order][beyond[[0, -1]]]
+        place = f"{over} = {first:g}" + (f" to {last:g}" if len(beyond) > 1 else "")
+        return f"{len(beyond)} of {len(error)} rows out of bounds, at {place}, {where}"
     start, end = (
         float(size[part].mean()) for part in (slice(0, len(size) // 3 + 1), slice(-len(size) // 3, None))
     )
     way = "grow" if end > 2 * start else "fall" if start > 2 * end else ""
-    where = "on both sides of the table" if mixed else f"{sign} the table"
     return f"the errors lie {where}" + (
         f" and {way} with {over}, from {size[0]:.1e} to {size[-1]:.1e}" if way else ""
     )
