@@ -13,7 +13,7 @@ OFFSET = X - FRONT
 
 
 def field(order, size=1.0):
-    """``exp(x)`` with a jump of ``size`` in the derivative of an order: ``size d^order / order!`` beyond it."""
+    """``exp(x)`` with a jump in the derivative of an order: ``size x^order / order!`` is added beyond it."""
     factorial = np.prod(np.arange(1, order + 1))
     return np.exp(OFFSET) + np.where(OFFSET > 0, size * OFFSET**order / factorial, 0.0)
 
@@ -24,6 +24,14 @@ def test_samples_are_chebyshev_points_of_both_windows():
     np.testing.assert_allclose(OFFSET + OFFSET[::-1], 0.0, atol=1e-15)
     angles = np.pi * (np.arange(continuity.NODES) + 0.5) / continuity.NODES
     np.testing.assert_allclose(OFFSET[OFFSET > 0], WINDOW / 2 * (1 - np.cos(angles)))
+
+
+def test_both_windows_have_the_same_length():
+    values = decide.Number(np.exp(3 * np.abs(OFFSET)) * OFFSET, 0.0)
+    (left, largest), (right, other) = (continuity.one_sided(OFFSET, values, side, WINDOW) for side in (-1, 1))
+    np.testing.assert_allclose(largest, other, rtol=1e-6)
+    expected = np.abs(left.value - right.value) / np.maximum(largest, other)
+    np.testing.assert_allclose(continuity.jumps(OFFSET, values, WINDOW).value, expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("order", range(4))
