@@ -113,3 +113,31 @@ def test_bad_input_is_refused_in_one_line(problem, given, words):
     text = str(error.value)
     assert "\n" not in text
     assert all(re.search(re.escape(word), text) for word in words.split()), text
+
+
+@pytest.mark.parametrize(
+    ("l1", "l2", "state"),
+    [
+        (1.5, 0.7, 1),
+        (0.7, 1.5, 2),
+        (1.2, 1.2, 3),
+        (0.9, 0.8, 0),
+        (1.005, 0.5, 1),
+        (0.5, 1.005, 2),
+        (1.5, 0.82, 3),
+    ],
+)
+def test_a_sheet_is_slack_wrinkled_or_taut(l1, l2, state):
+    """Wrinkled under tension along ``l`` if the other stretch is below ``l^(-1/2)``."""
+    result = solve("material", model="neo_hookean", l1=l1, l2=l2)
+    found = {name: quantity.value for name, quantity in result.quantities.items()}
+    along = max(l1, l2)
+    energy = [0.0, along**2 + 2 / along - 3, along**2 + 2 / along - 3, l1**2 + l2**2 + (l1 * l2) ** -2 - 3][
+        state
+    ]
+    slope = 2 * along - 2 / along**2
+    assert found["state"] == state
+    assert found["W_relaxed"] == pytest.approx(energy, abs=1e-13)
+    if state < 3:
+        assert found["W1_relaxed"] == pytest.approx(slope if state == 1 else 0.0, abs=1e-13)
+        assert found["W2_relaxed"] == pytest.approx(slope if state == 2 else 0.0, abs=1e-13)

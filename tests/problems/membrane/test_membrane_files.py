@@ -206,6 +206,22 @@ def test_groups_and_supports_that_are_refused(tmp_path):
         solve("membrane", mesh=ball, mirror="x", held="y")
 
 
+def test_a_group_that_joins_nodes_of_no_common_triangle(tmp_path, sheet):
+    points, triangles = sheet
+    across = np.array([[triangles[0, 0], triangles[-1, 2]]])
+    edges = np.array([[triangles[0, 0], triangles[0, 1]]])
+    for lines, words in (
+        (across, "group '7' has edges that are edges of no triangle"),
+        (edges, "are neither"),
+    ):
+        tags = [np.ones(len(triangles), int), np.full(1, 7)]
+        cells = [("triangle", triangles), ("line", lines)]
+        mesh = meshio.Mesh(points, cells, cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags})
+        mesh.write(tmp_path / "lines.msh", file_format="gmsh22")
+        with pytest.raises(InputError, match=words):
+            from_file(str(tmp_path / "lines.msh"), 1.0, ["7"], [])
+
+
 QUARTER_TURNS = {"XY": [0, 1, 2], "YZ": [2, 0, 1], "XZ": [1, 2, 0]}
 
 

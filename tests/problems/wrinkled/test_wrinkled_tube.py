@@ -319,3 +319,11 @@ def test_which_blocks_are_halved_does_not_hang_on_round_off(shift):
     moved = Layout.of(Zones(TAUT, (2.5, 4.0 + shift, 5.5)), 8.0).breaks
     assert len(breaks) == BLOCKS + 1
     assert moved == pytest.approx(breaks, abs=1e-12)
+
+
+def test_blocks_end_on_both_sides_of_a_front_where_cells_are_graded_towards_it():
+    breaks = np.array(Layout.of(Zones(TAUT, (4.0,)), 8.0, near_fronts=(0.05, 0.4)).breaks)
+    for point in (3.6, 3.95, 4.0, 4.05, 4.4):
+        assert np.abs(breaks - point).min() < 1e-12, point
+    at_the_end = Layout.of(Zones(TAUT, (0.03,)), 8.0, near_fronts=(0.05,)).breaks
+    assert at_the_end[:3] == pytest.approx([0.0, 0.03, 0.08]), "none beyond the end, none on the end"
