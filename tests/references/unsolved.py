@@ -22,25 +22,12 @@ import numpy as np
 
 SOLVERS = "reference_data.solvers"
 ASKS = re.compile(
-    r"(list\[)?(Table|Column|Builder|str|tuple\[str, \.\.\.\])\]?|tuple\[list\[Column\], .*"
+    r"(list\[)?(Table|Column|Series|Builder|str|tuple\[str, \.\.\.\])\]?|tuple\[list\[Column\], .*"
     r"|dict\[str, (object|Builder|tuple\[float, float\]|tuple\[int \| str, Builder\])\]"
 )
 """Answers of functions that solve nothing."""
-DATA = (
-    "body",
-    "case",
-    "disks",
-    "every",
-    "gas",
-    "given",
-    "law",
-    "made",
-    "material",
-    "membrane",
-    "positions",
-    "prescribed",
-)
-DATA += ("steps", "tube", "top", "u_end")
+DATA = {"body", "case", "disks", "every", "gas", "given", "law", "made", "material", "membrane", "other_of"}
+DATA |= {"positions", "prescribed", "steps", "top", "tube", "u_end"}
 """Further functions that solve nothing."""
 NAN = "nan"
 """What an unknown number is in a text."""
@@ -160,6 +147,7 @@ def requests() -> dict[str, Asked]:
                 table = function(*given, **named)
             except STOPS:
                 table = None
+            table = None if isinstance(table, Unknown) else table
             label = f"{function.__module__.removeprefix(f'{SOLVERS}.')}.{_named(function)}"
             out[name] = Asked(label, core.folder_of(group), table, list(chosen))
     return out
