@@ -8,6 +8,7 @@ from ufl.algorithms.apply_derivatives import apply_derivatives
 
 from weakforms.forms import fluid, kinematics, loads, revolution
 from weakforms.forms.fluid import Surface
+from weakforms.forms.materials.surface import mooney_rivlin_surface, surface_law
 from weakforms.forms.series import newton_series
 
 A, B, X = np.array([0.9, 0.3, 1.1]), np.array([-0.2, 1.4, 0.5]), np.array([1.2, 0.7, -0.4])
@@ -90,6 +91,30 @@ def test_energy_and_its_first_variation():
     moved = surface(np.zeros(3), da, db)
     expected = slope(lambda e: energy(A + e * da, B + e * db), 0.0)
     assert value(fluid.membrane_work(surface(), moved, ALPHA)) == pytest.approx(expected, rel=1e-9)
+
+
+def gent(l1: float, l2: float) -> float:
+    """Gent's law over its modulus, ``-(mu J_m/2) ln(1 - (I1 - 3)/J_m)`` with mu = 2 and J_m = 30."""
+    return -30 * np.log(1 - (l1**2 + l2**2 + (l1 * l2) ** -2 - 3) / 30)
+
+
+def test_laws_of_surfaces_by_the_metric():
+    """Full energy where taut, that of uniaxial tension elsewhere; a law over S is half as large over mu."""
+    l1, l2 = np.sqrt(np.linalg.eigvalsh([[A @ A, A @ B], [A @ B, B @ B]])[::-1])
+    law = surface_law("gent", {"shear": as_ufl(2.0), "jm": as_ufl(30.0)})
+    assert value(fluid.strain_energy(vector(A), vector(B), law)) == pytest.approx(gent(l1, l2) / 2, rel=1e-12)
+    first, second = values(*fluid.principal_resultants(as_ufl(1.4), as_ufl(0.9), law))
+    assert first == pytest.approx(slope(lambda x: gent(x, 0.9), 1.4) / 0.9 / 2, rel=1e-8)
+    assert second == pytest.approx(slope(lambda x: gent(1.4, x), 0.9) / 1.4 / 2, rel=1e-8)
+    c = revolution.gradient_tensor(surface(), as_ufl(1.0), (1.0, 1.0))
+    narrow = l1, l1**-0.5
+    mooney = mooney_rivlin_surface(as_ufl(ALPHA))
+    for given, taut, relaxed in (
+        (law, gent(l1, l2), gent(*narrow)),
+        (mooney, 2 * energy(A, B), 2 * energy(np.array([narrow[0], 0, 0]), np.array([0, narrow[1], 0]))),
+    ):
+        assert value(revolution.strain_energy(c, YES, given)) == pytest.approx(taut, rel=1e-12)
+        assert value(revolution.strain_energy(c, NO, given)) == pytest.approx(relaxed, rel=1e-12)
 
 
 def test_principal_stretches_and_resultants():
