@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from weakforms.solvers.uncertainty.refinement import ALGEBRAIC, Slow, doubt, estimate, order_in_mean
+from weakforms.solvers.uncertainty.refinement import (
+    ALGEBRAIC,
+    Estimate,
+    Slow,
+    doubt,
+    estimate,
+    order_in_mean,
+)
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0, 4.0, 8.0])
@@ -84,3 +91,44 @@ def test_doubt_begins_where_a_field_falls_faster_than_its_elements():
 def test_one_mesh_is_refused():
     with pytest.raises(ValueError, match="two meshes"):
         estimate([1.0], cap=4.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ((0.5, 0.1, 0.0), 1.25 * 0.1 / 3),  # order 2
+        ((0.75, 0.25, 0.0), 1.25 * 0.25),  # order 1 exactly
+        ((0.25 * (1 + 2**1.005), 0.25, 0.0), 1.25 * 0.25 / (2**1.005 - 1)),
+        ((0.55, 0.25, 0.0), 3 * 0.25),  # below 1: divided by 2 - 1
+        ((1.7, 0.1, 0.0), 1.25 * 0.1 / 15),  # order 4, the cap, where both differences count the same
+        ((3.3, 0.1, 0.0), 1.25 * 0.2 / 15),  # faster than the cap: the first difference over 2^cap
+        ((0.1, 0.0), 3 * 0.1),
+    ],
+)
+def test_numbers_of_the_estimate(values, expected):
+    assert estimate(list(values), cap=4.0).uncertainty == pytest.approx(expected + ALGEBRAIC, rel=1e-9)
+    far = [1000 + v for v in values]
+    assert estimate(far, cap=4.0).uncertainty == pytest.approx(expected + 1000 * ALGEBRAIC, rel=1e-9)
+
+
+def test_a_number_of_a_result_has_the_error_that_is_left():
+    found = Estimate(np.array(4.0), np.array(1e-3), np.array(2.0))
+    plain, more = found.quantity(), found.quantity(0.01)
+    assert (plain.value, plain.uncertainty, plain.order) == (4.0, 1e-3, 2.0)
+    assert more.uncertainty == pytest.approx(1e-3 + 0.04, rel=1e-14)
+    small = Estimate(np.array(0.5), np.array(0.0), np.array(np.nan)).quantity(0.01)
+    assert (small.uncertainty, small.order) == (0.01, None)
+
+
+def test_round_off_in_the_order_of_a_field():
+    """Differences of 4e-11 and 2e-11 are above the round-off of fields up to 1, not of larger ones."""
+    steps = np.array([6e-11, 2e-11, 0.0])
+    assert order_in_mean([np.full(3, 0.5 + s) for s in steps]) == pytest.approx(1.0, abs=1e-4)
+    assert order_in_mean([np.full(3, 8.0 + s) for s in steps]) == 0
+
+
+def test_doubt_at_its_ends():
+    assert doubt([3.0, 4.5], 4.0) == 1.0
+    assert doubt([3.0, 4.502], 4.0) == pytest.approx(4**0.502, rel=1e-12)
+    assert doubt([6.0], 4.0) == 4.0
+    assert doubt([], 4.0) == 1.0

@@ -68,3 +68,13 @@ def test_a_difference_at_one_point_of_the_grid_counts_in_its_region_only():
     assert local[0] < 1e-9  # nothing in its region
     assert local[1] == pytest.approx(3, rel=1e-9)  # only the grid's point
     assert local[2] == pytest.approx(27, rel=1e-9)  # only the point itself
+
+
+def test_the_order_of_a_region_is_at_least_one_and_at_most_that_of_the_field():
+    """At the first point differences fall at the order 3, those of the field at 1/2: it counts as 1."""
+    regions = Regions((6, 2), np.array([1.0, 4.0]), np.array([1.0, 1.0]))
+    levels = [np.array(x) for x in ((5.9, 5 + 4 * (1 + 2**0.5)), (5.1, 9.0), (5.0, 5.0))]
+    grid = [np.full(49 * 17, value) for value in (5.9, 5.1, 5.0)]
+    local = regions.estimate(levels, grid, 4.0)
+    assert local[0] == pytest.approx(1.25 * 0.1, rel=1e-9)
+    assert local[1] == pytest.approx(3 * 4, rel=1e-9)

@@ -17,8 +17,8 @@ SMALL = "sphere_limits_varga"
 def pair(tmp_path):
     """The verdicts on a table against another one with an uncertainty of 1e-6 in y."""
 
-    def judge(new, committed="x,y\n1,2\n2,3\n", said=""):
-        texts = (("new.csv", new), ("new.toml", said + TOML), ("old.csv", committed), ("old.toml", TOML))
+    def judge(new, committed="x,y\n1,2\n2,3\n", said="", toml=TOML):
+        texts = (("new.csv", new), ("new.toml", said + toml), ("old.csv", committed), ("old.toml", TOML))
         for name, text in texts:
             (tmp_path / name).write_text(text)
         found = compared(tmp_path / "new.csv", tmp_path / "old.csv")
@@ -46,6 +46,16 @@ def test_columns_must_agree_within_the_stated_uncertainty(pair, new, wrong):
 def test_texts_of_a_table_must_agree(pair):
     assert pair("x,y\n1,2\n2,3\n", said='regenerate = "otherwise"\n') == []
     assert pair("x,y\n1,2\n2,3\n", said='notes = "another method"\n') == ["the table"]
+
+
+@pytest.mark.parametrize(
+    ("y", "x", "wrong"),
+    [("1e-6", "0.0", []), ("2.9e-6", "0.0", []), ("3.4e-7", "0.0", []), ("3.1e-6", "0.0", ["y"]),
+     ("3.3e-7", "0.0", ["y"]), ("0.0", "0.0", ["y"]), ("1e-6", "1e-300", ["x"])],
+)  # fmt: skip
+def test_uncertainties_must_be_of_the_committed_size(pair, y, x, wrong):
+    toml = f"[columns.x]\nuncertainty = {x}\n[columns.y]\nuncertainty = {y}\n"
+    assert pair("x,y\n1,2\n2,3\n", toml=toml) == wrong
 
 
 def test_a_small_table_of_every_function_comes_first(monkeypatch):

@@ -40,6 +40,10 @@ MOST = 12
 TEXTS = ("title", "source", "type", "method", "grid", "tolerance", "abscissa", "notes", "parameters")
 """What a table says of itself that must not change either."""
 
+WIDER = 3.0
+"""Factor by which an uncertainty may differ from the committed one. It contains differences of rounding,
+which other libraries change by less; a change of what is added to them is much larger."""
+
 DISAGREE = "combined uncertainty"
 """Part of the message by which a table is refused because its two methods disagree."""
 
@@ -144,11 +148,12 @@ def run_table(name: str, folder: Path, root: Path | None = None) -> dict[str, An
 def compared(new: Path, committed: Path) -> list[dict[str, Any]]:
     """One verdict for each column: equal within the stated uncertainty and the last digit of the table.
 
-    Texts of the table that changed are one failing verdict, because a table must not name another method.
+    Texts of the table that changed are one failing verdict, because a table must not name another method. So
+    are uncertainties of another size (:data:`WIDER`): a wide one would hide a wrong number.
     """
     ours, theirs = _columns(new), _columns(committed)
     said, known = (tomllib.loads(path.with_suffix(".toml").read_text("utf-8")) for path in (new, committed))
-    about = known["columns"]
+    about, stated = known["columns"], said["columns"]
     others = [key for key in TEXTS if said.get(key) != known.get(key)]
     if others:
         return [_verdict("the table", False, f"it says something else of its {', '.join(others)}")]
@@ -156,6 +161,10 @@ def compared(new: Path, committed: Path) -> list[dict[str, Any]]:
         return [_verdict("the table", False, "other columns, or another number of rows")]
     out = []
     for column, values in theirs.items():
+        new_size, size = stated[column]["uncertainty"], about[column]["uncertainty"]
+        if not size / WIDER <= new_size <= size * WIDER:
+            detail = f"uncertainty of another size than the committed {size:.1e}"
+            out.append(_verdict(column, False, detail, new_size, size))
         error = float(np.abs(ours[column] - values).max(initial=0.0))
         bound = about[column]["uncertainty"] + 1e-11 * float(np.abs(values).max(initial=0.0))
         out.append(_verdict(column, error <= bound, "", error, bound))
