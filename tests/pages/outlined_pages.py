@@ -25,6 +25,7 @@ from weakforms.verification.report import summary, wording
 from weakforms.verification.report.case_views import panel_csv, surface_csv
 from weakforms.verification.report.figures import convergence, surfaces, svg
 from weakforms.verification.report.figures import panel as panels
+from weakforms.verification.report.figures.canvas import as_math
 from weakforms.verification.report.junit import junit_xml
 from weakforms.verification.report.pages import render
 from weakforms.verification.report.vtu import vtu
@@ -140,6 +141,8 @@ def words() -> str:
         r"$\lambda_{1,\mathrm{mid}}^2 < \sqrt{3}\,x_1$ & y"
     ]
     lines += [f"{wording.plain_tex(text)} | {wording.html_tex(text)}" for text in formulas]
+    long = ["x" * 80, "x" * 81, "$x$ and " + "y" * 90, "$\\nothing{$", "u_max = 2"]
+    lines += [as_math(text) for text in long]
     taken: set[str] = set()
     lines += [wording.anchor(text, taken) for text in ("a b", "a b", "a-b", "", "-")]
     lines += [wording.plural(count, "check") for count in (0, 1, 2)] + [wording.scientific(1.23456, 4)]
@@ -153,9 +156,11 @@ viewBox="0 0 9 9" width="9">
 <g clip-path="url(#clip)">
 <path d="M 1.256 2 L 3.5 4.75 L 3.5 4.75 L -1 -0.004 z" style="stroke: #123456"/></g>
 <path d="M 1.2345 2 C 1 2.3456 3 4 5 6" transform="translate(1.23456 -0.001) scale(0.125 -0.12567)"/>
-<g><defs><path id="mark" d="M 0 1 L 1 0" style="stroke: #abcdef"/><path id="idle" d="M 0 0"/></defs>
+<g><defs><path id="mark" d="M 0 1 L 1 0" style="stroke: #abcdef"/>
+<path id="other" d="M 0 0 L 2 2"/><path id="idle" d="M 0 0"/></defs>
 <g>{five}</g></g>
 <g>{three}</g><g>{styled}</g>
+<g>{mixed}</g>
 <g transform="translate(5.555 1)">
 <defs><path id="STIXGeneral-Regular-41" d="M 1 1 L 2 2" transform="scale(0.1)"/></defs>
 <use xlink:href="#STIXGeneral-Regular-41" transform="translate(0 0)"/>
@@ -169,6 +174,7 @@ def vectors() -> str:
     given = {
         "five": "".join(use.format(k, "") for k in range(5)),
         "three": "".join(use.format(k, "") for k in range(3)),
+        "mixed": "".join(use.format(k, "").replace("mark", ("mark", "other")[k % 2]) for k in range(5)),
         "styled": "".join(use.format(k, ' style="fill: #123456; stroke: #ffffff"') for k in range(4)),
     }
     text = svg.inline_svg(DRAWING.format(**given), "f", "Title", "Words < 2", {"#123456": "--f-c0"})
