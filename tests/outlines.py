@@ -19,6 +19,7 @@ HERE = Path(__file__).resolve().parent
 FILES = {
     "results/outlined_results.py": "results/outlines.txt",
     "pages/outlined_pages.py": "pages/outlines.txt",
+    "verification/audit/outlined_audits.py": "verification/audit/outlines.txt",
 }
 """Modules with a function ``sections``, and the files with what its texts should be."""
 
