@@ -47,7 +47,7 @@ def whole() -> Result:
     numbers = {"u_max": Quantity(1.25, 2e-9), "p": Quantity(2.0, 0.0), "n_negative": Quantity(2)}
     states = [
         State({"p": 2.0}, "primary", numbers, (profile,), 1, 3),
-        State({"p": 2.0}, "primary", {"u_max": Quantity(3.5)}, (profile,), 3, 3),
+        State({"p": 2.0}, "primary", {"u_max": Quantity(3.5)}, (profile,), 2, 3),
         State({"p": 1.75}, "primary", {"u_max": Quantity(3.25, 1e-9)}, (), 1, 2),
         State({"u_max": 1.0}, "secondary", {"p": Quantity(1.5)}, (profile,), 1, 1),
         State({"p": 1.0, "u_max": 2.0}, "secondary", {}, (), 2),
