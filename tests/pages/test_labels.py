@@ -132,6 +132,7 @@ def test_a_check_with_a_wide_bound_says_that_it_is_wide():
         "1.0e-05 is wider than the accuracy of 1.0e-06 that the case asks for."
     )
     assert what_differs(replace(wide, error=None)) == ""
+    assert what_differs(replace(wide, asked=None)) == ""
 
 
 def test_drawings_have_no_groups_without_a_purpose():

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from canned_run import passing_case, sample, verdict
+from canned_run import failing_case, passing_case, sample, verdict
 from rich.cells import cell_len
 from rich.console import Console
 
@@ -63,6 +63,8 @@ def test_headlines():
     assert summary.run_status(sample(lying)) == "failed"
     assert summary.headline(sample()) == "no case was run"
     assert summary.run_status(sample()) == "empty"
+    assert summary.run_status(sample(replace(passing_case(), verdicts=[], status="error"))) == "error"
+    assert summary.run_status(sample(passing_case(), failing_case())) == "failed"
 
 
 @pytest.mark.parametrize(

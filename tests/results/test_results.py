@@ -261,6 +261,37 @@ def test_curves_are_read(tmp_path, name, content):
     assert {key: values.tolist() for key, values in found.items()} == COLUMNS
 
 
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("u,p\n1,3\n2,x\n", r"column 'p', row 2: 'x' is not a finite number"),
+        ("u,p\n1,3\n2\n", r"line 3: 1 cells under 2 column names"),
+        ("u,p\n", "at least one row"),
+        ("u,u\n1,2\n", "a column name is repeated"),
+        ("branch,p,q\na,1,\nb,2,5\na,3,4\n", r"column 'q', row 3: rows before are empty"),
+        ("branch,p\na,1\nb,2\n", "has no branch 'c'; it has a, b"),
+        ("u," + 1000 * "x," + "p\n1,2\n", "more than 1000 columns"),
+        ("u,p\n1," + 50 * "x" + "\n", f"row 1: '{40 * 'x'}' is"),
+    ],
+)
+def test_what_is_wrong_with_a_table_is_named_with_its_row(tmp_path, content, said):
+    (tmp_path / "c.csv").write_text(content)
+    with pytest.raises(InputError, match=said):
+        read_curve(tmp_path / "c.csv", "c" if "'c'" in said else "a" if "branch" in content else "")
+
+
+def test_one_row_is_a_table_and_a_branch_is_read_without_the_columns_of_others(tmp_path):
+    (tmp_path / "c.csv").write_text("u,p\n1,3\n")
+    assert {name: v.tolist() for name, v in read_curve(tmp_path / "c.csv").columns.items()} == {
+        "u": [1],
+        "p": [3],
+    }
+    (tmp_path / "c.csv").write_text("branch,p,q\na,1,\nb,2,5\na,3,\nb,4,6\n")
+    for branch, columns in (("a", {"p": [1, 3]}), ("b", {"p": [2, 4], "q": [5, 6]})):
+        found = read_curve(tmp_path / "c.csv", branch).columns
+        assert {name: values.tolist() for name, values in found.items()} == columns
+
+
 def test_the_first_branch_of_a_result_is_the_curve(tmp_path):
     other = {name: [2.0 * value for value in values] for name, values in COLUMNS.items()}
     branches = [Branch("primary", "p", COLUMNS).to_json(), Branch("secondary", "p", other).to_json()]

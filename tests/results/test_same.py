@@ -146,6 +146,24 @@ def test_runs_are_compared_case_by_case(tmp_path, capsys):
     assert runs(Run(first), Run(second))[0].worst.relative == same.np.inf
 
 
+def test_the_solution_that_differs_most_comes_first_and_one_that_neither_run_has_is_no_difference(tmp_path):
+    both = []
+    for name, shift in (("a", 0.0), ("b", 0.4)):
+        folder = stored(tmp_path / name, solution())
+        report = json.loads((folder / "report" / "report.json").read_text())
+        files = {"near": "a.json", "far": "b.json", "never": "c.json"}
+        specs = [{"spec": spec, "file": f"solutions/{file}"} for spec, file in files.items()]
+        report["cases"][0]["solutions"] = specs
+        (folder / "report" / "report.json").write_text(json.dumps(report))
+        far = solution(energy=4.0 + shift)
+        far.provenance = json.loads((folder / "solutions" / "a.json").read_text())["provenance"]
+        (folder / "solutions" / "b.json").write_text(json.dumps(far.to_json()))
+        both.append(Run(folder))
+    found = runs(*both)
+    assert [(item.spec, item.worst.relative) for item in found[1:]] == [("near", 0.0), ("never", 0.0)]
+    assert (found[0].spec, found[0].worst.relative) == ("far", pytest.approx(0.4 / 4.4))
+
+
 def test_another_run_stands_in_the_report(tmp_path):
     first = stored(tmp_path / "a", solution())
     second = stored(tmp_path / "b", solution(energy=4.4), passed=False)

@@ -11,10 +11,12 @@ import pytest
 from pydantic import BaseModel
 from rich.console import Console
 
+from weakforms import api
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.about import Family
 from weakforms.problems.problem import Requests, StateRequest, validated
+from weakforms.results import Branch, Quantity, Result
 from weakforms.verification.audit.coverage import hold_out, judged, verb
 from weakforms.verification.audit.coverage.families import FAMILIES, SEED
 from weakforms.verification.audit.coverage.judged import Judged
@@ -206,3 +208,31 @@ def test_a_field_with_uncertainties_by_row_is_judged_where_it_is_worst():
 def test_round_off_is_allowed_in_proportion_to_numbers_above_one(size, floor):
     fine = Number("quantity p", "p", np.array([size]), np.array([1e-12]))
     assert judged._judged("tube", (), fine, fine).floor == pytest.approx(floor)
+
+
+def test_a_coarse_solution_is_judged_by_a_fine_one_where_it_states_an_uncertainty(monkeypatch):
+    """Not the trace, nor what only one of the two has, nor exact numbers."""
+    asked = []
+
+    def solve_requests(problem, parameters, numerics, states, branch_uncertainty=True):
+        asked.append(
+            (problem, parameters, numerics, [(s.name, s.value, s.branch, s.profile) for s in states])
+        )
+        off = 0.0 if numerics["cells"] == 9 else 0.25
+        numbers = {"p": Quantity(2.0 + off, 0.125), "n": Quantity(3.0)} | (
+            {"q": Quantity(1.0, 1.0)} if off else {}
+        )
+        branch = Branch("primary", "p", {"p": np.array([1.0])}, {"p": np.array([1.0])})
+        assert branch_uncertainty is False, "of the trace nothing is judged"
+        return Result(problem, {}, {}, {}, {}, [branch], quantities=numbers)
+
+    monkeypatch.setattr(api, "solve_requests", solve_requests)
+    family = Family({"alpha": (0, 1)}, {"cells": 3}, {"cells": 9}, problem="tube", at=(("p", 1.5),))
+    (item,) = judged.judged(family, {"alpha": 0.5})
+    assert (item.place, item.error, item.uncertainty, item.truth) == ("quantity p", 0.25, 0.125, 0.125)
+    state = [("p", 1.5, family.branch, ())]
+    assert asked == [("tube", {"alpha": 0.5}, {"cells": cells}, state) for cells in (3, 9)]
+    assert replace(item, error=0.25, truth=0.1).within is False
+    assert replace(item, error=0.2, truth=0.1).within is True
+    assert replace(item, error=0.36, truth=0.1).bounded is False
+    assert replace(item, error=0.34, truth=0.1).bounded is True

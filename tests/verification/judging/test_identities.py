@@ -111,6 +111,15 @@ SCOPES = {
     ("tube", "u_max"): [({}, True), ({"extent": "full"}, False), (CONTACT, False)],
     ("tube", "t2_min"): [(CONTACT, True), ({}, False), (CONTACT | {"phase": "peeling"}, False)],
     ("tube", "spring_max"): [(CONTACT, True), (CONTACT | {"phase": "deflation"}, False)],
+    ("tube", "field_H"): [({}, True), (CONTACT, False), ({"model": "ogden"}, False)],
+    ("tube", "field_F_axial"): [({}, True), ({"extent": "full"}, False), ({"model": "ogden"}, False)],
+    ("diagram", "u_max"): [({}, True), ({"body": "disk"}, False)],
+    ("hemisphere", "work"): [({}, False), ({"load": "gas"}, True)],
+    ("hemisphere", "rate"): [({}, True), ({"load": "gas"}, False)],
+    ("wrinkled_tube", "field_axial"): [({}, True), ({"load_end": 2.0}, False)],
+    ("sphere", "work"): [({}, True), ({"vary": "alpha"}, False)],
+    ("annulus", "field_gw"): [({}, True), ({"model": "saint_venant_kirchhoff"}, False)],
+    ("surface", "surface"): [({}, True), ({"geometry": "hemisphere"}, False)],
     ("tube", "Pi"): [({}, True), ({"extent": "full"}, False), ({"model": "ogden"}, False)],
 }
 """Parameters with which some identities are stated, and with which they would be false."""
