@@ -10,6 +10,7 @@ unstable to waves around it (Paper 5).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import basix.ufl
 import numpy as np
@@ -46,6 +47,9 @@ CAP = 4.0
 class SheetParameters(WrinkledParameters):
     """The membrane and its load."""
 
+    energy: Literal["relaxed", "modified_gradient"] = Field(
+        "relaxed", description="treatment of wrinkling in the first guess; the sheet itself is relaxed"
+    )
     at_load: float = Field(4.5, gt=0, le=100, description="load: level zw, or pressure p with load = 'gas'")
 
 
