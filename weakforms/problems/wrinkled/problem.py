@@ -44,29 +44,33 @@ LOAD_END = {"fluid": 16.0, "gas": 0.6}
 
 
 LONGEST = 25.0
-"""Largest length. The disks' effect falls exponentially with the distance from them, so that at the first
+"""Largest length of a branch. The disks' effect falls exponentially with the distance from them: at the first
 loads all of a longer membrane is as near to wrinkling as round-off, and its zones cannot be told."""
 
 WIDEST = 2.0
-"""Largest radius of the disks. Between wider ones under a load the membrane is stretched many times where it
+"""Largest radius of the disks of a branch. Between wider ones the membrane is stretched many times where it
 is clamped, and branches turn within steps that no mesh resolves."""
 
 
-def _radius(value: object) -> object:
-    """``critical``, or a positive number, also as text."""
-    if value == "critical":
-        return value
-    try:
-        radius = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise ValueError(f"must be 'critical' or a number above 0 and up to {WIDEST:g}") from None
-    if not 0 < radius <= WIDEST:
-        raise ValueError(f"must be 'critical' or a number above 0 and up to {WIDEST:g}")
-    return radius
+def _radius(most: float) -> Any:
+    """The type of the parameter ``Af``: ``critical``, or a positive number, also as text."""
+
+    def known(value: object) -> object:
+        if value == "critical":
+            return value
+        refused = ValueError(f"must be 'critical' or a number above 0 and up to {most:g}")
+        try:
+            radius = float(value)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            raise refused from None
+        if not 0 < radius <= most:
+            raise refused
+        return radius
+
+    return Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=most)], BeforeValidator(known)]
 
 
-Radius = Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=WIDEST)], BeforeValidator(_radius)]
-"""Parameter ``Af``."""
+RADIUS = "radius of the disks: 'critical' (Case 1), or a number above 0, such as 1 (Case 2)"
 
 Energy = Literal["relaxed", "modified_gradient", "standard"]
 TREATMENT = "treatment of wrinkling: two forms of the same energy, or none"
@@ -97,11 +101,8 @@ class WrinkledParameters(MaterialChoice):
     )
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
-    L: float = Field(8.0, ge=1, le=LONGEST, description="undeformed length L_o/Ao")
-    Af: Radius = Field(
-        "critical",
-        description="radius of the disks: 'critical' (Case 1), or a number above 0, such as 1 (Case 2)",
-    )
+    L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
+    Af: _radius(3.0) = Field("critical", description=RADIUS)  # type: ignore[valid-type]
     load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float | None = Field(None, gt=0, le=10, description="weight of the fluid; by default the paper's")
     energy: Energy = Field("relaxed", description=TREATMENT)
@@ -139,11 +140,18 @@ class WrinkledParameters(MaterialChoice):
         require_held(problem, self.material, self.Af)
 
 
+class BranchParameters(WrinkledParameters):
+    """A membrane whose branch is followed from no load, in the ranges in which this is possible."""
+
+    L: float = Field(8.0, ge=1, le=LONGEST, description="undeformed length L_o/Ao")
+    Af: _radius(WIDEST) = Field("critical", description=RADIUS)  # type: ignore[valid-type]
+
+
 class WrinkledTube(BranchProblem):
     """Pre-stretched cylindrical membrane of non-uniform thickness under fluid or gas."""
 
     about = WRINKLED_TUBE
-    parameters = WrinkledParameters
+    parameters = BranchParameters
     numerics = WrinkledNumerics
 
     def check(self, parameters: WrinkledParameters, requests: Requests) -> None:
