@@ -394,6 +394,19 @@ def test_a_liquid_tube_near_the_limit_of_its_law_ends_under_a_hundredfold_pressu
     assert last == pytest.approx(100 * 1.784 / 2 / 0.6225, rel=0.05)
 
 
+def test_a_bent_branch_whose_level_hardly_falls_ends_where_it_is_bent_very_far():
+    """The law stiffens: the level stayed near 18, and 300 s were not enough for the branch."""
+    given = {"L": 2.058, "delta": 4.855, "gamma": 1.18, "alpha": 0.4226, "n_max": 1, "secondary": True}
+    coarse = {"cells": 16, "levels": 2}
+    surface = {"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 4}
+    result = solve("fluid_tube", **given, numerics=coarse | surface)
+    assert result.failures == []
+    (rest,) = (part for part in result.absent if part.what == "rest of branch secondary")
+    assert "where the tube is bent very far, after a path of 4" in rest.reason
+    level = result.branch("secondary").columns["zw"]
+    assert 0.9 * level[0] < level[-1] < level[0]
+
+
 def test_a_coincidence_beyond_the_limit_of_the_law_is_refused():
     with pytest.raises(InputError, match=r"delta_high = 5: .*lower delta_high|delta_high = 5 alone"):
         solve("fluid_tube_coincidence", model="gent", jm=20.0, delta_low=3.0, delta_high=5.0)
