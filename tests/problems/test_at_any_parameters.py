@@ -60,6 +60,22 @@ def test_a_stiffening_tube_under_a_force_is_not_turned_inside_out():
 
 
 @pytest.mark.parametrize(
+    ("law", "force", "limit"),
+    [
+        ({"model": "harmonic", "shear": 4.183, "f2": 3.217}, 58.34, "6.298 in tension"),
+        ({"model": "varga", "shear": 0.3}, 0.61, "0.5994 in tension"),
+        ({"model": "saint_venant_kirchhoff", "shear": 1.0, "poisson": 0.5}, -1.2, "-0.5773 in compression"),
+    ],
+)
+def test_a_force_that_a_law_does_not_bear_is_refused_with_the_largest_one(law, force, limit):
+    """Varga's is ``2 mu (1 - lam^(-3/2))``; Kirchhoff's ``3/2 mu lam (lam^2 - 1)`` has a least value."""
+    with pytest.raises(InputError, match=rf"force = {force:g}: .* no more than {limit}; choose a force near"):
+        solve("infinite_tube", **law, force=force, lam_end=1.2)
+    within = solve("infinite_tube", **law, force=0.5 * float(limit.split()[0]), lam_end=1.2)
+    assert within.failures == []
+
+
+@pytest.mark.parametrize(
     "given",
     [
         {"M": 0.2863, "delta": 4.032, "c2": 0.8524, "L": 2.495, "Af": 1.75, "energy": "modified_gradient"},
@@ -364,6 +380,75 @@ def test_branches_without_limit_point_or_bifurcation_have_no_coincidence():
     path = SimpleNamespace(pieces=[], data=SimpleNamespace(delta=4.783), zw_end=0.7)
     with pytest.raises(AbsentError, match=r"at delta = 4\.783 the branch has 0 limit points and 0 bifurc"):
         coincidence._Finder._points(None, path)
+
+
+def test_a_liquid_tube_near_the_limit_of_its_law_ends_under_a_hundredfold_pressure():
+    """The residual of its stiff equations was above the limit; then its level rose without end."""
+    law = {"model": "gent", "shear": 1.784, "jm": 96.54}
+    given = law | {"L": 39.93, "gamma": 0.6225, "delta": 9.238, "n_max": 1}
+    result = solve("fluid_tube", **given, numerics={"cells": 16, "levels": 2})
+    assert result.failures == []
+    (rest,) = result.absent
+    assert "there the pressure of the liquid is 100 times the stiffness of the law" in rest.reason
+    last = result.branches[0].columns["zw"][-1]
+    assert last == pytest.approx(100 * 1.784 / 2 / 0.6225, rel=0.05)
+
+
+def test_a_bent_branch_whose_level_hardly_falls_ends_where_it_is_bent_very_far():
+    """The law stiffens: the level stayed near 18, and 300 s were not enough for the branch."""
+    given = {"L": 2.058, "delta": 4.855, "gamma": 1.18, "alpha": 0.4226, "n_max": 1, "secondary": True}
+    coarse = {"cells": 16, "levels": 2}
+    surface = {"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 4}
+    result = solve("fluid_tube", **given, numerics=coarse | surface)
+    assert result.failures == []
+    (rest,) = (part for part in result.absent if part.what == "rest of branch secondary")
+    assert "where the tube is bent very far, after a path of 4" in rest.reason
+    level = result.branch("secondary").columns["zw"]
+    assert 0.9 * level[0] < level[-1] < level[0]
+
+
+def test_a_coincidence_beyond_the_limit_of_the_law_is_refused():
+    with pytest.raises(InputError, match=r"delta_high = 5: .*lower delta_high|delta_high = 5 alone"):
+        solve("fluid_tube_coincidence", model="gent", jm=20.0, delta_low=3.0, delta_high=5.0)
+
+
+def test_a_diagram_ends_where_the_law_of_its_disk_takes_no_more():
+    """Branches went on to states without meaning, on which first wrinkling was looked for."""
+    law = {"model": "gent", "shear": 8.909, "jm": 19.49}
+    given = law | {"body": "circular", "beta": 2.9, "low": 2.8, "high": 3.0, "kind": "wrinkling"}
+    result = solve("diagram", **given, l=0.15, t_end=3.1, numerics={"cells": 8, "levels": 2})
+    assert result.failures == []
+    assert "or to where the law is at its limit" in result.absent[0].reason
+    with pytest.raises(InputError, match=r"diagram: high = 4: model = 'gent' .* lower high"):
+        solve("diagram", **law, body="circular", beta=2.0, low=1.5, high=4.0)
+
+
+def test_a_long_strip_is_refused_because_it_bulges_along_itself():
+    with pytest.raises(InputError, match=r"c = 9\.9 with edges = 'strip': .*allowed: c up to 2, or edges"):
+        solve("rectangle", edges="strip", c=9.9)
+
+
+def test_a_sheet_has_no_energy_without_wrinkling():
+    """Its first guess was compressed, and its own form, which is relaxed, did not converge from there."""
+    with pytest.raises(InputError, match=r"energy = 'standard': .*relaxed"):
+        solve("wrinkled_sheet", energy="standard", at_load=2.0)
+
+
+@pytest.mark.parametrize("given", [{"Af": 2.1}, {"L": 26.0}])
+@pytest.mark.parametrize("problem", ["wrinkled_tube", "wrinkled_sheet"])
+def test_membranes_on_very_wide_disks_or_very_long_are_refused(problem, given):
+    (name,) = given
+    with pytest.raises(InputError, match=rf"{name} = .*{2 if name == 'Af' else 25}"):
+        solve(problem, **given)
+
+
+@pytest.mark.parametrize(
+    "problem", ["wrinkled_tube", "wrinkled_sheet", "wrinkled_linear", "wrinkled_bending"]
+)
+def test_wide_disks_at_which_a_bounded_force_gives_way_are_refused(problem):
+    """The stretch at the clamp was 207, and no mesh could be fitted to the zones."""
+    with pytest.raises(InputError, match=r"Af = 1\.493: the force of model = 'varga' is bounded.*Af up to 1"):
+        solve(problem, model="varga", M=0.7995, delta=2.753, L=5.311, Af=1.493)
 
 
 def test_a_stiffening_liquid_tube_ends_where_it_is_wide():

@@ -17,7 +17,7 @@ from weakforms.problems.reach import BeyondEndError, farthest, limit_points_beyo
 from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
 from weakforms.results.drawing import critical, draw, seed_of
 from weakforms.solvers.continuation.branch import EquilibriumBranch
-from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import STOPPING, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State as Equilibrium
@@ -94,6 +94,7 @@ def from_rest(
     begin: Equilibrium | None = None,
     usual_load: float = inf,
     kind: Callable[..., EquilibriumBranch] = EquilibriumBranch,
+    gives_way: Callable[[CurvePoint], str] = lambda _point: "",
 ) -> EquilibriumBranch:
     """Equilibria by arc length from the state without load, until a column passes its end.
 
@@ -106,6 +107,7 @@ def from_rest(
         begin: Guess of the first state; by default the state of rest.
         usual_load: Load above which steps grow in proportion to it.
         kind: The class of the curve.
+        gives_way: Why there is no solution beyond a point, where the branch ends too; empty if there may be.
     """
     steps = StepControl(first=step / 4, largest=step, usual_load=usual_load)
     continuation = Continuation(ExtendedNewton(system, [load]), control=steps)
@@ -113,7 +115,11 @@ def from_rest(
     with system.at(begin):
         rising = 1.0 if end > system.monitor(along) else -1.0
     start = continuation.start(begin, Held(load, 0.0), towards={along: rising})
-    return kind(continuation, load, start, stop=lambda point: rising * (point.monitors[along] - end) > 0)
+
+    def stop(point: CurvePoint) -> bool:
+        return rising * (point.monitors[along] - end) > 0 or bool(gives_way(point))
+
+    return kind(continuation, load, start, stop)
 
 
 class BranchProblem(Problem):

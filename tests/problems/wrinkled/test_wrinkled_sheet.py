@@ -52,7 +52,7 @@ def test_a_membrane_that_wrinkles_at_no_thickness_ratio_is_told_by_how_far_it_is
     assert least.value - 1 > 1e3 * least.uncertainty
 
 
-WIDE = {"Af": 2.5, "delta": 1.05}, {"Af": 2.2, "delta": 4.36, "c2": 0.78}
+WIDE = {"Af": 2.0, "delta": 1.05}, {"Af": 1.9, "delta": 4.36, "c2": 0.78}
 
 
 @pytest.mark.parametrize("given", WIDE)

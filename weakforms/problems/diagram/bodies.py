@@ -25,16 +25,16 @@ from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, one_end
 from weakforms.problems.meridian.body import Body, EndPosition
+from weakforms.problems.meridian.limits import limit_of
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.problems.tube.model import free_branch, resistance
 from weakforms.problems.tube.waves import AT_MIDDLE, EVEN, ODD, TubeWaves
 from weakforms.solvers.continuation.branch import EquilibriumBranch
-from weakforms.solvers.continuation.continuation import Continuation, StepControl
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.least import LeastValue
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
 
 WAVES = re.compile(r"n([1-9])")
@@ -242,25 +242,31 @@ class VariedDisk(VariedModel):
         return replace(given, monitors=own | dict(given.monitors))
 
     def primary(self, end: float, step: float, kind: Kind = EquilibriumBranch) -> EquilibriumBranch:
-        """Free inflation up to ``t0 = end``, from rest or, if slack there, from a small height."""
+        """Free inflation up to ``t0 = end`` or the law's end, from rest or, if slack, from a small height."""
         beta = self.system.initial.loads["beta"]
         if beta >= TAUT:
-            return from_rest(self.system, "p", "t0", end, step, usual_load=USUAL_LOAD, kind=kind)
+            ends = {"usual_load": USUAL_LOAD, "kind": kind, "gives_way": self._gives_way}
+            return from_rest(self.system, "p", "t0", end, step, **ends)
         stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
         guess = self.system.initial.copy()
         guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
         guess.u[1::2] = (FIRST_T0 * (1 - radius**2))[1::2]
         tension = evaluated(self.material_law, stretch, stretch)["W1"]
         guess.loads["p"] = 4 * FIRST_T0 * tension / beta
-        return grown(self, guess, end, step, kind)
+        steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
+        continuation = Continuation(ExtendedNewton(self.system, ["p"]), control=steps)
+        start = continuation.start(guess, Held("t0", FIRST_T0), towards={"t0": 1.0})
 
+        def stop(point: CurvePoint) -> bool:
+            return point.monitors["t0"] > end or bool(self._gives_way(point))
 
-def grown(model: VariedModel, guess: State, end: float, step: float, kind: Kind) -> EquilibriumBranch:
-    """Equilibria by arc length from a first state of small displacement to a larger one."""
-    steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
-    continuation = Continuation(ExtendedNewton(model.system, ["p"]), control=steps)
-    start = continuation.start(guess, Held(model.depth, FIRST_T0), towards={model.depth: 1.0})
-    return kind(continuation, "p", start, lambda at: at.monitors[model.depth] > end)
+        return kind(continuation, "p", start, stop)
+
+    def _gives_way(self, point: CurvePoint) -> str:
+        """The law may take no more stretch at the pole; its constants may be loads."""
+        law, stretch, loads = self.material_law, point.monitors["lam_pole"], point.state.loads
+        constants = tuple((name, loads.get(name, value)) for name, value in law.constants)
+        return limit_of(replace(law, constants=constants), [(stretch, stretch)])
 
 
 @dataclass(frozen=True)

@@ -45,10 +45,15 @@ class Diagram(BranchProblem):
         material = parameters.material
         if parameters.waves:
             require_model("diagram: waves around the axis", parameters, tuple(LAWS))
-        if parameters.body == "tube":
-            require_bearable(self.name, material, parameters.delta1, 1.0, "delta1")
-        else:
-            require_taut(self.name, material, parameters.beta, "beta")
+        own, tube = parameters.subject.parameters[0], parameters.body == "tube"
+        stretches = {own: getattr(parameters, own)}
+        if parameters.vary == own:
+            stretches |= {"low": parameters.window.low, "high": parameters.window.high}
+        for name, stretch in stretches.items():
+            if tube:
+                require_bearable(self.name, material, stretch, 1.0, name)
+            else:
+                require_taut(self.name, material, stretch, name)
 
     def _check_axes(self, given: DiagramParameters) -> None:
         x, y = given.axes
@@ -176,6 +181,7 @@ def _none(given: DiagramParameters, kind: str) -> str:
     window, subject = given.window, given.subject
     return (
         f"diagram: no point of kind {kind} on the primary branches at {SCANNED} values of {given.vary} from "
-        f"{window.low:g} to {window.high:g}, up to {subject.model.depth} = {window.end:g}; change low or "
+        f"{window.low:g} to {window.high:g}, up to {subject.model.depth} = {window.end:g} or to where the "
+        "law is at its limit; change low or "
         f"high, or raise {subject.end}"
     )

@@ -16,7 +16,7 @@ from weakforms.problems.homogeneous.material_point import (
     evaluated,
     stressed,
 )
-from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.material_choice import Chosen, MaterialChoice
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.results import Quantity, Result
 
@@ -110,4 +110,50 @@ def require_reachable(problem: str, parameters: MaterialChoice, l1: float, l2: f
             f"{problem}: model = {parameters.model!r} has stresses of more than {LARGEST:g} times its "
             f"stiffness at rest at {what} = {l1:g}, {l2:g}; choose a lam_end nearer to 1, "
             "or smaller exponents"
+        )
+
+
+MOST_STRETCHED, PLACES = 100.0, 400
+"""Largest stretch, and least shortening, at which the force of a strip is looked at; number of stretches."""
+
+
+def bearable_force(chosen: Chosen, sign: float) -> float:
+    r"""The largest force that a strip bears in uniaxial tension or, as a negative number, in compression.
+
+    .. math:: F(\lambda) = w_{,1}(\lambda, \lambda_2(\lambda)), \qquad w_{,2}(\lambda, \lambda_2) = 0
+
+    Args:
+        chosen: The law.
+        sign: 1 for tension, -1 for compression.
+
+    Returns:
+        ``F`` at its first limit along the way from rest, or at a hundredfold stretch; infinite for a law that
+        locks before.
+    """
+    constants, found = dict(chosen.constants), 0.0
+    for stretch in np.geomspace(1.0, MOST_STRETCHED**sign, PLACES)[1:].tolist():
+        across = float(chosen.material.width(stretch, **constants))
+        force = evaluated(chosen, stretch, across)["W1"]
+        if not np.isfinite(force):
+            return sign * np.inf
+        if sign * (force - found) < 0:
+            break
+        found = force
+    return found
+
+
+def require_borne(problem: str, chosen: Chosen, force: float) -> None:
+    """Refuse an axial force that no strip of a law bears.
+
+    Raises:
+        InputError: With a message that names the force and what is allowed.
+    """
+    if force == 0:
+        return
+    most = bearable_force(chosen, float(np.sign(force)))
+    if abs(force) > abs(most):
+        kind = "tension" if force > 0 else "compression"
+        raise InputError(
+            f"{problem}: force = {force:g}: model = {chosen.model!r} with these constants bears no more than "
+            f"{most:.4g} in {kind}; choose a force nearer to 0, or a stiffer law"
         )

@@ -12,7 +12,7 @@ from weakforms.problems.branch_problem import BranchProblem, Family, from_rest
 from weakforms.problems.homogeneous import body as closed_body
 from weakforms.problems.homogeneous.about import HOMOGENEOUS, INFINITE_TUBE, SPHERE
 from weakforms.problems.homogeneous.body import Body, system_of
-from weakforms.problems.homogeneous.material import require_reachable
+from weakforms.problems.homogeneous.material import require_borne, require_reachable
 from weakforms.problems.homogeneous.maxwell import maxwell_states
 from weakforms.problems.material_choice import Chosen, MaterialChoice
 from weakforms.problems.problem import End, Needs, Numerics, Requests, Task
@@ -192,9 +192,10 @@ class InfiniteTube(ClosedProblem):
     parameters = InfiniteTubeParameters
 
     def check(self, parameters: InfiniteTubeParameters, requests: Requests) -> None:
-        """Refuse stretches that the law does not reach."""
+        """Refuse stretches that the law does not reach, and forces that it does not bear."""
         super().check(parameters, requests)
         require_reachable(self.name, parameters, 1.0, parameters.lam_end, "1, lam_end")
+        require_borne(self.name, parameters.material, parameters.force)
 
     def ends(self, parameters: InfiniteTubeParameters, _branch: str) -> list[End]:
         """The largest hoop stretch."""

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.model import DRY, FULL, PART, TubeData, TubeModel
+from weakforms.problems.meridian.limits import relative_stiffness
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -35,6 +36,10 @@ ZW_END, STEP = 0.7, 0.5
 WIDEST = 10.0
 """Mean radius at which the branch ends. The tube of a stiffening law may have no limit point: its level then
 rises for ever."""
+
+HEAVIEST, USUAL_LEVEL = 100.0, 40.0
+"""Largest pressure of the liquid over the stiffness of the law, at which the branch ends too: a law with a
+limit, such as Gent's, never lets its tube become so wide. Level above which steps grow in proportion."""
 
 TRANSFER = 257
 """Number of points by which a state is interpolated to another position of the front, as a guess."""
@@ -140,11 +145,22 @@ class FluidPath:
             self._highest, self._volume = level, volume
         rises = volume > self._volume and point.tangent.loads["zw"] > 0
         stiffens = rises and self.data.material is not None
-        return level < self.zw_end * self._highest or stiffens or self._widest(point)
+        return level < self.zw_end * self._highest or stiffens or bool(self._locked(point))
 
-    def _widest(self, point: CurvePoint) -> bool:
-        """Whether the tube is as wide on average as :data:`WIDEST`."""
-        return point.monitors["V"] > np.pi * WIDEST**2 * self.data.L
+    @cached_property
+    def _heaviest(self) -> float:
+        """The level at which the liquid presses as much as :data:`HEAVIEST` says, above the upper ring."""
+        law = self.data.material
+        stiffness = 1 + self.data.alpha if law is None else relative_stiffness(law)
+        return max(2 * self.data.L, HEAVIEST * stiffness / self.data.gamma)
+
+    def _locked(self, point: CurvePoint) -> str:
+        """Why a level that still rises is followed no further, as text; empty if it is followed."""
+        if point.monitors["V"] > np.pi * WIDEST**2 * self.data.L:
+            return f"the mean radius is {WIDEST:g}"
+        if point.state.loads["zw"] > self._heaviest:
+            return f"the pressure of the liquid is {HEAVIEST:g} times the stiffness of the law"
+        return ""
 
     # -- parts --------------------------------------------------------------------------------
 
@@ -185,10 +201,11 @@ class FluidPath:
         branch = self._branch(continuation, start, stop, ("Z_front", "r_front"))
         if branch.points[-1].state.loads["zw"] < self.data.L:
             branch.end_at("zw", self.data.L)
-        if self._widest(branch.points[-1]):
+        why = self._locked(branch.points[-1])
+        if why:
             branch.ended = (
                 f"the level rises to zw = {branch.points[-1].state.loads['zw']:.6g} without falling below "
-                f"{self.zw_end:g} of its highest value; there the mean radius is {WIDEST:g}"
+                f"{self.zw_end:g} of its highest value; there {why}"
             )
         return branch
 
@@ -222,7 +239,7 @@ class FluidPath:
         return ModalBranch(continuation, "zw", start, stop, self.modes, hidden)
 
     def _steps(self) -> StepControl:
-        return StepControl(first=self.step / 4, largest=self.step)
+        return StepControl(first=self.step / 4, largest=self.step, usual_load=USUAL_LEVEL)
 
     # -- states --------------------------------------------------------------------------------
 

@@ -19,6 +19,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.problem import CAPS, FluidTubeNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_model
+from weakforms.problems.meridian.limits import require_bearable
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.results import Absence, Quantity, Result
 from weakforms.solvers.continuation.curve import Solved
@@ -61,6 +62,8 @@ class FluidTubeCoincidence(Problem):
             InputError: For a request for states (there is only one), an empty range, or a law without a form.
         """
         require_model(self.name, parameters, tuple(LAWS))
+        for name in ("delta_low", "delta_high"):
+            require_bearable(self.name, parameters.material, getattr(parameters, name), 1.0, name)
         if requests.states:
             raise InputError(f"{self.name}: no states can be requested; its one state is the result")
         if not parameters.delta_low < parameters.delta_high:
@@ -131,8 +134,9 @@ class _Finder:
             raise AbsentError(
                 "coincidence",
                 f"{where} the branch has {len(limits)} limit points and {len(forks)} bifurcations with one "
-                f"wave up to where its level has fallen to {path.zw_end:g} of the highest; choose a "
-                "delta_low and delta_high at which it has both, or another law",
+                f"wave up to its end (the level has fallen to {path.zw_end:g} of the highest, or the tube is "
+                "very wide, or the law at its limit); choose a delta_low and delta_high at which it has "
+                "both, or another law",
             )
         return limits[0], forks[0]
 

@@ -90,7 +90,7 @@ class PrimaryBranch:
         raise AbsentError(
             "bifurcation point",
             f"{has}, up to where its level has fallen to {self.path.zw_end:g} of the highest, or the tube is "
-            f"{WIDEST:g} radii wide; choose another delta or L, or another law",
+            f"{WIDEST:g} radii wide, or the law is at its limit; choose another delta or L, or another law",
         )
 
     def at(self, name: str, value: float, points: np.ndarray, crossing: int = 1) -> AxisymmetricState:

@@ -143,3 +143,32 @@ def require_carried(problem: str, law: Chosen, delta: float, thickness: Uneven) 
             f"way: no force stretches the membrane by more than {most:.4g} in the mean; lower delta, "
             f"or {even}"
         )
+
+
+BOUNDED, WIDEST_BOUNDED = 1e-3, 1.0
+"""A force that grows by less than this fraction over the last decade of stretches is bounded. The largest
+radius of disks, over that of the undeformed tube, between which a membrane of such a law is clamped."""
+
+
+def require_held(problem: str, law: Chosen, radius: float | str) -> None:
+    """Refuse disks at which the force of a law is not large enough, because it is bounded.
+
+    Towards a disk wider than the tube the meridian turns away from the axis, and the component of its force
+    along the axis stays the same. The force therefore grows and, if it cannot, the stretch beyond all bounds.
+
+    Args:
+        problem: Name of the problem, for the message.
+        law: The law.
+        radius: Radius of the disks over that of the undeformed tube; text if it is to be found.
+
+    Raises:
+        InputError: With a message that names the radius and what is allowed.
+    """
+    if law.model == MOONEY_RIVLIN or isinstance(radius, str) or radius <= WIDEST_BOUNDED:
+        return
+    before, last = (evaluated(law, l1, radius)["W1"] for l1 in (FARTHEST / 10, FARTHEST))
+    if np.isfinite(last) and last < (1 + BOUNDED) * before:
+        raise InputError(
+            f"{problem}: Af = {radius:g}: the force of model = {law.model!r} is bounded, and the membrane "
+            f"gives way where it widens to such disks; allowed with this law: Af up to {WIDEST_BOUNDED:g}"
+        )

@@ -11,6 +11,10 @@ from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs, TogetherError
 from weakforms.problems.rectangle.model import Sheet
 
+LONGEST_STRIP = 2.0
+"""Largest ``c`` of a strip. It stays a cylinder of one cross-section at any length, but of a longer one this
+branch is crossed by others with both mirrors."""
+
 
 class RectangleNumerics(MeshNumerics):
     """Meshes of the rectangle: squares along half the short side, each cut into four triangles."""
@@ -56,6 +60,11 @@ class RectangleParameters(MaterialChoice):
             raise TogetherError(
                 "delta = 1 with edges = 'strip': a slack strip has no first state; allowed: delta or delta_y "
                 "above 1"
+            )
+        if self.edges == "strip" and self.c > LONGEST_STRIP:
+            raise TogetherError(
+                f"c = {self.c:g} with edges = 'strip': so long a strip bulges at one place along it, on "
+                f"branches that are not followed; allowed: c up to {LONGEST_STRIP:g}, or edges = 'held'"
             )
         return self
 

@@ -18,7 +18,7 @@ from pydantic import BeforeValidator, Field
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import require_bearable, require_carried
+from weakforms.problems.meridian.limits import require_bearable, require_carried, require_held
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves
@@ -43,21 +43,34 @@ LOAD_END = {"fluid": 16.0, "gas": 0.6}
 """Default loads at which branches end."""
 
 
-def _radius(value: object) -> object:
-    """``critical``, or a positive number, also as text."""
-    if value == "critical":
-        return value
-    try:
-        radius = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        raise ValueError("must be 'critical' or a number above 0 and up to 3") from None
-    if not 0 < radius <= 3:
-        raise ValueError("must be 'critical' or a number above 0 and up to 3")
-    return radius
+LONGEST = 25.0
+"""Largest length of a branch. The disks' effect falls exponentially with the distance from them: at the first
+loads all of a longer membrane is as near to wrinkling as round-off, and its zones cannot be told."""
+
+WIDEST = 2.0
+"""Largest radius of the disks of a branch. Between wider ones the membrane is stretched many times where it
+is clamped, and branches turn within steps that no mesh resolves."""
 
 
-Radius = Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=3)], BeforeValidator(_radius)]
-"""Parameter ``Af``."""
+def _radius(most: float) -> Any:
+    """The type of the parameter ``Af``: ``critical``, or a positive number, also as text."""
+
+    def known(value: object) -> object:
+        if value == "critical":
+            return value
+        refused = ValueError(f"must be 'critical' or a number above 0 and up to {most:g}")
+        try:
+            radius = float(value)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            raise refused from None
+        if not 0 < radius <= most:
+            raise refused
+        return radius
+
+    return Annotated[Literal["critical"] | Annotated[float, Field(gt=0, le=most)], BeforeValidator(known)]
+
+
+RADIUS = "radius of the disks: 'critical' (Case 1), or a number above 0, such as 1 (Case 2)"
 
 Energy = Literal["relaxed", "modified_gradient", "standard"]
 TREATMENT = "treatment of wrinkling: two forms of the same energy, or none"
@@ -89,10 +102,7 @@ class WrinkledParameters(MaterialChoice):
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
-    Af: Radius = Field(
-        "critical",
-        description="radius of the disks: 'critical' (Case 1), or a number above 0, such as 1 (Case 2)",
-    )
+    Af: _radius(3.0) = Field("critical", description=RADIUS)  # type: ignore[valid-type]
     load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float | None = Field(None, gt=0, le=10, description="weight of the fluid; by default the paper's")
     energy: Energy = Field("relaxed", description=TREATMENT)
@@ -119,7 +129,7 @@ class WrinkledParameters(MaterialChoice):
         return None if self.thickness is None else Thickness(self.thickness, "Z", ("L",))
 
     def require_carried(self, problem: str) -> None:
-        """Refuse a thickness out of range, and a pre-stretch that the membrane has at no force.
+        """Refuse a thickness out of range, and pre-stretch or disks for which no force is large enough.
 
         Raises:
             InputError: With a message that names the parameters.
@@ -127,13 +137,21 @@ class WrinkledParameters(MaterialChoice):
         own, given = self.own_thickness, "M" in self.model_fields_set
         require_thickness(problem, own, self.L, given, L=self.L)
         require_carried(problem, self.material, self.delta, self.M if own is None else (own, self.L))
+        require_held(problem, self.material, self.Af)
+
+
+class BranchParameters(WrinkledParameters):
+    """A membrane whose branch is followed from no load, in the ranges in which this is possible."""
+
+    L: float = Field(8.0, ge=1, le=LONGEST, description="undeformed length L_o/Ao")
+    Af: _radius(WIDEST) = Field("critical", description=RADIUS)  # type: ignore[valid-type]
 
 
 class WrinkledTube(BranchProblem):
     """Pre-stretched cylindrical membrane of non-uniform thickness under fluid or gas."""
 
     about = WRINKLED_TUBE
-    parameters = WrinkledParameters
+    parameters = BranchParameters
     numerics = WrinkledNumerics
 
     def check(self, parameters: WrinkledParameters, requests: Requests) -> None:

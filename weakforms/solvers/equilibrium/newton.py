@@ -257,14 +257,9 @@ class ExtendedNewton:
         self._join(self._x, guess.u, scalars)
         snes = self._snes(chord)
         snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
-        try:
-            run_snes(snes, self._x, self._callbacks)
-        except ConvergenceError:
-            self._renew()  # after an error in PETSc, its vectors stay locked
-            raise
-        finally:
-            record = solve_record(snes, self.factor.count - before)
-            self.left, self.last = record.norms[-1] if record.norms else np.inf, system.state()
+        record = self._run(snes, before)
+        if snes.getConvergedReason() > 0 and not self._is_balanced(snes):
+            record = self._run(snes, before)  # of a stiff law; the last step may have kept its Jacobian
         ended = snes.getConvergedReason() > 0 or self._is_at_round_off(snes, record)
         if not ended or not self._is_balanced(snes):
             raise ConvergenceError(
@@ -272,6 +267,19 @@ class ExtendedNewton:
                 f"residual {self.left:.1e}"
             )
         return system.state(), record
+
+    def _run(self, snes: PETSc.SNES, before: int) -> SolveRecord:
+        """One run of SNES from the extended vector, after so many factorisations."""
+        try:
+            run_snes(snes, self._x, self._callbacks)
+        except ConvergenceError:
+            self._renew()  # after an error in PETSc, its vectors stay locked
+            raise
+        finally:
+            record = solve_record(snes, self.factor.count - before)
+            self.left = record.norms[-1] if record.norms else np.inf
+            self.last = self.system.state()
+        return record
 
     def _is_at_round_off(self, snes: PETSc.SNES, record: SolveRecord) -> bool:
         """Whether no iteration can improve the state, and round-off moves it very little."""

@@ -96,7 +96,7 @@ class BranchFamily:
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
         self.failures: list[Failure] = []
-        ended = self.fine.ended
+        ended = (self.fine if self.traced_on_finest else self.levels[0]).ended
         self.absent: list[Absence] = [Absence(f"rest of branch {name}", ended)] if ended else []
         self._located: list[tuple[Solved, ...]] | None = None
         self._samplers: dict[tuple[int, bytes], Sampler] = {}

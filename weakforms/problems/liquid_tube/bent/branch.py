@@ -37,6 +37,10 @@ CORRECTIONS, EQUILIBRIUM = 3, 1e-11
 """Largest number of correction steps for an interpolated bifurcation point, and the residual at which they
 stop."""
 
+FAR = 4.0
+"""Length of the branch, as a root mean square displacement over the radius, at which it ends too. The level
+need not fall while a tube of a stiffening law bends."""
+
 OTHER_STATE = 0.05
 """Root mean square distance from a coarser mesh's state beyond which a solution is a different state."""
 
@@ -120,6 +124,7 @@ class SecondaryBranch(EquilibriumBranch):
         self.small: dict[float, Solved] = {}
         if followed:
             self.follow()
+            self._say_end()
 
     def follow(self) -> None:
         """Trace the branch to its end; if it is unstable from its start, the zero counts as negative."""
@@ -127,11 +132,20 @@ class SecondaryBranch(EquilibriumBranch):
             self.continuation,
             "zw",
             self.points[0],
-            stop=lambda point: point.state.loads["zw"] < self._lowest,
+            stop=lambda point: point.state.loads["zw"] < self._lowest or point.arclength > FAR * self.size,
         )
         first, *more = self.points
         if more and more[0].n_negative == first.n_negative + 1:
             first.n_negative += 1
+
+    def _say_end(self) -> None:
+        """Why the branch ends, if its level has not fallen to where it was to end."""
+        at = self.points[-1].state.loads["zw"]
+        if self.stalled is None and at >= self._lowest:
+            self.ended = (
+                f"the level is at zw = {at:.6g} and not below {self._lowest:.6g} where the tube is bent very "
+                f"far, after a path of {FAR:g} in root mean square displacement"
+            )
 
     def _first(self, factor: Factorization, n_negative: int) -> CurvePoint:
         """The bifurcation point with the mode as direction, both corrected.

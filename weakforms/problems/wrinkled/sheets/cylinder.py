@@ -10,6 +10,7 @@ unstable to waves around it (Paper 5).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import basix.ufl
 import numpy as np
@@ -29,7 +30,7 @@ from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.wrinkled.body import CYLINDER, SHARED
 from weakforms.problems.wrinkled.branch import first_state
-from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
+from weakforms.problems.wrinkled.problem import BranchParameters, WrinkledNumerics, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets.about import WRINKLED_SHEET
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.results import Absence, Result
@@ -43,9 +44,12 @@ CAP = 4.0
 """Highest assumed order of convergence; both directions are refined together."""
 
 
-class SheetParameters(WrinkledParameters):
+class SheetParameters(BranchParameters):
     """The membrane and its load."""
 
+    energy: Literal["relaxed", "modified_gradient"] = Field(
+        "relaxed", description="treatment of wrinkling in the first guess; the sheet itself is relaxed"
+    )
     at_load: float = Field(4.5, gt=0, le=100, description="load: level zw, or pressure p with load = 'gas'")
 
 

@@ -15,7 +15,7 @@ from pydantic import Field
 
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import require_carried
+from weakforms.problems.meridian.limits import require_carried, require_held
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wave_numbers import MOST_WAVES
 from weakforms.problems.wrinkled.branch import first_state
@@ -77,6 +77,7 @@ class AtLevel(Problem):
         super().check(parameters, requests)
         require_foldable(f"{self.name}: waves around the axis", parameters, invariants=True)
         require_carried(self.name, parameters.material, parameters.delta, parameters.M)
+        require_held(self.name, parameters.material, parameters.Af)
 
     def fill(self, result: Result, task: Task) -> None:
         """Solve for the state at the level on all meshes, and compute the quantities."""
