@@ -6,6 +6,7 @@ import shutil
 import pytest
 from on_ranks import allowed, start
 
+from weakforms import solve
 from weakforms.results import Result
 from weakforms.verification.audit.same import differences
 
@@ -21,7 +22,9 @@ if MPI.COMM_WORLD.rank == 0:
 
 
 def run(requests: list[dict], ranks: int) -> list[Result]:
-    """Results of :func:`weakforms.solve` for some requests, in a separate process."""
+    """Results of :func:`weakforms.solve` for some requests, with several ranks in processes of their own."""
+    if ranks == 1:
+        return [Result.from_json(solve(**request).to_json()) for request in requests]
     output = start(["-c", PROGRAM, json.dumps(requests)], ranks)
     line = next(text for text in output.splitlines() if text.startswith("RESULT"))
     *found, size = json.loads(line.removeprefix("RESULT"))
@@ -47,7 +50,7 @@ def launcher():
 
 @pytest.fixture
 def same_on_ranks(launcher):
-    """Calls :func:`run` serially and on several ranks; every number must agree."""
+    """Calls :func:`run` serially, in this process, and on several ranks; every number must agree."""
 
     def check(requests: list[dict], ranks: int = 2) -> list[Result]:
         serial, split = run(requests, 1), run(requests, ranks)

@@ -9,7 +9,8 @@ from weakforms.verification.audit.same import Run, runs
 from weakforms.verification.cases.discovery import find_cases
 
 pytestmark = [pytest.mark.mpi, pytest.mark.usefixtures("launcher")]
-CHEAP = ("paper4.fig11", "closed_form.infinite_tube")
+CHEAP = ("closed_form.infinite_tube",)
+"""Bodies that deform homogeneously; an annulus and a wrinkling threshold are solved for on four ranks too."""
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +41,7 @@ def compare(first: Path, second: Path) -> None:
     assert far == []
 
 
-def test_cheap_cases_on_four_ranks(serial, tmp_path):
+def test_a_cheap_case_on_four_ranks(serial, tmp_path):
     check(CHEAP, tmp_path, 4)
     compare(serial(CHEAP), tmp_path)
 
