@@ -44,8 +44,8 @@ class CoincidenceParameters(MaterialChoice):
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
     gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
     alpha: float = Field(0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
-    delta_low: float = Field(3.0, gt=1, le=10, description="pre-stretch with one order of the two points")
-    delta_high: float = Field(5.0, gt=1, le=10, description="pre-stretch with the other order")
+    delta_low: float = Field(3.0, gt=1, le=9, description="pre-stretch with one order of the two points")
+    delta_high: float = Field(5.0, gt=1, le=9, description="pre-stretch with the other order")
 
 
 class FluidTubeCoincidence(Problem):

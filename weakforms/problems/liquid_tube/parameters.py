@@ -64,7 +64,7 @@ class FluidTubeParameters(MaterialChoice):
     movable: ClassVar = {"zw_end": "ge"}
 
     L: float = Field(8.0, ge=2, le=40, description="stretched length over the radius")
-    delta: float = Field(2.0, gt=1, le=10, description="axial pre-stretch")
+    delta: float = Field(2.0, gt=1, le=9, description="axial pre-stretch")
     gamma: float = Field(0.116, gt=0, le=2, description="rho g A^2/(mu H)")
     alpha: float = Field(0.0, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     n_max: int = Field(3, ge=1, le=MOST_WAVES, description="largest wave number whose stability is judged")
