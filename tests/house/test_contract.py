@@ -22,8 +22,10 @@ SHOWN = ("parameters", "numerics", "scales", "materials", "command")
 
 def contract(name):
     """All that is declared of a problem, as JSON holds it."""
-    shown = describe(name)
+    shown, problem = describe(name), registry.get(name)
     facts = asdict(registry.abouts()[name]) | {key: shown[key] for key in SHOWN if key in shown}
+    for part in ("parameters", "numerics"):
+        facts[f"{part} as JSON schema"] = getattr(problem, part).model_json_schema()["properties"]
     return json.loads(json.dumps(facts))
 
 

@@ -2,6 +2,8 @@
 
 import json
 import sys
+import time
+from contextlib import suppress
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
@@ -217,3 +219,22 @@ def test_the_report_shows_it_when_it_lies_beside_the_results():
     for text in (run.headline, "s = 1.5 is out of reach", run.missed[0].command, "67 %"):
         assert escape(text) in page
     assert "There is no audit in the folder" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]
+
+
+def test_a_process_that_waits_too_long_is_ended_with_its_children(monkeypatch):
+    monkeypatch.setattr(runner, "WAITING", 1.0)
+    begun = time.perf_counter()
+    assert runner._process(["sh", "-c", "sleep 61 & sleep 61"], 1.0) == (None, "")
+    assert time.perf_counter() - begun < 30
+    while time.perf_counter() - begun < 40 and b"sleep\x0061\x00" in running():  # the kernel needs a moment
+        time.sleep(0.1)
+    assert b"sleep\x0061\x00" not in running()
+
+
+def running():
+    """Command lines of all processes."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):  # it ended meanwhile
+            found.append(path.read_bytes())
+    return found
