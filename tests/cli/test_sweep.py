@@ -1,8 +1,10 @@
 """``sweep``: all combinations of parameters, one table, resumable."""
 
 import csv
+import json
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -170,6 +172,21 @@ def test_parquet_is_written_where_it_can_be(tmp_path):
     pytest.importorskip("pyarrow")
     package.sweep("material", tmp_path, l1=[1.2, 1.4])
     assert list(pandas.read_parquet(tmp_path / "sweep.parquet")["l1"]) == [1.2, 1.4]
+
+
+def test_parquet_appears_only_when_it_is_complete(tmp_path, monkeypatch):
+    """With a writer that stands in for pyarrow's, which Debian does not have."""
+    pandas, seen = pytest.importorskip("pandas"), []
+
+    def to_parquet(frame, path):
+        seen.append((path.name, sorted(p.name for p in tmp_path.iterdir() if "parquet" in p.name)))
+        path.write_text(frame["l1"].to_json())
+
+    monkeypatch.setitem(sys.modules, "pyarrow", ModuleType("pyarrow"))
+    monkeypatch.setattr(pandas.DataFrame, "to_parquet", to_parquet)
+    package.sweep("material", tmp_path, l1=[1.2, 1.4])
+    assert seen == [(".sweep.parquet.part", [])]
+    assert json.loads((tmp_path / "sweep.parquet").read_text()) == {"0": 1.2, "1": 1.4}
 
 
 def test_without_pandas_the_table_is_csv_alone(tmp_path, monkeypatch):
