@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 from weakforms import solve
 from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.forms.materials.catalogue import MATERIALS
 from weakforms.problems import registry
 from weakforms.problems.contact.guesses import stick_guess
 from weakforms.problems.disk.model import DiskData
@@ -18,7 +19,8 @@ from weakforms.problems.liquid_tube import coincidence
 from weakforms.problems.liquid_tube import problem as liquid_tube
 from weakforms.problems.liquid_tube.bent import problem as bent
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
-from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
+from weakforms.problems.meridian.limits import has_bounded_force
 from weakforms.problems.problem import Requests, StateRequest, validated
 from weakforms.problems.wrinkled import branch as wrinkled_branch
 from weakforms.problems.wrinkled.branch import WrinkledBranch
@@ -424,8 +426,8 @@ def test_a_diagram_ends_where_the_law_of_its_disk_takes_no_more():
 
 
 def test_a_long_strip_is_refused_because_it_bulges_along_itself():
-    with pytest.raises(InputError, match=r"c = 9\.9 with edges = 'strip': .*allowed: c up to 2, or edges"):
-        solve("rectangle", edges="strip", c=9.9)
+    with pytest.raises(InputError, match=r"c = 2\.5 with edges = 'strip': .*allowed: c up to 2, or edges"):
+        solve("rectangle", edges="strip", c=2.5)
 
 
 def test_a_sheet_has_no_energy_without_wrinkling():
@@ -497,3 +499,43 @@ def test_a_state_at_a_column_that_is_not_there_is_refused_before_anything_is_sol
     wanted = StateRequest("nothing", 1.0, 1, "primary", ())
     with pytest.raises(InputError, match=r"nothing|states"):
         problem.check(problem.parameters(), Requests(states=(wanted,)))
+
+
+@pytest.mark.parametrize("scheme", ["pressure_steps", "semismooth"])
+def test_pressure_steps_of_a_scheme_that_find_no_state_where_the_pressure_falls_say_so(scheme):
+    law = {"model": "three_chain", "nkt": 0.4865, "links": 456100.0}
+    given = law | {"delta1": 4.258, "lf": 5.717, "k": 1008.0, "s": 4.51, "p_end": 7.783}
+    result = solve("tube_scheme", **given, scheme=scheme)
+    assert result.failures == []
+    assert result.quantities == {}
+    (rest,) = result.absent
+    assert "the pressure falls at first contact, and steps of it find no state beyond p = " in rest.reason
+    assert "scheme = 'front_nodes' follows the branch" in rest.reason
+
+
+@pytest.mark.parametrize(
+    ("problem", "given", "said"),
+    [
+        (
+            "membrane",
+            {"model": "varga", "energy": "full", "w_end": 1.7},
+            "w_end = 1.7: the force of .*'varga'",
+        ),
+        ("rectangle", {"model": "varga", "energy": "full"}, "w_end = 1.5: the force of .* w_end up to 1"),
+        ("rectangle", {"c": 3.5}, "c = 3.5"),
+        ("rectangle", {"gamma": 31.0}, "gamma = 31"),
+        ("surface", {"gamma": 1.1}, "gamma = 1.1: allowed with geometry = 'tube': up to 1"),
+    ],
+)
+def test_sheets_and_tubes_beyond_what_is_followed_are_refused(problem, given, said):
+    with pytest.raises(InputError, match=said):
+        solve(problem, **given)
+
+
+@pytest.mark.parametrize(
+    ("law", "bounded"),
+    [(Chosen("varga", (("shear", 2.0),)), True), (Chosen("ogden", ()), False), (Chosen("gent", ()), False)],
+)
+def test_only_the_force_of_vargas_law_is_bounded(law, bounded):
+    known = {name: c.default for name, c in MATERIALS[law.model].constants.items()} | dict(law.constants)
+    assert has_bounded_force(Chosen(law.model, tuple(known.items()))) is bounded

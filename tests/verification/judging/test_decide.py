@@ -22,6 +22,7 @@ RIGHT = {
     "constant": lambda u: decide.constant("x", Number([2.0, 2.0], u), ASKED),
     "positive": lambda u: decide.positive("x", Number(2.0, u)),
     "negative": lambda u: decide.negative("x", Number(-2.0, u)),
+    "not_negative": lambda u: decide.not_negative("x", Number([0.0, 1.0], u), ASKED, 0.5),
     "rises": lambda u: decide.rises("x", Number([1.0, 2.0, 3.0], u)),
     "falls": lambda u: decide.falls("x", Number([3.0, 2.0, 1.0], u)),
     "less": lambda u: decide.less("x", 1.0, Number(2.0, u), 3.0),
@@ -36,6 +37,7 @@ WRONG = {
     "constant": lambda v: decide.constant("x", Number([2.0, v], 1e-9), ASKED),
     "positive": lambda v: decide.positive("x", Number([2.0, v], 1e-9)),
     "negative": lambda v: decide.negative("x", Number([-2.0, v], 1e-9)),
+    "not_negative": lambda v: decide.not_negative("x", Number([0.0, v], 1e-9), ASKED, 0.5),
     "rises": lambda v: decide.rises("x", Number([1.0, v, 3.0], 1e-9)),
     "falls": lambda v: decide.falls("x", Number([3.0, v, 1.0], 1e-9)),
     "at_most": lambda v: decide.at_most("x", Number(v, 1e-9), WORD),
@@ -46,11 +48,13 @@ WRONG = {
 }
 SATISFIED = {
     "agree": 2.0, "zero": 0.0, "constant": 2.0, "positive": 2.0, "negative": -2.0, "rises": 2.0, "falls": 2.0,
-    "at_most": 0.04, "at_least": 0.06, "between": 0.5, "exact": 0.5, "order": 1e-1 / 16,
+    "not_negative": -1e-9, "at_most": 0.04, "at_least": 0.06, "between": 0.5, "exact": 0.5,
+    "order": 1e-1 / 16,
 }  # fmt: skip
 VIOLATED = {
     "agree": 2.1, "zero": 0.1, "constant": 2.1, "positive": -1.0, "negative": 1.0, "rises": 4.0, "falls": 4.0,
-    "at_most": 0.06, "at_least": 0.04, "between": 1.5, "exact": 0.6, "order": 1e-1 / 8,
+    "not_negative": -3e-9, "at_most": 0.06, "at_least": 0.04, "between": 1.5, "exact": 0.6,
+    "order": 1e-1 / 8,
 }  # fmt: skip
 
 
@@ -66,7 +70,7 @@ def test_what_is_wrong_or_no_number_does_not_hold(name):
     assert WRONG[name](SATISFIED[name]).holds
     for value in (VIOLATED[name], nan):
         assert not WRONG[name](value).holds
-    if name != "at_least":
+    if name not in ("at_least", "not_negative"):
         assert not WRONG[name](-inf if name in ("positive", "rises") else inf).holds
 
 
@@ -83,6 +87,7 @@ EMPTY = Number([], [])
         decide.exact("x", [], []),
         decide.positive("x", EMPTY),
         decide.negative("x", EMPTY),
+        decide.not_negative("x", EMPTY, ASKED, 1.0),
         decide.rises("x", EMPTY),
         decide.falls("x", Number([1.0], [1e-9])),
         decide.at_most("x", EMPTY, WORD),
@@ -115,6 +120,13 @@ def test_agreement_needs_a_bound_sharper_than_asked(value, uncertainty, share):
     assume(abs(share - 1) > 1e-6)
     bound = 2 * uncertainty / abs(value)
     assert decide.agree("x", Number(value, uncertainty), value, share * bound).holds is (share > 1)
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_what_may_be_zero_needs_an_uncertainty_small_beside_its_scale(share):
+    found = decide.not_negative("x", Number([0.0, 1.0], share * ASKED * 3.0 / 2), ASKED, 3.0)
+    assert found.holds is (share < 1)
+    assert "at least 0, bound " in found.detail
 
 
 @given(st.floats(-20, 20), SMALL)

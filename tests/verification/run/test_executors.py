@@ -7,10 +7,12 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import pytest
 
 from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.verification.run import executors
 from weakforms.verification.run.executors import executor
 from weakforms.verification.run.requests import run_batch
 from weakforms.verification.run.workers import at_once, handed_to, in_this_process, workers
@@ -96,6 +98,28 @@ def test_dask_is_used_only_if_it_is_there(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(EnvironmentLackError, match="python3-distributed"), executor("dask:tcp://127.0.0.1:1"):
         pass
+
+
+@pytest.mark.parametrize(
+    ("threads", "source", "said"),
+    [
+        ([1, 1], "same", ""),
+        ([], "same", "the scheduler at HERE has no workers"),
+        ([1, 2], "same", "workers with one thread each"),
+        ([1, 1], "other", "another version of weakforms"),
+    ],
+)
+def test_workers_of_a_cluster_have_one_thread_and_the_same_source(threads, source, said):
+    workers = {f"w{k}": {"nthreads": n} for k, n in enumerate(threads)}
+    client = SimpleNamespace(
+        scheduler_info=lambda n_workers: {"workers": workers if n_workers == -1 else {}},
+        run=lambda digest: {name: digest() if source == "same" else "0" for name in workers},
+    )
+    if not said:
+        assert executors._require_alike(client, "HERE") == 2
+        return
+    with pytest.raises(InputError, match=said):
+        executors._require_alike(client, "HERE")
 
 
 def test_ranks_answer_a_batch_as_one_process_does(requests, tmp_path):

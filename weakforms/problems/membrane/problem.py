@@ -12,7 +12,7 @@ from weakforms.problems.membrane.branch import MembraneBranch, traced
 from weakforms.problems.membrane.family import MembraneFamily
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
-from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.meridian.limits import require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.results import Quantity, Result
 
@@ -39,6 +39,7 @@ class Membrane(BranchProblem):
         """
         super().check(parameters, requests)
         require_foldable(self.name, parameters, invariants=True)
+        require_low(self.name, parameters.material, parameters.w_end, parameters.energy == "relaxed")
         require_taut(self.name, parameters.material, parameters.delta, "delta")
         if parameters.is_file:
             parameters.given()

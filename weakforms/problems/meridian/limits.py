@@ -145,9 +145,18 @@ def require_carried(problem: str, law: Chosen, delta: float, thickness: Uneven) 
         )
 
 
-BOUNDED, WIDEST_BOUNDED = 1e-3, 1.0
+BOUNDED, WIDEST_BOUNDED, HIGHEST_BOUNDED = 1e-3, 1.0, 1.0
 """A force that grows by less than this fraction over the last decade of stretches is bounded. The largest
-radius of disks, over that of the undeformed tube, between which a membrane of such a law is clamped."""
+radius of disks, over that of the undeformed tube, between which a membrane of such a law is clamped, and the
+largest deflection of a sheet of such a law, over half its width, if it bears compression."""
+
+
+def has_bounded_force(law: Chosen, across: float = 1.0) -> bool:
+    """Whether the force of a law hardly grows with the stretch, at a stretch across it."""
+    if law.model == MOONEY_RIVLIN:
+        return False
+    before, last = (evaluated(law, l1, across)["W1"] for l1 in (FARTHEST / 10, FARTHEST))
+    return bool(np.isfinite(last) and last < (1 + BOUNDED) * before)
 
 
 def require_held(problem: str, law: Chosen, radius: float | str) -> None:
@@ -164,11 +173,27 @@ def require_held(problem: str, law: Chosen, radius: float | str) -> None:
     Raises:
         InputError: With a message that names the radius and what is allowed.
     """
-    if law.model == MOONEY_RIVLIN or isinstance(radius, str) or radius <= WIDEST_BOUNDED:
-        return
-    before, last = (evaluated(law, l1, radius)["W1"] for l1 in (FARTHEST / 10, FARTHEST))
-    if np.isfinite(last) and last < (1 + BOUNDED) * before:
+    if not isinstance(radius, str) and radius > WIDEST_BOUNDED and has_bounded_force(law, radius):
         raise InputError(
             f"{problem}: Af = {radius:g}: the force of model = {law.model!r} is bounded, and the membrane "
             f"gives way where it widens to such disks; allowed with this law: Af up to {WIDEST_BOUNDED:g}"
+        )
+
+
+def require_low(problem: str, law: Chosen, height: float, relaxed: bool) -> None:
+    """Refuse high sheets of a law of bounded force that bears compression: many modes grow at once there.
+
+    Args:
+        problem: Name of the problem, for the message.
+        law: The law.
+        height: Largest deflection over half the width.
+        relaxed: Whether the energy is relaxed.
+
+    Raises:
+        InputError: With a message that names the deflection and what is allowed.
+    """
+    if not relaxed and height > HIGHEST_BOUNDED and has_bounded_force(law):
+        raise InputError(
+            f"{problem}: w_end = {height:g}: the force of model = {law.model!r} is bounded, and many modes of "
+            f"a high sheet grow at once; allowed with energy = 'full': w_end up to {HIGHEST_BOUNDED:g}"
         )

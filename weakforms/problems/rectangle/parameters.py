@@ -40,9 +40,9 @@ class RectangleParameters(MaterialChoice):
     load: Literal["liquid", "gas"] = Field("liquid", description="liquid on top, or gas from below")
     delta: float = Field(1.1, ge=1, le=3, description="pre-stretch in X, and in Y unless delta_y is given")
     delta_y: float | None = Field(None, ge=1, le=3, description="pre-stretch in Y")
-    c: float = Field(1.0, ge=1, le=10, description="long side over short side")
+    c: float = Field(1.0, ge=1, le=3, description="long side over short side")
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
-    gamma: float = Field(1.0, gt=0, le=100, description="rho g a^2/(C1 h), weight of the liquid")
+    gamma: float = Field(1.0, gt=0, le=30, description="rho g a^2/(C1 h), weight of the liquid")
     energy: Literal["relaxed", "full"] = Field(
         "relaxed", description="relaxed: the sheet bears no compression; full: it bears compression"
     )

@@ -7,7 +7,7 @@ import numpy as np
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.meridian.limits import require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.rectangle.about import RECTANGLE
 from weakforms.problems.rectangle.branch import RectangleBranch, traced
@@ -42,6 +42,7 @@ class Rectangle(BranchProblem):
         """
         super().check(parameters, requests)
         require_foldable(self.name, parameters, invariants=True)
+        require_low(self.name, parameters.material, parameters.w_end, parameters.energy == "relaxed")
         for name, value in (("delta", parameters.delta), ("delta_y", parameters.stretch_y)):
             require_taut(self.name, parameters.material, value, name)
         absent = LOAD["gas" if parameters.load == "liquid" else "liquid"]

@@ -43,6 +43,9 @@ HANGING = 2.0, 6.0
 one hardly stretches the membrane, whose wrinkles then have no stiffness; a heavier one has states at low
 levels only."""
 
+HEAVIEST = 1.0
+"""Largest weight of the liquid in a tube, over ten times those of the papers."""
+
 ALLOWED = {("tube", "fluid"): (0.0, 100.0), ("hemisphere", "fluid"): (-1.05, -0.48)}
 """Fluid levels of a hemisphere: it has no state above its limit point near -0.478, and is almost empty below
 -1."""

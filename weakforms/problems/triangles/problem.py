@@ -24,6 +24,7 @@ from weakforms.problems.triangles.parameters import (
     DEFAULTS,
     FIRST,
     HANGING,
+    HEAVIEST,
     SurfaceNumerics,
     SurfaceParameters,
 )
@@ -50,6 +51,7 @@ class Surface(Problem):
         kind, full = parameters.kind, parameters.filled()
         if kind == "tube":
             require_carried(self.name, full.material, full.delta, full.M)
+            _require_filled(full)
         if kind == "hemisphere":
             _require_hanging(full)
         for name in ("M", "delta", "L", "Af"):
@@ -111,6 +113,14 @@ def _require_hanging(full: SurfaceParameters) -> None:
         raise InputError(
             f"surface: gamma = {full.gamma:g}: allowed with geometry = 'hemisphere' and this stiffness of "
             f"the law: {low:.4g} to {high:.4g}"
+        )
+
+
+def _require_filled(full: SurfaceParameters) -> None:
+    """Refuse a liquid so heavy that a tube at its first level is far from the one without it."""
+    if full.load == "fluid" and full.gamma > HEAVIEST:
+        raise InputError(
+            f"surface: gamma = {full.gamma:g}: allowed with geometry = 'tube': up to {HEAVIEST:g}"
         )
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
 from weakforms.problems.meridian.limits import require_bearable
@@ -74,6 +74,8 @@ class FixedMesh(TubeModel):
         """Degrees of freedom of ``rho`` that this rank owns, from the mid-plane outwards; the next one is
         ``eta`` at the same node."""
         self._held, self._at = np.empty(0, dtype=np.int64), np.empty(0)
+        self._falls = False
+        """Whether the pressure falls at first touch, beyond a limit point."""
 
     # -- the schemes ---------------------------------------------------------------------------
 
@@ -102,11 +104,17 @@ class FixedMesh(TubeModel):
             (low, begin), (high, _) = reached[passed - 1 : passed + 1]
             near = root(lambda u: solve(begin, u).loads["p"] - given.p_end, low, high, "p = p_end", xtol=1e-6)
             return solver.solve(solve(begin, near), [Held("p", given.p_end)])[0], False
+        self._falls = state.loads["p"] < reached[-2][1].loads["p"]
         state.loads["k"] = given.k
         return state, True
 
     def pressure_steps(self, state: State, steps: int, stick: bool) -> State:
-        """Pressure steps from a state to the last pressure."""
+        """Pressure steps from a state to the last pressure.
+
+        Raises:
+            AbsentError: If the pressure falls at first touch, and Newton's method finds no state beyond it.
+            ConvergenceError: If it finds none though the pressure rises.
+        """
         solver = ExtendedNewton(self.system, line_search="bt", max_iterations=60)
 
         def solve(before: State, p: float) -> State:
@@ -114,7 +122,16 @@ class FixedMesh(TubeModel):
 
         for p in np.linspace(state.loads["p"], self.parameters.p_end, steps + 1)[1:]:
             at = state.loads["p"]
-            state = walk(solve, state, at, float(p), float(p) - at)
+            try:
+                state = walk(solve, state, at, float(p), float(p) - at)
+            except ConvergenceError as error:
+                if not self._falls:
+                    raise
+                raise AbsentError(
+                    "contact at p_end",
+                    f"tube_scheme: the pressure falls at first contact, and steps of it find no state beyond "
+                    f"p = {at:.6g} ({error}); scheme = 'front_nodes' follows the branch",
+                ) from error
             if stick:
                 touched = self.radial[state.u[self.radial] > self.parameters.s] + 1
                 self._hold(touched, state)
@@ -179,7 +196,10 @@ class TubeScheme(Problem):
             cells, steps = numerics.cells // coarser, numerics.steps // coarser
             return _run(alone, parameters, cells, steps, absent)
 
-        result.quantities |= on_two_meshes(run, 1.0, self.name, progress)
+        try:
+            result.quantities |= on_two_meshes(run, 1.0, self.name, progress)
+        except AbsentError as error:
+            absent.append(Absence(error.what, str(error)))
         result.absent.extend(absent[-1:])
 
 
