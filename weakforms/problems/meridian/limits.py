@@ -194,6 +194,6 @@ def require_low(problem: str, law: Chosen, height: float, relaxed: bool) -> None
     """
     if not relaxed and height > HIGHEST_BOUNDED and has_bounded_force(law):
         raise InputError(
-            f"{problem}: w_end = {height:g}: the force of model = {law.model!r} is bounded, and many modes of "
-            f"a high sheet grow at once; allowed with energy = 'full': w_end up to {HIGHEST_BOUNDED:g}"
+            f"{problem}: w_end = {height:g}: the force of model = {law.model!r} is bounded, and many modes "
+            f"of a high sheet grow at once; allowed with energy = 'full': w_end up to {HIGHEST_BOUNDED:g}"
         )
