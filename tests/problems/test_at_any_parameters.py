@@ -501,6 +501,18 @@ def test_a_state_at_a_column_that_is_not_there_is_refused_before_anything_is_sol
         problem.check(problem.parameters(), Requests(states=(wanted,)))
 
 
+def test_a_scheme_whose_tube_cannot_reach_the_substrate_ends_at_the_last_pressure_before():
+    """At ``u_max = 1.2`` the membrane is all but inextensible, far above the last pressure."""
+    law = {"model": "gent", "shear": 1.46, "jm": 29.75}
+    given = law | {"delta1": 2.905, "lf": 1.889, "k": 308.2, "s": 2.997, "p_end": 0.02736}
+    result = solve("tube_scheme", **given)
+    assert result.failures == []
+    (rest,) = result.absent
+    assert "p_end = 0.02736 is reached before first contact" in rest.reason
+    assert result.quantities["contact_length"].value == 0
+    assert 0 < result.quantities["u_max"].value < 0.1
+
+
 @pytest.mark.parametrize("scheme", ["pressure_steps", "semismooth"])
 def test_pressure_steps_of_a_scheme_that_find_no_state_where_the_pressure_falls_say_so(scheme):
     law = {"model": "three_chain", "nkt": 0.4865, "links": 456100.0}

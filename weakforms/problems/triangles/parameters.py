@@ -98,7 +98,7 @@ class SurfaceParameters(MaterialChoice):
     c2: float | None = Field(None, ge=0, le=1, description="C2/C1 of mooney_rivlin (tube: 0.01, else 0)")
     L: float | None = Field(None, ge=1, le=40, description="tube: undeformed length (8)")
     Af: float | None = Field(
-        None, gt=0, le=3, description="radius of the clamped edges over the undeformed one (tube: 0.4362)"
+        None, ge=0.1, le=3, description="radius of the clamped edges over the undeformed one (tube: 0.4362)"
     )
     load: Literal["fluid", "gas"] = Field("fluid", description="fluid or gas in the membrane")
     gamma: float | None = Field(None, gt=0, le=100, description="weight of the fluid; by default the paper's")

@@ -98,7 +98,12 @@ class FixedMesh(TubeModel):
             return found
 
         state = solve(state, 0.02)
-        state = walk(solve, state, 0.02, given.s - 1, abs(given.s - 1.02) / 7)
+        try:
+            state = walk(solve, state, 0.02, given.s - 1, abs(given.s - 1.02) / 7)
+        except ConvergenceError:
+            state = reached[-1][1]
+            if state.loads["p"] < given.p_end:
+                raise
         if state.loads["p"] >= given.p_end:
             passed = next(i for i, (_, found) in enumerate(reached) if found.loads["p"] >= given.p_end)
             (low, begin), (high, _) = reached[passed - 1 : passed + 1]
