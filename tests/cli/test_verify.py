@@ -115,6 +115,10 @@ def test_verify_writes_the_report_and_resume_solves_nothing(weakforms, tiny, sol
     assert weakforms("verify", "--profile", "quick", "--out", out).status == 0
     assert len(solved) == 2  # without --resume everything is solved again
 
+    solved.clear()
+    runner.verify(discovery.select(None, "tiny"), out, "full", "")
+    assert len(solved) == 2  # nor does Python take over anything that was not asked for
+
 
 def test_report_is_rebuilt_without_solving(weakforms, tiny, tmp_path, monkeypatch):
     out = tmp_path / "out"

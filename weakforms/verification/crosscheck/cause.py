@@ -107,7 +107,8 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
         for name, value in _numbers(target):
             if (other := moved[name]) is not None:
                 factor, rest = _fitted(difference, (other[column] - base[column]) / STEP)
-                way = f"{abs(100 * factor):.2g} % too {'large' if factor > 0 else 'small'}"
+                size = abs(100 * factor)
+                way = f"{size:{'.2g' if size < 99.5 else '.0f'}} % too {'large' if factor > 0 else 'small'}"
                 found[f"equals {name} {way}" if value else f"equals {name} = {factor:.3g}"] = rest
         for name, other in without.items():
             if other is not None:
@@ -149,11 +150,9 @@ def _powers(
 
 
 def _numbers(target: Target) -> Iterator[tuple[str, float]]:
-    """The parameters of the solution that are numbers and have an effect; not the ends of branches."""
+    """The parameters of the solution that are numbers, with the constants of its law; not ends of branches."""
     fields = api.require_environment().get(target.problem).parameters.model_fields
-    given = target.parameters
-    for name, field in fields.items():
-        value = given.get(name, field.default)
+    for name, value in ({n: field.default for n, field in fields.items()} | target.parameters).items():
         if isinstance(value, int | float) and not isinstance(value, bool) and not name.endswith("_end"):
             yield name, float(value)
 
