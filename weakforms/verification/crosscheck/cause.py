@@ -150,7 +150,7 @@ def _powers(
 
 
 def _numbers(target: Target) -> Iterator[tuple[str, float]]:
-    """The parameters of the solution that are numbers, with the constants of its law; not ends of branches."""
+    """The parameters of the solution that are numbers, and its law's constants; not ends of branches."""
     fields = api.require_environment().get(target.problem).parameters.model_fields
     for name, value in ({n: field.default for n, field in fields.items()} | target.parameters).items():
         if isinstance(value, int | float) and not isinstance(value, bool) and not name.endswith("_end"):
