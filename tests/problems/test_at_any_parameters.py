@@ -536,7 +536,7 @@ def test_pressure_steps_of_a_scheme_that_find_no_state_where_the_pressure_falls_
         ("rectangle", {"model": "varga", "energy": "full"}, "w_end = 1.5: the force of .* w_end up to 1"),
         ("rectangle", {"c": 3.5}, "c = 3.5"),
         ("rectangle", {"gamma": 31.0}, "gamma = 31"),
-        ("surface", {"gamma": 1.1}, "gamma = 1.1: allowed with geometry = 'tube': up to 1"),
+        ("surface", {"gamma": 11.0}, "gamma = 11: allowed with geometry = 'tube': up to 10"),
     ],
 )
 def test_sheets_and_tubes_beyond_what_is_followed_are_refused(problem, given, said):

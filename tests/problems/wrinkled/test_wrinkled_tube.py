@@ -14,6 +14,7 @@ from weakforms.forms.materials import neo_hookean
 from weakforms.forms.wrinkling import natural_width
 from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import BY_STATE, TAUT, WRINKLED
+from weakforms.problems.wrinkled import model as wrinkled_module
 from weakforms.problems.wrinkled import state as wrinkled_state
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.critical import critical_radii
@@ -280,7 +281,9 @@ def second_invariant_forgotten_in_folds(monkeypatch):
 
 
 def wrong_switch(monkeypatch):
-    monkeypatch.setattr(model_module, "wrinkling_function", lambda a, b: b * a)
+    """In the first of these modules alone it spoils first guesses only, and the states are right."""
+    for module in (model_module, wrinkled_module):
+        monkeypatch.setattr(module, "wrinkling_function", lambda a, b: b * a)
 
 
 @pytest.mark.parametrize("fault", [liquid_pushes_inwards, level_counted_double, uniform_thickness])

@@ -43,8 +43,8 @@ HANGING = 2.0, 6.0
 one hardly stretches the membrane, whose wrinkles then have no stiffness; a heavier one has states at low
 levels only."""
 
-HEAVIEST = 1.0
-"""Largest weight of the liquid in a tube, over ten times those of the papers."""
+HEAVIEST = 10.0
+"""Largest weight of the liquid in a tube, two hundred times that of the papers."""
 
 ALLOWED = {("tube", "fluid"): (0.0, 100.0), ("hemisphere", "fluid"): (-1.05, -0.48)}
 """Fluid levels of a hemisphere: it has no state above its limit point near -0.478, and is almost empty below

@@ -36,6 +36,10 @@ KEPT = 1e-3
 then converges about as fast again, at a small part of the price; the error that is left is this fraction of
 the last step."""
 
+NEARLY = 100.0
+"""A state whose last step is small is improved by one more run if its residual is below so many limits. A
+larger one shows that the Jacobian is not that of the residual, or that there is no state."""
+
 AT_ROUND_OFF = 10, 1e-8
 """Near a bifurcation point, round-off in the forces alone may cause steps above the tolerance. A state is
 then accepted if this number of residuals in a row were round-off (the smallest limit), and the last relative
@@ -258,7 +262,7 @@ class ExtendedNewton:
         snes = self._snes(chord)
         snes.getKSP().getPC().setFailedReason(PETSc.PC.FailedReason.NOERROR)  # it would stay
         record = self._run(snes, before)
-        if snes.getConvergedReason() > 0 and not self._is_balanced(snes):
+        if snes.getConvergedReason() > 0 and not self._is_balanced(snes) and self._is_balanced(snes, NEARLY):
             record = self._run(snes, before)  # of a stiff law; the last step may have kept its Jacobian
         ended = snes.getConvergedReason() > 0 or self._is_at_round_off(snes, record)
         if not ended or not self._is_balanced(snes):
@@ -298,13 +302,14 @@ class ExtendedNewton:
         forces = [self.system.load_derivative(name) * value for name, value in named]
         return OF_FORCES[0] * max((sqrt(self.system.dot(f, f)) for f in forces), default=0.0)
 
-    def _is_balanced(self, snes: PETSc.SNES) -> bool:
-        """Whether the remaining residuals of forces and constraints are within their limits."""
+    def _is_balanced(self, snes: PETSc.SNES, times: float = 1.0) -> bool:
+        """Whether the remaining residuals of forces and constraints are within some times their limits."""
         self._put(self._x)
         forces, missed = self._split(snes.getFunction()[0])
         left = self.system.dot(forces, forces)
-        within = left <= residual_limit(self.system) ** 2 or left <= self._round_off_of_loads() ** 2
-        return within and all(abs(value) < RESIDUAL_LIMIT for value in missed)
+        own = left <= (times * residual_limit(self.system)) ** 2
+        within = own or left <= (times * self._round_off_of_loads()) ** 2
+        return within and all(abs(value) < times * RESIDUAL_LIMIT for value in missed)
 
 
 class _BorderedOperator:
