@@ -290,3 +290,14 @@ def test_a_first_state_from_which_full_newton_steps_diverge_is_found_by_shorter_
     first = free_branch(model.system, 3.253, 0.2, 0.1).points[0]
     assert first.state.loads["p"] == pytest.approx(0.0, abs=1e-12)
     assert first.record.norms[-1] < 1e-9
+
+
+def test_numbers_of_three_meshes_state_their_order_of_convergence():
+    """Degree 2: loads and energies converge with order 4, stretches at a point with order 2."""
+    mesh = {"cells": 64, "degree": 2, "levels": 3}
+    (state,) = solve("tube", delta1=1.1, u_end=1.5, at={"u_max": 1.25}, numerics=mesh).states
+    orders = {name: quantity.order for name, quantity in state.quantities.items()}
+    assert orders["p"] == pytest.approx(4, abs=0.5)
+    assert orders["Pi"] == pytest.approx(4, abs=0.5)
+    assert orders["lam1_mid"] == pytest.approx(2, abs=0.5)
+    assert orders["u_max"] is None
