@@ -97,12 +97,12 @@ def test_the_first_rows_count_as_much_as_the_last(which, part, upto):
 @pytest.mark.parametrize(
     ("rows", "factor", "said"),
     [
-        (slice(0, 3), 1.5, "3 of 100 rows out of bounds, at u_max = 0.05 to 0.15, above the table"),
-        (slice(9, 10), 0.9, "1 of 100 rows out of bounds, at u_max = 0.5, below the table"),
+        (slice(0, 3), 1.5, "3 of 100 rows are out of bounds, at u_max = 0.05 to 0.15, above the table"),
+        (slice(9, 10), 0.9, "1 of 100 rows is out of bounds, at u_max = 0.5, below the table"),
         (
             slice(0, 10, 9),
             np.array([0.9, 1.1]),
-            "2 of 100 rows out of bounds, at u_max = 0.05 to 0.5, on both",
+            "2 of 100 rows are out of bounds, at u_max = 0.05 to 0.5, on both",
         ),
         (slice(0, 60), 0.9, "the errors lie below the table and fall with u_max"),
     ],

@@ -60,7 +60,8 @@ def trend(judged: JudgedColumn, over: str) -> str:
     if len(beyond) <= FEW * len(error):
         first, last = judged.x[order][beyond[[0, -1]]]
         place = f"{over} = {first:g}" + (f" to {last:g}" if len(beyond) > 1 else "")
-        return f"{len(beyond)} of {len(error)} rows out of bounds, at {place}, {where}"
+        verb = "are" if len(beyond) > 1 else "is"
+        return f"{len(beyond)} of {len(error)} rows {verb} out of bounds, at {place}, {where}"
     start, end = (
         float(size[part].mean()) for part in (slice(0, len(size) // 3 + 1), slice(-len(size) // 3, None))
     )
