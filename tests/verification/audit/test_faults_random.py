@@ -245,6 +245,31 @@ def limited(x, least=0.0):
 """
 
 
+def test_a_changed_test_file_is_guessed_at_although_it_was_measured(tmp_path, monkeypatch):
+    monkeypatch.setattr(lines, "measured", lambda _: [known("tests/a.py", quick=[4])])
+    near = SimpleNamespace(
+        watching=lambda _, _line, known: iter(["tests/a.py::new"] if "tests/a.py" not in known else []),
+        reach=lambda _: {},
+        first=lambda *_: [],
+    )
+    monkeypatch.setattr(lines, "Imports", lambda _: near)
+    changed = tmp_path / "tests" / "a.py"
+    changed.parent.mkdir()
+    changed.write_text("")
+    for root, expected in ((ROOT, ["quick"]), (tmp_path, ["quick", "new"])):
+        seen = [text for text, _ in Watchers(tmp_path, root).of("weakforms/x.py", 4)]
+        assert seen == [f"tests/a.py::{name}" for name in expected]
+
+
+def test_tests_named_as_the_file_come_before_all_others(tmp_path):
+    found = [text for text, _ in Watchers(tmp_path).of("weakforms/solvers/support/jit_cache.py", 69)]
+    assert found[0].startswith("tests/solvers/test_jit_cache.py::")
+    watchers = Watchers(tmp_path)
+    watchers._measured = [known("tests/a.py", quick=[69])]
+    again = [text for text, _ in watchers.of("weakforms/solvers/support/jit_cache.py", 69)]
+    assert again[0] == found[0]
+
+
 def test_without_a_measurement_imports_say_who_may_see_it(tmp_path):
     found = [text for text, _ in Watchers(tmp_path).of("weakforms/solvers/uncertainty/refinement.py", 1)]
     assert found[0].startswith("tests/solvers/test_refinement.py::")
@@ -269,18 +294,20 @@ def test_files_that_few_words_of_the_line_point_to_are_guessed_first(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("file", "said", "first"),
+    ("file", "said", "on_ranks"),
     [
-        ("weakforms/solvers/equilibrium/state.py", "scatter_forward()", "tests/mpi/"),
-        ("weakforms/problems/triangles/readings.py", "comm.", "tests/mpi/"),
-        ("weakforms/solvers/uncertainty/refinement.py", "spread = float", "tests/solvers/"),
+        ("weakforms/solvers/equilibrium/state.py", "scatter_forward()", True),
+        ("weakforms/problems/triangles/readings.py", "comm.", True),
+        ("weakforms/solvers/uncertainty/refinement.py", "spread = float", False),
     ],
 )
-def test_a_line_that_speaks_of_ranks_is_tried_on_ranks(file, said, first, tmp_path):
+def test_a_line_that_speaks_of_ranks_is_tried_on_ranks(file, said, on_ranks, tmp_path):
     rows = (ROOT / file).read_text("utf-8").split("\n")
     line = next(k for k, text in enumerate(rows, 1) if said in text)
-    found = [text for text, _ in Watchers(tmp_path).of(file, line) if "test_contract" not in text]
-    assert found[0].startswith(first)
+    before = ("test_contract.py", "test_" + file.split("/")[-1])
+    found = [text for text, _ in Watchers(tmp_path).of(file, line)]
+    after = [text for text in found if not any(name in text for name in before)]
+    assert after[0].startswith("tests/mpi/") == on_ranks
     assert not any(text.startswith("tests/mpi/test_every_case") for text in found)
     assert len(found) == len(set(found))
 

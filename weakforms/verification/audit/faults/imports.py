@@ -88,13 +88,17 @@ class Imports:
                 yield from found
 
     def first(self, file: str, line: int) -> list[str]:
-        """Test functions to run before the others: the contract of problems, and tests on several ranks.
+        """Test functions to run before the others: of the contract, of the file itself, on several ranks.
 
-        Tests on ranks are chosen by the words that their functions share with the name of the file.
+        Tests of the file itself import it and are named as it is. Tests on ranks are chosen by the words that
+        their functions share with the name of the file.
         """
         path = self._root / file
         contract = self._root / CONTRACT
         found = functions(contract, CONTRACT) if file.startswith(DECLARING) and contract.exists() else []
+        for name in sorted(self._used_by[file]):
+            if Path(name).name == f"test_{path.name}" and _is_test(name, set()):
+                found += functions(self._root / name, name)
         text = path.read_text("utf-8").split("\n")[line - 1] if path.exists() else ""
         if not (file.startswith("weakforms/") and SPEAKS_OF_RANKS.search(text)):
             return found

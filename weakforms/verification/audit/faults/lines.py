@@ -87,6 +87,10 @@ class Measured:
     digests: dict[str, str]
     """Of the files as they were, its own among them."""
 
+    def current(self, root: Path) -> bool:
+        """Whether the file of the tests or of the case is still the one that was measured."""
+        return self.digests.get(_file(self.unit), "") == digest(root / _file(self.unit))
+
     def sees(self, text: str, file: str, line: int, root: Path) -> bool:
         """Whether a test function ran a line, or one :func:`using` it; of a changed file, any line."""
         lines = self.lines.get(text, {}).get(file)
@@ -161,7 +165,7 @@ def measure(
 
     def one(unit: str) -> Measured:
         found = known.get(unit)
-        if found is None or found.digests.get(_file(unit)) != digest(ROOT / _file(unit)):
+        if found is None or not found.current(ROOT):
             found = _measured(unit, children, out)
         return found
 
@@ -244,7 +248,8 @@ class Watchers:
             if seeing or found.sees("", file, line, self._root):
                 beside |= {text: seconds for text, seconds in found.seconds.items() if text not in seeing}
                 near |= {text for text in beside if file in found.lines.get(text, {})}
-        known = {found.unit for found in self._measured} if direct or beside else set()
+        measured = {found.unit for found in self._measured if found.current(self._root)}
+        known = measured if direct or beside else set()
         guessed = [(text, UNKNOWN) for text in self._near.watching(file, line, known)]
         again = [(text, UNKNOWN) for text in tables.watching(file, line, self._near.reach(file))]
         first = [(text, UNKNOWN) for text in self._near.first(file, line)]
