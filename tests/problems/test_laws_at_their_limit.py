@@ -11,7 +11,7 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials import MATERIALS
 from weakforms.problems import registry
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
-from weakforms.problems.meridian.limits import limit_of, require_taut
+from weakforms.problems.meridian.limits import limit_of, require_held, require_low, require_taut
 from weakforms.problems.problem import Requests, validated
 from weakforms.solvers.equilibrium.system import System
 
@@ -120,3 +120,14 @@ def test_a_law_that_hardly_gives_is_not_advised_a_substrate_inside_of_the_tube()
         InputError, match="all but inextensible; choose less pre-stretch, or constants of the law"
     ):
         solve("tube", **given, numerics={"cells": 32, "levels": 2})
+
+
+@pytest.mark.parametrize(
+    ("refuse", "given", "words"),
+    [(require_held, (), "Af = 1.005: .* up to 1$"), (require_low, (False,), "w_end = 1.005: .* up to 1$")],
+)
+def test_a_bounded_force_holds_up_to_the_stated_size_and_no_further(refuse, given, words):
+    refuse("a problem", law("varga"), 1.0, *given)
+    with pytest.raises(InputError, match=words):
+        refuse("a problem", law("varga"), 1.005, *given)
+    refuse("a problem", law("neo_hookean"), 1.005, *given)

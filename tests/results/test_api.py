@@ -110,3 +110,23 @@ def test_versions_of_dolfinx_are_those_that_are_supported(monkeypatch, version, 
     said = rf"dolfinx {version[0]}\.{version[1]} is installed; supported: 0\.9 up to before 0\.12"
     with pytest.raises(EnvironmentLackError, match=said):
         api.require_environment()
+
+
+def test_a_warning_points_to_the_line_that_asked(asked, monkeypatch):
+    with pytest.warns(UserWarning, match="tube: .* no effect") as seen:
+        api.solve("tube", k=30.0)
+    assert [warning.filename for warning in seen] == [__file__]
+
+
+def test_a_range_of_one_pre_stretch_is_refused_before_a_solve():
+    with pytest.raises(InputError, match="delta_low = 3 must be less than delta_high = 3"):
+        api.solve("fluid_tube_coincidence", delta_low=3.0, delta_high=3.0)
+
+
+def test_progress_tells_of_each_mesh_and_of_each_state():
+    said = []
+    small = {"cells": 8, "levels": 2}
+    states = [("p", 0.5), ("p", 1.0)]
+    api.solve("tube", u_end=0.2, at=states, numerics=small, progress=lambda *words: said.append(words))
+    for what in ("branch", "states"):
+        assert [(done, of) for name, done, of in said if name == what] == [(0, 2), (1, 2)]

@@ -53,6 +53,12 @@ def test_the_unit_divides_all_lengths(tmp_path, sheet):
     assert read.points == pytest.approx(points)
 
 
+def test_the_size_of_a_sheet_does_not_depend_on_its_place(tmp_path, sheet):
+    points, triangles = sheet
+    far = from_file(write(tmp_path / "far.vtu", points + [500.0, -300.0, 0.0], triangles), 1.0, [], [])
+    assert np.ptp(far.points, axis=0) == pytest.approx(np.ptp(points, axis=0))
+
+
 def test_refinement_keeps_surface_supports_and_centre(tmp_path):
     path = shapes.written(tmp_path / "quarter.msh", shapes.quarter_disk, 0.4, order=2)
     coarse = from_file(str(path), 1.0, [], ["left", "bottom"])

@@ -182,3 +182,9 @@ def test_no_change_is_found_where_there_is_none():
     for ends in ((5.130, 5.140), (5.144, 5.142)):
         with pytest.raises(RuntimeError, match="no change of stability"):
             met.change(met.Sector(mesh), start, *ends, 1e-9)
+
+
+def test_a_slack_triangle_stores_no_energy():
+    """Squared stretches 0.9 and 0.8: the relaxed energy is zero there with all its derivatives."""
+    t, d = np.array([1.7]), np.array([0.72])
+    assert np.concatenate(met.invariants(t, d, FLUID.c2)) == pytest.approx(np.zeros(5), abs=0)
