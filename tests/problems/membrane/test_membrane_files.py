@@ -55,7 +55,9 @@ def test_the_unit_divides_all_lengths(tmp_path, sheet):
 
 def test_the_size_of_a_sheet_does_not_depend_on_its_place(tmp_path, sheet):
     points, triangles = sheet
-    far = from_file(write(tmp_path / "far.vtu", points + [500.0, -300.0, 0.0], triangles), 1.0, [], [])
+    far = from_file(
+        write(tmp_path / "far.vtu", points + np.array([500.0, -300.0, 0.0]), triangles), 1.0, [], []
+    )
     assert np.ptp(far.points, axis=0) == pytest.approx(np.ptp(points, axis=0))
 
 
