@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 
 from weakforms.errors import InputError
 from weakforms.verification.cases import discovery, references
+from weakforms.verification.cases.references import checksum
 from weakforms.verification.run import solving
 
 CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
@@ -327,8 +329,24 @@ def test_damaged_table(refused, tree, suffix, change, said):
     if damaged is None:
         path.unlink()
     else:
-        path.write_bytes(damaged)
+        path.write_bytes(damaged if suffix == ".csv" else sealed(damaged, tree.with_name(f"{tree.name}.csv")))
     refused("verify -k fig03 --out new", tree.name, *said.split())
+
+
+def sealed(about: bytes, numbers: Path) -> bytes:
+    """A description with the checksum that belongs to it."""
+    return re.sub(rb'"[0-9a-f]{64}"', b'"%s"' % checksum(numbers.read_bytes(), about).encode(), about)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"), [(b"5.5e-12", b"5.5e-2"), (b"delta1 = 1.1\n", b"delta1 = 1.2\n")]
+)
+def test_a_description_that_was_altered_is_refused(refused, tree, before, after):
+    """An uncertainty that is too large would let a wrong curve pass."""
+    path = tree.with_name(tree.name + ".toml")
+    assert before in path.read_bytes()
+    path.write_bytes(path.read_bytes().replace(before, after))
+    refused("verify -k fig03 --out new", tree.name, "altered", "checksum", "regenerate")
 
 
 def test_the_copied_tree_itself_is_sound(tree, monkeypatch, weakforms):

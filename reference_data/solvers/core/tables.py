@@ -243,7 +243,7 @@ def _toml(value: object) -> str:
 
 
 def toml_text(table: Table, sha256: str) -> str:
-    """Documentation of a table."""
+    """Description of a table, with the checksum of :func:`sealed`."""
     head: dict[str, object] = {
         "title": table.title,
         "source": table.source,
@@ -270,6 +270,12 @@ def toml_text(table: Table, sha256: str) -> str:
     return "\n".join(lines) + "\n"
 
 
+def sealed(table: Table, data: bytes) -> str:
+    """Description of a table with a checksum of its numbers and of all other lines of the description."""
+    first, rest = toml_text(table, "\0").split('sha256 = "\\u0000"\n')
+    return toml_text(table, hashlib.sha256(data + (first + rest).encode()).hexdigest())
+
+
 def folder_of(paper: int | str) -> str:
     """Name of the folder of a paper's tables; a group has its own name."""
     return f"paper{paper}" if isinstance(paper, int) else paper
@@ -283,7 +289,7 @@ def write(table: Table, root: Path) -> Path:
     folder = root / folder_of(table.paper)
     folder.mkdir(parents=True, exist_ok=True)
     data = csv_text(table).encode()
-    texts = {"csv": data, "toml": toml_text(table, hashlib.sha256(data).hexdigest()).encode()}
+    texts = {"csv": data, "toml": sealed(table, data).encode()}
     for suffix, content in texts.items():
         target = folder / f"{table.name}.{suffix}"
         partial = target.with_name(target.name + ".part")

@@ -34,7 +34,8 @@ def stored(tmp_path):
     def store(csv: str | bytes = ROWS, facts: str = FACTS, curve: bool = False) -> references.Reference:
         raw = csv.encode() if isinstance(csv, str) else csv
         (folder / "t.csv").write_bytes(raw)
-        (folder / "t.toml").write_text(facts.replace("{sha}", hashlib.sha256(raw).hexdigest()))
+        digest = hashlib.sha256(raw + facts.replace('sha256 = "{sha}"\n', "").encode()).hexdigest()
+        (folder / "t.toml").write_text(facts.replace("{sha}", digest))
         references.load.cache_clear()
         if not curve:
             return references.load(1, "t", tmp_path)
@@ -58,11 +59,19 @@ def test_table_is_read(stored):
 def test_every_byte_counts(stored, tmp_path):
     stored()
     path = tmp_path / "reference_data" / "paper1" / "t.csv"
-    for damaged in (ROWS[:-1], ROWS.replace("40", "41"), ROWS + "\n", ""):
-        path.write_text(damaged)
+    about = path.with_suffix(".toml")
+    whole = about.read_text()
+    damages = [(path, text) for text in (ROWS[:-1], ROWS.replace("40", "41"), ROWS + "\n", "")]
+    damages += [(about, whole.replace("1e-9", "1e-2")), (about, whole + "# a remark\n")]
+    for changed, damaged in damages:
+        before = changed.read_text()
+        changed.write_text(damaged)
         references.load.cache_clear()
         with pytest.raises(InputError, match="truncated or altered"):
             references.load(1, "t", tmp_path)
+        changed.write_text(before)
+    references.load.cache_clear()
+    assert len(references.load(1, "t", tmp_path)) == 3
 
 
 @pytest.mark.parametrize(

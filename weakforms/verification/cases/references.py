@@ -71,17 +71,14 @@ def load(paper: int | str, name: str, root: Path = ROOT) -> Reference:
     whole, separator, degrees = name.partition("@")
     if separator:
         return _meridian(load(paper, whole, root), name, degrees)
-    folder = part("reference_data", root) / folder_of(paper)
-    facts = _facts(folder / f"{name}.toml")
-    path = folder / f"{name}.csv"
-    try:
-        raw = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"reference table {path.name}: {error.strerror}") from error
-    if hashlib.sha256(raw).hexdigest() != facts.get("sha256"):
+    path = part("reference_data", root) / folder_of(paper) / f"{name}.csv"
+    about, raw = _bytes(path.with_suffix(".toml")), _bytes(path)
+    facts = _facts(path.with_suffix(".toml").name, about)
+    if checksum(raw, about) != facts.get("sha256"):
         raise InputError(
-            f"reference table {path} is truncated or altered: its checksum is not the one in {name}.toml; "
-            f"restore it, or regenerate it: {facts.get('regenerate', 'python -m reference_data.solvers')}"
+            f"reference table {path}, or its description {name}.toml, is truncated or altered: the checksum "
+            "there is another one; restore both, or regenerate them: "
+            f"{facts.get('regenerate', 'python -m reference_data.solvers')}"
         )
     columns = _columns(path.name, raw)
     kind, abscissa = facts.get("type"), facts.get("abscissa")
@@ -152,13 +149,24 @@ def load_curve(paper: int | str, name: str, of: Spec | None = None) -> Reference
     return table
 
 
-def _facts(path: Path) -> dict[str, Any]:
+def checksum(numbers: bytes, about: bytes) -> str:
+    """SHA-256 of a table's CSV followed by its TOML, of which the line with the checksum is left out."""
+    lines = about.splitlines(keepends=True)
+    return hashlib.sha256(numbers + b"".join(x for x in lines if not x.startswith(b"sha256 = "))).hexdigest()
+
+
+def _bytes(path: Path) -> bytes:
     try:
-        return tomllib.loads(path.read_text("utf-8"))
+        return path.read_bytes()
     except OSError as error:
         raise InputError(f"reference table {path.name}: {error.strerror}") from error
+
+
+def _facts(name: str, raw: bytes) -> dict[str, Any]:
+    try:
+        return tomllib.loads(raw.decode("utf-8"))
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, nested without end
-        raise InputError(f"reference table {path.name} is not TOML: {error}") from error
+        raise InputError(f"reference table {name} is not TOML: {error}") from error
 
 
 def _columns(name: str, raw: bytes) -> dict[str, np.ndarray]:
