@@ -253,3 +253,16 @@ def test_a_hemisphere_of_gents_rubber_that_hardly_stiffens_is_the_papers():
     one, other = (r.states[0].quantities for r in found)
     for name in ("V", "N", "z_pole", "lam_pole", "wrinkled_fraction"):
         assert one[name].value == pytest.approx(other[name].value, rel=1e-6, abs=1e-7)
+
+
+@pytest.mark.parametrize("model", ["neo_hookean", "gent"])
+def test_an_energy_that_is_not_used_is_that_of_rest_if_the_law_is_not_finite_everywhere(model):
+    """Gent's energy is infinite at the stretch taken here; UFL multiplies an unused value by zero."""
+    constants = {name: ufl.as_ufl(c.default) for name, c in MATERIALS[model].constants.items()}
+    of, c = surface_law(model, constants), fem.Constant(MESH, np.ones(2))
+    energy = of.where(ufl.lt(c[0], 1.0e4), c[0], c[1])
+    (used, far) = evaluated(ufl.as_vector([energy]), c, [(4.0, 3.0), (1.0e6, 2.0e5)])
+    (there, rest) = evaluated(ufl.as_vector([of.invariants(c[0], c[1])]), c, [(4.0, 3.0), (2.0, 1.0)])
+    assert used == pytest.approx(there)
+    assert np.isfinite(far).all()
+    assert (far == pytest.approx(rest)) == (model == "gent")

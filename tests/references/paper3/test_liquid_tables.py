@@ -2,6 +2,7 @@
 
 import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -217,3 +218,22 @@ def test_the_levels_of_the_secondary_branch_are_those_of_its_committed_table(tub
     density = f"_gamma_{tube.gamma:g}" if tube in paper3_secondary.DENSER else ""
     _, columns = read(f"secondary_L_{tube.L:g}_delta_{tube.delta:g}{density}")
     assert tuple(columns["zw"]) == LEVELS[tube]
+
+
+@pytest.mark.parametrize("compressed", [True, False])
+def test_a_compressed_tube_keeps_the_eigenvalues_that_both_methods_resolve(compressed, monkeypatch):
+    """The table of such a tube has two eigenvalues only: the others belong to short wrinkles of the mesh."""
+    eigen = {"Lambda_1": 1.0, "Lambda_2": 2.0, "Lambda_breaking": 3.0, "LambdaV_1": 4.0}
+    of = SimpleNamespace(rotation=0.0, columns=lambda: eigen)
+    monkeypatch.setattr(paper3_secondary, "compared", lambda _, found: found[:2])
+    monkeypatch.setattr(paper3_secondary, "states", SimpleNamespace(stability=lambda *_: of, quantities=dict))
+    balance = SimpleNamespace(stability=lambda _: eigen, quantities=dict)
+    monkeypatch.setattr(paper3_secondary, "balance", balance)
+    both = SimpleNamespace(
+        STEEP=(), balanced=lambda _: ({"V": 1.0},) * 2, paired=lambda _, column, *__: column
+    )
+    monkeypatch.setattr(paper3_secondary, "bent", both)
+    tube = FluidTube(24, 1.5) if compressed else FluidTube(24, 2)
+    columns, _ = paper3_secondary.curve_columns("a table", tube, (8.0,), lambda *_: ({"V": 1.0},) * 3)
+    kept = ["Lambda_1", "LambdaV_1"] if compressed else [*eigen]
+    assert columns[1:] == ["V", *kept]

@@ -9,7 +9,7 @@ import pytest
 from weakforms import circular, fluid_tube, hemisphere, homogeneous, infinite_tube, sphere, tube
 from weakforms.results import Field, Quantity, State
 from weakforms.verification.judging.consistency import quadrature
-from weakforms.verification.judging.consistency.identities import Identities
+from weakforms.verification.judging.consistency.identities import Identities, smooth_parts
 from weakforms.verification.judging.consistency.identity_profiles import one_at
 from weakforms.verification.judging.consistency.identity_table import IDENTITIES
 from weakforms.verification.judging.consistency.traces import TRACED
@@ -48,6 +48,11 @@ def test_identities_hold(solved, name):
     found = verdict(name, solved[name])
     assert found.passed, found
     assert found.check in Identities(SPECS[name]).names(0)
+
+
+def test_a_trace_without_kinks_is_looked_at_from_its_first_point_to_its_last(solved):
+    branch = solved["tube"].branches[0]
+    assert smooth_parts(solved["tube"], branch) == [slice(0, len(branch))]
 
 
 @pytest.mark.parametrize("factor", [1.01, -1.0])
