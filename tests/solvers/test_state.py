@@ -118,7 +118,7 @@ def test_a_second_variation_belongs_to_the_state_of_its_base():
     for reading in readings:
         with pytest.raises(NoStateError):
             reading()
-    with pytest.raises(NoStateError), waves.at(dry):
+    with pytest.raises(NoStateError), waves.at(State(np.zeros(waves.size), {})):
         pytest.fail("a perturbation of no state was set")
     with path.model.system.at(dry):
         for reading in readings:
