@@ -189,3 +189,7 @@ def test_another_run_stands_in_the_report(tmp_path):
     (second / "report" / "report.json").write_text(json.dumps(report))
     with pytest.raises(InputError, match="no case"):
         elsewhere(first, second)
+
+
+def test_a_number_that_is_missing_on_one_side_is_a_difference():
+    assert same._apart([1.0, None, None], [1.5, 2.0, None]).tolist() == [0.5, np.inf, 0.0]

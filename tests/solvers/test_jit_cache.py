@@ -94,3 +94,20 @@ def test_a_form_is_locked_where_files_can_be_locked(tmp_path, monkeypatch):
     assert len(held) == 1
     assert len(os.listdir("/proc/self/fd")) == before  # each form would leave a file open
     os.close(held[0])
+
+
+def test_folders_above_the_cache_are_made(tmp_path):
+    folder = tmp_path / "above" / "cache"
+    here = mesh.create_unit_interval(MPI.COMM_SELF, 2)
+    fem.form(ufl.SpatialCoordinate(here)[0] ** 9 * ufl.dx, jit_options={"cache_dir": folder})
+    assert list(folder.glob("*.so"))
+
+
+def test_no_file_stays_open_where_files_cannot_be_locked(tmp_path, monkeypatch):
+    def refused(*_):
+        raise OSError("no locks")
+
+    monkeypatch.setattr(jit_cache.fcntl, "flock", refused)
+    before = len(os.listdir("/proc/self/fd"))
+    assert not jit_cache._lock(tmp_path / "form.lock")
+    assert len(os.listdir("/proc/self/fd")) == before

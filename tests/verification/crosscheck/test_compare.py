@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import jsonschema
 import numpy as np
@@ -13,7 +14,14 @@ from weakforms import InputError, compare, dimensional
 from weakforms.results import Branch, Result
 from weakforms.verification.cases import references
 from weakforms.verification.cases.discovery import find_cases
-from weakforms.verification.crosscheck.rows import FLOOR, interpolated, judge_column, met, scale_of
+from weakforms.verification.crosscheck.rows import (
+    FLOOR,
+    JudgedColumn,
+    interpolated,
+    judge_column,
+    met,
+    scale_of,
+)
 from weakforms.verification.crosscheck.targets import tables_of
 from weakforms.verification.run.requests import schema
 
@@ -408,3 +416,10 @@ def test_one_row_beyond_a_wide_bound_is_a_judged_row():
     numbers = np.arange(1, len(x) + 1)
     assert judge_column(table, "p", x, right, 1e-8, numbers).verdict.status == "not judged"
     assert judge_column(table, "p", x, wrong, 1e-8, numbers).verdict.status == "failed"
+
+
+def test_a_difference_at_a_zero_of_the_column_is_relative_to_its_floor():
+    judged = JudgedColumn(
+        SimpleNamespace(scale_floor=0.2), expected=np.array([0.0, 4.0]), error=np.array([0.5, 0.01])
+    )
+    assert judged.difference == pytest.approx([0.1, 0.04])
