@@ -10,13 +10,15 @@ from scipy.linalg import eigh
 
 import weakforms.problems.liquid_tube.model as fluid_module
 from weakforms import InputError, reference, solve
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems import registry
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.liquid_tube.model import TubeData
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.problem import Requests, StateRequest
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.support.sampling import Interpolant
 
 pytestmark = pytest.mark.paper3
 GAMMA = 0.116
@@ -260,6 +262,48 @@ def test_a_dry_tube_is_no_cylinder():
     assert values["V"].value == 0.0
     assert 2**-0.5 - 5e-3 < values["r_mid"].value < 2**-0.5
     assert values["LambdaV_n0"].value == pytest.approx(values["Lambda_n0"].value)
+
+
+def test_a_dry_tube_is_not_turned_inside_out():
+    """The first guess led to a tube with a negative radius in the middle: all its numbers were wrong."""
+    branch = FluidPath(MPI.COMM_SELF, TubeData(20.86, 8.646, 0.2108, 0.9459, 16, 5), 1)
+    r, h = branch.sampled(branch.dry(), np.linspace(0, 20.86 / 8.646, 41), ("r", "H"))
+    assert r.min() == pytest.approx(8.646**-0.5, rel=0.05), "as in uniaxial tension"
+    assert np.ptp(h) < 1e-4 * abs(h.mean())
+
+
+def varga(L, delta, gamma, cells=16):
+    law = Chosen("varga", (("shear", 2.0),))
+    return FluidPath(MPI.COMM_SELF, TubeData(L, delta, gamma, 0.0, cells, 5, material=law), 1)
+
+
+def test_the_branch_of_a_law_of_bounded_force_ends_where_the_law_gives_way():
+    """Beyond, stretches grew without bound, and the number of parts of the branch depended on the mesh."""
+    ends = []
+    for cells in (32, 64):
+        piece = varga(3.481, 1.774, 1.158, cells).pieces[-1]
+        assert "the law hardly resists meridional stretch any more" in piece.ended
+        before, last = (stretches(piece, point.state) for point in piece.points[-2:])
+        assert least_resistance(*last) < 0.02 < least_resistance(*before)
+        ends.append((piece.points[-1].state.loads["zw"], last[0].max()))
+    assert ends[0] == pytest.approx(ends[1], rel=1e-2)
+
+
+def stretches(piece, state):
+    profile = piece.system.formulation.profile
+    with piece.system.at(state):
+        return Interpolant(piece.system.unknown, {n: profile[n] for n in ("lam1", "lam2")}).values().T
+
+
+def least_resistance(lam1, lam2):
+    """``lam1 w,11 / w,1`` of ``w = lam1 + lam2 + 1/(lam1 lam2) - 3``."""
+    return 2 / (lam1**2 * lam2 - 1).max()
+
+
+def test_a_law_that_gives_way_without_liquid_has_no_branch():
+    with pytest.raises(AbsentError, match=r"at a pre-stretch of 7\.007, without liquid, the law hardly resi"):
+        varga(7.048, 7.007, 1.306).dry()
+    assert varga(7.048, 3.0, 1.306).dry().loads["delta"] == 3.0
 
 
 def test_states_are_found_at_any_column():
