@@ -272,9 +272,30 @@ def test_a_dry_tube_is_not_turned_inside_out():
     assert np.ptp(h) < 1e-4 * abs(h.mean())
 
 
-def varga(L, delta, gamma, cells=16):
-    law = Chosen("varga", (("shear", 2.0),))
+def path_of(model, constants, L, delta, gamma, cells=16):
+    law = Chosen(model, tuple(constants.items()))
     return FluidPath(MPI.COMM_SELF, TubeData(L, delta, gamma, 0.0, cells, 5, material=law), 1)
+
+
+def varga(L, delta, gamma, cells=16):
+    return path_of("varga", {"shear": 2.0}, L, delta, gamma, cells)
+
+
+def test_a_tube_near_the_limit_of_its_law_is_filled_in_shorter_steps():
+    """The first step to the upper ring led beyond the largest stretch of the law: no number at all."""
+    filling = path_of("gent", {"shear": 0.4119, "jm": 39.78}, 16.34, 5.085, 0.7776)._filling()
+    fronts = np.array([point.state.loads["front"] for point in filling.points])
+    assert filling.stalled is None
+    assert np.all(np.diff(fronts) > 0)
+    assert fronts[-1] == pytest.approx(1 - 1e-4, abs=1e-12)
+
+
+def test_a_stiff_tube_is_filled_on_fine_meshes():
+    """Round-off in its forces was taken for a singular system."""
+    stiff = {"shear": 7.908, "poisson": 0.2829}
+    filling = path_of("saint_venant_kirchhoff", stiff, 26.26, 8.137, 1.524, 64)._filling()
+    assert filling.stalled is None
+    assert filling.points[-1].state.loads["front"] == pytest.approx(1 - 1e-4, abs=1e-12)
 
 
 def test_the_branch_of_a_law_of_bounded_force_ends_where_the_law_gives_way():
