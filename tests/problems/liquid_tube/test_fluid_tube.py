@@ -290,6 +290,16 @@ def test_a_tube_near_the_limit_of_its_law_is_filled_in_shorter_steps():
     assert fronts[-1] == pytest.approx(1 - 1e-4, abs=1e-12)
 
 
+def test_a_level_that_turns_just_below_the_ring_is_followed():
+    """The tube was to be filled, and steps to the upper ring did not converge."""
+    tube = FluidPath(MPI.COMM_SELF, TubeData(9.646, 9.197, 1.731, 0.6146, 16, 5), 1)
+    _, filling = tube.pieces
+    (limit,) = (solved for solved in filling.special() if solved.kind == "limit_point")
+    assert 0.98 < limit.state.loads["zw"] / 9.646 < 1
+    assert filling.stalled is None
+    assert filling.points[-1].state.loads["zw"] < 0.7 * limit.state.loads["zw"]
+
+
 def test_a_stiff_tube_is_filled_on_fine_meshes():
     """Round-off in its forces was taken for a singular system."""
     stiff = {"shear": 7.908, "poisson": 0.2829}

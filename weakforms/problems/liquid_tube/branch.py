@@ -245,11 +245,16 @@ class FluidPath:
             rising = point.tangent.loads["front"] > 0
             return self._ends(point) or (rising and point.state.loads["front"] > NEARLY_FULL)
 
+        before = self._highest, self._volume
         branch = self._branch(continuation, start, stop)
         if self._left_at_top(branch):
             left = 1 - branch.points[-1].state.loads["front"]
-            for exponent in np.linspace(np.log(left), np.log(EDGE), TOP_STATES)[1:]:
-                branch.extend_to("front", 1 - float(np.exp(exponent)))
+            try:
+                for exponent in np.linspace(np.log(left), np.log(EDGE), TOP_STATES)[1:]:
+                    branch.extend_to("front", 1 - float(np.exp(exponent)))
+            except ConvergenceError:  # the front may turn just below the ring
+                self._highest, self._volume = before
+                branch = self._branch(continuation, start, self._ends)
         self._say_end(branch)
         return branch
 
