@@ -464,6 +464,10 @@ def test_a_dropped_load_stiffness_is_noticed_by_the_eigenvalues(monkeypatch):
             {"delta": 9.0, "secondary": True},
             "delta = 9 is too large for secondary = true; allowed: .* up to 8",
         ),
+        (
+            {"model": "varga", "secondary": True},
+            "the force of model = 'varga' is bounded, .*; allowed with this law: secondary = false",
+        ),
         ({"at": {"Lambda_n5": 0.1}}, "n up to n_max = 3"),
         ({"at": {"zw": 7.3}, "branch": "secondary"}, "secondary = true"),
     ],
