@@ -12,8 +12,15 @@ from mpi4py import MPI
 from weakforms import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.liquid_tube.bent.bifurcation_point import position
-from weakforms.problems.liquid_tube.bent.family import THETAS, SecondaryFamily, secondary_family
+from weakforms.problems.liquid_tube.bent.branch import secondary_branch
+from weakforms.problems.liquid_tube.bent.family import (
+    THETAS,
+    SecondaryFamily,
+    free_surface,
+    secondary_family,
+)
 from weakforms.problems.liquid_tube.bent.stability import SHIFT
+from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.problems.problem import Requests, silent, validated
 from weakforms.results import Field, Result
@@ -85,6 +92,21 @@ def test_initial_slopes_are_those_of_small_steps(family):
     mean = [(s["r_mid"] + s["r_mid_pi"]) / 2 for s in (near, far)]
     slope = (mean[1] - mean[0]) / (far["zw"] - near["zw"])
     assert slope == pytest.approx(point.values["dr_mean_dzw"], rel=2e-2)
+
+
+def test_a_state_of_small_amplitude_is_approached_in_steps_where_a_guess_is_too_far_off():
+    """On a short tube under a heavy liquid, Newton's method diverged at amplitudes of 0.08 and 0.1."""
+    given = 2.365, 1.733, 1.635, 0.0
+    primary = PrimaryBranch(MPI.COMM_SELF, *given)
+    begin = primary.bifurcation(np.linspace(0, 2.365 / 1.733, 121))
+    data = SurfaceData(*given, 6, 4, 4, front=free_surface(begin))
+    branch = secondary_branch(MPI.COMM_SELF, data, primary, 0.1, 0.95)
+    far = branch.at_amplitude(0.1)
+    offset = branch.system.dot(branch._across, far.state.u - branch.bifurcation.state.u)
+    assert offset == pytest.approx(0.1 * branch.size, rel=1e-3), "on a mesh that has moved a little"
+    followed = branch.at("V", far.values["V"]).values
+    for name in ("zw", "r_mid", "r_mid_pi"):
+        assert far.values[name] == pytest.approx(followed[name], rel=1e-6)
 
 
 def test_level_and_volume_are_work_conjugate_along_the_branch(family):

@@ -15,7 +15,12 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, StepControl
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
+from weakforms.solvers.equilibrium.linear import (
+    REFINEMENT_LIMIT,
+    STIFF_LIMIT,
+    BorderedMatrix,
+    Factorization,
+)
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.subspace import Subspace
@@ -159,6 +164,19 @@ def test_pivoting_is_switched_on_once():
     first = factor.package
     assert [factor.use_pivoting(), factor.use_pivoting()] == [first != "mumps", False]
     assert factor.package == "mumps"
+
+
+def test_round_off_of_a_stiff_bordered_system_is_accepted():
+    """A stiff string on a soft foundation: round-off in its forces is large against the load."""
+    system = system_of(lambda u, v, p: 1e10 * u.dx(0) * v.dx(0) + u * v, "Lagrange", 1, 7)
+    factor = Factorization(system)
+    with system.at(system.initial):
+        factor.update()
+    load = system.multiply(system.mass, np.ones(system.size))
+    bordered = BorderedMatrix(factor, [], [], np.zeros((0, 0)))
+    *_, left = bordered._refined(load, [])
+    assert REFINEMENT_LIMIT < left < STIFF_LIMIT
+    assert bordered.solve(load, np.zeros(0))[0] == pytest.approx(1.0, rel=STIFF_LIMIT)
 
 
 def test_a_singular_bordered_system_is_refused():

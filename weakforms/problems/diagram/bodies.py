@@ -25,9 +25,9 @@ from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, one_end
 from weakforms.problems.meridian.body import Body, EndPosition
-from weakforms.problems.meridian.limits import limit_of
+from weakforms.problems.meridian.limits import limit_of, resistance
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.problems.tube.model import free_branch, resistance
+from weakforms.problems.tube.model import free_branch
 from weakforms.problems.tube.waves import AT_MIDDLE, EVEN, ODD, TubeWaves
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl

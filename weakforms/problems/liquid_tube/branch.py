@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cached_property
 
 import numpy as np
 from mpi4py import MPI
 from scipy.interpolate import CubicSpline
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.model import DRY, FULL, PART, TubeData, TubeModel
-from weakforms.problems.meridian.limits import relative_stiffness
+from weakforms.problems.meridian.limits import GIVES_WAY, has_bounded_force, relative_stiffness, resistance
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modal import ModalBranch, SinglePoint
 from weakforms.solvers.stability.modes import SecondVariation
-from weakforms.solvers.support.sampling import Peak, Probe, Sampler
+from weakforms.solvers.support.sampling import Interpolant, Peak, Probe, Sampler
 
 EDGE = 1e-4
 """Smallest distance of the front from a ring, as a fraction of the length. Closer to the ring a part of the
@@ -160,7 +161,24 @@ class FluidPath:
             return f"the mean radius is {WIDEST:g}"
         if point.state.loads["zw"] > self._heaviest:
             return f"the pressure of the liquid is {HEAVIEST:g} times the stiffness of the law"
-        return ""
+        return GIVES_WAY if self._yields(point.state) else ""
+
+    @cached_property
+    def _resistance(self) -> Interpolant | None:
+        """The :func:`resistance` along the tube, if the force of the law is bounded."""
+        model = self.model
+        if self.data.material is None or not has_bounded_force(self.data.material):
+            return None
+        left = resistance(model.surface_law.stretches, *model.stretches())
+        return Interpolant(model.unknown, {"resistance": left})
+
+    def _yields(self, state: State) -> bool:
+        """Whether the law hardly resists more meridional stretch somewhere: no mesh resolves what follows."""
+        if self._resistance is None:
+            return False
+        with self.model.system.at(state):
+            least = self._resistance.values().min(initial=np.inf)
+        return self.model.mesh.comm.allreduce(least, op=MPI.MIN) < 0
 
     # -- parts --------------------------------------------------------------------------------
 
@@ -201,13 +219,18 @@ class FluidPath:
         branch = self._branch(continuation, start, stop, ("Z_front", "r_front"))
         if branch.points[-1].state.loads["zw"] < self.data.L:
             branch.end_at("zw", self.data.L)
-        why = self._locked(branch.points[-1])
-        if why:
-            branch.ended = (
-                f"the level rises to zw = {branch.points[-1].state.loads['zw']:.6g} without falling below "
-                f"{self.zw_end:g} of its highest value; there {why}"
-            )
+        self._say_end(branch)
         return branch
+
+    def _say_end(self, branch: ModalBranch) -> None:
+        """Why the branch ends, if its level has not fallen to where it was to end."""
+        last = branch.points[-1]
+        level, why = last.state.loads["zw"], self._locked(last)
+        if why and level >= self.zw_end * self._highest:
+            branch.ended = (
+                f"the level comes to zw = {level:.6g} without falling below {self.zw_end:g} of its highest "
+                f"value; there {why}"
+            )
 
     def _draining(self, before: ModalBranch) -> ModalBranch:
         return self._partially_filled(before.points[-1].state, 1 - EDGE, -1.0)
@@ -222,11 +245,17 @@ class FluidPath:
             rising = point.tangent.loads["front"] > 0
             return self._ends(point) or (rising and point.state.loads["front"] > NEARLY_FULL)
 
+        before = self._highest, self._volume
         branch = self._branch(continuation, start, stop)
         if self._left_at_top(branch):
             left = 1 - branch.points[-1].state.loads["front"]
-            for exponent in np.linspace(np.log(left), np.log(EDGE), TOP_STATES)[1:]:
-                branch.extend_to("front", 1 - float(np.exp(exponent)))
+            try:
+                for exponent in np.linspace(np.log(left), np.log(EDGE), TOP_STATES)[1:]:
+                    branch.extend_to("front", 1 - float(np.exp(exponent)))
+            except ConvergenceError:  # the front may turn just below the ring
+                self._highest, self._volume = before
+                branch = self._branch(continuation, start, self._ends)
+        self._say_end(branch)
         return branch
 
     def _branch(
@@ -247,18 +276,41 @@ class FluidPath:
         """The pre-stretched tube without liquid.
 
         It is not a cylinder, because it contracts to the radius ``delta^(-1/2)`` of uniaxial tension. If a
-        guess with that shape does not converge, the tube is stretched to ``delta`` step by step.
+        guess with that shape does not converge, or converges to a tube turned inside out, whose radius is
+        negative in the middle, the tube is stretched to ``delta`` step by step.
+
+        Raises:
+            AbsentError: If the law gives way before.
         """
         solver, delta = ExtendedNewton(self.model.system), self.data.delta
-        try:
-            return solver.solve(self._necked(delta))[0]
-        except ConvergenceError:
-            pass
+        with suppress(ConvergenceError):
+            state, _ = solver.solve(self._necked(delta))
+            if self._is_outward(state):
+                return self._holding(state)
         begin = min(delta, 1.5)
         state = self._necked(begin)
         for stretch in np.linspace(begin, delta, 2 + int((delta - begin) / WALK)):
             state.loads["delta"] = float(stretch)
-            state, _ = solver.solve(state)
+            state = self._holding(solver.solve(state)[0])
+        return state
+
+    def _is_outward(self, state: State) -> bool:
+        """Whether the radius is positive at every node."""
+        least = float(np.min(1 + state.u[::2], initial=np.inf))
+        return self.model.mesh.comm.allreduce(least, op=MPI.MIN) > 0
+
+    def _holding(self, state: State) -> State:
+        """A dry tube.
+
+        Raises:
+            AbsentError: If its law gives way.
+        """
+        if self._yields(state):
+            raise AbsentError(
+                "branch primary",
+                f"at a pre-stretch of {state.loads['delta']:.4g}, without liquid, {GIVES_WAY}, or a smaller "
+                "pre-stretch",
+            )
         return state
 
     def _necked(self, delta: float) -> State:

@@ -136,6 +136,11 @@ class TubeModel(MeridianModel):
         """``z``."""
         return self.unknown[1] + self._fixed["L"] * self.place()[0]
 
+    def stretches(self) -> tuple[Expr, Expr]:
+        """``lam1, lam2``."""
+        a = self.surface().a
+        return ufl.sqrt(ufl.dot(a, a)), self.radius
+
     def surface(self) -> Surface:
         """The axisymmetric surface in the frame that rotates with ``Theta``."""
         slope = self.unknown.dx(0) / self._jacobian()
@@ -156,7 +161,7 @@ class TubeModel(MeridianModel):
         test = ufl.TestFunction(space)
         v = axisymmetric(test[0], test[1], (test[0].dx(0) / jacobian, test[1].dx(0) / jacobian))
         zw, gamma, law = self.q["zw"], self._fixed["gamma"], self.surface_law
-        lam1, lam2 = ufl.sqrt(ufl.dot(at.a, at.a)), r
+        lam1, lam2 = self.stretches()
         t1, t2 = principal_resultants(lam1, lam2, law)
         volume = ufl.pi * self._wet() * r**2 * at.a[2]
         liquid = hydrostatic(z, zw, gamma, 1.0)

@@ -16,7 +16,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.limits import has_bounded_force, require_bearable
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
 from weakforms.results import Absence, Failure, Result
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
@@ -57,6 +57,11 @@ class FluidTube(BranchProblem):
             raise InputError(
                 f"fluid_tube: delta = {parameters.delta:g} is too large for secondary = true; "
                 f"allowed: delta up to {LONGEST_BENT:g}"
+            )
+        if parameters.secondary and has_bounded_force(parameters.material):
+            raise InputError(
+                f"fluid_tube: secondary = true: the force of model = {parameters.model!r} is bounded, and a "
+                "tube of it gives way while it bends; allowed with this law: secondary = false"
             )
         for wanted in requests.states:
             if wanted.name == "zw" and wanted.value < 0:

@@ -6,14 +6,23 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
+import ufl
+from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
+from weakforms.forms.wrinkling import Law
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, mooney_rivlin_of
 from weakforms.problems.meridian.thickness import PLACES, Thickness
 
 LEAST_RESISTANCE = 0.02
 """Lower limit of ``lam1 w,11 / w,1``; below it no mesh resolves the meridional stretch."""
+
+GIVES_WAY = (
+    "the law hardly resists meridional stretch any more, which grows without bound from there on; choose "
+    "another law"
+)
+"""Why a branch of a law of bounded force ends, and what to change."""
 
 MARGIN = 0.01
 """A law that is not defined at stretches larger by this fraction is at its limit."""
@@ -44,6 +53,19 @@ def limit_of(law: Chosen, places: Iterable[tuple[float, float]]) -> str:
         if stressed(law, l1, l2) > LARGEST:
             return f"{stretched} has stresses of more than {LARGEST:g} times its stiffness at rest"
     return ""
+
+
+def resistance(law: Law, lam1: Expr, lam2: Expr) -> Expr:
+    r"""``λ₁ w,₁₁ - LEAST_RESISTANCE w,₁``: negative if the law hardly resists more meridional stretch.
+
+    In free inflation :math:`H = w - \lambda_1 w_{,1}` is constant, and its derivative with respect to the
+    stretch is :math:`-\lambda_1 w_{,11}`. If this is nearly zero (for laws of linear growth, such as
+    Varga's), the stretch of the mid-plane becomes unbounded at a finite displacement, and beyond it there is
+    no solution of finite stretch.
+    """
+    l1 = ufl.variable(lam1)
+    slope = ufl.diff(law(l1, lam2), l1)
+    return l1 * ufl.diff(slope, l1) - LEAST_RESISTANCE * slope
 
 
 def require_taut(problem: str, law: Chosen, stretch: float, name: str) -> None:

@@ -22,11 +22,10 @@ from ufl.core.expr import Expr
 
 from weakforms.errors import InputError
 from weakforms.forms.loads import substrate_potential
-from weakforms.forms.wrinkling import Law
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, mirrored, one_end
 from weakforms.problems.meridian.body import Body
-from weakforms.problems.meridian.limits import LEAST_RESISTANCE
+from weakforms.problems.meridian.limits import resistance
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -162,19 +161,6 @@ class TubeModel(MeridianModel):
                 "H": self.law(lam1, lam2) - lam1 * t1 * lam2,
             },
         )
-
-
-def resistance(law: Law, lam1: Expr, lam2: Expr) -> Expr:
-    r"""``λ₁ w,₁₁ - LEAST_RESISTANCE w,₁``: negative if the law hardly resists more meridional stretch.
-
-    In free inflation :math:`H = w - \lambda_1 w_{,1}` is constant, and its derivative with respect to the
-    stretch is :math:`-\lambda_1 w_{,11}`. If this is nearly zero (for laws of linear growth, such as
-    Varga's), the stretch of the mid-plane becomes unbounded at a finite displacement, and beyond it there is
-    no solution of finite stretch.
-    """
-    l1 = ufl.variable(lam1)
-    slope = ufl.diff(law(l1, lam2), l1)
-    return l1 * ufl.diff(slope, l1) - LEAST_RESISTANCE * slope
 
 
 def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:

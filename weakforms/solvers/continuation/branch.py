@@ -7,8 +7,12 @@ import numpy as np
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import OwnVariation, Singular
+
+HALVINGS = 4
+"""How often a step beyond the end of a trace is halved."""
 
 
 class FittedBranch(SolutionCurve):
@@ -17,6 +21,28 @@ class FittedBranch(SolutionCurve):
     def special(self) -> list[Solved]:
         """Limit points of the control: zeros of its rate along the curve."""
         return [self._turn(int(i)) for i in self.turns()]
+
+    def extend_to(self, load: str, value: float, halvings: int = HALVINGS) -> None:
+        """Add a point at the end, at a value of a load that is near enough for a linear guess.
+
+        If it is not, points between are added too.
+
+        Raises:
+            ConvergenceError: If even the steps that were halved as often as allowed do not converge.
+        """
+        last, continuation = self.points[-1], self.continuation
+        at = last.state.loads[load]
+        guess = continuation.predict(None, last, (value - at) / last.tangent.loads[load])
+        try:
+            state, record = continuation.solve(guess, Held(load, value))
+        except ConvergenceError:
+            if not halvings:
+                raise
+            self.extend_to(load, (at + value) / 2, halvings - 1)
+            self.extend_to(load, value, halvings - 1)
+            return
+        length = continuation.distance(state, last.state)
+        self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
 
 
 class EquilibriumBranch(SolutionCurve):

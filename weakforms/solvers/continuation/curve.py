@@ -282,15 +282,6 @@ class SolutionCurve:
             solved.state, last.record, before.tangent, before.arclength + length
         )
 
-    def extend_to(self, load: str, value: float) -> None:
-        """Add a point at the end, at a value of a load that is near enough for a linear guess."""
-        last, continuation = self.points[-1], self.continuation
-        step = (value - last.state.loads[load]) / last.tangent.loads[load]
-        guess = continuation.predict(None, last, step)
-        state, record = continuation.solve(guess, Held(load, value))
-        length = continuation.distance(state, last.state)
-        self.points.append(continuation.point(state, record, last.tangent, last.arclength + length))
-
     def require_nothing_between(self) -> None:
         """Make sure that there is no special point between neighbours with the same inertia.
 

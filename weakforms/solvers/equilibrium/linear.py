@@ -21,6 +21,9 @@ REFINED = 1e-9
 REFINEMENT_LIMIT = 1e-6
 """Relative residual above which a bordered solve has failed."""
 
+STIFF_LIMIT, OF_FORCES = 1e-3, 1e-15
+"""The same for a stiff matrix, if the residual is round-off: smaller than this part of the forces ``|K| |z|``
+that balance. For a singular matrix these grow without bound, and the first limit refuses it."""
 
 ROUND_OFF = 1e-13
 """Absolute residual that is round-off for forces of order one, for any right-hand side."""
@@ -231,7 +234,8 @@ class BorderedMatrix:
             g: Right-hand side of the other rows.
 
         Raises:
-            ConvergenceError: If the residual stays above :data:`REFINEMENT_LIMIT`.
+            ConvergenceError: If the residual stays above :data:`REFINEMENT_LIMIT`, for a stiff matrix above
+                :data:`STIFF_LIMIT`.
         """
         for mend in (None, self._stiffen, self._pivot):
             if mend is not None:
@@ -240,6 +244,9 @@ class BorderedMatrix:
             z, mu, left = self._refined(f, wide)
             if left < REFINEMENT_LIMIT or left * self._norm(f, g) < ROUND_OFF:
                 return z, np.array(mu[: self._size])
+        forces = self.system.matrix.norm() * math.sqrt(self.system.dot(z, z))
+        if left < STIFF_LIMIT and left * self._norm(f, g) < OF_FORCES * forces:
+            return z, np.array(mu[: self._size])
         raise ConvergenceError(f"bordered linear system is singular (residual {left:.1e} after refinement)")
 
     def _stiffen(self) -> None:

@@ -21,6 +21,7 @@ from weakforms.problems.liquid_tube.critical import PrimaryBranch
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import MonitorPlane, Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import Constraint, residual_limit
@@ -223,12 +224,24 @@ class SecondaryBranch(EquilibriumBranch):
 
         Args:
             amplitude: Amplitude of the displacement.
-            guess: Gives a guess from another mesh; by default the bifurcation point plus the mode.
+            guess: Gives a guess from another mesh; by default the bifurcation point plus the mode. If that
+                does not converge, the state is approached in steps.
         """
-        base, offset = self.bifurcation.state, amplitude * self.size
-        plane = Plane(self._across, {}, self.system.dot(self._across, base.u) + offset)
-        begin = State(base.u + offset * self.mode, base.loads) if guess is None else guess()
-        state = self.fitting.solve(begin, [plane], near=True, chord=guess is not None)
+        base = self.bifurcation.state
+        along = self.system.dot(self._across, base.u)
+
+        def solve(before: State, to: float, chord: bool = False) -> State:
+            plane = Plane(self._across, {}, along + to * self.size)
+            return self.fitting.solve(before, [plane], near=True, chord=chord)
+
+        def further(before: State, to: float) -> State:
+            left = along + to * self.size - self.system.dot(self._across, before.u)
+            return solve(State(before.u + left * self.mode, before.loads), to)
+
+        if guess is not None:
+            state = solve(guess(), amplitude, chord=True)
+        else:
+            state = walk(further, base, 0.0, amplitude, amplitude)
         return Solved(self._values(state), state)
 
     def initial(self, given: Sequence[float] = AMPLITUDES) -> dict[str, float]:
