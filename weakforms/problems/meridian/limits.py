@@ -238,3 +238,18 @@ def require_low(problem: str, law: Chosen, height: float, relaxed: bool) -> None
             f"{problem}: w_end = {height:g}: the force of model = {law.model!r} is bounded, and many modes "
             f"of a high sheet grow at once; allowed with energy = 'full': w_end up to {HIGHEST_BOUNDED:g}"
         )
+
+
+def compressed_without_load(delta: float, radius: float) -> str:
+    r"""Why a uniform membrane without load bears compression along its axis, as text; empty if it does not.
+
+    An incompressible law has axial tension if :math:`\lambda_1` is larger than the stretch of the thickness,
+    :math:`1/(\lambda_1 \lambda_2)`; at the pre-stretch and disks of a radius: :math:`\delta^2 A_f > 1`.
+    """
+    least = delta**-2
+    if radius > least:
+        return ""
+    return (
+        f"with energy = 'standard' the membrane without load is compressed along its axis, and is not found; "
+        f"allowed with this delta: Af above {least:.4g}, or energy = 'relaxed'"
+    )
