@@ -25,7 +25,7 @@ from weakforms.problems.problem import Requests, StateRequest, validated
 from weakforms.problems.wrinkled import branch as wrinkled_branch
 from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.fields import TAUT
-from weakforms.problems.wrinkled.problem import WrinkledNumerics, wrinkled_membrane
+from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets import cylinder as sheet
 from weakforms.problems.wrinkled.waves import problem as level
 from weakforms.results import validate
@@ -434,6 +434,19 @@ def test_a_sheet_has_no_energy_without_wrinkling():
     """Its first guess was compressed, and its own form, which is relaxed, did not converge from there."""
     with pytest.raises(InputError, match=r"energy = 'standard': .*relaxed"):
         solve("wrinkled_sheet", energy="standard", at_load=2.0)
+
+
+@pytest.mark.parametrize("delta", [1.357, 2.0])
+def test_narrow_disks_that_compress_a_membrane_along_its_axis_are_refused(delta):
+    """Without treatment of wrinkling Newton's method diverged; above ``delta^(-2)`` it does not."""
+    given = {"M": 0.6, "delta": delta, "L": 4.567, "load": "gas", "energy": "standard"}
+    least = delta**-2
+    with pytest.raises(InputError, match=rf"Af = .*compressed along its axis.*Af above {least:.4g}"):
+        solve("wrinkled_tube", **given, Af=0.98 * least)
+    parameters = WrinkledParameters(**given, Af=1.1 * least)
+    parameters.require_carried("wrinkled_tube")
+    mesh = WrinkledNumerics(cells=6, degree=4, levels=2)
+    wrinkled_membrane(parameters, mesh, MPI.COMM_WORLD).by_homotopy(0.0)
 
 
 @pytest.mark.parametrize("given", [{"Af": 2.1}, {"L": 26.0}])

@@ -111,12 +111,19 @@ def test_a_level_above_the_limit_is_not_there():
 HEAVY = {"delta": 3.395, "c2": 0.05432, "L": 3.846, "gamma": 9.0, "load_end": 6.0}
 
 
-@pytest.mark.parametrize(("meridional", "circumferential", "off"), [(30, 12, 0.04), (60, 24, 0.012)])
-def test_a_surface_is_followed_to_its_limit_load(meridional, circumferential, off):
-    """States of another branch, at higher loads, once followed. The limit converges at second order."""
+@pytest.mark.parametrize(
+    ("meridional", "circumferential", "off", "potential"),
+    [(30, 12, 0.04, "vertical"), (60, 24, 0.012, "vertical"), (30, 12, 0.04, "horizontal")],
+)
+def test_a_surface_is_followed_to_its_limit_load(meridional, circumferential, off, potential):
+    """States of another branch, at higher loads, once followed. The limit converges at second order.
+
+    The force of the horizontal potential jumps with the level: "the step leads to another curve".
+    """
     result = solve(
         "surface",
         **HEAVY,
+        potential=potential,
         meridional=meridional,
         circumferential=circumferential,
         numerics={"scan": 6, "shown": 1, "eigenvalues": 1},

@@ -7,9 +7,10 @@ from functools import lru_cache
 
 import numpy as np
 import ufl
+from scipy.optimize import bisect
 from ufl.core.expr import Expr
 
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.wrinkling import Law
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, mooney_rivlin_of
@@ -117,6 +118,48 @@ FARTHEST, STRETCHES, POINTS = 1e7, 2000, 400
 
 
 @lru_cache(maxsize=256)
+def _uniaxial(law: Chosen) -> tuple[np.ndarray, np.ndarray]:
+    """Stretches up to the first one at which a law has no force, and the largest force up to each of them."""
+    stretches = np.geomspace(1.0, FARTHEST, STRETCHES)
+    force = np.array([evaluated(law, l1, l1**-0.5)["W1"] for l1 in stretches])
+    defined = np.logical_and.accumulate(np.isfinite(force))
+    return stretches[defined], np.maximum.accumulate(force[defined])
+
+
+def unloaded_heights(law: Chosen, M: float, delta: float, s: np.ndarray) -> np.ndarray:
+    r"""Heights along an unloaded tube of linear thickness in uniaxial tension, of one force everywhere.
+
+    .. math:: z(S) = \int_0^S f^{-1}\left(\frac{N}{h(S)}\right) \mathrm{d}S, \qquad z(1) = \delta
+
+    with the force per thickness of :func:`mean_stretch_limit`.
+
+    Args:
+        law: An incompressible law.
+        M: Thickness at the lower end over its mean; ``2 - M`` at the upper one.
+        delta: Mean stretch.
+        s: Places along the undeformed tube, ascending, over its length.
+
+    Returns:
+        Heights at these places over that length, zero at the first one.
+
+    Raises:
+        ConvergenceError: If the law does not take this stretch.
+    """
+    stretches, forces = _uniaxial(law)
+    lengths, middle = np.diff(s), (s[1:] + s[:-1]) / 2
+    thickness = M + 2 * (1 - M) * middle
+
+    def stretched(force: float) -> np.ndarray:
+        return np.interp(force / thickness, forces, stretches) * lengths
+
+    most = float(forces[-1] * thickness.max())
+    if stretched(most).sum() < delta * (s[-1] - s[0]):
+        raise ConvergenceError(f"no force stretches model = {law.model!r} by delta = {delta:g}")
+    force = bisect(lambda n: stretched(n).sum() / (s[-1] - s[0]) - delta, 0.0, most, rtol=1e-10)
+    return np.concatenate([[0.0], np.cumsum(stretched(force))])
+
+
+@lru_cache(maxsize=256)
 def mean_stretch_limit(law: Chosen, thickness: Uneven) -> float:
     r"""Largest mean stretch of a tube of uneven thickness in uniaxial tension; infinite if a law locks.
 
@@ -130,11 +173,9 @@ def mean_stretch_limit(law: Chosen, thickness: Uneven) -> float:
         law: An incompressible law.
         thickness: Thickness at one end over its mean, between which it is linear; or any, with the length.
     """
-    stretches = np.geomspace(1.0, FARTHEST, STRETCHES)
-    force = np.array([evaluated(law, l1, l1**-0.5)["W1"] for l1 in stretches])
-    if not np.all(np.isfinite(force)):
+    stretches, force = _uniaxial(law)
+    if len(stretches) < STRETCHES:
         return float("inf")
-    force = np.maximum.accumulate(force)
     s = (np.arange(POINTS) + 0.5) / POINTS
     if isinstance(thickness, tuple):
         own, length = thickness
@@ -219,3 +260,18 @@ def require_low(problem: str, law: Chosen, height: float, relaxed: bool) -> None
             f"{problem}: w_end = {height:g}: the force of model = {law.model!r} is bounded, and many modes "
             f"of a high sheet grow at once; allowed with energy = 'full': w_end up to {HIGHEST_BOUNDED:g}"
         )
+
+
+def compressed_without_load(delta: float, radius: float) -> str:
+    r"""Why a uniform membrane without load bears compression along its axis, as text; empty if it does not.
+
+    An incompressible law has axial tension if :math:`\lambda_1` is larger than the stretch of the thickness,
+    :math:`1/(\lambda_1 \lambda_2)`; at the pre-stretch and disks of a radius: :math:`\delta^2 A_f > 1`.
+    """
+    least = delta**-2
+    if radius > least:
+        return ""
+    return (
+        f"with energy = 'standard' the membrane without load is compressed along its axis, and is not found; "
+        f"allowed with this delta: Af above {least:.4g}, or energy = 'relaxed'"
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,6 +16,7 @@ from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton, residual_limit
 from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.lowest import Lowest
 from weakforms.solvers.stability.spectra import Mode, Stability
 
@@ -59,7 +60,9 @@ class SurfaceRun:
     """Equilibria of one discrete membrane over its load.
 
     On a structured tube the equilibrium is found among ring-periodic positions, and the residual of the whole
-    surface is checked at every state. On any other mesh, SNES starts from the equilibrium among surfaces of
+    surface is checked at every state. It is stable among them up to a limit load. An equilibrium that is not
+    (pinched, or turned inside out, after a long step) belongs to another branch, and is approached in shorter
+    steps. On any other mesh, SNES starts from the equilibrium among surfaces of
     revolution and finds the equilibrium of the whole discrete surface.
 
     Args:
@@ -76,7 +79,7 @@ class SurfaceRun:
         self._lowest = Lowest(model.system, factor=self.stability.factor)
         self._subspace = model.symmetric()
         self._newton: ExtendedNewton | None = None
-        self._begin = State(self.system.initial.u, dict(loads))
+        self._begin = dict(loads)
         self._known: list[Point] = []
         self._limit: float | None = None
 
@@ -89,7 +92,7 @@ class SurfaceRun:
             ConvergenceError: If it is not reached, or is not an equilibrium of the whole surface.
         """
         if not self._known:
-            return self._keep(self._point(load, self._begin))
+            return self._keep(self._first(load))
         nearest = min(self._known, key=lambda point: abs(point.load - load))
         if nearest.load == load:
             return nearest
@@ -108,7 +111,9 @@ class SurfaceRun:
         """The limit load at which the branch turns back on the way from the first known state to a load.
 
         The branch is followed by arc length. Known states beyond the turn belong to another branch and are
-        forgotten.
+        forgotten. Under a liquid the printed potential has a force that jumps where the level passes an
+        integration point, and cannot be followed in this way; its limit load is that of the vertical
+        potential, from which it differs by the quadrature of the load only.
 
         Returns:
             The extreme of a cubic between the points about the turn; ``None`` if the branch reaches the load.
@@ -117,14 +122,15 @@ class SurfaceRun:
             ConvergenceError: If the branch cannot be followed.
         """
         name, first, sign = self.control, self._known[0], np.sign(towards - self.first)
-        solver = ExtendedNewton(self.system, (name,), prefix="weakforms_surface_")
+        system = self._smooth_system()
+        solver = ExtendedNewton(system, (name,), prefix="weakforms_surface_")
         solver.factor.use_pivoting()
         continuation = Continuation(solver, control=StepControl(largest=LARGEST, predictor_error=PREDICTOR))
 
         def ended(point: CurvePoint) -> bool:
             return sign * (point.state.loads[name] - towards) > 0 or sign * point.tangent.loads[name] < 0
 
-        with self.system.at(first.symmetric), self.system.weighed_here():
+        with system.at(first.symmetric), system.weighed_here():
             begin = continuation.start(first.symmetric, Held(name, first.load), towards={name: sign})
             *_, a, b = begin, *continuation.trace(begin, ended)
         if sign * b.tangent.loads[name] >= 0:
@@ -135,6 +141,22 @@ class SurfaceRun:
         self._limit = float(sign * (sign * between).max())
         self._known = [point for point in self._known if not self.is_beyond(point.load)]
         return self._limit
+
+    def _smooth_system(self) -> System:
+        """The equations with a force that is continuous in positions and level."""
+        body = self.model.body
+        if body.potential == "vertical" or not body.gamma:
+            return self.system
+        return SurfaceModel(self.model.mesh.comm, replace(body, potential="vertical")).system
+
+    def _first(self, load: float) -> Point:
+        """Equilibrium from the body's first guesses, in their order."""
+        for guess in self.model.body.starts():
+            try:
+                return self._point(load, State(self.model.owned_of(guess), self._begin))
+            except ConvergenceError as error:
+                failed = error
+        raise failed
 
     def _towards(self, load: float, start: Point, left: int) -> Point:
         try:
@@ -148,6 +170,11 @@ class SurfaceRun:
     def _point(self, load: float, guess: State) -> Point:
         symmetric, record = self._subspace.solve(guess, {self.control: load})
         state = symmetric
+        if self.rings and self._subspace.negative_count(symmetric):
+            raise ConvergenceError(
+                f"{self.control} = {load:g}: the equilibrium is unstable among surfaces of revolution and "
+                "belongs to another branch"
+            )
         if not self.rings:
             self._newton = self._newton or self._solver()
             state, record = self._newton.solve(symmetric)

@@ -10,6 +10,7 @@ the radius, thicknesses by their mean ``h``, energies by ``C1 h`` (Patil, Nordma
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import basix.ufl
@@ -24,7 +25,8 @@ from weakforms.forms.relaxed_surface import (
     state,
 )
 from weakforms.forms.wrinkling import principal_stretches
-from weakforms.problems.material_choice import Chosen
+from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
+from weakforms.problems.meridian.limits import unloaded_heights
 from weakforms.problems.triangles.meshes import Triangulation
 from weakforms.problems.triangles.symmetry import Meridian, subspace_of
 from weakforms.problems.triangles.weak_form import Membrane, scalars
@@ -86,6 +88,21 @@ class Body:
             rim = z[held].mean()
             x[:, 2] = rim + (1 + SAG[1]) * (z - rim)
         return x
+
+    def starts(self) -> Iterator[np.ndarray]:
+        """:meth:`start`; then, for a tube, guesses with the same force in its thin and thick parts."""
+        first = self.start()
+        yield first
+        if not self.triangles.rings:
+            return
+        s, place = np.unique(self.triangles.points[:, 2], return_inverse=True)
+        s = (s - s[0]) / np.ptp(s)
+        law = self.material or mooney_rivlin_of(self.c2)
+        z = np.ptp(self.triangles.points[:, 2]) * unloaded_heights(law, self.M, self.delta, s)
+        for sag in (SAG[2], 0.0):
+            x = first.copy()
+            x[:, 2] = self.triangles.points[:, 2].min() + (z * (1 + sag * (1 - s)))[place]
+            yield x
 
     def thickness(self, x: np.ndarray) -> np.ndarray:
         """``H`` over its mean at points ``(3, n)``."""

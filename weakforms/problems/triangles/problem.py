@@ -12,7 +12,7 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.limits import relative_stiffness, require_carried
+from weakforms.problems.meridian.limits import relative_stiffness, require_bearable, require_carried
 from weakforms.problems.problem import End, Problem, Progress, Requests, StateRequest, Task
 from weakforms.problems.triangles.about import SURFACE
 from weakforms.problems.triangles.branch import Point, SurfaceRun
@@ -50,6 +50,7 @@ class Surface(Problem):
         require_foldable(self.name, parameters, invariants=True)
         kind, full = parameters.kind, parameters.filled()
         if kind == "tube":
+            require_bearable(self.name, full.material, full.delta, full.delta**-0.5, "delta")
             require_carried(self.name, full.material, full.delta, full.M)
             _require_filled(full)
         if kind == "hemisphere":
@@ -152,7 +153,10 @@ def _run(full: SurfaceParameters, comm: MPI.Intracomm) -> SurfaceRun:
             return run
         except ConvergenceError as error:
             failed = error
-    raise ConvergenceError(f"no first state at {full.control} = {load:g}: {failed}; choose another gamma")
+    advice = ["choose another gamma"] if full.load == "fluid" else []
+    if full.kind != "hemisphere":
+        advice.append(f"bring M closer to 1, or Af to {full.delta**-0.5:.3g}, the radius without load")
+    raise ConvergenceError(f"no first state at {full.control} = {load:g}: {failed}; {', or '.join(advice)}")
 
 
 def _walk(run: SurfaceRun, loads: np.ndarray, result: Result, progress: Progress) -> list[Point]:
@@ -166,7 +170,9 @@ def _walk(run: SurfaceRun, loads: np.ndarray, result: Result, progress: Progress
             out.append(run.at(load))
         except ConvergenceError as error:
             if not _is_explained(run, load, result):
-                result.failures.append(Failure(f"branch primary, from {run.control} = {load:g}", str(error)))
+                end = out[-1].load if out else run.first
+                why = f"{error}; choose load_start and load_end up to {end:g}, where the branch still is"
+                result.failures.append(Failure(f"branch primary, from {run.control} = {load:g}", why))
                 break
             out = [point for point in out if not run.is_beyond(point.load)]
     if not out and not result.absent:

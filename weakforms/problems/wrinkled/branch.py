@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.problems.meridian.limits import compressed_without_load
 from weakforms.problems.wave_numbers import EIGENVALUE
 from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
@@ -120,6 +121,10 @@ class WrinkledBranch:
         except ConvergenceError as error:
             shape = [name for name in ("delta", "M", "Af") if name in self.membrane.values]
             hint = f"; choose a smaller delta, or another {' or '.join(shape[1:])}" if shape else ""
+            values = self.membrane.values
+            if self.membrane.energy == "standard" and {"delta", "Af"} <= values.keys():
+                why = compressed_without_load(values["delta"], values["Af"])
+                hint = f"; Af = {values['Af']:.4g}: {why}; raise delta" if why else hint
             raise ConvergenceError(f"the membrane without load is not found: {error}{hint}") from error
         unloaded = fixed.Held(self.control, 0.0)
         return continuation.start(state, unloaded, towards={self.control: 1.0})

@@ -18,7 +18,12 @@ from pydantic import BeforeValidator, Field
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import require_bearable, require_carried, require_held
+from weakforms.problems.meridian.limits import (
+    compressed_without_load,
+    require_bearable,
+    require_carried,
+    require_held,
+)
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves
@@ -138,6 +143,9 @@ class WrinkledParameters(MaterialChoice):
         require_thickness(problem, own, self.L, given, L=self.L)
         require_carried(problem, self.material, self.delta, self.M if own is None else (own, self.L))
         require_held(problem, self.material, self.Af)
+        why = "" if isinstance(self.Af, str) else compressed_without_load(self.delta, self.Af)
+        if self.energy == "standard" and why:
+            raise InputError(f"{problem}: Af = {self.Af:g}: {why}")
 
 
 class BranchParameters(WrinkledParameters):

@@ -29,6 +29,16 @@ ROUND_OFF = 1e-13
 """Absolute residual that is round-off for forces of order one, for any right-hand side."""
 
 
+def count_inertia(pc: PETSc.PC) -> None:
+    """Let a factorisation by MUMPS count its negative pivots."""
+    pc.setFactorSetUpSolverType()
+    factor = pc.getFactorMatrix()
+    factor.setMumpsIcntl(24, 1)  # null pivot detection: PETSc's inertia insists on it ...
+    factor.setMumpsCntl(3, -1e-200)  # ... but keep small pivots: they belong to folds
+    factor.setMumpsIcntl(13, 1)  # no parallel root node: the inertia needs it
+    factor.setMumpsIcntl(14, 50)  # room for delayed pivots of an indefinite matrix
+
+
 class Factorization:
     """``K = L D Lᵀ``: solves, and the number of negative eigenvalues by Sylvester's law.
 
@@ -56,12 +66,7 @@ class Factorization:
         if package == "petsc":
             pc.setFactorOrdering("amd")
         else:
-            pc.setFactorSetUpSolverType()
-            factor = pc.getFactorMatrix()
-            factor.setMumpsIcntl(24, 1)  # null pivot detection: PETSc's inertia insists on it ...
-            factor.setMumpsCntl(3, -1e-200)  # ... but keep small pivots: they belong to folds
-            factor.setMumpsIcntl(13, 1)  # no parallel root node: the inertia needs it
-            factor.setMumpsIcntl(14, 50)  # room for delayed pivots of an indefinite matrix
+            count_inertia(pc)
         pc.setFromOptions()
         return pc
 

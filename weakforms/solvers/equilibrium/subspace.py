@@ -13,6 +13,7 @@ from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.equilibrium.linear import count_inertia
 from weakforms.solvers.equilibrium.snes import SolveRecord, run_snes, solve_record
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -100,6 +101,20 @@ class Subspace:
         ksp.solve(rhs, self._q)
         self.basis.mult(self._q, self._u)
         return self.lift + self._u.array_r
+
+    def negative_count(self, state: State) -> int:
+        """Number of negative eigenvalues of the tangent ``P^T K P``, by Sylvester's law."""
+        with self.system.at(state):
+            self.system.tangent().ptap(self.basis, result=self._reduced)
+        pc = PETSc.PC().create(self.system.comm)
+        pc.setOperators(self._reduced)
+        pc.setType("cholesky")
+        pc.setFactorSolverType("mumps")
+        count_inertia(pc)
+        pc.setUp()
+        negative, _zero, _positive = pc.getFactorMatrix().getInertia()
+        pc.destroy()
+        return int(negative)
 
     def solve(self, guess: State, loads: Mapping[str, float] | None = None) -> tuple[State, SolveRecord]:
         """Equilibrium in the subspace from a guess.
