@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import lru_cache
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +13,11 @@ from weakforms.errors import InputError
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, mooney_rivlin_of
 from weakforms.problems.meridian.thickness import PLACES, Thickness
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.support.sampling import Sampler
+
+if TYPE_CHECKING:
+    from weakforms.problems.meridian.model import MeridianModel
 
 LEAST_RESISTANCE = 0.02
 """Lower limit of ``lam1 w,11 / w,1``; below it no mesh resolves the meridional stretch."""
@@ -44,6 +51,32 @@ def limit_of(law: Chosen, places: Iterable[tuple[float, float]]) -> str:
         if stressed(law, l1, l2) > LARGEST:
             return f"{stretched} has stresses of more than {LARGEST:g} times its stiffness at rest"
     return ""
+
+
+SAMPLED = 61
+"""Number of places of a meridian at which the stretches of a state are compared with the limit of its law."""
+
+
+def limit_along(model: MeridianModel) -> Callable[[State], str]:
+    """Why the law takes hardly any more stretch at some place of a state of a model: a function of states.
+
+    Constants of the law may be loads.
+    """
+
+    @cache
+    def sampler() -> Sampler:
+        stretches = {name: model.expressions[name] for name in ("lam1", "lam2")}
+        return Sampler(model.unknown, stretches, np.linspace(0.0, model.blocks, SAMPLED))
+
+    def limit(state: State) -> str:
+        with model.system.at(state):
+            found = sampler()()
+        given = model.material_law
+        constants = tuple((name, state.loads.get(name, value)) for name, value in given.constants)
+        places = zip(found["lam1"].tolist(), found["lam2"].tolist(), strict=True)
+        return limit_of(replace(given, constants=constants), places)
+
+    return limit
 
 
 def require_taut(problem: str, law: Chosen, stretch: float, name: str) -> None:
