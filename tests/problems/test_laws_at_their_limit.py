@@ -131,3 +131,38 @@ def test_a_bounded_force_holds_up_to_the_stated_size_and_no_further(refuse, give
     with pytest.raises(InputError, match=words):
         refuse("a problem", law("varga"), 1.005, *given)
     refuse("a problem", law("neo_hookean"), 1.005, *given)
+
+
+@pytest.mark.parametrize(
+    ("problem", "given"),
+    [("homogeneous", {"loading": "equibiaxial"}), ("sphere", {}), ("controls", {"body": "sphere"})],
+)
+def test_stretches_beyond_those_at_which_a_law_has_no_thickness_are_refused(problem, given):
+    """``lam3 = 3 + (lam^2 - 1)/f2 - 2 lam`` is negative between two stretches, and 27.7 is beyond both."""
+    f2 = 9.162
+    most = f2 * (1 - np.sqrt(1 - (3 - 1 / f2) / f2))
+    law = {"model": "harmonic", "f2": f2, **given}
+    with pytest.raises(InputError, match=rf"{problem}: .* between rest and lam_end .* beyond {most:.4g}$"):
+        solve(problem, **law, lam_end=27.7)
+    assert solve(problem, **law, lam_end=0.999 * most).failures == []
+
+
+def test_the_end_of_a_fold_line_that_the_law_does_not_take_is_refused_before_anything_is_solved():
+    fold, law = registry.get("tube_fold"), {"model": "harmonic", "f2": 21.49}
+    with pytest.raises(InputError, match=r"tube_fold: delta1_end = 3\.451 .*harmonic.*lower delta1_end"):
+        fold.check(validated(fold.parameters, law | {"delta1_end": 3.451}, "tube_fold"), Requests())
+    fold.check(validated(fold.parameters, law | {"delta1_end": 2.1}, "tube_fold"), Requests())
+
+
+@pytest.mark.parametrize(("problem", "given"), [("controls", {"body": "tube"}), ("tube", {})])
+def test_a_tube_is_inflated_to_where_its_law_has_no_thickness_and_says_so(problem, given):
+    delta1, f2 = 1.143, 47.51
+    law = {"model": "harmonic", "f2": f2, "delta1": delta1, "lf": 8.0}
+    result = solve(problem, **law, **given, u_end=2.4, numerics=COARSE)
+    assert result.failures == []
+    (rest,) = result.absent
+    assert re.search(rf"{problem}: free inflation .* within 1% of it; lower u_end", rest.reason)
+    last = {name: float(values[-1]) for name, values in result.branch().columns.items()}
+    l1, l2 = last["lam1_mid"], (1 + last["u_max"]) / np.sqrt(delta1)
+    thickness, more = (3 + (k * k * l1 * l2 - 1) / f2 - k * (l1 + l2) for k in (1.0, 1.05))
+    assert more < 0 < thickness

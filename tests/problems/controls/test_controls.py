@@ -48,6 +48,15 @@ def test_extrema_of_the_mass_are_those_of_the_closed_form():
     assert len(found) == 2
 
 
+def test_steps_grow_with_the_pressure_of_a_sphere_that_stiffens():
+    """With steps of one length the branch did not end within 3000 points."""
+    law = {"model": "beda_chevalier", "k1": 0.1724, "k2": 0.5025, "k3": 0.001816, "power": 9.244}
+    result = solve("controls", body="sphere", **law, lam_end=6.2)
+    assert result.failures == []
+    assert result.branch().ended.by == "lam_end"
+    assert result.branch().columns["p"][-1] > 300
+
+
 def branch_of(body, gas, lf=6.0):
     given = ControlsParameters(alpha=0.0)
     if body == "tube":

@@ -18,6 +18,7 @@ from weakforms.problems.diagram.problem import GRADING, MOVING
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.homogeneous.body import Body, sphere, system_of
 from weakforms.problems.homogeneous.material import require_reachable
+from weakforms.problems.homogeneous.problem import USUAL
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.limits import require_bearable, require_taut
 from weakforms.problems.problem import End, Needs, Requests, Task
@@ -98,14 +99,17 @@ class Controls(BranchProblem):
             task.progress("branch", level, numerics.levels)
             if given.body == "sphere":
                 system = system_of(_balloon(), given.material)
-                return from_rest(system, "p", along, end, numerics.step, kind=kind)
+                return from_rest(system, "p", along, end, numerics.step, usual_load=USUAL, kind=kind)
             cells, degree = numerics.meshes[level], numerics.degree
             if given.body == "tube":
                 values = {"delta1": given.delta1, "lf": given.lf}
                 model = VariedTube(task.comm, given.material, values, cells, degree, GRADING)
             else:
                 model = VariedDisk(task.comm, given.material, {"beta": given.beta}, cells, degree, 0.0)
-            return model.primary(end, numerics.step, kind)
+            branch = model.primary(end, numerics.step, kind)
+            if branch.ended:
+                branch.ended = f"controls: {branch.ended}; lower {given.end[0]}"
+            return branch
 
         caps = {"t_min": MOVING}
         if given.body == "circular":

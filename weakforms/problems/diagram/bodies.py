@@ -25,9 +25,9 @@ from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import LOWER, UPPER, Blocks, one_end
 from weakforms.problems.meridian.body import Body, EndPosition
-from weakforms.problems.meridian.limits import limit_of, resistance
+from weakforms.problems.meridian.limits import limit_along, limit_of, resistance
 from weakforms.problems.meridian.model import MeridianModel
-from weakforms.problems.tube.model import free_branch
+from weakforms.problems.tube.model import free_branch, yielding, yields
 from weakforms.problems.tube.waves import AT_MIDDLE, EVEN, ODD, TubeWaves
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -35,6 +35,7 @@ from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.least import LeastValue
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
 
 WAVES = re.compile(r"n([1-9])")
@@ -109,6 +110,11 @@ class VariedModel(MeridianModel):
         return LeastValue(self.system, ufl.min_value(t1, t2), 2 * self.degree + 1)
 
     @cached_property
+    def limit(self) -> Callable[[State], str]:
+        """Why the law takes no more than a state."""
+        return limit_along(self)
+
+    @cached_property
     def mirror(self) -> SecondVariation:
         """The second variation in displacements that are odd under the mirror at ``S = 0``."""
         base = self.system.formulation
@@ -124,6 +130,10 @@ class VariedModel(MeridianModel):
             monitors={},
         )
         return SecondVariation(form, self.system)
+
+    def gives_way(self, point: CurvePoint) -> str:
+        """Why the law takes no more stretch in the middle of the membrane; empty if it does."""
+        raise NotImplementedError
 
     @classmethod
     def breaks(cls, kind: str) -> bool:
@@ -196,6 +206,10 @@ class VariedTube(VariedModel):
         }
         return replace(given, monitors=own | dict(given.monitors))
 
+    def gives_way(self, point: CurvePoint) -> str:
+        """The law may hardly resist more meridional stretch at the mid-plane."""
+        return yielding(point) if yields(point) else ""
+
     @cached_property
     def _waves(self) -> TubeWaves:
         return TubeWaves(self)
@@ -210,7 +224,8 @@ class VariedTube(VariedModel):
 
     def primary(self, end: float, step: float, kind: Kind = EquilibriumBranch) -> EquilibriumBranch:
         """Free inflation up to ``u_max = end``."""
-        return free_branch(self.system, self.system.initial.loads["delta1"], end, step, kind)
+        delta1 = self.system.initial.loads["delta1"]
+        return free_branch(self.system, delta1, end, step, kind, self.limit)
 
 
 class VariedDisk(VariedModel):
@@ -245,8 +260,8 @@ class VariedDisk(VariedModel):
         """Free inflation up to ``t0 = end`` or the law's end, from rest or, if slack, from a small height."""
         beta = self.system.initial.loads["beta"]
         if beta >= TAUT:
-            ends = {"usual_load": USUAL_LOAD, "kind": kind, "gives_way": self._gives_way}
-            return from_rest(self.system, "p", "t0", end, step, **ends)
+            ends = {"usual_load": USUAL_LOAD, "kind": kind, "gives_way": self.gives_way}
+            return self._ended(from_rest(self.system, "p", "t0", end, step, **ends))
         stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
         guess = self.system.initial.copy()
         guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
@@ -258,11 +273,21 @@ class VariedDisk(VariedModel):
         start = continuation.start(guess, Held("t0", FIRST_T0), towards={"t0": 1.0})
 
         def stop(point: CurvePoint) -> bool:
-            return point.monitors["t0"] > end or bool(self._gives_way(point))
+            return point.monitors["t0"] > end or bool(self.gives_way(point))
 
-        return kind(continuation, "p", start, stop)
+        return self._ended(kind(continuation, "p", start, stop))
 
-    def _gives_way(self, point: CurvePoint) -> str:
+    def _ended(self, branch: EquilibriumBranch) -> EquilibriumBranch:
+        """The branch with its end, if that is the law's."""
+        branch.end_at_limit(self.limit)
+        last = branch.points[-1]
+        why = branch.ended or self.gives_way(last)
+        if why:
+            branch.ended = f"free inflation was followed up to t0 = {last.monitors['t0']:.6g}, "
+            branch.ended += f"p = {last.state.loads['p']:.6g}: {why}"
+        return branch
+
+    def gives_way(self, point: CurvePoint) -> str:
         """The law may take no more stretch at the pole; its constants may be loads."""
         law, stretch, loads = self.material_law, point.monitors["lam_pole"], point.state.loads
         constants = tuple((name, loads.get(name, value)) for name, value in law.constants)

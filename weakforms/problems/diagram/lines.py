@@ -9,6 +9,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.diagram.bodies import VariedModel
+from weakforms.problems.disk.phases import USUAL_LOAD
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.line import (
@@ -205,22 +206,32 @@ class LinesOnMesh:
         at_low, at_high = (abs(here - side) <= INSIDE * size for side in (window.low, window.high))
         first = continuation.start(at, Held(vary, here), towards={vary: 1.0 if at_low else -1.0})
         if not (at_low or at_high):
-            first = _reversed(self._followed(continuation, first, ()).points[-1])
+            back = reversed(self._followed(continuation, first, ()).points)
+            first = _reversed(next(point for point in back if not self.model.gives_way(point)))
         return self._followed(continuation, first, self._meetings(kind))
 
     def _followed(
         self, continuation: LineContinuation, first: CurvePoint, meetings: Sequence[Meeting]
     ) -> CriticalLine:
-        """The line from a point to where it leaves the window, or returns to that point."""
+        """The line from a point to where it leaves the window, returns to that point, or the law ends."""
 
         def stop(point: CurvePoint) -> bool:
-            far = point.arclength > LOOP * self.longest
-            closed = far and continuation.distance(point.state, first.state) < self.longest
-            return closed or bool(self._outside(point.monitors | point.state.loads))
+            longest = continuation.control.most(point.state, (LOAD,))
+            far = point.arclength > LOOP * longest
+            closed = far and continuation.distance(point.state, first.state) < longest
+            outside = self._outside(point.monitors | point.state.loads)
+            return closed or bool(outside) or bool(self.model.gives_way(point))
 
         line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
+        line.end_at_limit(self.model.limit)
         while line.stalled is None and (outside := self._outside(self._columns(line.points[-1].state))):
             line.end_at(*outside[0])
+        last, vary = line.points[-1], self.window.vary
+        if why := line.ended or self.model.gives_way(last):
+            line.ended = (
+                f"diagram: the line was followed up to {vary} = {last.state.loads[vary]:.6g}, "
+                f"p = {last.state.loads[LOAD]:.6g}: {why}; change low or high, or the constants of the law"
+            )
         return line
 
     def _columns(self, state: State) -> dict[str, float]:
@@ -239,7 +250,8 @@ class LinesOnMesh:
     def _continuation(self, kind: str, at: State) -> LineContinuation:
         """Follows the critical points of a kind, beginning near a state."""
         solver = ExtendedNewton(self.system, [LOAD, self.window.vary])
-        steps = StepControl(first=self.longest / 4, largest=self.longest)
+        longest = self.longest
+        steps = StepControl(longest / 4, longest, usual_load=USUAL_LOAD, growing=(LOAD,))
         return LineContinuation(solver, self._condition(kind, at, solver), steps)
 
     @property

@@ -105,14 +105,14 @@ class Diagram(BranchProblem):
                 "them"
             )
 
-    def ends(self, parameters: DiagramParameters, _branch: str) -> list[End]:
+    def ends(self, parameters: DiagramParameters, branch: str) -> list[End]:
         """The sides of the window, the largest displacement, and the start of a closed line."""
         window, given = parameters.window, parameters
         sides = (("low", given.vary, window.low), ("high", given.vary, window.high))
         sides += (("p_low", LOAD, window.p_low), ("p_high", LOAD, window.p_high))
         found = [End(*side) for side in sides if np.isfinite(side[2])]
-        depth = given.subject.model.depth
-        found.append(End(given.subject.end, depth, window.end))
+        if not branch.startswith("end"):  # which has this displacement all along
+            found.append(End(given.subject.end, given.subject.model.depth, window.end))
         return [*found, End("closed", given.vary, None, "the line returns to its first point")]
 
     def families(self, task: Task) -> dict[str, Family]:

@@ -99,18 +99,49 @@ def require_defined(
 
 
 def require_reachable(problem: str, parameters: MaterialChoice, l1: float, l2: float, what: str) -> None:
-    """Refuse stretches at which the chosen law is not defined, or under stresses that no branch reaches.
+    """Refuse stretches that no branch from rest reaches: beyond a law's end, or under too large stresses.
+
+    A harmonic membrane has no thickness between two equal stretches, and is defined again beyond them.
 
     Raises:
         InputError: With a message that names them.
     """
     require_defined(problem, parameters, l1, l2, what)
+    most = _defined_up_to(parameters.material, l1, l2)
+    if most < 1:
+        end = 1 + most * ((l2 if l1 == 1 else l1) - 1)
+        raise InputError(
+            f"{problem}: model = {parameters.model!r} is not defined between rest and {what} = {l1:g}, "
+            f"{l2:g} (beyond full extension, or without thickness); set lam_end not beyond {end:.4g}"
+        )
     if stressed(parameters.material, l1, l2) > LARGEST:
         raise InputError(
             f"{problem}: model = {parameters.model!r} has stresses of more than {LARGEST:g} times its "
             f"stiffness at rest at {what} = {l1:g}, {l2:g}; choose a lam_end nearer to 1, "
             "or smaller exponents"
         )
+
+
+STEPS_FROM_REST = 200
+"""Number of places between rest and a pair of stretches at which a law must be defined."""
+
+
+def _defined_up_to(chosen: Chosen, l1: float, l2: float) -> float:
+    """Fraction of the way from rest to a pair of stretches on which a law is defined from its start."""
+
+    def defined(share: float) -> bool:
+        values = evaluated(chosen, 1 + share * (l1 - 1), 1 + share * (l2 - 1))
+        return all(np.isfinite(values[name]) for name in NAMES)
+
+    shares = np.linspace(0.0, 1.0, STEPS_FROM_REST).tolist()
+    beyond = next((k for k, share in enumerate(shares) if not defined(share)), None)
+    if beyond is None:
+        return 1.0
+    low, high = shares[beyond - 1 : beyond + 1]
+    while high - low > 1e-4 * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if defined(middle) else (low, middle)
+    return low
 
 
 MOST_STRETCHED, PLACES = 100.0, 400

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import lru_cache
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 import ufl
@@ -15,6 +17,11 @@ from weakforms.forms.wrinkling import Law
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, mooney_rivlin_of
 from weakforms.problems.meridian.thickness import PLACES, Thickness
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.support.sampling import Sampler
+
+if TYPE_CHECKING:
+    from weakforms.problems.meridian.model import MeridianModel
 
 LEAST_RESISTANCE = 0.02
 """Lower limit of ``lam1 w,11 / w,1``; below it no mesh resolves the meridional stretch."""
@@ -67,6 +74,32 @@ def resistance(law: Law, lam1: Expr, lam2: Expr) -> Expr:
     l1 = ufl.variable(lam1)
     slope = ufl.diff(law(l1, lam2), l1)
     return l1 * ufl.diff(slope, l1) - LEAST_RESISTANCE * slope
+
+
+SAMPLED = 61
+"""Number of places of a meridian at which the stretches of a state are compared with the limit of its law."""
+
+
+def limit_along(model: MeridianModel) -> Callable[[State], str]:
+    """Why the law takes hardly any more stretch at some place of a state of a model: a function of states.
+
+    Constants of the law may be loads.
+    """
+
+    @cache
+    def sampler() -> Sampler:
+        stretches = {name: model.expressions[name] for name in ("lam1", "lam2")}
+        return Sampler(model.unknown, stretches, np.linspace(0.0, model.blocks, SAMPLED))
+
+    def limit(state: State) -> str:
+        with model.system.at(state):
+            found = sampler()()
+        given = model.material_law
+        constants = tuple((name, state.loads.get(name, value)) for name, value in given.constants)
+        places = zip(found["lam1"].tolist(), found["lam2"].tolist(), strict=True)
+        return limit_of(replace(given, constants=constants), places)
+
+    return limit
 
 
 def require_taut(problem: str, law: Chosen, stretch: float, name: str) -> None:

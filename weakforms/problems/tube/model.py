@@ -47,6 +47,9 @@ FIRST_U = 0.02
 TAUT = 1.02
 """Pre-stretch above which the branch starts at ``p = 0`` (the layer at the disk is then resolved)."""
 
+USUAL_LOAD = 20.0
+"""Pressure above which steps grow with it: it dominates the arc length of laws that stiffen."""
+
 STEEPEST = 1 - 1e-6
 """If the pressure's share in the direction of the branch exceeds this, the membrane is nearly inextensible: a
 law of limited stretch is nearly at its limit, and the branch continues to any pressure."""
@@ -195,10 +198,21 @@ def free_branch(
     u_end: float,
     step: float,
     kind: Callable[..., SolutionCurve] = EquilibriumBranch,
+    limit: Callable[[State], str] = lambda _state: "",
 ) -> SolutionCurve:
-    """Free inflation at fixed pre-stretch by arc length, up to ``u_max = u_end``, as a curve of some kind."""
+    """Free inflation at fixed pre-stretch by arc length, up to ``u_max = u_end`` or the law's end.
+
+    Args:
+        system: The equilibrium equations.
+        delta1: Pre-stretch.
+        u_end: Value of ``u_max`` at which the branch ends.
+        step: Largest step.
+        kind: The class of the curve.
+        limit: Why the law takes no more than a state, where the trace may stall.
+    """
     solver = ExtendedNewton(system, ["p"])
-    continuation = Continuation(solver, control=StepControl(first=step / 4, largest=step))
+    steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
+    continuation = Continuation(solver, control=steps)
     state, held = first_state(solver, delta1)
     start = continuation.start(state, held, towards={"u_max": 1.0})
 
@@ -206,6 +220,7 @@ def free_branch(
         return point.monitors["u_max"] > u_end or yields(point) or point.tangent.loads["p"] > STEEPEST
 
     branch = kind(continuation, "p", start, stop)
+    branch.end_at_limit(limit)
     last = branch.points[-1]
     followed = (
         f"free inflation was followed up to u_max = {last.monitors['u_max']:.6g}, "
@@ -213,6 +228,8 @@ def free_branch(
     )
     if yields(last):
         branch.ended = f"free inflation ends: {yielding(last)}"
+    elif branch.ended:
+        branch.ended = f"{followed}: {branch.ended}"
     elif last.monitors["u_max"] < u_end and branch.stalled is None:
         branch.ended = f"{followed}: there the membrane is all but inextensible"
     elif last.monitors["u_max"] < u_end:
@@ -243,7 +260,7 @@ def fold_line_between(branch: EquilibriumBranch, ends: tuple[float, float], step
     """
     low, high = ends
     inwards = 1.0 if branch.points[0].state.loads["delta1"] < (low + high) / 2 else -1.0
-    steps = StepControl(first=step / 4, largest=step)
+    steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
     return fold_line(
         branch, "delta1", inwards, steps, lambda point: not low < point.state.loads["delta1"] < high
     )

@@ -15,6 +15,7 @@ from weakforms.problems.contact.guesses import transferred
 from weakforms.problems.contact.history import History
 from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.phases import ContactPhases
+from weakforms.problems.meridian.limits import limit_along
 from weakforms.problems.tube.contact import FIRST_FRONT, ContactData, ContactModel
 from weakforms.problems.tube.model import FIRST_U, TAUT, free_branch, yielding, yields
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, MirroredBranch
@@ -84,7 +85,8 @@ class TubePhases(ContactPhases):
 
     def inflate(self, depth: float) -> EquilibriumBranch:
         """Free inflation up to a displacement of the mid-plane."""
-        return free_branch(self.slip.system, self.data.delta1, depth, self.step)
+        limit = limit_along(self.slip)
+        return free_branch(self.slip.system, self.data.delta1, depth, self.step, limit=limit)
 
     def small_patch(self) -> State:
         """The tube at first touch, whose mesh has the smallest front already."""

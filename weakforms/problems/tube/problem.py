@@ -12,7 +12,7 @@ from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_model
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.limits import limit_along, require_bearable
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
@@ -133,7 +133,8 @@ def branch_maker(
         kind: Callable[..., SolutionCurve] = EquilibriumBranch
         if parameters.n:
             kind = partial(TubeBranch, modes=TubeModes(model, parameters.n, at.full))
-        branch = free_branch(model.system, parameters.delta1, parameters.u_end, numerics.step, kind)
+        limit = limit_along(model)
+        branch = free_branch(model.system, parameters.delta1, parameters.u_end, numerics.step, kind, limit)
         if isinstance(branch, TubeBranch):
             branch.end = parameters.u_end
         if branch.ended is not None:
@@ -151,6 +152,16 @@ class TubeFold(BranchProblem):
     about = TUBE_FOLD
     parameters = TubeFoldParameters
     numerics = TubeNumerics
+
+    def check(self, parameters: TubeFoldParameters, requests: Requests) -> None:
+        """Refuse a pre-stretch that the law does not take.
+
+        Raises:
+            InputError: With a message that names ``delta1_end``.
+        """
+        super().check(parameters, requests)
+        end = parameters.delta1_end
+        require_bearable(self.name, parameters.material, end, end**-0.5, "delta1_end")
 
     def ends(self, parameters: TubeFoldParameters, _branch: str) -> list[End]:
         """The ends of the range of pre-stretches."""

@@ -62,10 +62,13 @@ class StepControl:
     usual_load: float = inf
     """Above this load the largest step grows in proportion to the load, which dominates the arc length of
     stiff laws."""
+    growing: tuple[str, ...] = ()
+    """The loads that count for this; if none are named, all unknown ones."""
 
     def most(self, state: State, loads: Sequence[str]) -> float:
         """The largest allowed step from a state."""
-        return self.largest * max(1.0, *(abs(state.loads[name]) / self.usual_load for name in loads))
+        sizes = (abs(state.loads[name]) / self.usual_load for name in self.growing or loads)
+        return self.largest * max(1.0, *sizes)
 
 
 class Continuation:

@@ -282,6 +282,14 @@ class SolutionCurve:
             solved.state, last.record, before.tangent, before.arclength + length
         )
 
+    def end_at_limit(self, limit: Callable[[State], str]) -> None:
+        """If the trace stalled where a law takes no more, as ``limit`` says, leave out its points there."""
+        why = limit(self.points[-1].state) if self.stalled else ""
+        if why:
+            while len(self.points) > 2 and limit(self.points[-1].state):
+                del self.points[-1]
+            self.ended, self.stalled = why, None
+
     def require_nothing_between(self) -> None:
         """Make sure that there is no special point between neighbours with the same inertia.
 
