@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from weakforms.problems.registry import abouts, symbol
 from weakforms.verification.cases.discovery import find_cases
-from weakforms.verification.report import manual, summary
+from weakforms.verification.report import manual, summary, wording
 from weakforms.verification.report.case_views import surface_csv, what_differs
 from weakforms.verification.report.figures import points
 from weakforms.verification.report.figures.panel import failed_rows, panel_figure
@@ -46,6 +46,17 @@ def shown():
         for picture in found.case.surfaces:
             axes = [axis.tex for axis in picture.axes]
             yield f"{found.id}, {picture.name}", [picture.title or picture.name, picture.note, *axes]
+
+
+def test_the_table_of_symbols_has_those_that_columns_declare_and_else_typesets_the_name():
+    case = passing_case()
+    case.solutions = [{"problem": "tube", "parameters": {"alpha": 0.1, "delta1": 1.2, "lf": 6.0, "k": 20.0}}]
+    (entry,) = manual.manual(case)
+    symbols = {name: shown for shown, name, _ in entry["symbols"]}
+    assert {"alpha", "delta1", "lf", "k"} <= {*symbols}
+    assert symbols == {name: symbol(name) or wording.symbol(name) for name in symbols}
+    assert {name for name in symbols if symbol(name)} not in (set(), {*symbols})
+    assert symbol("delta1") != wording.symbol("delta1")
 
 
 def test_no_picture_shows_a_raw_name():

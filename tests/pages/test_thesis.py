@@ -105,3 +105,10 @@ def test_a_path_counts_only_by_the_checks_of_its_point(check):
     for found, compared in (([own, other], 2), ([other], 1)):
         row = row_of(outcome("paper2.fig05", [*checks("a"), *found], drawn))
         assert (row.drawn, row.compared) == (2, compared)
+
+
+def test_nothing_is_drawn_or_compared_for_a_case_that_was_not_run():
+    rows = thesis.panels(sample())
+    assert {(row.drawn, row.compared, row.statements, row.failed, row.run, row.held) for row in rows} == {
+        (0, 0, 0, 0, False, False)
+    }
