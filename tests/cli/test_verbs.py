@@ -184,7 +184,8 @@ def test_python_gives_what_the_command_gives(weakforms):
 
 def test_what_converged_is_kept_and_the_rest_is_named(weakforms, tmp_path, monkeypatch):
     monkeypatch.setattr(StepControl, "max_points", 8)
-    monkeypatch.setattr(StepControl.__init__, "__defaults__", (0.05, 0.1, 1e-7, 2e-3, 0.85, 0.1, 8, math.inf))
+    usual = (0.05, 0.1, 1e-7, 2e-3, 0.85, 0.1, 8, math.inf, ())
+    monkeypatch.setattr(StepControl.__init__, "__defaults__", usual)
     called = weakforms(*TUBE, *COARSE, "--out", tmp_path / "r.json")
     assert called.status == 3
     assert "did not end within 8 points" in called.err

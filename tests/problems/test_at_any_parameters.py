@@ -260,6 +260,11 @@ def test_a_surface_that_does_not_bend_says_so(monkeypatch):
     ("values", "hint"),
     [
         ({"delta": 4.9, "M": 1.3, "Af": 0.3, "c2": 0.0}, "; choose a smaller delta, or another M or Af"),
+        (
+            {"delta": 2.0, "M": 1.0, "Af": 0.2, "c2": 0.0},
+            "; Af = 0.2: with energy = 'standard' the membrane without load is compressed along its axis, "
+            "and is not found; allowed with this delta: Af above 0.25, or energy = 'relaxed'; raise delta",
+        ),
         ({}, ""),
     ],
 )
@@ -268,7 +273,7 @@ def test_a_membrane_that_is_not_found_without_load_names_what_to_change(values, 
         raise ConvergenceError("the system is singular")
 
     branch = WrinkledBranch.__new__(WrinkledBranch)
-    branch.membrane = SimpleNamespace(by_homotopy=by_homotopy, values=values)
+    branch.membrane = SimpleNamespace(by_homotopy=by_homotopy, values=values, energy="standard")
     with pytest.raises(ConvergenceError) as caught:
         branch._start(None)
     assert str(caught.value) == f"the membrane without load is not found: the system is singular{hint}"

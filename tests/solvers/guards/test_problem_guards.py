@@ -233,7 +233,7 @@ def test_modes_of_one_wave_that_are_not_among_those_found(overlaps, fits, monkey
 def test_a_ring_periodic_state_that_is_none_of_the_whole_surface(residual, monkeypatch):
     monkeypatch.setattr(triangles, "residual_limit", always(1e-8))
     told = bare(triangles.SurfaceRun, rings=True, control="zw")
-    told._subspace = SimpleNamespace(solve=always((None, None)))
+    told._subspace = SimpleNamespace(solve=always((None, None)), negative_count=always(0))
     told.system = SimpleNamespace(residual=lambda: np.array([residual]), dot=np.dot, at=always(nullcontext()))
     words = (
         "zw = 2: the ring-periodic equilibrium is not one of the whole surface, "
