@@ -122,7 +122,7 @@ def bifurcation_on(
     if trend.row(-1.0)[0] * trend.row(1.0)[0] > 0 or len(set(counts)) > 1:
         raise ConvergenceError(
             f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
-            f"other negative ones {counts}"
+            f"other negative ones {counts}; raise secondary_cells"
         )
     zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
     _, *found = trend.row(zero).tolist()
