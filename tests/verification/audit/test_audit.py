@@ -238,3 +238,8 @@ def running():
         with suppress(OSError):  # it ended meanwhile
             found.append(path.read_bytes())
     return found
+
+
+def test_signs_of_life_are_no_messages():
+    said = "[0:15] starting\n[1:30] branch; about 2 min left\nweakforms: no first state\n"
+    assert classified(3, said, {}, 7.0) == ("not converged", ("no first state",))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -31,6 +32,9 @@ Report = Callable[[int, int, str], None]
 
 SHOWN = 3
 """Number of lines of standard error that are stored."""
+
+SIGN_OF_LIFE = re.compile(r"\[\d+:\d\d\] ")
+"""How a line begins that says how far a long solve is."""
 
 WAITING = 20.0
 """A solve that waits instead of computing is ended after this many times the limit of processor time."""
@@ -109,7 +113,8 @@ def classified(
         result: Its result; empty if there is none.
         limit: Limit in seconds of processor time.
     """
-    said = [line.removeprefix("weakforms: ") for line in complaint.splitlines() if line.strip()]
+    lines = [line for line in complaint.splitlines() if line.strip() and not SIGN_OF_LIFE.match(line)]
+    said = [line.removeprefix("weakforms: ") for line in lines]
     last = tuple(said[-SHOWN:])
     if code is None:
         return "too slow", (f"it did not end within {limit:g} s of processor time",)
