@@ -120,9 +120,11 @@ def bifurcation_on(
     ]
     trend = _trend(along, np.array(rows), below)
     if trend.row(-1.0)[0] * trend.row(1.0)[0] > 0 or len(set(counts)) > 1:
+        alone = len(set(counts)) == 1
+        hint = "raise secondary_cells" if alone else "another mode changes sign beside it: change L or delta"
         raise ConvergenceError(
             f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
-            f"other negative ones {counts}; raise secondary_cells"
+            f"other negative ones {counts}; {hint}"
         )
     zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
     _, *found = trend.row(zero).tolist()
