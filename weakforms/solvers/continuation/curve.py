@@ -283,7 +283,11 @@ class SolutionCurve:
         )
 
     def end_at_limit(self, limit: Callable[[State], str]) -> None:
-        """If the trace stalled where a law takes no more, as ``limit`` says, leave out its points there."""
+        """End a trace that stalled where ``limit`` gives a reason, without its last points that have one.
+
+        Args:
+            limit: Why no solution follows a state, as text; empty if one may.
+        """
         why = limit(self.points[-1].state) if self.stalled else ""
         if why:
             while len(self.points) > 2 and limit(self.points[-1].state):
