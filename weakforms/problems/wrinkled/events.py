@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +14,7 @@ from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.state import Touch, ZonedState
 from weakforms.results import Failure
 from weakforms.solvers.equilibrium import constraints as fixed
+from weakforms.solvers.support.roots import root
 
 HALVINGS = 24
 """Largest number of times that an interval is halved until only one zone opens or closes in it."""
@@ -24,6 +25,9 @@ LARGE_MOVE = 0.1
 SLACK, VOLUME_SLACK = 1e-6, 1e-5
 """Largest relative distance of an event from its interval, of a load or of the volume, because a new zone is
 detected only when it has some width. Near a limit load intervals are of the volume, which grows faster."""
+
+SAMPLES = 401
+"""Places at which ``gw`` is looked at to find the extreme, and again around it."""
 
 VERGE = 1e-9
 """If ``gw`` differs from 1 by less at an end of the unloaded membrane, a zone exists there from the start."""
@@ -97,7 +101,13 @@ def _between(
                 raise
     if not halvings:
         return _at_both_ends(membrane, absent, present, after, name, opening)
-    return _in_halves(membrane, a, b, after, name, verge, halvings)
+    try:
+        found = _in_halves(membrane, a, b, after, name, verge, halvings)
+    except ConvergenceError:
+        if zone is None or zone[0] == 0 or zone[1] == membrane.length or absent.layout is None:
+            raise
+        found = [_crossed(membrane, absent, present, zone, after, name, opening)]
+    return found
 
 
 def _leaps(a: ZonedState, b: ZonedState, length: float) -> bool:
@@ -194,3 +204,50 @@ def _located(
         )
     kind = "zone_opening" if opening else "zone_closing"
     return [Event(kind, state, after, tuple(levels))]
+
+
+def _crossed(
+    membrane: Membrane,
+    absent: ZonedState,
+    present: ZonedState,
+    zone: tuple[float, float, float],
+    after: int,
+    name: str,
+    opening: bool,
+) -> Event:
+    """The event inside the meridian, as the root of the extreme ``gw - 1`` of states without the zone.
+
+    Where the zone opens next to the liquid's surface, the block between both is so thin that Newton's method
+    does not find the point at which ``gw`` touches 1.
+    """
+    *ends, state = zone
+    levels: list[ZonedState] = []
+    for level in reversed(range(len(membrane.meshes))):
+        start = levels[-1] if levels else absent
+
+        def without(value: float, level: int = level, start: ZonedState = start) -> ZonedState:
+            held = fixed.Held(name, value)
+            return membrane.fit(level, start, absent.zones, (held,), same=True)
+
+        def excess(value: float, without: Callable[[float], ZonedState] = without) -> float:
+            return _extreme(without(value), ends, state)[0]
+
+        load = root(excess, _value(absent, name), _value(present, name), f"{name} of a zone's event")
+        held = without(load)
+        levels.append(replace(held, touched=_extreme(held, ends, state)[1]))
+    return Event("zone_opening" if opening else "zone_closing", state, after, tuple(levels[::-1]))
+
+
+def _extreme(held: ZonedState, ends: Sequence[float], state: float) -> tuple[float, float]:
+    """How far ``gw`` is at most on the side of a zone between two points, and where."""
+    low, high = ends
+    for _ in range(2):
+        s = np.linspace(low, high, SAMPLES)
+        beyond = state * (held.sampled(s)["gw"] - 1)
+        best = int(np.argmax(beyond))
+        low, high = s[max(best - 1, 0)], s[min(best + 1, SAMPLES - 1)]
+    # The samples around a flat extreme differ by little more than round-off: it is the top of a parabola.
+    fit = np.polynomial.Polynomial.fit(s, beyond, 2)
+    inside = [top for top in fit.deriv().roots() if s[0] <= top <= s[-1]]
+    place = inside[0] if inside else s[best]
+    return float(fit(place)), float(place)
