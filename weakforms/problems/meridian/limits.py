@@ -102,6 +102,29 @@ def limit_along(model: MeridianModel) -> Callable[[State], str]:
     return limit
 
 
+NEARLY = 0.1
+"""A law that hardly resists stretches larger by this fraction is about to give way."""
+
+
+def giving_way(model: MeridianModel, state: State) -> str:
+    """Where the law of a membrane is about to give way in a state, as text; empty if it is not."""
+    law = model.material_law
+    if law is None:  # a Mooney-Rivlin membrane takes any stretch
+        return ""
+    stretches = {name: model.expressions[name] for name in ("lam1", "lam2")}
+    with model.system.at(state):
+        found = Sampler(model.unknown, stretches, np.linspace(0.0, model.blocks, SAMPLED))()
+    for l1, l2 in zip(found["lam1"].tolist(), found["lam2"].tolist(), strict=True):
+        more = l1 * (1 + NEARLY)
+        there = evaluated(law, more, l2)
+        if more > 1 and more * there["W11"] < LEAST_RESISTANCE * there["W1"]:
+            return (
+                f"its stretches are {l1:.4g} and {l2:.4g} at one place, and at a meridional stretch larger "
+                f"by {NEARLY:.0%} model = {law.model!r} hardly resists more of it"
+            )
+    return ""
+
+
 def require_taut(problem: str, law: Chosen, stretch: float, name: str) -> None:
     """Refuse an equal pre-stretch in both directions beyond a law's limit, or at which it gives no tension.
 
@@ -293,18 +316,3 @@ def require_low(problem: str, law: Chosen, height: float, relaxed: bool) -> None
             f"{problem}: w_end = {height:g}: the force of model = {law.model!r} is bounded, and many modes "
             f"of a high sheet grow at once; allowed with energy = 'full': w_end up to {HIGHEST_BOUNDED:g}"
         )
-
-
-def compressed_without_load(delta: float, radius: float) -> str:
-    r"""Why a uniform membrane without load bears compression along its axis, as text; empty if it does not.
-
-    An incompressible law has axial tension if :math:`\lambda_1` is larger than the stretch of the thickness,
-    :math:`1/(\lambda_1 \lambda_2)`; at the pre-stretch and disks of a radius: :math:`\delta^2 A_f > 1`.
-    """
-    least = delta**-2
-    if radius > least:
-        return ""
-    return (
-        f"with energy = 'standard' the membrane without load is compressed along its axis, and is not found; "
-        f"allowed with this delta: Af above {least:.4g}, or energy = 'relaxed'"
-    )

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
-from weakforms.problems.meridian.limits import compressed_without_load
 from weakforms.problems.wave_numbers import EIGENVALUE
 from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
@@ -45,22 +44,29 @@ STEP, VOLUME_END = 0.5, 30.0
 """Default largest step of a branch, and volume over the unloaded one at which it ends."""
 
 
-def first_state(membrane: Membrane, load: float, volume_end: float = VOLUME_END) -> ZonedState:
+def first_state(membrane: Membrane, load: float, hint: str, volume_end: float = VOLUME_END) -> ZonedState:
     """The state of the plain mesh at which the branch from no load first takes a load, with its zones.
 
+    Args:
+        membrane: The membrane.
+        load: The load.
+        hint: What to change if the branch does not take the load.
+        volume_end: Volume over the unloaded one up to which the branch is followed.
+
     Raises:
-        AbsentError: If the branch does not take it.
+        AbsentError: If the branch does not take it, or there is none.
         ConvergenceError: If the branch cannot be followed so far.
     """
     branch = WrinkledBranch(
         membrane, load, volume_end, STEP, Readings(membrane, 2 * membrane.meshes[-1].degree)
     )
+    stalled = branch.trace.stalled
     try:
         return membrane.plain(branch.near(membrane.control, load).state)
     except InputError as error:
-        if branch.trace.stalled:
-            raise ConvergenceError(f"{error}: {branch.trace.stalled}") from error
-        searched = f"{error}, up to {volume_end:g} times the volume without load"
+        if stalled:
+            raise ConvergenceError(f"{error}: {stalled}") from error
+        searched = f"{error}, up to {volume_end:g} times the volume without load; {hint}"
         raise AbsentError(f"state at {membrane.control} = {load:g}", searched) from error
 
 
@@ -114,6 +120,7 @@ class WrinkledBranch:
         """The start of the trace: no load.
 
         Raises:
+            AbsentError: If its law gives way at the disks.
             ConvergenceError: If it is not found; the message names the parameters of the membrane's shape.
         """
         try:
@@ -121,10 +128,6 @@ class WrinkledBranch:
         except ConvergenceError as error:
             shape = [name for name in ("delta", "M", "Af") if name in self.membrane.values]
             hint = f"; choose a smaller delta, or another {' or '.join(shape[1:])}" if shape else ""
-            values = self.membrane.values
-            if self.membrane.energy == "standard" and {"delta", "Af"} <= values.keys():
-                why = compressed_without_load(values["delta"], values["Af"])
-                hint = f"; Af = {values['Af']:.4g}: {why}; raise delta" if why else hint
             raise ConvergenceError(f"the membrane without load is not found: {error}{hint}") from error
         unloaded = fixed.Held(self.control, 0.0)
         return continuation.start(state, unloaded, towards={self.control: 1.0})

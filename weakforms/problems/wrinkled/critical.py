@@ -14,7 +14,7 @@ from weakforms.problems.meridian.body import Body
 from weakforms.problems.meridian.model import TAUT, WRINKLED
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.fitted import PLACE
-from weakforms.problems.wrinkled.membrane import WALK, Membrane
+from weakforms.problems.wrinkled.membrane import STEEP, WALK, Membrane, natural_radius
 from weakforms.problems.wrinkled.state import Touch, ZonedState
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.uncertainty.refinement import Estimate, estimate
@@ -37,8 +37,8 @@ COMPRESSED = 1e-11
 SAMPLES = 801
 """Places at which ``gw`` is looked at to find the least, and again around it."""
 
-NEAR, STEEP = 1e-3, 1.2
-"""Width in the ratio from which a threshold is solved for, and pre-stretch from which a first state is."""
+NEAR = 1e-3
+"""Width in the ratio from which a threshold is solved for."""
 
 
 def critical_radii(
@@ -167,11 +167,6 @@ def _first_wrinkled(membrane: Membrane, level: int, towards: int) -> tuple[Zoned
         step /= 4
         held, values["M"] = taut, at
     return held, clear
-
-
-def natural_radius(delta: float) -> float:
-    """Radius over that undeformed of an incompressible cylinder in uniaxial tension."""
-    return delta**-0.5
 
 
 def _walked(

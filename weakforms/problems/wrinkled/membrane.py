@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 
 import numpy as np
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
+from weakforms.problems.meridian.limits import giving_way
 from weakforms.problems.meridian.model import BY_STATE, DRY, TAUT, WRINKLED, Marks
 from weakforms.problems.wrinkled.fields import Zones
 from weakforms.problems.wrinkled.fitted import VERGE, FittedMembrane
@@ -32,6 +33,14 @@ a gas to a liquid."""
 
 WALK = 0.1
 """Largest step of a parameter on the way from an easy membrane to the one wanted."""
+
+STEEP = 1.2
+"""Pre-stretch from which a first state of a taut cylinder is solved for."""
+
+
+def natural_radius(delta: float) -> float:
+    """Radius over that undeformed of an incompressible cylinder in uniaxial tension."""
+    return delta**-0.5
 
 
 class Membrane(FittedMembrane):
@@ -67,34 +76,75 @@ class Membrane(FittedMembrane):
         does not converge, or finds an equilibrium that is turned inside out.
 
         Raises:
-            ConvergenceError: If a step does not converge, also not from smaller disks.
+            AbsentError: If the law gives way at disks that are wide.
+            ConvergenceError: If a step does not converge, also not from other disks.
         """
         try:
             return self._by_homotopy(load)
         except ConvergenceError:
-            if not self.values.get("Af", 0.0) > self._easy_radius:
+            wide = self.values.get("Af", 0.0) > natural_radius(self.values.get("delta", 1.0))
+            if "Af" not in self.values or not (wide or self.energy == "standard"):
                 raise
-        return self._widened(load)
+        steep = {"delta": max(self.values["delta"], STEEP)}
+        ways: tuple[Mapping[str, float], ...] = ({}, {**steep, **dict(self.body.easy)})
+        for begin in ways:
+            try:
+                return self._widened(load, begin)
+            except ConvergenceError as error:
+                last = error
+        raise last
 
-    @property
-    def _easy_radius(self) -> float:
-        """Radius of disks for which a cylinder in uniaxial tension is nearly an equilibrium."""
-        return self.values.get("delta", 1.0) ** -0.5
+    def _widened(self, load: float, begin: Mapping[str, float]) -> tuple[State, SolveRecord]:
+        """The state, from disks that leave the unloaded membrane its natural width.
 
-    def _widened(self, load: float) -> tuple[State, SolveRecord]:
-        """The state of wide disks, from disks that leave the unloaded membrane its natural width."""
-        goal, at = self.values["Af"], self._easy_radius
+        Args:
+            load: The load.
+            begin: Other parameters that the membrane begins with.
+
+        Raises:
+            AbsentError: If the law gives way at disks that are wide.
+            ConvergenceError: If a step does not converge.
+        """
+        easy = {"Af": natural_radius(begin.get("delta", self.values["delta"])), **begin}
+        goal, on_meshes = {name: self.values[name] for name in easy}, self.on_meshes
         try:
-            self.values["Af"] = at
+            self.values |= easy
+            self.on_meshes = [{} for _ in self.meshes]  # they hold the radius that is walked to
             state, record = self._by_homotopy(load)
         finally:
-            self.values["Af"] = goal
+            self.values |= goal
+            self.on_meshes = on_meshes
         solver = solver_of(self.plain_model, ())
 
-        def widened(before: tuple[State, SolveRecord], radius: float) -> tuple[State, SolveRecord]:
-            return solver.solve(replace(before[0], loads=before[0].loads | {"Af": radius}))
+        last = state
 
-        return walk(widened, (state, record), at, goal, WALK)
+        def changed(before: tuple[State, SolveRecord], share: float) -> tuple[State, SolveRecord]:
+            nonlocal last
+            loads = {n: goal[n] if share == 1 else easy[n] + share * (goal[n] - easy[n]) for n in easy}
+            last = before[0]
+            return solver.solve(replace(last, loads=last.loads | loads))
+
+        far = max(abs(goal[name] - easy[name]) for name in easy)
+        try:
+            return walk(changed, (state, record), 0.0, 1.0, WALK / far) if far else (state, record)
+        except ConvergenceError:
+            if not begin and goal["Af"] > easy["Af"]:
+                self._require_resisted(last, load)
+            raise
+
+    def _require_resisted(self, state: State, load: float) -> None:
+        """Refuse wide disks beyond those of a state at which the law is about to give way.
+
+        Raises:
+            AbsentError: With a message that says where.
+        """
+        why = giving_way(self.plain_model, state)
+        if why:
+            raise AbsentError(
+                f"state at {self.control} = {load:g}",
+                f"Af = {self.values['Af']:.4g}: the membrane was followed from narrower disks to "
+                f"Af = {state.loads['Af']:.4g}, where {why}; choose a smaller Af, or another law",
+            )
 
     def _by_homotopy(self, load: float) -> tuple[State, SolveRecord]:
         folded = self.unloaded(len(self.meshes) - 1, WRINKLED)

@@ -15,11 +15,10 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import BeforeValidator, Field
 
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError, InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.meridian.limits import (
-    compressed_without_load,
     require_bearable,
     require_carried,
     require_held,
@@ -33,7 +32,7 @@ from weakforms.problems.wrinkled.branch import PAST_LIMIT, WrinkledBranch
 from weakforms.problems.wrinkled.critical import critical_radii
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.readings import Readings
-from weakforms.results import Result
+from weakforms.results import Absence, Result
 from weakforms.solvers.equilibrium.newton import STOPPING
 from weakforms.solvers.uncertainty.refinement import estimate
 
@@ -143,9 +142,6 @@ class WrinkledParameters(MaterialChoice):
         require_thickness(problem, own, self.L, given, L=self.L)
         require_carried(problem, self.material, self.delta, self.M if own is None else (own, self.L))
         require_held(problem, self.material, self.Af)
-        why = "" if isinstance(self.Af, str) else compressed_without_load(self.delta, self.Af)
-        if self.energy == "standard" and why:
-            raise InputError(f"{problem}: Af = {self.Af:g}: {why}")
 
 
 class BranchParameters(WrinkledParameters):
@@ -218,6 +214,13 @@ class WrinkledTube(BranchProblem):
         cap = numerics.degree * (2 if parameters.thickness is None else 1)
         result.quantities["Af_critical"] = estimate(critical, cap).quantity()
         branch = self._branch(parameters, numerics, requests, comm, critical)
+        try:
+            branch.trace  # noqa: B018
+        except AbsentError as error:
+            if requests.states:
+                raise
+            result.absent.append(Absence("branch primary", f"{self.name}: {error}"))
+            return
         self._answer(result, {"primary": branch}, task)
         result.special_points.extend(branch.fronts)
 

@@ -10,7 +10,8 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE_THRESHOLD
-from weakforms.problems.wrinkled.critical import natural_radius, threshold
+from weakforms.problems.wrinkled.critical import threshold
+from weakforms.problems.wrinkled.membrane import natural_radius
 from weakforms.problems.wrinkled.problem import WrinkledNumerics
 from weakforms.results import Failure, Result
 

@@ -200,10 +200,10 @@ class WrinkledSheet(Problem):
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         membrane = wrinkled_membrane(parameters, WrinkledNumerics(), comm)
         try:
-            plain = first_state(membrane, parameters.at_load, parameters.volume_end)
+            hint = "lower at_load, or raise volume_end"
+            plain = first_state(membrane, parameters.at_load, hint, parameters.volume_end)
         except AbsentError as error:
-            reason = f"{self.name}: {error}; lower at_load, or raise volume_end"
-            result.absent.append(Absence(error.what, reason))
+            result.absent.append(Absence(error.what, f"{self.name}: {error}"))
             return
         (start,) = membrane.fitted(plain, Held(membrane.control, parameters.at_load), fine_only=True)
 

@@ -104,10 +104,7 @@ def _states(parameters: LevelParameters, numerics: WrinkledNumerics, comm: MPI.I
     try:
         plain = membrane.plain(membrane.by_homotopy(parameters.zw)[0])
     except ConvergenceError:  # from no load to a high level at once is too far
-        try:
-            plain = first_state(membrane, parameters.zw)
-        except AbsentError as error:
-            raise AbsentError(error.what, f"{error}; lower zw") from error
+        plain = first_state(membrane, parameters.zw, "lower zw")
     return membrane.fitted(plain, fixed.Held("zw", parameters.zw))
 
 
