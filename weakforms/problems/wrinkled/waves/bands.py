@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.solvers.support.roots import root
@@ -47,13 +47,14 @@ class Bands:
         """Intervals around both ends of the unstable whole wave numbers; ``None`` if there are none.
 
         Raises:
-            ConvergenceError: If they reach beyond ``most``.
+            AbsentError: If they reach beyond ``most``.
         """
         unstable = [n for n in range(1, most + 1) if self.unstable(n)]
         if not unstable:
             return None
         if unstable[-1] == most:
-            raise ConvergenceError(f"the band of unstable wave numbers reaches beyond {most}")
+            found = f"unstable wave numbers begin at n = {unstable[0]}, and the band reaches beyond {most}"
+            raise AbsentError("n_plus", f"{found}, the last one that is looked at")
         return (unstable[0] - 1.0, float(unstable[0])), (float(unstable[-1]), unstable[-1] + 1.0)
 
     def zero(self, low: float, high: float) -> float:
@@ -68,7 +69,12 @@ class Bands:
         return root(self.lowest, low, high, "a change of stability in n", xtol=TOLERANCE, rtol=TOLERANCE)
 
     def stiffness(self, n: float) -> float:
-        """Bending stiffness at which the lowest eigenvalue of ``n`` waves is zero; 0 where it is stable."""
+        """Bending stiffness at which the lowest eigenvalue of ``n`` waves is zero; 0 where it is stable.
+
+        Raises:
+            AbsentError: If no stiffness up to :data:`STIFF` makes it stable. Displacements that leave the
+                hoop curvature as it is have no bending energy, and the law may be unstable along them.
+        """
         if not self.unstable(n):
             return 0.0
         stiff = 1e-8
@@ -76,7 +82,8 @@ class Bands:
             while waves.negative_count(n, stiff):
                 stiff *= 10
                 if stiff > STIFF:
-                    raise ConvergenceError(f"n = {n:g} is unstable at any bending stiffness up to {STIFF:g}")
+                    reason = f"n = {n:g} is unstable at any bending stiffness up to {STIFF:g}"
+                    raise AbsentError("beta_c", reason)
             return waves.stiffness(n, stiff)
 
     def most_stiffness(self, most: int) -> float | None:

@@ -67,6 +67,10 @@ class BendingParameters(LevelParameters):
     n: float = Field(10.0, gt=0, le=MOST_WAVES, description="wave number, any real one")
 
 
+Part = Callable[[list[ZonedState], Any, float], dict[str, Quantity]]
+"""Computes quantities from the states on all meshes, the parameters, and the highest order."""
+
+
 class AtLevel(Problem):
     """Base class of both: states on all meshes, and quantities with uncertainties."""
 
@@ -82,18 +86,25 @@ class AtLevel(Problem):
     def fill(self, result: Result, task: Task) -> None:
         """Solve for the state at the level on all meshes, and compute the quantities."""
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
+        hint = "; a lower zw, which may be above its limit, or a smaller Af may give a state"
         try:
             progress("state", 0, 1)
             levels = _states(parameters, numerics, comm)
             progress("waves", 0, 1)
-            result.quantities |= self._quantities(levels, parameters, 2 * numerics.degree)
+            hint = ""
+            for part in self._parts:
+                try:
+                    result.quantities |= part(levels, parameters, 2 * numerics.degree)
+                except AbsentError as error:
+                    result.absent.append(Absence(error.what, f"{self.name}: {error}"))
         except AbsentError as error:
             result.absent.append(Absence(error.what, f"{self.name}: {error}"))
         except ConvergenceError as error:
-            hint = "; a lower zw, which may be above its limit, or a smaller Af may give a state"
             result.failures.append(Failure(f"zw = {parameters.zw:g}", f"{error}{hint}"))
 
-    def _quantities(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
+    @property
+    def _parts(self) -> tuple[Part, ...]:
+        """What computes quantities from the states; each part may be absent on its own."""
         raise NotImplementedError
 
 
@@ -121,6 +132,10 @@ class WrinkledLinear(AtLevel):
     about = WRINKLED_LINEAR
     parameters = LinearParameters
 
+    @property
+    def _parts(self) -> tuple[Part, ...]:
+        return (self._quantities,)
+
     def _quantities(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
         trials = [trial_form(held, parameters.f) for held in levels]
         names = ("A", "B", "B_exact", "n_star", "curved")
@@ -142,13 +157,22 @@ class WrinkledBending(AtLevel):
     about = WRINKLED_BENDING
     parameters = BendingParameters
 
-    def _quantities(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
+    @property
+    def _parts(self) -> tuple[Part, ...]:
+        return self._eigenvalues, self._largest, self._band
+
+    def _eigenvalues(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
         n, beta = parameters.n, parameters.beta
         out = {}
         for name, stiffness in (("Lambda_membrane", 0.0), ("Lambda_B1", beta)):
             out[name] = _on_all(levels, lambda h, b=stiffness: Bands(h, b).lowest(n), cap, ROUND_OFF)
         if beta:
             out["Lambda_B2"] = _on_all(levels, lambda h: shell_eigenvalue(h, n, beta), cap / 2, ROUND_OFF)
+        return out
+
+    def _largest(self, levels: list[ZonedState], _parameters: Any, cap: float) -> dict[str, Quantity]:
+        """The stiffness that removes all waves, and the last of them."""
+        out = {}
         most = Bands(levels[-1]).most_stiffness(MOST_WAVES)
         if most is not None:
             peaks = [Bands(held).peak(most) for held in levels]
@@ -159,6 +183,11 @@ class WrinkledBending(AtLevel):
                 # beta_c is small, so that its error is relative to itself.
                 spread = found.uncertainty if name == "n_c" else _relative(values, cap)
                 out[name] = Quantity(found.value, spread + left * max(1.0, found.value), found.order)
+        return out
+
+    def _band(self, levels: list[ZonedState], parameters: Any, cap: float) -> dict[str, Quantity]:
+        """Ends of the unstable wave numbers with the bending stiffness."""
+        beta, out = parameters.beta, {}
         band = Bands(levels[-1], beta).band(MOST_WAVES) if beta else None
         if band is not None:
             for name, (low, high) in zip(("n_minus", "n_plus"), band, strict=True):
