@@ -50,7 +50,7 @@ SHORT = SOFTENING | {"M": 1.17, "delta": 1.157, "L": 1.307}
     ],
 )
 def test_a_law_that_gives_way_at_wide_disks_has_no_state_between_them(problem, given, what):
-    """The force of the law at the disk has a largest value; on any mesh the states end near ``Af = 1.42``."""
+    """The force of the law at the disk has a largest value; states end near ``Af = 1.42`` on fine meshes."""
     result = solve(problem, **SHORT, Af=1.55, **given)
     assert result.failures == []
     (absence,) = result.absent
