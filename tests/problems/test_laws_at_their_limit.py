@@ -147,11 +147,25 @@ def test_stretches_beyond_those_at_which_a_law_has_no_thickness_are_refused(prob
     assert solve(problem, **law, lam_end=0.999 * most).failures == []
 
 
-def test_the_end_of_a_fold_line_that_the_law_does_not_take_is_refused_before_anything_is_solved():
-    fold, law = registry.get("tube_fold"), {"model": "harmonic", "f2": 21.49}
-    with pytest.raises(InputError, match=r"tube_fold: delta1_end = 3\.451 .*harmonic.*lower delta1_end"):
-        fold.check(validated(fold.parameters, law | {"delta1_end": 3.451}, "tube_fold"), Requests())
-    fold.check(validated(fold.parameters, law | {"delta1_end": 2.1}, "tube_fold"), Requests())
+@pytest.mark.parametrize(
+    ("name", "given", "allowed"),
+    [
+        ("tube_fold", {"delta1_end": 3.451}, {"delta1_end": 2.1}),
+        ("tube", {"delta1": 3.451}, {"delta1": 2.1}),
+        ("tube_scheme", {"delta1": 3.451}, {"delta1": 2.1}),
+        ("controls", {"body": "tube", "delta1": 3.451}, {"body": "tube", "delta1": 2.1}),
+        ("diagram", {"low": 1.0, "high": 3.451}, {"low": 1.0, "high": 2.1}),
+    ],
+)
+def test_a_stretched_tube_that_the_law_does_not_take_is_refused_before_anything_is_solved(
+    name, given, allowed
+):
+    """At ``lam2 = 1`` the law is defined; on disks of the contracted radius the thickness is negative."""
+    problem, law = registry.get(name), {"model": "harmonic", "f2": 1.3}
+    *_, changed = given
+    with pytest.raises(InputError, match=rf"{name}: {changed} = 3\.451 .*harmonic.*lower {changed}"):
+        problem.check(validated(problem.parameters, law | given, name), Requests())
+    problem.check(validated(problem.parameters, law | allowed, name), Requests())
 
 
 @pytest.mark.parametrize(("problem", "given"), [("controls", {"body": "tube"}), ("tube", {})])

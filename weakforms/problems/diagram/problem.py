@@ -13,7 +13,7 @@ from weakforms.problems.diagram.lines import LOAD, LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.limits import require_bearable, require_taut
+from weakforms.problems.meridian.limits import require_stretched, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.results import Absence, Result
 
@@ -51,7 +51,7 @@ class Diagram(BranchProblem):
             stretches |= {"low": parameters.window.low, "high": parameters.window.high}
         for name, stretch in stretches.items():
             if tube:
-                require_bearable(self.name, material, stretch, 1.0, name)
+                require_stretched(self.name, material, stretch, name)
             else:
                 require_taut(self.name, material, stretch, name)
 

@@ -24,7 +24,7 @@ from pydantic import Field
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.limits import require_stretched
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.tube.about import TUBE_SCHEME
@@ -189,7 +189,7 @@ class TubeScheme(Problem):
             InputError: For either.
         """
         super().check(parameters, requests)
-        require_bearable(self.name, parameters.material, parameters.delta1, 1.0, "delta1")
+        require_stretched(self.name, parameters.material, parameters.delta1, "delta1")
 
     def fill(self, result: Result, task: Task) -> None:
         """Run the scheme on two meshes (and numbers of steps); uncertainties assume first order."""
