@@ -180,3 +180,16 @@ def test_a_tube_is_inflated_to_where_its_law_has_no_thickness_and_says_so(proble
     l1, l2 = last["lam1_mid"], (1 + last["u_max"]) / np.sqrt(delta1)
     thickness, more = (3 + (k * k * l1 * l2 - 1) / f2 - k * (l1 + l2) for k in (1.0, 1.05))
     assert more < 0 < thickness
+
+
+def test_a_scheme_on_a_fixed_mesh_ends_where_the_law_gives_way():
+    """Beyond a stretch of 4.75 at the pole (``circular`` ends there too) each mesh has another stretch."""
+    given = {"model": "varga", "shear": 6.0, "beta": 2.5, "k": 10.0, "l": 0.8, "t_end": 1.0}
+    result = solve("circular_scheme", **given, numerics={"cells": 64, "steps": 8})
+    (rest,) = result.absent
+    assert re.search(r"followed up to t0 = 0\.3.*hardly resists .*lower l and t_end", rest.reason)
+    assert result.quantities == {}
+    assert result.failures == []
+    within = solve("circular_scheme", **given | {"l": 0.2, "t_end": 0.25}, numerics={"cells": 64, "steps": 8})
+    assert within.quantities
+    assert within.absent == []
