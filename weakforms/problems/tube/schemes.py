@@ -143,12 +143,20 @@ class FixedMesh(TubeModel):
         return state
 
     def front_nodes(self, state: State) -> State:
-        """One node after the other touches and sticks; then the last pressure is solved for."""
+        """One node after the other touches and sticks; then the last pressure is solved for.
+
+        A node of a steep flank may be far from the substrate: it approaches in steps.
+        """
         solver = ExtendedNewton(self.system, ["p"], max_iterations=60)
         for i in range(len(self.radial) - 1):
             row = np.zeros(self.system.size)
             row[self.radial[i]] = 1.0
-            new, _ = solver.solve(state, [Plane(row, {}, self.parameters.s)])
+
+            def solve(before: State, rho: float, row: np.ndarray = row) -> State:
+                return solver.solve(before, [Plane(row, {}, rho)])[0]
+
+            here, touch = float(state.u[self.radial[i]]), self.parameters.s
+            new = walk(solve, state, here, touch, abs(touch - here))
             if new.loads["p"] > self.parameters.p_end:
                 break
             state = new
