@@ -147,11 +147,25 @@ def test_stretches_beyond_those_at_which_a_law_has_no_thickness_are_refused(prob
     assert solve(problem, **law, lam_end=0.999 * most).failures == []
 
 
-def test_the_end_of_a_fold_line_that_the_law_does_not_take_is_refused_before_anything_is_solved():
-    fold, law = registry.get("tube_fold"), {"model": "harmonic", "f2": 21.49}
-    with pytest.raises(InputError, match=r"tube_fold: delta1_end = 3\.451 .*harmonic.*lower delta1_end"):
-        fold.check(validated(fold.parameters, law | {"delta1_end": 3.451}, "tube_fold"), Requests())
-    fold.check(validated(fold.parameters, law | {"delta1_end": 2.1}, "tube_fold"), Requests())
+@pytest.mark.parametrize(
+    ("name", "given", "allowed"),
+    [
+        ("tube_fold", {"delta1_end": 3.451}, {"delta1_end": 2.1}),
+        ("tube", {"delta1": 3.451}, {"delta1": 2.1}),
+        ("tube_scheme", {"delta1": 3.451}, {"delta1": 2.1}),
+        ("controls", {"body": "tube", "delta1": 3.451}, {"body": "tube", "delta1": 2.1}),
+        ("diagram", {"low": 1.0, "high": 3.451}, {"low": 1.0, "high": 2.1}),
+    ],
+)
+def test_a_stretched_tube_that_the_law_does_not_take_is_refused_before_anything_is_solved(
+    name, given, allowed
+):
+    """At ``lam2 = 1`` the law is defined; on disks of the contracted radius the thickness is negative."""
+    problem, law = registry.get(name), {"model": "harmonic", "f2": 1.3}
+    *_, changed = given
+    with pytest.raises(InputError, match=rf"{name}: {changed} = 3\.451 .*harmonic.*lower {changed}"):
+        problem.check(validated(problem.parameters, law | given, name), Requests())
+    problem.check(validated(problem.parameters, law | allowed, name), Requests())
 
 
 @pytest.mark.parametrize(("problem", "given"), [("controls", {"body": "tube"}), ("tube", {})])
@@ -166,3 +180,16 @@ def test_a_tube_is_inflated_to_where_its_law_has_no_thickness_and_says_so(proble
     l1, l2 = last["lam1_mid"], (1 + last["u_max"]) / np.sqrt(delta1)
     thickness, more = (3 + (k * k * l1 * l2 - 1) / f2 - k * (l1 + l2) for k in (1.0, 1.05))
     assert more < 0 < thickness
+
+
+def test_a_scheme_on_a_fixed_mesh_ends_where_the_law_gives_way():
+    """Beyond a stretch of 4.75 at the pole (``circular`` ends there too) each mesh has another stretch."""
+    given = {"model": "varga", "shear": 6.0, "beta": 2.5, "k": 10.0, "l": 0.8, "t_end": 1.0}
+    result = solve("circular_scheme", **given, numerics={"cells": 64, "steps": 8})
+    (rest,) = result.absent
+    assert re.search(r"followed up to t0 = 0\.3.*hardly resists .*lower l and t_end", rest.reason)
+    assert result.quantities == {}
+    assert result.failures == []
+    within = solve("circular_scheme", **given | {"l": 0.2, "t_end": 0.25}, numerics={"cells": 64, "steps": 8})
+    assert within.quantities
+    assert within.absent == []

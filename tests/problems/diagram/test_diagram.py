@@ -7,6 +7,8 @@ import pytest
 
 from weakforms import solve
 from weakforms.errors import InputError
+from weakforms.problems import registry
+from weakforms.problems.diagram.parameters import DiagramParameters
 
 COARSE = {"cells": 24, "degree": 4, "levels": 2}
 MESH = {"cells": 48, "degree": 4, "levels": 2}
@@ -206,6 +208,8 @@ def test_a_line_ends_where_the_law_gives_way_and_says_so():
         ({"model": "gent", "x": "jm"}, "set low and high, the range of jm"),
         ({"p_low": 2.0, "p_high": 1.0}, "p_low = 2 must be less than p_high = 1"),
         ({"lf": -1.0}, "lf = -1.0"),
+        ({"lf": 12.5, "kind": "fold,mirror"}, "allowed with lines of kind mirror: lf up to 12"),
+        ({"x": "lf", "low": 5.0, "high": 14.0, "kind": "mirror"}, "lines of kind mirror: high up to 12"),
     ],
 )
 def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, message):
@@ -224,3 +228,18 @@ def test_a_plane_without_a_line_says_what_was_searched():
     assert "9 values of alpha from 0.2 to 0.3" in absence.reason
     with pytest.raises(InputError, match="no point of kind mirror"):
         solve("diagram", **plane, at={"alpha": 0.22}, branch="mirror")
+
+
+def test_lines_of_mirror_breaking_are_looked_for_as_far_as_a_bulge_is_held():
+    """On a longer tube all other lines are found, the result says what is not, and meshes are finer."""
+    problem, usual = registry.get("diagram"), registry.get("diagram").numerics()
+    longest, longer, long = (DiagramParameters(lf=lf) for lf in (12.0, 12.5, 16.5))
+    assert longest.kinds == ("fold", "mirror", "wrinkling", "contact")
+    assert longer.kinds == ("fold", "wrinkling", "contact")
+    assert (longest.broken, longer.broken) == (("mirror",), ())
+    assert problem.resolving(longer, usual).cells == usual.cells
+    assert problem.resolving(long, usual).cells == 2 * usual.cells
+    result = solve("diagram", lf=12.5, s=1.1, u_end=0.2, low=1.2, high=1.3, numerics=COARSE)
+    assert [branch.name for branch in result.branches] == ["contact", "end"]
+    said = {absence.what: absence.reason for absence in result.absent}
+    assert "lf up to 12" in said["lines of kind mirror"]

@@ -44,3 +44,14 @@ def test_the_front_lies_between_two_nodes_where_the_radius_is_that_of_the_substr
     assert found["u_max"] == pytest.approx(0.5)
     assert found["contact_length"] == pytest.approx(2 * (1.0 + 0.2 * 2.0))
     assert FixedMesh.untouched(given, state) == {"u_max": 0.5, "contact_length": 0.0}
+
+
+def test_a_node_of_a_steep_flank_approaches_the_substrate_in_steps():
+    """A long tube bulges to ten radii: from node to node of its flank Newton's method does not converge."""
+    law = {"model": "three_chain", "nkt": 6.504, "links": 132800.0}
+    given = {"delta1": 1.917, "lf": 42.63, "k": 24.27, "s": 10.34, "p_end": 1.32, "scheme": "front_nodes"}
+    result = solve("tube_scheme", **law, **given, numerics={"cells": 100, "steps": 8})
+    found = {name: quantity.value for name, quantity in result.quantities.items()}
+    assert result.absent == []
+    assert found["u_max"] == pytest.approx(9.368, abs=2e-3)
+    assert found["contact_length"] > 0

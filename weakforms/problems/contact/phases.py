@@ -17,7 +17,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranc
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 
-SPANS, SMALLER, LARGER = 12, 1.08, 1.15
+SPANS, SMALLER, LARGER = 24, 1.08, 1.15
 """Number of spans tried for a history that is not found, or that the patch outgrows, and by which factors
 they change. Beyond its span a history is extrapolated; the branch serves as a guess for a larger span."""
 

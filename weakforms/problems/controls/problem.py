@@ -20,7 +20,7 @@ from weakforms.problems.homogeneous.body import Body, sphere, system_of
 from weakforms.problems.homogeneous.material import require_reachable
 from weakforms.problems.homogeneous.problem import USUAL
 from weakforms.problems.material_choice import MaterialChoice
-from weakforms.problems.meridian.limits import require_bearable, require_taut
+from weakforms.problems.meridian.limits import require_stretched, require_taut
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.solvers.continuation.curve import SolutionCurve
 
@@ -79,7 +79,7 @@ class Controls(BranchProblem):
         super().check(parameters, requests)
         material, end = parameters.material, parameters.lam_end
         if parameters.body == "tube":
-            require_bearable(self.name, material, parameters.delta1, 1.0, "delta1")
+            require_stretched(self.name, material, parameters.delta1, "delta1")
         elif parameters.body == "circular":
             require_taut(self.name, material, parameters.beta, "beta")
         else:

@@ -111,5 +111,5 @@ DIAGRAM = About(
             label="mirror",
         ),
     ),
-    audit_numerics={"cells": 24, "levels": 2},
+    audit_numerics={"levels": 2},
 )

@@ -37,7 +37,7 @@ class LineFamily(BranchFamily):
         self, meshes: Sequence[LinesOnMesh], seed: Seed, name: str, cap: float, caps: Mapping[str, float]
     ) -> None:
         self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
-        self.counted = ("mirror", *meshes[0].waves)
+        self.counted = meshes[0].broken
         across = meshes[0].window.vary, meshes[0].depth
         super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
 

@@ -93,14 +93,19 @@ class LinesOnMesh:
         window: The part of the plane.
         touch: Value of the column ``depth`` at first contact.
         step: Largest arc-length step.
-        waves: Kinds of waves around the axis that are looked for on lines of other kinds.
+        broken: Kinds of broken symmetry that are looked for on lines of other kinds.
     """
 
     def __init__(
-        self, model: VariedModel, window: Window, touch: float, step: float, waves: Sequence[str] = ()
+        self,
+        model: VariedModel,
+        window: Window,
+        touch: float,
+        step: float,
+        broken: Sequence[str] = ("mirror",),
     ) -> None:
         self.model, self.window, self.touch, self.step = model, window, touch, step
-        self.waves = tuple(waves)
+        self.broken = tuple(broken)
         self.system, self.depth = model.system, model.depth
         self._branches: dict[float, EquilibriumBranch] = {}
         self._lines: dict[Seed, CriticalLine] = {}
@@ -283,7 +288,7 @@ class LinesOnMesh:
             onsets.append(Meeting(f"contact_{kind}", gap))
         others = [
             Meeting("_".join(sorted((kind, other), key=ORDER)), neutral_too(form))
-            for other in ("mirror", *self.waves)
+            for other in self.broken
             if other != kind
             for form in self.model.operators(other).values()
         ]

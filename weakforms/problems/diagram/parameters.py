@@ -17,6 +17,10 @@ from weakforms.problems.problem import Needs
 USUAL = {"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)}
 """Ranges of the parameters of a plane, if none are given."""
 
+LONGEST_MIRRORED = 12.0
+"""Length up to which lines of broken mirror symmetry are looked for. The force that holds a bulge in the
+middle falls exponentially with the length: at 18 its eigenvalue is 1e-10 where others are 1, on any mesh."""
+
 ONLY = {"tube": ({"body": ("tube",)},), "circular": ({"body": ("circular",)},)}
 
 
@@ -81,12 +85,30 @@ class DiagramParameters(MaterialChoice):
         broken = ("mirror", *WAVES)
         allowed = [name for name in LINES if name not in broken or self.subject.model.breaks(name)]
         named = PLAIN if self.kind == "all" else [word.strip() for word in self.kind.split(",")]
+        if self.kind == "all" and self.unheld:
+            named = [name for name in named if name != "mirror"]
         return tuple(name for name in allowed if name in named)
+
+    @property
+    def unheld(self) -> str:
+        """Why no line of broken mirror symmetry of a tube is looked for, as text; empty if it is."""
+        name, longest = ("high", self.window.high) if self.vary == "lf" else ("lf", self.lf)
+        if self.body != "tube" or longest <= LONGEST_MIRRORED:
+            return ""
+        return (
+            f"{name} = {longest:g}: nothing that can be computed holds a bulge in the middle of so long a "
+            f"tube; allowed with lines of kind mirror: {name} up to {LONGEST_MIRRORED:g}"
+        )
 
     @property
     def waves(self) -> tuple[str, ...]:
         """The kinds of waves around the axis among them."""
         return tuple(name for name in self.kinds if name in WAVES)
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """The kinds of broken symmetry that are looked for on lines of other kinds."""
+        return self.waves if self.unheld else ("mirror", *self.waves)
 
     def range_of(self, name: str) -> tuple[float, float]:
         """Range of a parameter that may be an axis."""

@@ -13,8 +13,9 @@ from weakforms.problems.diagram.lines import LOAD, LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.limits import require_bearable, require_taut
+from weakforms.problems.meridian.limits import require_stretched, require_taut
 from weakforms.problems.problem import End, Requests, Task
+from weakforms.problems.tube.parameters import resolving
 from weakforms.results import Absence, Result
 
 SCANNED = 9
@@ -51,7 +52,7 @@ class Diagram(BranchProblem):
             stretches |= {"low": parameters.window.low, "high": parameters.window.high}
         for name, stretch in stretches.items():
             if tube:
-                require_bearable(self.name, material, stretch, 1.0, name)
+                require_stretched(self.name, material, stretch, name)
             else:
                 require_taut(self.name, material, stretch, name)
 
@@ -72,6 +73,8 @@ class Diagram(BranchProblem):
     def _check_kinds(self, given: DiagramParameters) -> None:
         if given.kind == "all":
             return
+        if given.unheld and "mirror" in given.kinds:
+            raise InputError(f"diagram: kind = {given.kind!r} with {given.unheld}")
         for word in given.kind.split(","):
             name = word.strip()
             if name not in LINES:
@@ -147,6 +150,8 @@ class Diagram(BranchProblem):
             names |= {kind + (f"_{k + 1}" if k else ""): seed for k, seed in enumerate(seeds)}
             if not seeds and kind != "end":
                 missing.append(Absence(f"lines of kind {kind}", _none(given, kind)))
+        if given.kind == "all" and given.unheld:
+            missing.append(Absence("lines of kind mirror", f"diagram: {given.unheld}"))
         if names.keys() <= {"end"}:
             raise AbsentError("lines", "; ".join(item.reason for item in missing))
         return names, missing
@@ -159,6 +164,12 @@ class Diagram(BranchProblem):
         result.parameters["high"] = task.parameters.window.high
         begins = {b.name: {n: float(b.columns[n][0]) for n in (vary, LOAD)} for b in result.branches}
         result.numerics["begins"] = begins
+
+    def resolving(self, parameters: DiagramParameters, numerics: DiagramNumerics) -> DiagramNumerics:
+        """More cells for long tubes."""
+        window = parameters.window
+        longest = window.high if parameters.vary == "lf" else parameters.lf
+        return resolving(longest, numerics) if parameters.body == "tube" else numerics
 
     def points(self, _parameters: DiagramParameters) -> np.ndarray:
         """61 fractions of the meridian, without a pole, where stretches are limits."""
@@ -173,7 +184,7 @@ def _lines_on(cells: int, task: Task) -> LinesOnMesh:
     values |= {name: constants[name] for name in (given.vary,) if name in constants}
     grading = GRADING if given.body == "tube" else 0.0
     model = given.subject.model(task.comm, given.material, values, cells, numerics.degree, grading)
-    return LinesOnMesh(model, given.window, given.touch, numerics.step, given.waves)
+    return LinesOnMesh(model, given.window, given.touch, numerics.step, given.broken)
 
 
 def _none(given: DiagramParameters, kind: str) -> str:

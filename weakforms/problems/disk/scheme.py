@@ -22,16 +22,16 @@ from dolfinx import fem
 from mpi4py import MPI
 from pydantic import Field
 
-from weakforms.errors import ConvergenceError, InputError
+from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.disk.about import CIRCULAR_SCHEME
 from weakforms.problems.disk.model import FreeDisk
 from weakforms.problems.disk.phases import FIRST_T0, parabola
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.meridian.limits import limit_along, require_taut
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
-from weakforms.results import Result
+from weakforms.results import Absence, Result
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
@@ -80,6 +80,7 @@ class FixedDisk(FreeDisk):
         self.x, self.order = x[order], 2 * order
         """Radii of the nodes from the pole outwards, and the degrees of freedom of ``lam2`` there; the next
         one is ``eta`` at the same node."""
+        self._limit = limit_along(self)
 
     def formulation(self) -> Formulation:
         """The weak form with the balance of the patch as a whole."""
@@ -121,10 +122,24 @@ class FixedDisk(FreeDisk):
             found, _ = solver.solve(guess, [held])
             if found.u[self.order].min() <= 0:
                 raise ConvergenceError("Newton's method found a membrane turned inside out")
-            return found
+            return self._borne(found, height)
 
         at = float(state.u[pole])
         return walk(solve, state, at, t0, t0 - at)
+
+    def _borne(self, state: State, t0: float) -> State:
+        """The state at a height of the pole, if the law bears its stretches.
+
+        Raises:
+            AbsentError: If it does not: the stretch of the pole then depends on the mesh alone.
+        """
+        if why := self._limit(state):
+            raise AbsentError(
+                "state at t_end",
+                f"circular_scheme: inflation was followed up to t0 = {t0:.6g}, p = {state.loads['p']:.6g}: "
+                f"{why}; lower l and t_end below that, or change the law",
+            )
+        return state
 
     def _touch(self, solver: ExtendedNewton, given: CircularSchemeParameters) -> State:
         """State of first contact, by free inflation to ``t0 = l``."""
@@ -134,7 +149,7 @@ class FixedDisk(FreeDisk):
         state, _ = solver.solve(State(u, loads | {"p": p}), [Held("t0", FIRST_T0)])
 
         def solve(before: State, t0: float) -> State:
-            return solver.solve(before, [Held("t0", t0)])[0]
+            return self._borne(solver.solve(before, [Held("t0", t0)])[0], t0)
 
         try:
             return walk(solve, state, FIRST_T0, given.l, (given.l - FIRST_T0) / 9)
@@ -184,4 +199,7 @@ class CircularScheme(Problem):
             disk = FixedDisk(MPI.COMM_SELF, parameters, numerics.cells // coarser)
             return disk.run(parameters, numerics.steps // coarser)
 
-        result.quantities |= on_two_meshes(run, 1.0, self.name, progress)
+        try:
+            result.quantities |= on_two_meshes(run, 1.0, self.name, progress)
+        except AbsentError as error:
+            result.absent.append(Absence(error.what, str(error)))

@@ -138,6 +138,15 @@ def require_taut(problem: str, law: Chosen, stretch: float, name: str) -> None:
         raise InputError(f"{problem}: {name} = {stretch:g}: {why}; lower {name}")
 
 
+def require_stretched(problem: str, law: Chosen, delta1: float, name: str) -> None:
+    """Refuse an axial pre-stretch of a tube on disks of its contracted radius (:func:`require_bearable`).
+
+    Its circumferential stretch is that of an incompressible law in uniaxial tension, ``1/sqrt(delta1)``. A
+    compressible law may not be defined there, though it is for a circumference that keeps its length.
+    """
+    require_bearable(problem, law, delta1, delta1**-0.5, name)
+
+
 def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str) -> None:
     """Refuse an axial pre-stretch at which a law has stresses without measure.
 

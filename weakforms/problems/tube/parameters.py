@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import ceil, log2
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, TypeVar
 
 from pydantic import Field
 
@@ -20,6 +20,8 @@ class TubeNumerics(MeshNumerics):
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
 
 
+Meshes = TypeVar("Meshes", bound=MeshNumerics)
+
 LONG = 16.0
 """Length from which on the default meshes have more cells, in proportion. On the coarsest a bulge's edge, as
 wide as the tube, would fill less than a cell, and the pressure of a bulge that spreads would waver."""
@@ -29,7 +31,7 @@ LONGEST_WHOLE = 30.0
 with the length, and beyond that is too near to round-off for its branch to be told from its neighbours."""
 
 
-def resolving(lf: float, numerics: TubeNumerics) -> TubeNumerics:
+def resolving(lf: float, numerics: Meshes) -> Meshes:
     """Default meshes with as many cells as a long tube needs; meshes that are asked for stay."""
     if "cells" in numerics.model_fields_set or lf <= LONG:
         return numerics

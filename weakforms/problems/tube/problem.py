@@ -12,7 +12,7 @@ from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_model
-from weakforms.problems.meridian.limits import limit_along, require_bearable
+from weakforms.problems.meridian.limits import limit_along, require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
@@ -50,7 +50,7 @@ class Tube(BranchProblem):
         """
         require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
-        require_bearable(self.name, parameters.material, parameters.delta1, 1.0, "delta1")
+        require_stretched(self.name, parameters.material, parameters.delta1, "delta1")
         if parameters.n:
             _require_waves_possible(parameters)
         if parameters.contact == "none" and parameters.phase == "deflation":
@@ -161,7 +161,7 @@ class TubeFold(BranchProblem):
         """
         super().check(parameters, requests)
         end = parameters.delta1_end
-        require_bearable(self.name, parameters.material, end, end**-0.5, "delta1_end")
+        require_stretched(self.name, parameters.material, end, "delta1_end")
 
     def ends(self, parameters: TubeFoldParameters, _branch: str) -> list[End]:
         """The ends of the range of pre-stretches."""

@@ -24,7 +24,7 @@ from pydantic import Field
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.limits import require_stretched
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.tube.about import TUBE_SCHEME
@@ -143,12 +143,20 @@ class FixedMesh(TubeModel):
         return state
 
     def front_nodes(self, state: State) -> State:
-        """One node after the other touches and sticks; then the last pressure is solved for."""
+        """One node after the other touches and sticks; then the last pressure is solved for.
+
+        A node of a steep flank may be far from the substrate: it approaches in steps.
+        """
         solver = ExtendedNewton(self.system, ["p"], max_iterations=60)
         for i in range(len(self.radial) - 1):
             row = np.zeros(self.system.size)
             row[self.radial[i]] = 1.0
-            new, _ = solver.solve(state, [Plane(row, {}, self.parameters.s)])
+
+            def solve(before: State, rho: float, row: np.ndarray = row) -> State:
+                return solver.solve(before, [Plane(row, {}, rho)])[0]
+
+            here, touch = float(state.u[self.radial[i]]), self.parameters.s
+            new = walk(solve, state, here, touch, abs(touch - here))
             if new.loads["p"] > self.parameters.p_end:
                 break
             state = new
@@ -189,7 +197,7 @@ class TubeScheme(Problem):
             InputError: For either.
         """
         super().check(parameters, requests)
-        require_bearable(self.name, parameters.material, parameters.delta1, 1.0, "delta1")
+        require_stretched(self.name, parameters.material, parameters.delta1, "delta1")
 
     def fill(self, result: Result, task: Task) -> None:
         """Run the scheme on two meshes (and numbers of steps); uncertainties assume first order."""
