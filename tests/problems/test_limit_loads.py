@@ -10,7 +10,7 @@ from weakforms import solve
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials import MATERIALS
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.limits import mean_stretch_limit
+from weakforms.problems.meridian.limits import mean_stretch_limit, require_width
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 
@@ -159,3 +159,24 @@ def test_a_liquid_too_light_or_too_heavy_for_a_hemisphere_is_refused(gamma, law,
     """A light one ended with DIVERGED_MAX_IT."""
     with pytest.raises(InputError, match=rf"gamma = {gamma:g}: allowed with .*: {low} to {high}$"):
         solve("surface", geometry="hemisphere", gamma=gamma, **law)
+
+
+@pytest.mark.parametrize(
+    ("f2", "delta", "why"),
+    [
+        (2.0, 2.0, "bears less force the more it is stretched, and a tube of it necks"),
+        (0.9657, 2.406, "does not resist a change of its width where that is 1 of the width at rest"),
+        (2.0, 2.6, "does not resist a change of its width"),
+    ],
+)
+@pytest.mark.parametrize("problem", ["fluid_tube", "fluid_tube_surface"])
+def test_a_compressible_tube_without_a_stable_width_is_refused(problem, f2, delta, why):
+    """With ``f2 = 2`` a strip has its largest force near the stretch 1.9."""
+    with pytest.raises(InputError, match=f"delta = {delta:g}: .*{why}.*; lower delta"):
+        solve(problem, model="harmonic", f2=f2, delta=delta)
+
+
+def test_a_compressible_tube_below_its_largest_force_is_not():
+    law = Chosen("harmonic", (("shear", 2.0), ("f2", 2.0)))
+    assert require_width("fluid_tube", law, 1.8, "delta") is None
+    assert require_width("fluid_tube", Chosen("varga", (("shear", 2.0),)), 8.0, "delta") is None

@@ -191,6 +191,7 @@ class BranchProblem(Problem):
         for family in families.values():
             result.failures.extend(family.failures)
             result.absent.extend(family.absent)
+            result.warnings.extend(family.warnings if isinstance(family, BranchFamily) else ())
         if requests.ahead:  # last, so that no other number depends on it
             result.branches[:] = [self._with_end(b, families[b.name], task) for b in result.branches]
 

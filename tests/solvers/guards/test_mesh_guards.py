@@ -37,7 +37,7 @@ def test_a_branch_whose_states_are_stable_on_some_meshes_only(counts, monkeypatc
 
 def branch(*kinds, n=None):
     points = [SimpleNamespace(kind=kind, values={} if n is None else {"n": n}) for kind in kinds]
-    return SimpleNamespace(special=lambda: points, require_nothing_between=lambda: None)
+    return SimpleNamespace(special=lambda: points, tell_apart=lambda: False)
 
 
 def test_special_points_that_only_some_meshes_have():

@@ -10,7 +10,7 @@ from stand_ins import always, bare, raising, refused
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.contact.history import ITERATIONS, History
 from weakforms.problems.liquid_tube import coincidence
-from weakforms.problems.liquid_tube.bent import bifurcation_point, fitted
+from weakforms.problems.liquid_tube.bent import bifurcation_point, family, fitted
 from weakforms.problems.liquid_tube.bent import branch as bent_branch
 from weakforms.problems.liquid_tube.bent import problem as whole_surface
 from weakforms.problems.liquid_tube.bent.family import SecondaryFamily
@@ -125,12 +125,41 @@ def test_a_bifurcation_that_the_surface_does_not_have(monkeypatch):
     found, mode, negative, _ = told(list(along - 0.1), same, 1.0)()
     assert (found.kind, negative) == ("bifurcation_point", 1)
     assert mode == pytest.approx([1.0, 0.0], abs=1e-12)  # SciPy's interpolator shuffles its nodes
-    lost = r"no bifurcation on the surface within 0\.005 of V = 5: .*; "
-    refused(f"{lost}raise secondary_cells$", told(list(along + 2), same, 1.0))
-    refused(f"{lost}another mode .* change L or delta$", told(list(along), [0, *same[1:]], 1.0))
+    lost = r"no bifurcation on the surface within 0\.1 of V = 5: .*; raise secondary_cells$"
+    refused(lost, told(list(along + 2), same, 1.0))
+
+    def shifted(_model, _primary, _at, volume, along):
+        return beside(list(volume * (1 + bifurcation_point.SPAN * along) - 5.2), same, 1.0)
+
+    monkeypatch.setattr(bifurcation_point, "_neighbouring_states", shifted)
+    trend = bifurcation_point.bifurcation_on(model, None, at)[-1]
+    assert trend.volume == pytest.approx(5.2, rel=bifurcation_point.SPAN)
     refused(
         "the null vector on the surface is not the axisymmetric branch's mode", told(list(along), same, 0.8)
     )
+
+
+@pytest.mark.parametrize(("beside", "others"), [(2e-6, 3), (-2e-6, 4)])
+def test_a_mode_that_changes_sign_beside_a_bifurcation_is_counted_there(monkeypatch, beside, others):
+    """Three eigenvalues below the target, that of the bifurcation's mode near zero, and another one."""
+    near = [SimpleNamespace(eigenvalue=v, vector=u) for v, u in ((-1e-9, [1.0, 0.0]), (beside, [0.0, 1.0]))]
+    stability = SimpleNamespace(about=lambda _state, target, _count: (near, 3 if target == -1e-3 else None))
+    monkeypatch.setattr(bifurcation_point, "Stability", always(stability))
+    system = SimpleNamespace(dot=np.dot, mass_times=lambda u: u, at=always(nullcontext()))
+    found = bifurcation_point._others(SimpleNamespace(system=system), None, np.array([1.0, 0.0]), 1e-3)
+    assert found == others
+
+
+def slopes_of(*given):
+    told = bare(SecondaryFamily)
+    told._slopes = lambda share: {"dzw_dV": given[family.SMALL.index(share)]}
+    return told._slopes_beside_another_mode
+
+
+def test_initial_slopes_beside_another_mode_are_those_of_two_sets_of_amplitudes():
+    assert slopes_of((1.0, 0.1), (1.1, 0.01))()["dzw_dV"] == pytest.approx((1.1, 0.11))
+    assert slopes_of((3.0, 0.1), (1.1, 0.01), (1.09, 0.01))()["dzw_dV"] == pytest.approx((1.09, 0.02))
+    refused("initial slopes .* change L or delta$", slopes_of((3.0, 0.1), (2.0, 0.1), (1.0, 0.1)))
 
 
 def test_a_bifurcation_point_that_is_no_equilibrium(monkeypatch):

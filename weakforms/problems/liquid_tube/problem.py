@@ -16,7 +16,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.limits import has_bounded_force, require_bearable
+from weakforms.problems.meridian.limits import has_bounded_force, require_bearable, require_width
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
 from weakforms.results import Absence, Failure, Result
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
@@ -53,6 +53,7 @@ class FluidTube(BranchProblem):
         super().check(parameters, requests)
         require_model(self.name, parameters, tuple(LAWS))
         require_bearable(self.name, parameters.material, parameters.delta, 1.0, "delta")
+        require_width(self.name, parameters.material, parameters.delta, "delta")
         if parameters.secondary and parameters.delta > LONGEST_BENT:
             raise InputError(
                 f"fluid_tube: delta = {parameters.delta:g} is too large for secondary = true; "

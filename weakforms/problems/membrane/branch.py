@@ -9,6 +9,7 @@ import numpy as np
 from weakforms.errors import ConvergenceError
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.readings import Highest
+from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
 from weakforms.problems.triangles.readings import LeastStress
 from weakforms.problems.triangles.start import first_state
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -95,10 +96,15 @@ def traced(
     readings = Readings(model)
     begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
 
+    given = model.body.law, model.law, model.rule
+    yields = gives_way(model.system, model.membrane.cauchy_green, *given)
+
     def ends(point: CurvePoint) -> bool:
         with model.system.at(point.state):
             highest = readings.highest()
         progress(highest)
-        return highest > end
+        return highest > end or yields(point.state)
 
-    return MembraneBranch(continuation, "p", begin, ends, readings)
+    branch = MembraneBranch(continuation, "p", begin, ends, readings)
+    branch.end_before(yields, GIVES_WAY)
+    return branch

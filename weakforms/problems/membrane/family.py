@@ -11,11 +11,11 @@ from weakforms.problems.membrane.branch import MembraneBranch
 from weakforms.problems.triangles.shape import Shape
 from weakforms.results import Quantity, SpecialPoint, State
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.stability.modal import ModalFamily
+from weakforms.solvers.stability.surface_family import SurfaceFamily
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 
-class MembraneFamily(ModalFamily):
+class MembraneFamily(SurfaceFamily):
     """As for any branch; a state with a profile has the surface on the finest mesh instead of the profile."""
 
     fine: MembraneBranch

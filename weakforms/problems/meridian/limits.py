@@ -13,6 +13,7 @@ from scipy.optimize import bisect
 from ufl.core.expr import Expr
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.forms.materials import MATERIALS
 from weakforms.forms.wrinkling import Law
 from weakforms.problems.homogeneous.material_point import LARGEST, NAMES, evaluated, stressed
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, mooney_rivlin_of
@@ -172,6 +173,45 @@ def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str)
         raise InputError(
             f"{problem}: {name} = {l1:g}: model = {law.model!r} has stresses of more than {LARGEST:g} times "
             f"its stiffness at rest; lower {name}, or the exponents"
+        )
+
+
+NARROWEST = 0.05
+"""Width, over that at rest, down to which the natural width of a compressible law is sought."""
+
+
+def require_width(problem: str, law: Chosen, delta: float, name: str) -> None:
+    """Refuse an axial pre-stretch at which a tube of a compressible law is not stable without load.
+
+    Between the width at rest, at its rings, and its natural width, where ``w,2 = 0``, the law must be defined
+    and resist a change of the width: ``w,22 > 0``. If it does not, the tube narrows without bound, or folds
+    around its axis as finely as any mesh allows. At the natural width the force of a strip must grow with the
+    stretch: ``w,11 w,22 > w,12^2``. Beyond its largest force a tube necks at one place.
+
+    Args:
+        problem: Name of the problem, for the message.
+        law: The law; an incompressible one has the width ``delta^(-1/2)`` and is not looked at.
+        delta: The pre-stretch.
+        name: The parameter of the pre-stretch.
+
+    Raises:
+        InputError: With a message that names the parameter.
+    """
+    if MATERIALS[law.model].incompressible:
+        return
+    why = ""
+    for width in np.geomspace(1.0, NARROWEST, POINTS // 4).tolist():
+        here = evaluated(law, delta, width)
+        if not here["W22"] > 0:
+            why = f"does not resist a change of its width where that is {width:.2g} of the width at rest"
+        elif here["W2"] <= 0 and here["W11"] * here["W22"] <= here["W12"] ** 2:
+            why = "bears less force the more it is stretched, and a tube of it necks at one place"
+        if why or here["W2"] <= 0:
+            break
+    if why:
+        raise InputError(
+            f"{problem}: {name} = {delta:g}: at this pre-stretch, without load, a strip of model = "
+            f"{law.model!r} {why}; lower {name}, or choose another law or its constants"
         )
 
 

@@ -11,6 +11,7 @@ from dolfinx import fem
 from weakforms.errors import ConvergenceError
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.readings import Centre
+from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
 from weakforms.problems.triangles.readings import LeastStress
 from weakforms.problems.triangles.start import first_state
 from weakforms.problems.triangles.weak_form import RULE
@@ -146,8 +147,13 @@ def traced(
     first = first_state(solver, start, frame, model.cosine(start))
     begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
 
+    given = model.sheet.law, model.law, RULE[model.sheet.degree]
+    yields = gives_way(model.system, model.membrane.cauchy_green, *given)
+
     def ends(point: CurvePoint) -> bool:
         progress()
-        return point.monitors["w_c"] > end
+        return point.monitors["w_c"] > end or yields(point.state)
 
-    return RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
+    branch = RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
+    branch.end_before(yields, GIVES_WAY)
+    return branch

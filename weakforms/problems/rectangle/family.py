@@ -11,7 +11,7 @@ from weakforms.problems.rectangle.branch import RectangleBranch
 from weakforms.problems.triangles.shape import Shape
 from weakforms.results import Field, State
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.stability.modal import ModalFamily
+from weakforms.solvers.stability.surface_family import SurfaceFamily
 
 ORDER_AT_EDGE = 2.0
 """Order of the errors if the pressure has a kink inside of elements. Their signs change from mesh to mesh."""
@@ -20,7 +20,7 @@ MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))
 """Signs of ``X`` and ``Y`` of the quarters that make the whole sheet."""
 
 
-class RectangleFamily(ModalFamily):
+class RectangleFamily(SurfaceFamily):
     """As for any modal branch; a state with a profile also has the sheet on the finest mesh."""
 
     fine: RectangleBranch

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.continuation.apart import tell_apart
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.equilibrium.constraints import Held
@@ -60,7 +61,8 @@ class EquilibriumBranch(SolutionCurve):
         Raises:
             ConvergenceError: If slope and inertia disagree, or the solve for a point does not converge.
         """
-        counts = np.array([p.n_negative for p in self.points])
+        tell_apart(self, self._count, self._counts())
+        counts = np.array(self._counts())
         turns = self.turns().tolist()
         changes = np.flatnonzero(np.diff(counts)).tolist()
         if not set(turns) <= set(changes):
@@ -75,16 +77,17 @@ class EquilibriumBranch(SolutionCurve):
             )
         return [self._fold(i) if i in turns else Crossing(self, i).located() for i in changes]
 
-    def require_nothing_between(self) -> None:
-        """Check the eigenvalues of ``K`` as in the base class."""
-        factor = self.solver.factor
+    def tell_apart(self) -> bool:
+        """As for any curve, for the eigenvalues of ``K``."""
+        return tell_apart(self, self._count, self._counts(), unseen=True)
 
-        def count(state: State) -> int:
-            with self.system.at(state):
-                factor.update()
-            return factor.negative_count()
+    def _counts(self) -> list[int]:
+        return [point.n_negative for point in self.points]
 
-        self._require_same_between(np.array([p.n_negative for p in self.points]), count, "eigenvalues")
+    def _count(self, state: State) -> int:
+        with self.system.at(state):
+            self.solver.factor.update()
+        return self.solver.factor.negative_count()
 
     def _fold(self, i: int) -> Solved:
         """By its extended system or, if a sharp turn makes round-off large there, by root finding."""

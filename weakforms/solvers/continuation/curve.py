@@ -28,9 +28,6 @@ FAR = 0.1
 BISECTIONS = 6
 """Number of bisections of an interval before a change of stability is solved for in it."""
 
-BETWEEN = (0.25, 0.5, 0.75)
-"""Fractions of the interval between two points of a trace at which eigenvalues are counted again."""
-
 
 @dataclass(frozen=True)
 class Solved:
@@ -282,6 +279,15 @@ class SolutionCurve:
             solved.state, last.record, before.tangent, before.arclength + length
         )
 
+    def go_on(self) -> None:
+        """Add one more point at the end, after a step as long as the last one.
+
+        Raises:
+            ConvergenceError: If the step fails.
+        """
+        before, at = self.points[-2:]
+        self.points.append(self.continuation.advance(before, at, at.arclength - before.arclength))
+
     def end_at_limit(self, limit: Callable[[State], str]) -> None:
         """End a trace that stalled where ``limit`` gives a reason, without its last points that have one.
 
@@ -294,32 +300,29 @@ class SolutionCurve:
                 del self.points[-1]
             self.ended, self.stalled = why, None
 
-    def require_nothing_between(self) -> None:
-        """Make sure that there is no special point between neighbours with the same inertia.
+    def tell_apart(self) -> bool:
+        """Add points where eigenvalues change sign between neighbours with the same inertia, if any do.
 
-        Raises:
-            ConvergenceError: If eigenvalues change sign between two points and change it back.
+        Returns:
+            Whether points were added.
         """
+        return False
 
-    def _require_same_between(self, counts: np.ndarray, count: Callable[[State], int], what: str) -> None:
-        """Where neighbours have the same inertia, compare it with the inertia of states between them.
+    def point_between(self, i: int, fraction: float) -> CurvePoint:
+        """Solve for a point of the curve between two neighbours of the trace."""
+        guess, before = self.between(i, fraction), self.points[i]
+        state, record = self.continuation.solve(guess, self.continuation.plane(guess, before.tangent))
+        self.require_within(i, self.solved(state), "point between two points")
+        length = self.continuation.distance(state, before.state)
+        return self.continuation.point(state, record, before.tangent, before.arclength + length)
 
-        If two eigenvalues cross zero in opposite directions within a step, or one crosses it and returns, the
-        count at both ends is the same. An interpolated state is near the branch, not on it. If its count
-        differs, the state is solved for and counted again.
-        """
-        for i in np.flatnonzero(np.diff(counts) == 0).tolist():
-            for fraction in BETWEEN:
-                guess = self.between(i, fraction)
-                if count(guess) == counts[i]:
-                    continue
-                solved = self._solve(guess, self.continuation.plane(guess, self.points[i].tangent))
-                found = count(solved.state)
-                if found != counts[i]:
-                    raise ConvergenceError(
-                        f"{what} change sign between neighbours (after point {i}) and change it back, "
-                        f"{counts[i]} negative, {found} between: shorter steps are needed to tell them apart"
-                    )
+    def insert(self, i: int, point: CurvePoint) -> None:
+        """Add a point after point ``i``; arc lengths beyond it grow, because a chord is replaced by two."""
+        after = self.points[i + 1]
+        longer = point.arclength + self.continuation.distance(after.state, point.state) - after.arclength
+        for later in self.points[i + 1 :]:
+            later.arclength += longer
+        self.points.insert(i + 1, point)
 
     def turns(self) -> np.ndarray:
         """Indices of the points after which the control changes direction."""

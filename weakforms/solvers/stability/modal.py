@@ -11,6 +11,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Quantity, SpecialPoint
+from weakforms.solvers.continuation.apart import tell_apart
 from weakforms.solvers.continuation.branch import FittedBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import Solved
@@ -22,6 +23,9 @@ from weakforms.solvers.uncertainty.points import special_point
 
 Family = Hashable
 """Modes of one symmetry: a wave number, or an object that says more."""
+
+FEWEST = 2
+"""Number of points that a trace keeps."""
 
 
 class Modes(Protocol):
@@ -63,6 +67,7 @@ class ModalBranch(FittedBranch):
     ) -> None:
         self.modes, self.hidden = modes, tuple(hidden)
         self._limits: list[tuple[CurvePoint, Solved]] = []
+        self._counted: dict[tuple[int, Family], tuple[CurvePoint, int]] = {}
         super().__init__(continuation, control, start, stop)
         self._insert_limits()
 
@@ -73,7 +78,7 @@ class ModalBranch(FittedBranch):
         maximum is bracketed.
         """
         for i in reversed(self.turns().tolist()):
-            before, after = self.points[i : i + 2]
+            before = self.points[i]
             limit = self._root(i, self._control_rate(i), "limit_point")
             plane = self.continuation.plane(limit.state, before.tangent)
             state, record = self.solver.solve(limit.state, [*self.continuation.fixed, plane])
@@ -83,11 +88,22 @@ class ModalBranch(FittedBranch):
             s = before.arclength + self.continuation.distance(state, before.state)
             # Its zero eigenvalue makes the inertia depend on round-off: use the count of the point before it.
             point = CurvePoint(state, tangent, s, before.n_negative, record, monitors)
-            longer = s + self.continuation.distance(after.state, state) - after.arclength
-            for later in self.points[i + 1 :]:
-                later.arclength += longer
-            self.points.insert(i + 1, point)
+            self.insert(i, point)
             self._limits.insert(0, (point, limit))
+
+    def end_before(self, beyond: Callable[[State], bool], why: str) -> None:
+        """End a trace that goes beyond a limit at the last point before it.
+
+        Args:
+            beyond: Whether a state is beyond the limit.
+            why: Why the branch ends there.
+        """
+        if self.stalled is None and beyond(self.points[-1].state):
+            while len(self.points) > FEWEST and beyond(self.points[-1].state):
+                del self.points[-1]
+            left = {id(point) for point in self.points}
+            self._limits = [both for both in self._limits if id(both[0]) in left]
+            self.ended = why
 
     # -- columns -------------------------------------------------------------------------------
 
@@ -149,6 +165,8 @@ class ModalBranch(FittedBranch):
 
     def _placed(self) -> list[tuple[float, Solved]]:
         """The special points with their arc lengths."""
+        for n in self.modes.wave_numbers:  # all before any is located: points that are added move the others
+            tell_apart(self, partial(self._count_at, n=n), self._counts(n))
         found = [(point.arclength, solved) for point, solved in self._limits]
         for n in self.modes.wave_numbers:
             counts = self._counts(n)
@@ -163,21 +181,24 @@ class ModalBranch(FittedBranch):
                 found.append((self._arclength(int(i), solved), solved))
         return found
 
-    def require_nothing_between(self) -> None:
-        """Check the eigenvalues of every family as in the base class."""
-        for n in self.modes.wave_numbers:
-            counts = self._counts(n)
-            self._require_same_between(
-                counts, partial(self._count_at, n=n), f"eigenvalues of {self._called(n)}"
-            )
+    def tell_apart(self) -> bool:
+        """As for any curve, for the eigenvalues of every family."""
+        each = [
+            tell_apart(self, partial(self._count_at, n=n), self._counts(n), unseen=True)
+            for n in self.modes.wave_numbers
+        ]
+        return any(each)
 
     def _arclength(self, i: int, solved: Solved) -> float:
         before = self.points[i]
         return before.arclength + self.continuation.distance(solved.state, before.state)
 
     def _counts(self, n: Family) -> np.ndarray:
-        """Negative eigenvalues of a family at each point of the trace, by inertia."""
-        return np.array([self._count_at(point.state, n) for point in self.points])
+        """Negative eigenvalues of a family at each point of the trace, by inertia, once for each point."""
+        for point in self.points:
+            if (id(point), n) not in self._counted:
+                self._counted[id(point), n] = point, self._count_at(point.state, n)
+        return np.array([self._counted[id(point), n][1] for point in self.points])
 
     def _bifurcation(self, i: int, n: Family) -> Solved:
         """The zero of a family's eigenvalue between two neighbours, by the system of :class:`Singular`.

@@ -96,6 +96,7 @@ class BranchFamily:
         self.fine = self.levels[-1]
         self.cap, self.across, self.name = cap, across, name
         self.failures: list[Failure] = []
+        self.warnings: list[str] = []
         ended = (self.fine if self.traced_on_finest else self.levels[0]).ended
         self.absent: list[Absence] = [Absence(f"rest of branch {name}", ended)] if ended else []
         self._located: list[tuple[Solved, ...]] | None = None
@@ -181,13 +182,19 @@ class BranchFamily:
         return self._located
 
     def _locate(self) -> list[tuple[Solved, ...]]:
-        self.levels[0].require_nothing_between()  # on the coarsest mesh, which is cheap
-        found = [level.special() for level in self.levels]
+        if self.levels[0].tell_apart():  # on the coarsest mesh, which is cheap
+            for level in self.levels[1:]:
+                level.tell_apart()
+        found = self._found()
         kinds = [[solved.kind for solved in item] for item in found]
         if any(item != kinds[-1] for item in kinds):
             counts = [dict(Counter(item)) for item in kinds]
             raise ConvergenceError(f"special points depend on the mesh, coarse to fine: {counts}")
         return list(zip(*found, strict=True))
+
+    def _found(self) -> list[list[Solved]]:
+        """The special points of each mesh."""
+        return [level.special() for level in self.levels]
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
         """Solve for the state at which a column has exactly a value, with its profile if points are given.

@@ -34,6 +34,10 @@ mesh with the next coarser one. The difference is as small as the error of the c
 nodes suffice. Both volumes lie on one side of the bifurcation, so that the tangent of the first serves for
 both."""
 
+FARTHEST = 0.1
+"""Relative difference of volumes within which the bifurcation of the coarsest mesh is sought beyond that: a
+chord of the eigenvalue leads to it."""
+
 CLOSE = 1e-12
 """Newton step, relative to the state, at which the solves for these states stop."""
 
@@ -42,6 +46,9 @@ LOOKED_AT = 3
 
 READINGS = 121
 """Material points ``Z`` of the splines for axisymmetric guesses."""
+
+CLOSER = 1e-3
+"""Share of the largest critical eigenvalue beside a bifurcation; at the bifurcation it is closer to zero."""
 
 LIKENESS = 0.9
 """Smallest accepted overlap of the surface's null vector with the axisymmetric branch's mode."""
@@ -90,6 +97,10 @@ class Trend(NamedTuple):
     coefficients of the front are the last loads; finer meshes have more of them."""
     finer: tuple[float, ...]
     """Points at which the next finer mesh is compared with this one."""
+    volume: float
+    """The volume that they are near."""
+    alone: bool
+    """Whether all states near the bifurcation have the same number of other negative eigenvalues."""
 
 
 def bifurcation_on(
@@ -111,21 +122,27 @@ def bifurcation_on(
     Raises:
         ConvergenceError: If the mode's eigenvalue has no zero near it, or the null vector is not that mode.
     """
-    system, volume = model.system, at.values["V"]
+    system, begin = model.system, at.values["V"]
+    volume = begin if below is None else below.volume
     along = chebyshev.chebpts1(NODES) if below is None else np.array(below.finer)
-    solved, eigenvalues, modes, counts = _neighbouring_states(model, primary, at, along)
-    rows = [
-        [eigenvalue, *s.values.values(), *s.state.loads.values()]
-        for eigenvalue, s in zip(eigenvalues, solved, strict=True)
-    ]
-    trend = _trend(along, np.array(rows), below)
-    if trend.row(-1.0)[0] * trend.row(1.0)[0] > 0 or len(set(counts)) > 1:
-        alone = len(set(counts)) == 1
-        hint = "raise secondary_cells" if alone else "another mode changes sign beside it: change L or delta"
-        raise ConvergenceError(
-            f"no bifurcation on the surface within {SPAN:g} of V = {volume:g}: eigenvalues {eigenvalues}, "
-            f"other negative ones {counts}; {hint}"
-        )
+    while True:
+        solved, eigenvalues, modes, counts = _neighbouring_states(model, primary, at, volume, along)
+        rows = [
+            [eigenvalue, *s.values.values(), *s.state.loads.values()]
+            for eigenvalue, s in zip(eigenvalues, solved, strict=True)
+        ]
+        trend = _trend(along, np.array(rows), below, len(set(counts)) == 1, volume)
+        first, last = (float(trend.row(s)[0]) for s in (-1.0, 1.0))
+        if first * last <= 0:
+            break
+        if below is not None:  # too far from that of the coarser mesh: sought for itself
+            return bifurcation_on(model, primary, at)
+        volume *= 1 + SPAN * (first + last) / (first - last) if first != last else 2.0
+        if not abs(volume / begin - 1) < FARTHEST:
+            raise ConvergenceError(
+                f"no bifurcation on the surface within {FARTHEST:g} of V = {begin:g}: eigenvalues "
+                f"{eigenvalues}, other negative ones {counts}; raise secondary_cells"
+            )
     zero = root(lambda s: trend.row(s)[0], -1.0, 1.0, "the bifurcation on the surface", xtol=1e-14)
     _, *found = trend.row(zero).tolist()
     u, mode = (polynomial_through(along, np.array(v))(zero) for v in ([s.state.u for s in solved], modes))
@@ -138,22 +155,41 @@ def bifurcation_on(
     names = solved[0].values
     state = State(u, dict(zip(solved[0].state.loads, found[len(names) :], strict=True)))
     values = dict(zip(names, found[: len(names)], strict=True))
-    return Solved(values, state, "bifurcation_point"), mode, counts[0], trend
+    others = counts[0] if trend.alone else _others(model, state, like, CLOSER * max(map(abs, eigenvalues)))
+    return Solved(values, state, "bifurcation_point"), mode, others, trend
+
+
+def _others(model: SurfaceModel, state: State, like: np.ndarray, zero: float) -> int:
+    """Number of negative eigenvalues of a state besides that of a mode, whose magnitude is below ``zero``.
+
+    It is needed where another mode changes sign beside the bifurcation, so that the number at neighbouring
+    states depends on their side of that point.
+    """
+    system = model.system
+    modes, below = Stability(system).about(state, -zero, LOOKED_AT)
+    with system.at(state):
+        row = system.mass_times(like)
+    critical = max(modes, key=lambda mode: abs(system.dot(row, mode.vector)))
+    return below + sum(-zero < mode.eigenvalue < 0 for mode in modes if mode is not critical)
 
 
 def _neighbouring_states(
-    model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, along: np.ndarray
+    model: SurfaceModel, primary: PrimaryBranch, at: AxisymmetricState, volume: float, along: np.ndarray
 ) -> tuple[list[Solved], list[float], list[np.ndarray], list[int]]:
     """States near a bifurcation, their critical eigenvalues and modes, and the others below zero."""
     system, stability = model.system, Stability(model.system)
-    fitting = Fitting(model, KeptNewton(system, ["zw"], CLOSE))
+    fitting, usual = (Fitting(model, KeptNewton(system, ["zw"], *close)) for close in ((CLOSE,), ()))
     like, loads = model.interpolated(displacement(at)), system.initial.loads
     states, eigenvalues, vectors, counts = [], [], [], []
     for i, s in enumerate(along):
-        begin = primary.at("V", at.values["V"] * (1 + SPAN * s), at.Z)
+        begin = primary.at("V", volume * (1 + SPAN * s), at.Z)
         guess = model.state_of(position(begin), loads | {"zw": begin.values["zw"]})
         kept = i > 0 and min(along) > 0
-        state = fitting.solve(guess, [Held("V", begin.values["V"])], chord=True, kept=kept)
+        held = [Held("V", begin.values["V"])]
+        try:
+            state = fitting.solve(guess, held, chord=True, kept=kept)
+        except ConvergenceError:  # under a very light liquid, round-off causes larger steps
+            state = usual.solve(guess, held, chord=True)
         with system.at(state):
             states.append(Solved({"zw": state.loads["zw"], **system.monitors()}, state))
             modes, negative = stability.about(state, 0.0, LOOKED_AT)
@@ -167,7 +203,7 @@ def _neighbouring_states(
     return states, eigenvalues, vectors, counts
 
 
-def _trend(along: np.ndarray, rows: np.ndarray, below: Trend | None) -> Trend:
+def _trend(along: np.ndarray, rows: np.ndarray, below: Trend | None, alone: bool, volume: float) -> Trend:
     """Polynomials through rows of numbers, or through their differences from another mesh's trend."""
     size = rows.shape[1]
 
@@ -176,4 +212,5 @@ def _trend(along: np.ndarray, rows: np.ndarray, below: Trend | None) -> Trend:
         return np.append(known, np.zeros(size - len(known)))
 
     difference = polynomial_through(along, rows - [coarser(s) for s in along])
-    return Trend(lambda s: coarser(s) + difference(s), BESIDE[below is not None])
+    alone = alone and (below is None or below.alone)
+    return Trend(lambda s: coarser(s) + difference(s), BESIDE[below is not None], volume, alone)

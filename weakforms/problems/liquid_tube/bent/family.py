@@ -49,6 +49,13 @@ resultants there are derivatives, and their order is the degree."""
 GRID = (161, 97)
 """Numbers of points, along and around, of the grid for the smallest values on a surface."""
 
+SMALL = 0.125, 0.0625, 0.03125
+"""Shares of the usual amplitudes from which initial slopes are extrapolated if another mode changes sign
+beside the bifurcation point. At usual amplitudes a tube bends in both modes there."""
+
+FACTOR = 2.0
+"""Slopes of different amplitudes agree within this many uncertainties."""
+
 THETAS = np.linspace(0, np.pi, 25)
 """Meridians of a profile."""
 
@@ -121,7 +128,10 @@ class SecondaryFamily(BranchFamily):
 
     def _on_all(self, point: CurvePoint) -> Compared:
         """A point of the trace on all meshes, with the number of negative eigenvalues on the finest."""
-        solved, marks = self._solved_on_all(point)
+        try:
+            solved, marks = self._solved_on_all(point)
+        except ConvergenceError as error:
+            raise ConvergenceError(f"{error}; raise secondary_cells, or secondary_end") from error
         own = {name: solved[-1].values[name] for name in self.fine.shown}
         return [s.values for s in solved], own | dict(zip(DIAGNOSTICS, map(float, marks), strict=True))
 
@@ -179,20 +189,46 @@ class SecondaryFamily(BranchFamily):
         smaller and needs fewer amplitudes.
         """
         points = super().special_points()
+        alone = self.levels[0].trend.alone
+        slopes = self._slopes(1.0) if alone else self._slopes_beside_another_mode()
+        for name, (value, uncertainty) in slopes.items():
+            points[0].values[name], points[0].uncertainty[name] = value, uncertainty
+        points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
+        return points
+
+    def _slopes(self, share: float) -> dict[str, tuple[float, float]]:
+        """The initial slopes with their uncertainties, from a share of the usual amplitudes."""
+        all_of, compared = (tuple(share * a for a in given) for given in (AMPLITUDES, COMPARED))
         for below, level in pairwise(self.levels):
-            for amplitude in COMPARED if level is self.fine else AMPLITUDES:
+            for amplitude in compared if level is self.fine else all_of:
                 level.small[amplitude] = self._on_finer_mesh(below, level, amplitude)
         *_, last = coarser = self.levels[:-1]
-        slopes = [level.initial() for level in coarser]
-        fewer = last.initial(AMPLITUDES[:-1])  # for the error of the extrapolation
-        near, fine = last.initial(COMPARED), self.fine.initial(COMPARED)
+        slopes = [level.initial(all_of) for level in coarser]
+        fewer = last.initial(all_of[:-1])  # for the error of the extrapolation
+        near, fine = last.initial(compared), self.fine.initial(compared)
+        out = {}
         for name in (slope.name for slope in SLOPES):
             whole = slopes[-1][name]
             found = estimate([*(s[name] for s in slopes), whole + fine[name] - near[name]], self.cap)
-            points[0].values[name] = float(found.value)
-            points[0].uncertainty[name] = float(found.uncertainty) + abs(fewer[name] - whole)
-        points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
-        return points
+            out[name] = float(found.value), float(found.uncertainty) + abs(fewer[name] - whole)
+        return out
+
+    def _slopes_beside_another_mode(self) -> dict[str, tuple[float, float]]:
+        """The same from amplitudes so small that half of them give the same slopes.
+
+        Raises:
+            ConvergenceError: If there are none.
+        """
+        found = [self._slopes(SMALL[0])]
+        for share in SMALL[1:]:
+            found.append(self._slopes(share))
+            both = [(found[-2][name], found[-1][name]) for name in found[-1]]
+            if all(abs(a - b) <= FACTOR * (u + v) for (a, u), (b, v) in both):
+                return {name: (b, v + abs(found[-2][name][0] - b)) for name, (b, v) in found[-1].items()}
+        raise ConvergenceError(
+            "another mode changes sign so near the bifurcation point that the initial slopes of the branch "
+            f"are not found, with {SMALL[-1]:g} of the usual amplitudes neither: change L or delta"
+        )
 
     @staticmethod
     def _on_finer_mesh(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:

@@ -22,7 +22,7 @@ from weakforms.problems.liquid_tube.bent.model import SurfaceModel
 from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.material_choice import MaterialChoice, require_model
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.limits import require_bearable, require_width
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.continuation.walk import walk
@@ -104,6 +104,7 @@ class FluidTubeSurface(Problem):
         """
         require_model(self.name, parameters, tuple(LAWS))
         require_bearable(self.name, parameters.material, parameters.delta, 1.0, "delta")
+        require_width(self.name, parameters.material, parameters.delta, "delta")
         if requests.states:
             raise InputError("fluid_tube_surface: it has no states; its numbers are quantities of any solve")
         if parameters.uneven and parameters.extent == "half":
