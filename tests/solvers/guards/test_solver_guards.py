@@ -181,7 +181,7 @@ def test_round_off_of_a_stiff_bordered_system_is_accepted():
 
 @pytest.mark.parametrize(("stiffness", "left"), [(1.0, 1e-4), (1e15, 2 * STIFF_LIMIT)])
 def test_only_round_off_of_a_stiff_matrix_excuses_a_residual(monkeypatch, stiffness, left):
-    """A residual beyond round-off in the forces is refused, and so is a large one of a matrix however stiff."""
+    """A residual beyond round-off in the forces is refused, and so is a large one of a stiff matrix."""
     system = system_of(lambda u, v, p: stiffness * u.dx(0) * v.dx(0) + u * v, "Lagrange", 1, 4)
     factor = Factorization(system)
     with system.at(system.initial):
