@@ -96,15 +96,15 @@ def from_rest(
     kind: Callable[..., EquilibriumBranch] = EquilibriumBranch,
     gives_way: Callable[[CurvePoint], str] = lambda _point: "",
 ) -> EquilibriumBranch:
-    """Equilibria by arc length from the state without load, until a column passes its end.
+    """Equilibria by arc length from the state without load, or with little, until a column passes its end.
 
     Args:
         system: The equilibrium equations.
-        load: The load, zero at first.
+        load: The load.
         along: A column that changes along the whole branch.
         end: Its value at which the branch ends.
         step: Largest step.
-        begin: Guess of the first state; by default the state of rest.
+        begin: Guess of the first state, at its load; by default the state of rest.
         usual_load: Load above which steps grow in proportion to it.
         kind: The class of the curve.
         gives_way: Why there is no solution beyond a point, where the branch ends too; empty if there may be.
@@ -114,7 +114,7 @@ def from_rest(
     begin = begin or system.initial
     with system.at(begin):
         rising = 1.0 if end > system.monitor(along) else -1.0
-    start = continuation.start(begin, Held(load, 0.0), towards={along: rising})
+    start = continuation.start(begin, Held(load, begin.loads[load]), towards={along: rising})
 
     def stop(point: CurvePoint) -> bool:
         return rising * (point.monitors[along] - end) > 0 or bool(gives_way(point))

@@ -182,6 +182,19 @@ def test_round_off_of_a_stiff_bordered_system_is_accepted():
     assert bordered.solve(load, np.zeros(0))[0] == pytest.approx(1.0, rel=STIFF_LIMIT)
 
 
+@pytest.mark.parametrize(("stiffness", "left"), [(1.0, 1e-4), (1e15, 2 * STIFF_LIMIT)])
+def test_only_round_off_of_a_stiff_matrix_excuses_a_residual(monkeypatch, stiffness, left):
+    """A residual beyond round-off in the forces is refused, and so is a large one of a stiff matrix."""
+    system = system_of(lambda u, v, p: stiffness * u.dx(0) * v.dx(0) + u * v, "Lagrange", 1, 4)
+    factor = Factorization(system)
+    with system.at(system.initial):
+        factor.update()
+    load = np.ones(system.size)
+    monkeypatch.setattr(BorderedMatrix, "_refined", lambda self, f, g: (load, [0.0] * len(g), left))
+    with pytest.raises(ConvergenceError, match="singular"):
+        BorderedMatrix(factor, [], [], np.zeros((0, 0))).solve(load, np.zeros(0))
+
+
 def test_a_singular_bordered_system_is_refused():
     """An unsupported string pulled to one side."""
     system = system_of(lambda u, v, p: u.dx(0) * v.dx(0) - p * v, "Lagrange", 1, 4)

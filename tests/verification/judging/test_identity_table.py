@@ -101,6 +101,7 @@ STATES = {
     "sphere": {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)},
     "infinite_tube": {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)},
     "homogeneous": {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)},
+    "torus": {"r_out": R(FIRST), "r_in": R(LAST)},
     "annulus": {
         "lam1_in": LAM1(FIRST),
         "lam1_out": LAM1(LAST),
@@ -118,6 +119,7 @@ PROFILES = {
     ("wrinkled_tube", "lam2"): lambda c: c["r"],
     ("wrinkled_tube", "slope"): lambda c: R.deriv()(X) / Z.deriv()(X),
     ("fluid_tube", "lam2"): lambda c: c["r"],
+    ("torus", "lam2"): lambda c: c["r"] / (1 + 0.4 * np.cos(c["t"])),
     ("annulus", "gw"): lambda c: c["lam2"] * c["lam1"] ** 0.5,
 }
 """Columns of a meridian by its others."""
@@ -127,6 +129,7 @@ LOAD, VOLUME, STRETCH = Polynomial([0.3, 1.0, 0.25]), Polynomial([1.5, 0.4, 0.8]
 TRACES = {
     "circular": ("p", -VOLUME),
     "tube": ("p", -VOLUME),
+    "torus": ("p", -VOLUME),
     "controls": ("p", -VOLUME),
     "membrane": ("p", -VOLUME),
     "rectangle": ("p", -VOLUME),
@@ -146,6 +149,8 @@ CLOSED = {
     ("sphere", "lam2"): lambda c: c["lam"],
     ("infinite_tube", "V"): lambda c: c["lam1"] * c["lam2"] ** 2,
     ("homogeneous", "lam1"): lambda c: c["lam"],
+    ("torus", "virial"): lambda c: 3 * c["p"] * c["V"],
+    ("torus", "Pi"): lambda c: c["U"] - c["p"] * c["V"],
     ("annulus", "U_edges"): lambda c: c["U"],
     ("annulus", "M_in"): lambda c: c["M"],
     ("annulus", "M_out"): lambda c: c["M"],
@@ -155,7 +160,7 @@ CLOSED = {
 
 def meridian(problem: str) -> dict[str, np.ndarray]:
     """The columns of the meridian; its coordinate comes first."""
-    name = {"circular": "X", "hemisphere": "t", "annulus": "R"}.get(problem, "Z")
+    name = {"circular": "X", "hemisphere": "t", "torus": "t", "annulus": "R"}.get(problem, "Z")
     return {name: X} | {key: share(X) for key, share in SHARES.items()}
 
 
@@ -169,7 +174,7 @@ def solution(problem, profile, numbers=None, columns=None):
     drawn = {"drawn": {"primary": {"points": [{"column": "u", "value": 1.0}]}}}
     spread = {name: np.full(len(values), 1e-12) for name, values in (columns or {}).items()}
     traces = [Branch("primary", "p", columns, spread)] if columns else []
-    return Result(problem, {"beta": 1.3, "gamma": 2.5}, {}, drawn, {}, traces, states=[state])
+    return Result(problem, {"beta": 1.3, "gamma": 2.5, "b": 0.4}, {}, drawn, {}, traces, states=[state])
 
 
 def judged(problem: str, name: str, result: Result) -> bool:
@@ -222,6 +227,7 @@ def test_a_column_is_the_slope_of_another(problem):
 @pytest.mark.parametrize(("problem", "name"), CLOSED)
 def test_a_column_of_a_trace_is_that_of_its_others(problem, name):
     columns = {"lam": STRETCH(S), "lam1": LAM1(S), "lam2": LAM2(S), "U": VOLUME(S), "M": LOAD(S)}
+    columns |= {"p": LOAD(S), "V": VOLUME(S)}
     columns |= {name: CLOSED[problem, name](columns)}
     same = {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)}
     assert judged(problem, name, solution(problem, meridian(problem), same, columns))

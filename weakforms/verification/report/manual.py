@@ -25,6 +25,7 @@ SKETCHES = {
     "rectangle": "rectangle",
     "membrane": "outline",
     "annulus": "annulus",
+    "torus": "torus",
     "homogeneous": "piece",
     "material": "piece",
 }

@@ -230,3 +230,8 @@ def inside_of_front(result: Result, state: State, _: Field) -> quadrature.Estima
     """Part of the area of an annulus inside of its front."""
     a, front = result.parameters["a"], state.quantities["R_front"]
     return (front.value**2 - a**2) / (1 - a**2), 2 * (front.uncertainty or 0.0) / (1 - a**2)
+
+
+def ring(result: Result, c: Columns) -> np.ndarray:
+    """Distance of the points of a stress-free torus from its axis."""
+    return 1 + result.parameters["b"] * np.cos(c["t"])

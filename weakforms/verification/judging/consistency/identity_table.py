@@ -243,6 +243,17 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     ),
     "wrinkled_linear": (zero("curved"),),
     "wrinkled_sheet": (zero("twist"),),
+    "torus": (
+        work("p", lambda _, c: -c["V"]),
+        stable(),
+        equal("virial", "3 p V, because lengths scale", lambda c: 3 * c["p"] * c["V"]),
+        equal("Pi", "U - p V", lambda c: c["U"] - c["p"] * c["V"]),
+        read("r_out", "outer radius of the profile", end("r", 0)),
+        read("r_in", "inner radius of the profile", end("r", -1)),
+        field("lam2", "lam2 = r/(1 + b cos t)", lambda r, _, c: c["r"] / formulas.ring(r, c)),
+        _over(field("t1", "t1 is that of the law at the stretches", formulas.cauchy_resultant(1)), _of_paper),
+        _over(field("t2", "t2 is that of the law at the stretches", formulas.cauchy_resultant(2)), _of_paper),
+    ),
     "annulus": (
         slope("U", "psi", "M"),
         stable(),

@@ -1,0 +1,1 @@
+"""Two methods for the inflated torus, without common equations."""

@@ -1,0 +1,1 @@
+"""The torus of circular cross-section under gas."""

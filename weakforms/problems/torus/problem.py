@@ -1,0 +1,94 @@
+"""Problem ``torus``: parameters, and the branch of a torus inflated by a gas."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics, from_rest
+from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.meridian.limits import limit_along, relative_stiffness
+from weakforms.problems.problem import End, Task
+from weakforms.problems.torus.about import TORUS
+from weakforms.problems.torus.model import TorusModel, stress_free_volume
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.uncertainty.family import BranchFamily
+
+USUAL_LOAD = 4.0
+"""Pressure, times b and over the stiffness of the law, above which steps grow with it: two to three times the
+limit point of a neo-Hookean torus."""
+
+
+class TorusNumerics(MeshNumerics):
+    """Meshes of the torus: ``cells`` from the outer to the inner equator."""
+
+    start: float = Field(
+        0.1,
+        ge=0.01,
+        le=1,
+        description="pressure of the first state, times b and over the stiffness of the law; without "
+        "pressure the membrane bends freely along the circles t = pi/2 and -pi/2",
+    )
+
+
+class TorusParameters(MaterialChoice):
+    """The torus, its law, and where inflation ends."""
+
+    ratio: ClassVar[str] = "alpha"
+    movable: ClassVar = {"v_end": "le"}
+
+    b: float = Field(
+        0.4, ge=0.1, le=0.6, description="radius of the cross-section over that of the centre line"
+    )
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    v_end: float = Field(
+        4.0, ge=1.5, le=20, description="volume over that of the stress-free torus at which the branch ends"
+    )
+
+
+class Torus(BranchProblem):
+    """Inflation of a torus, symmetric about its equatorial plane."""
+
+    about, parameters, numerics = TORUS, TorusParameters, TorusNumerics
+
+    def ends(self, parameters: TorusParameters, _branch: str) -> list[End]:
+        """The last volume."""
+        return [End("v_end", "V", parameters.v_end * stress_free_volume(parameters.b), largest=True)]
+
+    def families(self, task: Task) -> dict[str, Family]:
+        """The branch on all meshes."""
+        given, numerics = task.parameters, task.numerics
+
+        def make(level: int) -> EquilibriumBranch:
+            task.progress("branch", level, numerics.levels)
+            cells, degree = numerics.meshes[level], numerics.degree
+            model = TorusModel(task.comm, given.material, given.b, cells, degree)
+            limit = limit_along(model)
+            usual = relative_stiffness(given.material) / given.b
+            branch = from_rest(
+                model.system,
+                "p",
+                "V",
+                given.v_end * stress_free_volume(given.b),
+                numerics.step,
+                begin=State(model.system.initial.u, {"p": numerics.start * usual}),
+                usual_load=USUAL_LOAD * usual,
+                gives_way=lambda point: limit(point.state),
+            )
+            last = branch.points[-1]
+            if branch.stalled is None and (why := limit(last.state)):
+                branch.ended = (
+                    f"torus: at V = {last.monitors['V']:.6g} {why}; lower v_end, or choose another law"
+                )
+            return branch
+
+        order = 2.0 * numerics.degree
+        caps = dict.fromkeys(("z_top",), numerics.degree + 1.0)
+        return {"primary": BranchFamily(make, numerics.levels, order, ("p", "V"), caps=caps)}
+
+    def points(self, _parameters: TorusParameters) -> np.ndarray:
+        """41 angles from the outer to the inner equator."""
+        return np.linspace(0.0, np.pi, 41)
