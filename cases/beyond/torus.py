@@ -22,8 +22,8 @@ from weakforms.cases import (
     torus,
 )
 
-USUAL = torus(b=0.4, alpha=0.0)
-SLENDER = torus(b=0.2)
+USUAL = torus(b=0.4, alpha=0.0, v_end=4.2)
+SLENDER = torus(b=0.2, v_end=4.2)
 THICK = torus(b=0.6)
 TORI = {"usual": USUAL, "slender": SLENDER, "thick": THICK}
 STATE = At("V", 6.316547, profile=())

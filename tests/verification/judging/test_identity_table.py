@@ -101,7 +101,7 @@ STATES = {
     "sphere": {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)},
     "infinite_tube": {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)},
     "homogeneous": {"lam1": LAM1(FIRST), "lam2": LAM2(FIRST)},
-    "torus": {"r_out": R(FIRST), "r_in": R(LAST)},
+    "torus": {"r_out": R(FIRST), "r_in": R(LAST), "v": swept(LAST) / (2 * np.pi * 0.16)},
     "annulus": {
         "lam1_in": LAM1(FIRST),
         "lam1_out": LAM1(LAST),
@@ -166,7 +166,7 @@ def meridian(problem: str) -> dict[str, np.ndarray]:
 
 def solution(problem, profile, numbers=None, columns=None):
     """A solution with one state that was drawn at random, and a trace."""
-    known = {"X_contact": FRONT, "Z_front": FRONT, "zw": Z(FRONT)} | (numbers or {})
+    known = {"V": np.pi * swept(LAST), "X_contact": FRONT, "Z_front": FRONT, "zw": Z(FRONT)} | (numbers or {})
     quantities = {name: Quantity(float(value), SPREAD) for name, value in known.items()}
     state = State(
         {"u": 1.0}, "primary", quantities, (Field("profile", profile, dict.fromkeys(profile, SPREAD)),)

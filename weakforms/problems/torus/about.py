@@ -20,6 +20,7 @@ TORUS = About(
     columns=(
         column.PRESSURE,
         column.VOLUME,
+        Column("v", "volume over that of the stress-free torus", "v"),
         column.POTENTIAL,
         Column("U", "strain energy over {energy}", "U"),
         Column("r_out", "radius of the outer equator over {length}", r"r_\mathrm{out}"),

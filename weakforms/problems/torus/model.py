@@ -54,6 +54,7 @@ class TorusModel(MeridianModel):
             held=((None, 0.0), (None, 0.0)),
             scales=lambda _q: (1 / b, 1.0),
         )
+        self.stress_free = stress_free_volume(b)
         mesh = Blocks([0.0, pi], cells, degree, 4 * degree)
         super().__init__(comm, body, {"p": 0.0}, mesh, material=law)
 
@@ -67,6 +68,7 @@ class TorusModel(MeridianModel):
         dt, whole = self.dx, WHOLE * e["width"]
         monitors = {
             "V": whole * e["volume"] * dt,
+            "v": whole / self.stress_free * e["volume"] * dt,
             "Pi": whole * self.potential * dt,
             "U": whole * self.strain * dt,
             "virial": whole * e["weight"] * (t1 + t2) * e["lam1"] * e["lam2"] * dt,

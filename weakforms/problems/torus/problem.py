@@ -12,7 +12,7 @@ from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.limits import limit_along, relative_stiffness
 from weakforms.problems.problem import End, Task
 from weakforms.problems.torus.about import TORUS
-from weakforms.problems.torus.model import TorusModel, stress_free_volume
+from weakforms.problems.torus.model import TorusModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -56,7 +56,7 @@ class Torus(BranchProblem):
 
     def ends(self, parameters: TorusParameters, _branch: str) -> list[End]:
         """The last volume."""
-        return [End("v_end", "V", parameters.v_end * stress_free_volume(parameters.b), largest=True)]
+        return [End("v_end", "v", parameters.v_end, largest=True)]
 
     def families(self, task: Task) -> dict[str, Family]:
         """The branch on all meshes."""
@@ -71,8 +71,8 @@ class Torus(BranchProblem):
             branch = from_rest(
                 model.system,
                 "p",
-                "V",
-                given.v_end * stress_free_volume(given.b),
+                "v",
+                given.v_end,
                 numerics.step,
                 begin=State(model.system.initial.u, {"p": numerics.start * usual}),
                 usual_load=USUAL_LOAD * usual,
@@ -81,7 +81,7 @@ class Torus(BranchProblem):
             last = branch.points[-1]
             if branch.stalled is None and (why := limit(last.state)):
                 branch.ended = (
-                    f"torus: at V = {last.monitors['V']:.6g} {why}; lower v_end, or choose another law"
+                    f"torus: at v = {last.monitors['v']:.6g} {why}; lower v_end, or choose another law"
                 )
             return branch
 

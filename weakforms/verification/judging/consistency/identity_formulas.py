@@ -235,3 +235,9 @@ def inside_of_front(result: Result, state: State, _: Field) -> quadrature.Estima
 def ring(result: Result, c: Columns) -> np.ndarray:
     """Distance of the points of a stress-free torus from its axis."""
     return 1 + result.parameters["b"] * np.cos(c["t"])
+
+
+def swelling(result: Result, state: State, _: Field) -> quadrature.Estimated:
+    """Volume of a torus over that without stress."""
+    without, volume = 2 * np.pi**2 * result.parameters["b"] ** 2, state.quantities["V"]
+    return volume.value / without, (volume.uncertainty or 0.0) / without

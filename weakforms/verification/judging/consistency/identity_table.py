@@ -248,6 +248,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         stable(),
         equal("virial", "3 p V, because lengths scale", lambda c: 3 * c["p"] * c["V"]),
         equal("Pi", "U - p V", lambda c: c["U"] - c["p"] * c["V"]),
+        read("v", "V/(2 pi^2 b^2)", formulas.swelling),
         read("r_out", "outer radius of the profile", end("r", 0)),
         read("r_in", "inner radius of the profile", end("r", -1)),
         field("lam2", "lam2 = r/(1 + b cos t)", lambda r, _, c: c["r"] / formulas.ring(r, c)),
