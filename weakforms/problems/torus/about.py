@@ -52,10 +52,10 @@ TORUS = About(
     example=Example("V", "p", {"alpha": 0.0}, numerics={"cells": 16, "levels": 2}),
     tuned=(
         Family(
-            {"b": (0.2, 0.6), "alpha": (0.0, 0.2)},
+            {"b": (0.2, 0.5), "alpha": (0.0, 0.2)},
             **LINE,
             fixed={"v_end": 2.5},
-            at=(("r_out", 1.7),),
+            at=(("v", 1.8),),
         ),
     ),
 )
