@@ -81,24 +81,33 @@ SAMPLED = 61
 """Number of places of a meridian at which the stretches of a state are compared with the limit of its law."""
 
 
-def limit_along(model: MeridianModel) -> Callable[[State], str]:
-    """Why the law takes hardly any more stretch at some place of a state of a model: a function of states.
-
-    Constants of the law may be loads.
-    """
+def stretches_along(model: MeridianModel) -> Callable[[State], list[tuple[float, float]]]:
+    """Meridional and circumferential stretch at places of a model's meridian: a function of states."""
 
     @cache
     def sampler() -> Sampler:
         stretches = {name: model.expressions[name] for name in ("lam1", "lam2")}
         return Sampler(model.unknown, stretches, np.linspace(0.0, model.blocks, SAMPLED))
 
-    def limit(state: State) -> str:
+    def sampled(state: State) -> list[tuple[float, float]]:
         with model.system.at(state):
             found = sampler()()
+        return list(zip(found["lam1"].tolist(), found["lam2"].tolist(), strict=True))
+
+    return sampled
+
+
+def limit_along(model: MeridianModel) -> Callable[[State], str]:
+    """Why the law takes hardly any more stretch at some place of a state of a model: a function of states.
+
+    Constants of the law may be loads.
+    """
+    places = stretches_along(model)
+
+    def limit(state: State) -> str:
         given = model.material_law
         constants = tuple((name, state.loads.get(name, value)) for name, value in given.constants)
-        places = zip(found["lam1"].tolist(), found["lam2"].tolist(), strict=True)
-        return limit_of(replace(given, constants=constants), places)
+        return limit_of(replace(given, constants=constants), places(state))
 
     return limit
 
@@ -112,10 +121,7 @@ def giving_way(model: MeridianModel, state: State) -> str:
     law = model.material_law
     if law is None:  # a Mooney-Rivlin membrane takes any stretch
         return ""
-    stretches = {name: model.expressions[name] for name in ("lam1", "lam2")}
-    with model.system.at(state):
-        found = Sampler(model.unknown, stretches, np.linspace(0.0, model.blocks, SAMPLED))()
-    for l1, l2 in zip(found["lam1"].tolist(), found["lam2"].tolist(), strict=True):
+    for l1, l2 in stretches_along(model)(state):
         more = l1 * (1 + NEARLY)
         there = evaluated(law, more, l2)
         if more > 1 and more * there["W11"] < LEAST_RESISTANCE * there["W1"]:
