@@ -75,6 +75,10 @@ class Family(Protocol):
     def failures(self) -> list[Failure]:
         """Solves that did not converge."""
 
+    @property
+    def warnings(self) -> Sequence[str]:
+        """What to know of the numbers, such as a mesh that was left out."""
+
     def branch(self, with_uncertainty: bool = True) -> Branch:
         """The branch with all its columns."""
 
@@ -191,7 +195,7 @@ class BranchProblem(Problem):
         for family in families.values():
             result.failures.extend(family.failures)
             result.absent.extend(family.absent)
-            result.warnings.extend(family.warnings if isinstance(family, BranchFamily) else ())
+            result.warnings.extend(family.warnings)
         if requests.ahead:  # last, so that no other number depends on it
             result.branches[:] = [self._with_end(b, families[b.name], task) for b in result.branches]
 

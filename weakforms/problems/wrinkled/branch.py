@@ -138,6 +138,11 @@ class WrinkledBranch:
         return []
 
     @property
+    def warnings(self) -> list[str]:
+        """None: every mesh is used."""
+        return []
+
+    @property
     def failures(self) -> list[Failure]:
         """Solves that did not converge."""
         stalled = self.trace.stalled

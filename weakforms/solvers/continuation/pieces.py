@@ -52,6 +52,11 @@ class PiecewiseFamily:
         return [failure for piece in self.pieces for failure in piece.family.failures]
 
     @property
+    def warnings(self) -> list[str]:
+        """Warnings of all parts."""
+        return [text for piece in self.pieces for text in piece.family.warnings]
+
+    @property
     def quadrature_degree(self) -> int:
         """The highest degree of all parts."""
         return max(piece.family.quadrature_degree for piece in self.pieces)

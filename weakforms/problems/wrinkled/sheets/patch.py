@@ -106,6 +106,7 @@ class PatchFamily:
     name = "primary"
     failures: Sequence[Failure] = ()
     absent: Sequence[Absence] = ()
+    warnings: Sequence[str] = ()
 
     def __init__(self, parameters: PatchParameters, numerics: PatchNumerics) -> None:
         self._given, self._cap = parameters, 2 * numerics.degree
