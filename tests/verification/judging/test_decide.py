@@ -233,3 +233,12 @@ def test_too_few_errors_show_no_mean_order(cells, errors):
     found = decide.mean_order("x", cells, Number(errors, 1e-9), 2.0)
     assert (found.holds, "show no mean order" in found.detail) == (False, True)
     assert decide.mean_order("x", (8, 16, 32), Number([1e-1, 1e-2, 1e-3], 1e-9), 2.0).holds
+
+
+def test_work_is_the_integral_of_the_force_along_its_path():
+    nodes = 2 + np.cos(np.pi * np.arange(8, -1, -1) / 8)
+    found = decide.work(nodes, nodes**2, nodes**3)
+    assert found.value == pytest.approx(3 / 5 * (3**5 - 1), rel=1e-13)
+    assert found.uncertainty < 1e-10
+    rough = decide.work(nodes, np.exp(3 * nodes), nodes)
+    assert abs(rough.value - (np.exp(9) - np.exp(3)) / 3) < rough.uncertainty

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from weakforms.verification.judging.bounds import FACTOR, compare
-from weakforms.verification.judging.numbers import Number, join, number, of_point, stack
+from weakforms.verification.judging.numbers import Number, join, number, of_point, stack, work
 
 __all__ = [
     "Finding",
@@ -44,6 +44,7 @@ __all__ = [
     "same",
     "sides",
     "stack",
+    "work",
     "zero",
 ]
 

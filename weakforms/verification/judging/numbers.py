@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 
 from weakforms.results import Quantity, SpecialPoint
 
@@ -124,3 +125,25 @@ def join(items: Iterable[Any]) -> Number:
     items = [number(item) for item in items]
     ends = [np.concatenate([np.atleast_1d(getattr(i, k)) for i in items]) for k in ("value", "uncertainty")]
     return Number(*ends)
+
+
+def work(nodes: np.ndarray, force: np.ndarray, along: np.ndarray) -> Number:
+    r"""Work :math:`\int f \,\mathrm{d}a` from the first of some nodes to the last, by polynomials over them.
+
+    Args:
+        nodes: Chebyshev-Lobatto points of an abscissa, ascending.
+        force: Values of ``f`` there.
+        along: Values of ``a``.
+
+    Returns:
+        The work; its uncertainty is the difference from polynomials of two degrees less. Errors of the values
+        are not in it.
+    """
+
+    def done(degree: int) -> float:
+        f, a = (Chebyshev.fit(nodes, values, degree) for values in (force, along))
+        whole = (f * a.deriv()).integ()
+        return float(whole(nodes[-1]) - whole(nodes[0]))
+
+    most = len(nodes) - 1
+    return Number(done(most), abs(done(most) - done(most - 2)))
