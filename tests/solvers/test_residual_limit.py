@@ -86,3 +86,19 @@ def test_the_limit_is_the_usual_one_between_its_bounds():
             forces, limit = system.force_size(), residual_limit(system)
         assert low * forces <= limit <= high * forces
         assert limit == RESIDUAL_LIMIT or limit in (low * forces, high * forces)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_lower_bound_of_the_limit_is_one(size):
+    """It is returned if it is enough, and the limit itself if not."""
+    system = bar(size, cells=20)
+    with system.at(system.initial):
+        system.tangent()
+        least, forces = system.least_force_size(), system.force_size()
+        assert 0 < least <= forces
+        limit = residual_limit(system)
+        low = residual_limit(system, 1e-3 * OF_FORCES[1] * least)
+        assert 0 < low <= limit
+        assert residual_limit(system, 2 * limit) == limit
+        if size < 1:
+            assert low < limit

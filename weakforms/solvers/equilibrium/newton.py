@@ -63,11 +63,21 @@ class Constraint(Protocol):
         """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system is lent to."""
 
 
-def residual_limit(system: System) -> float:
-    """Residual norm above which a state is refused; the tangent may be from a state close to it."""
+def residual_limit(system: System, enough: float = np.inf) -> float:
+    """Residual norm above which a state is refused; the tangent may be from a state close to it.
+
+    Args:
+        system: The system, lent to the state.
+        enough: A lower bound of the limit serves too, if it is not below this residual: it is cheaper.
+    """
+    least = _limit(system.least_force_size())
+    return least if least >= enough else _limit(system.force_size())
+
+
+def _limit(forces: float) -> float:
+    """The limit for forces of a size; it grows with them."""
     low, high = OF_FORCES
-    size = system.force_size()
-    return min(max(RESIDUAL_LIMIT, low * size), high * size)
+    return min(max(RESIDUAL_LIMIT, low * forces), high * forces)
 
 
 class ExtendedNewton:
@@ -306,9 +316,9 @@ class ExtendedNewton:
         """Whether the remaining residuals of forces and constraints are within some times their limits."""
         self._put(self._x)
         forces, missed = self._split(snes.getFunction()[0])
-        left = self.system.dot(forces, forces)
-        own = left <= (times * residual_limit(self.system)) ** 2
-        within = own or left <= (times * self._round_off_of_loads()) ** 2
+        left = sqrt(self.system.dot(forces, forces))
+        within = left <= times * residual_limit(self.system, left / times)
+        within = within or left <= times * self._round_off_of_loads()
         return within and all(abs(value) < times * RESIDUAL_LIMIT for value in missed)
 
 

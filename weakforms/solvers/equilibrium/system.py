@@ -262,6 +262,17 @@ class System(Lendable):
         forces = rows * np.maximum(np.abs(self._owned), SMALL_DISPLACEMENT)
         return float(np.sqrt(self.dot(forces, forces)))
 
+    def least_force_size(self) -> float:
+        r"""A lower bound of :meth:`force_size` from the diagonal alone, :math:`\| |K_{ii}| \, |U_i| \|`.
+
+        It takes no copy of the matrix.
+        """
+        self.require_lent()
+        diagonal = np.abs(self.matrix.getDiagonal().array_r)
+        forces = diagonal * np.maximum(np.abs(self._owned), SMALL_DISPLACEMENT)
+        forces[self.bc_dofs] = 0.0
+        return float(np.sqrt(self.dot(forces, forces)))
+
     # -- algebra over ranks ------------------------------------------------------------------
 
     def sum(self, local: np.ndarray | float) -> np.ndarray | float:

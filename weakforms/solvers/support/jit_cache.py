@@ -40,6 +40,7 @@ from ufl.core.expr import Expr
 from ufl.corealg.traversal import traverse_unique_terminals
 
 from weakforms.errors import EnvironmentLackError
+from weakforms.solvers.support import kernels
 
 PATIENCE = 180
 """Seconds for which a process waits for another one that compiles the same form, if files cannot be locked.
@@ -56,8 +57,12 @@ def install() -> None:
     """Make ffcx use this cache; repeated calls have no effect."""
     if getattr(jit.get_cached_module, "shared", False):
         return
-    _, about = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"]
-    dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS["timeout"] = (PATIENCE, about)
+    kernels.install()
+    defaults = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS
+    usual, about = defaults["cffi_extra_compile_args"]
+    defaults["cffi_extra_compile_args"] = ([*usual, kernels.MARK], about)
+    _, about = defaults["timeout"]
+    defaults["timeout"] = (PATIENCE, about)
     # Files in the current folder, written by anybody, must not change how forms are compiled: neither the
     # arguments of the compiler (which can load a plugin) nor the precision of numbers.
     for options in (dolfinx_jit, ffcx_options):

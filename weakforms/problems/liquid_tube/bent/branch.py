@@ -162,8 +162,9 @@ class SecondaryBranch(EquilibriumBranch):
             bordered = BorderedMatrix(factor, [across], [across], np.zeros((1, 1)))
         for step in range(CORRECTIONS + 1):
             with system.at(state):
-                residual, limit = system.residual(), residual_limit(system)
-            norms.append(float(np.sqrt(system.dot(residual, residual))))
+                residual = system.residual()
+                norms.append(float(np.sqrt(system.dot(residual, residual))))
+                limit = residual_limit(system, norms[-1])
             if step == CORRECTIONS or norms[-1] < EQUILIBRIUM:
                 break
             state.u += bordered.solve(-residual, np.zeros(1))[0]
