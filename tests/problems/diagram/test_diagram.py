@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from weakforms import solve
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import registry
+from weakforms.problems.diagram.lines import LinesOnMesh
 from weakforms.problems.diagram.parameters import DiagramParameters
 
 COARSE = {"cells": 24, "degree": 4, "levels": 2}
@@ -243,3 +244,25 @@ def test_lines_of_mirror_breaking_are_looked_for_as_far_as_a_bulge_is_held():
     assert [branch.name for branch in result.branches] == ["contact", "end"]
     said = {absence.what: absence.reason for absence in result.absent}
     assert "lf up to 12" in said["lines of kind mirror"]
+
+
+def test_a_search_that_fails_costs_only_its_own_lines(monkeypatch):
+    """Lines found elsewhere are followed, and the result says where nothing could be searched."""
+    right, first = LinesOnMesh.starts, 1.0
+
+    def starts(self, kind, at):
+        if kind == "fold" and at == first:
+            raise ConvergenceError("SNES ended")
+        return right(self, kind, at)
+
+    plane = {"alpha": 0.1, "kind": "fold,contact", "low": 1.0, "high": 1.4, "numerics": COARSE}
+    whole = solve("diagram", **plane)
+    monkeypatch.setattr(LinesOnMesh, "starts", starts)
+    found = solve("diagram", **plane)
+    assert {b.name for b in found.branches} == {b.name for b in whole.branches} >= {"fold", "contact"}
+    assert [(f.what, f.reason) for f in found.failures] == [
+        ("start of lines of kind fold at delta1 = 1", "SNES ended")
+    ]
+    monkeypatch.setattr(LinesOnMesh, "starts", lambda *_: starts(None, "fold", first))
+    with pytest.raises(ConvergenceError, match="start of lines of kind fold at delta1 = 1: SNES ended"):
+        solve("diagram", **plane)

@@ -109,6 +109,8 @@ class LinesOnMesh:
         self.system, self.depth = model.system, model.depth
         self._branches: dict[float, EquilibriumBranch] = {}
         self._lines: dict[Seed, CriticalLine] = {}
+        self.failed: dict[tuple[str, float], str] = {}
+        """Kinds and values of the parameter at which no critical point could be searched, and why."""
 
     def branch(self, at: float) -> EquilibriumBranch:
         """The primary branch where the parameter has a value."""
@@ -133,10 +135,18 @@ class LinesOnMesh:
         return [state for state in found if not self._outside(self._columns(state))]
 
     def seeds(self, kind: str, places: Sequence[float]) -> list[Seed]:
-        """One critical point for each line that crosses a primary branch at one of some values."""
+        """One critical point for each line that crosses a primary branch at one of some values.
+
+        Where the search does not converge, :attr:`failed` says so, and the other values are searched.
+        """
         seeds: list[Seed] = []
         for at in dict.fromkeys(places):
-            for index, state in enumerate(self.starts(kind, at)):
+            try:
+                starts = self.starts(kind, at)
+            except ConvergenceError as error:
+                self.failed[kind, at] = str(error)
+                continue
+            for index, state in enumerate(starts):
                 if not any(self.has(self.line(seed), state) for seed in seeds):
                     seeds.append(Seed(kind, at, index))
         return seeds

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from weakforms.errors import AbsentError, InputError, not_among
+from weakforms.errors import AbsentError, ConvergenceError, InputError, not_among
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.diagram.about import DIAGRAM, LINES
@@ -16,7 +16,7 @@ from weakforms.problems.material_choice import require_model
 from weakforms.problems.meridian.limits import require_stretched, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.tube.parameters import resolving
-from weakforms.results import Absence, Result
+from weakforms.results import Absence, Failure, Result
 
 SCANNED = 9
 """Number of values of the parameter at which a critical point is searched, if there is none at the first."""
@@ -123,6 +123,7 @@ class Diagram(BranchProblem):
 
         Raises:
             AbsentError: If there is no such point.
+            ConvergenceError: If there is none where it could be searched, but not everywhere.
         """
         given, numerics = task.parameters, task.numerics
         meshes = [_lines_on(cells, task) for cells in numerics.meshes]
@@ -134,7 +135,9 @@ class Diagram(BranchProblem):
         for k, (name, seed) in enumerate(names.items()):
             task.progress(f"line {name}", k, len(names))
             found[name] = LineFamily(meshes, seed, name, 2.0 * numerics.degree, caps)
-        next(iter(found.values())).absent.extend(missing)
+        first = next(iter(found.values()))
+        first.absent.extend(missing)
+        first.failures.extend(_failures(meshes[0], given.vary))
         return found
 
     def _seeds(self, given: DiagramParameters, coarse: LinesOnMesh) -> tuple[dict[str, Seed], list[Absence]]:
@@ -148,11 +151,14 @@ class Diagram(BranchProblem):
         for kind in (*given.kinds, *(("end",) if counted else ())):
             seeds = coarse.seeds(kind, places)
             names |= {kind + (f"_{k + 1}" if k else ""): seed for k, seed in enumerate(seeds)}
-            if not seeds and kind != "end":
+            failed = any(of == kind for of, _ in coarse.failed)
+            if not seeds and kind != "end" and not failed:
                 missing.append(Absence(f"lines of kind {kind}", _none(given, kind)))
         if given.kind == "all" and given.unheld:
             missing.append(Absence("lines of kind mirror", f"diagram: {given.unheld}"))
         if names.keys() <= {"end"}:
+            for failure in _failures(coarse, given.vary):
+                raise ConvergenceError(f"{failure.what}: {failure.reason}")
             raise AbsentError("lines", "; ".join(item.reason for item in missing))
         return names, missing
 
@@ -185,6 +191,14 @@ def _lines_on(cells: int, task: Task) -> LinesOnMesh:
     grading = GRADING if given.body == "tube" else 0.0
     model = given.subject.model(task.comm, given.material, values, cells, numerics.degree, grading)
     return LinesOnMesh(model, given.window, given.touch, numerics.step, given.broken)
+
+
+def _failures(on: LinesOnMesh, vary: str) -> list[Failure]:
+    """Where lines could not be searched."""
+    return [
+        Failure(f"start of lines of kind {kind} at {vary} = {at:.6g}", reason)
+        for (kind, at), reason in on.failed.items()
+    ]
 
 
 def _none(given: DiagramParameters, kind: str) -> str:
