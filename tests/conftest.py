@@ -30,7 +30,10 @@ signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 CASE = re.compile(r"test_cases\.py::\w+\[([^]:]+)")
 RANKS = "tests/mpi"
 """Several ranks each: one of them at a time."""
-LONG = ("paper3.secondary", "paper3.fig06", RANKS)
+BEHIND = 5
+"""How much lower the priority of all other tests is (``nice``). Ranks wait for one another at every step; if
+they had to wait for a core too, they would take several times as long."""
+LONG = (RANKS, "paper3.secondary", "paper3.fig06")
 """What takes minutes begins first, so that no worker is left to be waited for."""
 SILENCE = 60.0
 """Seconds after which a log shows how far the tests are."""
@@ -87,6 +90,13 @@ def pytest_xdist_make_scheduler(config, log):
             return crashed
 
     return CasesAndFiles(config, log) if config.getoption("dist") == "loadscope" else None
+
+
+def pytest_runtest_setup(item) -> None:
+    """Let tests on several ranks, which come first, go before the others."""
+    parallel = hasattr(item.config, "workerinput")
+    if parallel and not item.nodeid.startswith(f"{RANKS}/") and os.nice(0) < BEHIND:
+        os.nice(BEHIND)
 
 
 def pytest_collection_finish(session) -> None:

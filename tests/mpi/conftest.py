@@ -1,35 +1,32 @@
 """Fixtures that solve serially and on several ranks and compare all numbers."""
 
-import json
 import shutil
 
 import pytest
-from on_ranks import allowed, start
+from on_ranks import Ranks, allowed
 
 from weakforms import solve
 from weakforms.results import Result
 from weakforms.verification.audit.same import differences
 
-PROGRAM = """
-import json, sys
-from mpi4py import MPI
-from weakforms import solve
-requests = json.loads(sys.argv[1])
-found = [solve(**{**r, "at": [tuple(item) for item in r.get("at", [])]}).to_json() for r in requests]
-if MPI.COMM_WORLD.rank == 0:
-    print("RESULT" + json.dumps([*found, MPI.COMM_WORLD.size]))
-"""
 
+@pytest.fixture(scope="session")
+def run():
+    """Solves some requests serially, or on ranks that are started once for all tests."""
+    started: dict[int, Ranks] = {}
 
-def run(requests: list[dict], ranks: int) -> list[Result]:
-    """Results of :func:`weakforms.solve` for some requests, with several ranks in processes of their own."""
-    if ranks == 1:
-        return [Result.from_json(solve(**request).to_json()) for request in requests]
-    output = start(["-c", PROGRAM, json.dumps(requests)], ranks)
-    line = next(text for text in output.splitlines() if text.startswith("RESULT"))
-    *found, size = json.loads(line.removeprefix("RESULT"))
-    assert size == ranks
-    return [Result.from_json(item) for item in found]
+    def solved(requests: list[dict], ranks: int) -> list[Result]:
+        if ranks == 1:
+            return [Result.from_json(solve(**request).to_json()) for request in requests]
+        if ranks not in started or not started[ranks].running:
+            started[ranks] = Ranks(ranks)
+        *found, size = started[ranks].solve(requests)
+        assert size == ranks
+        return [Result.from_json(item) for item in found]
+
+    yield solved
+    for of in started.values():
+        of.end()
 
 
 def beyond(first: Result, second: Result) -> list[str]:
@@ -49,8 +46,8 @@ def launcher():
 
 
 @pytest.fixture
-def same_on_ranks(launcher):
-    """Calls :func:`run` serially, in this process, and on several ranks; every number must agree."""
+def same_on_ranks(launcher, run):
+    """Solves serially, in this process, and on several ranks; every number must agree."""
 
     def check(requests: list[dict], ranks: int = 2) -> list[Result]:
         serial, split = run(requests, 1), run(requests, ranks)

@@ -1,8 +1,11 @@
 """Run Python on several ranks, and the differences that its numbers may have."""
 
+import json
 import os
 import subprocess
 import sys
+import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,9 +24,35 @@ LETTING_GO = 1e-6
 slopes in it multiply the round-off of positions."""
 
 
-def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
-    """Output of Python on several ranks; an error on one rank ends all (mpi4py's runner)."""
-    environment = os.environ | {
+SERVER = """
+import json, sys, time
+from pathlib import Path
+from mpi4py import MPI
+from weakforms import solve
+
+folder, comm = Path(sys.argv[1]), MPI.COMM_WORLD
+for number in range(1_000_000):
+    asked = folder / f"{number}.json"
+    while not asked.exists():  # a rank that waits in MPI would keep a core busy
+        time.sleep(0.02)
+    requests = json.loads(asked.read_text())
+    found = [solve(**{**r, "at": [tuple(item) for item in r.get("at", [])]}).to_json() for r in requests]
+    if comm.rank == 0:
+        done = folder / f"{number}.done"
+        done.with_suffix(".part").write_text(json.dumps([*found, comm.size]))
+        done.with_suffix(".part").rename(done)
+"""
+
+
+def command(arguments: list[str], ranks: int) -> list[str]:
+    """The command that runs Python on several ranks; an error on one rank ends all (mpi4py's runner)."""
+    launch = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    return [*launch, sys.executable, "-m", "mpi4py", *arguments]
+
+
+def environment() -> dict[str, str]:
+    """The environment of that command."""
+    return os.environ | {
         "PYTHONPATH": str(ROOT),
         "OMPI_ALLOW_RUN_AS_ROOT": "1",
         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -31,17 +60,72 @@ def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
         "OMPI_MCA_mpi_yield_when_idle": "1",  # there may be fewer cores than ranks
         "OMP_NUM_THREADS": "1",
     }
-    launch = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+
+
+def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
+    """Output of Python on several ranks."""
     done = subprocess.run(
-        [*launch, sys.executable, "-m", "mpi4py", *arguments],
+        command(arguments, ranks),
         capture_output=True,
         text=True,
-        env=environment,
+        env=environment(),
         timeout=timeout,
         check=False,
     )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     return done.stdout
+
+
+class Ranks:
+    """Several ranks that solve one list of requests after the other.
+
+    Starting them for each test, with all imports and forms, would take longer than most solves.
+
+    Args:
+        ranks: Their number.
+    """
+
+    def __init__(self, ranks: int) -> None:
+        self._folder = tempfile.TemporaryDirectory()
+        self._told = open(Path(self._folder.name) / "output", "w+b")  # noqa: SIM115
+        self._process = subprocess.Popen(
+            command(["-c", SERVER, self._folder.name], ranks),
+            stdin=subprocess.DEVNULL,
+            stdout=self._told,
+            stderr=subprocess.STDOUT,
+            env=environment(),
+        )
+        self._asked = 0
+
+    @property
+    def running(self) -> bool:
+        """Whether they wait for requests."""
+        return self._process.poll() is None
+
+    def solve(self, requests: list[dict], timeout: float = 900) -> list[dict]:
+        """Results of :func:`weakforms.solve` as JSON, and the number of ranks after them."""
+        done = Path(self._folder.name) / f"{self._asked}.done"
+        part = done.with_suffix(".asked")
+        part.write_text(json.dumps(requests))
+        part.rename(done.with_suffix(".json"))
+        self._asked += 1
+        end = time.monotonic() + timeout
+        while not done.exists():
+            if not self.running or time.monotonic() > end:
+                self.end()
+                self._told.seek(0)
+                raise AssertionError(f"the ranks ended or hang: {self._told.read()[-4000:].decode()}")
+            time.sleep(0.02)
+        return json.loads(done.read_text())
+
+    def end(self) -> None:
+        """End them."""
+        self._process.terminate()
+        try:
+            self._process.wait(10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
 
 
 def allowed(place: str, spec: str) -> float:
