@@ -9,7 +9,6 @@ import ufl
 from dolfinx import fem, geometry
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
-from numpy.polynomial.polynomial import polyder, polyroots, polyval
 from ufl.core.expr import Expr
 
 from weakforms.solvers.support import compat
@@ -62,14 +61,17 @@ class FirstLevels:
         self._interpolant = Interpolant(unknown, columns)
         space = unknown.function_space
         self._comm = space.mesh.comm
-        self._cells = space.mesh.topology.index_map(1).size_local
+        cells = space.mesh.topology.index_map(1).size_local
+        self._dofs = self._interpolant.function.function_space.dofmap.list[:cells]
+        self._order: np.ndarray | None = None
 
     def __call__(self) -> dict[str, float]:
         """The smallest such coordinate, or the end of the body if a level is never reached."""
-        dofs = self._interpolant.function.function_space.dofmap.list[: self._cells]
-        nodes = self._interpolant.values()[dofs]
-        order = np.argsort(nodes[:, :, 0], axis=1)[:, :, None]
-        nodes = np.take_along_axis(nodes, order, axis=1)
+        values = self._interpolant.values()
+        if self._order is None:  # fronts move the nodes, and keep them in order
+            places = np.argsort(values[self._dofs, 0], axis=1)
+            self._order = np.take_along_axis(self._dofs, places, axis=1)
+        nodes = values[self._order]
         local = [_first(nodes[:, :, 0], nodes[:, :, i], v) for i, v in enumerate(self._levels.values(), 1)]
         end = nodes[:, :, 0].max(initial=-np.inf)
         gathered = np.array(self._comm.allgather([*local, end]))
@@ -179,6 +181,14 @@ class Probe:
 SEARCHED = 3
 """Cells that are searched for the largest value: it lies in one with the largest nodal values."""
 
+SAMPLES, BELOW = 17, 0.1
+"""Number of samples in such a cell, and how far below the largest sample, as a part of the range of all,
+another peak of the samples may lie to be looked at too."""
+
+STEPS, AT_REST = 20, 1e-9
+"""Largest number of Newton steps from a sample to the stationary point beside it, and the last step: a value
+there has the square of its error."""
+
 
 class Peak:
     """Largest value of one component of a function on a one-dimensional mesh, by its polynomials."""
@@ -192,17 +202,54 @@ class Peak:
         middle, half = nodes.mean(axis=1, keepdims=True), np.ptp(nodes, axis=1, keepdims=True) / 2
         powers = np.arange(nodes.shape[1])
         self._to_coefficients = np.linalg.inv(((nodes - middle) / half)[:, :, None] ** powers)
+        self._samples = np.linspace(-1.0, 1.0, SAMPLES) ** powers[:, None]
 
     def __call__(self) -> float:
         """The largest value, from the cells with the largest nodal values; infinite if one is no number."""
         values = self._function.x.array[self._block * self._cells + self._component]
-        if self._comm.allreduce(not np.isfinite(values).all(), op=MPI.LOR):
-            return np.inf
-        largest = float(values.max(initial=-np.inf))
-        searched = np.argsort(values.max(axis=1, initial=-np.inf))[-SEARCHED:]
-        polynomials = np.einsum("cij,cj->ci", self._to_coefficients[searched], values[searched])
-        for coefficients in polynomials:
-            roots = polyroots(polyder(coefficients))
-            inside = roots[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) <= 1)].real
-            largest = max(largest, *polyval(inside, coefficients).tolist(), largest)
-        return self._comm.allreduce(largest, op=MPI.MAX)
+        found = -np.inf
+        if not np.isfinite(values).all():
+            found = np.inf
+        elif len(values):
+            highest = values.max(axis=1)
+            searched = np.argsort(highest)[-SEARCHED:]
+            polynomials = (self._to_coefficients[searched] @ values[searched, :, None])[:, :, 0]
+            inside = _largest(polynomials, polynomials @ self._samples)
+            found = max(float(highest[searched[-1]]), inside)
+        return found if self._comm.size == 1 else self._comm.allreduce(found, op=MPI.MAX)
+
+
+def _largest(polynomials: np.ndarray, samples: np.ndarray) -> float:
+    """Largest value on ``[-1, 1]`` of polynomials, one row of coefficients each, from their samples there."""
+    best, least = samples.max(), samples.min()
+    beside = np.full((len(samples), 1), -np.inf)
+    left, right = np.hstack([beside, samples[:, :-1]]), np.hstack([samples[:, 1:], beside])
+    peaks = (samples >= left) & (samples >= right) & (samples >= best - BELOW * (best - least))
+    rows = [row.tolist() for row in polynomials]
+    width = 2.0 / (SAMPLES - 1)
+    return max(
+        float(best), *(_stationary(rows[row], width * i - 1.0, width) for row, i in np.argwhere(peaks))
+    )
+
+
+def _stationary(coefficients: list[float], at: float, width: float) -> float:
+    """Value of a polynomial at its maximum on ``[-1, 1]`` next to a sample, at most one width away."""
+    slope = [k * c for k, c in enumerate(coefficients)][1:]
+    bend = [k * c for k, c in enumerate(slope)][1:]
+    low, high, t = max(at - width, -1.0), min(at + width, 1.0), at
+    for _ in range(STEPS):
+        curvature = _horner(bend, t)
+        if not curvature < 0:  # no maximum here
+            break
+        before, t = t, min(max(t - _horner(slope, t) / curvature, low), high)
+        if abs(t - before) < AT_REST:
+            break
+    return _horner(coefficients, t)
+
+
+def _horner(coefficients: list[float], t: float) -> float:
+    """Value of a polynomial; without numpy, whose calls would cost more than the sum."""
+    total = 0.0
+    for coefficient in reversed(coefficients):
+        total = total * t + coefficient
+    return total
