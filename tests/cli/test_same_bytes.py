@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SMALL = ["--mesh", "cells=16", "--mesh", "degree=3", "--mesh", "levels=2"]
-FLUID = ["--mesh", "cells=24", "--mesh", "degree=4", "--mesh", "levels=2"]
+SMALL = ["--mesh", "cells=16", "--mesh", "levels=2"]
+FLUID = ["--mesh", "cells=24", "--mesh", "levels=2"]
 BLOCKS = ["--mesh", "cells=4", "--mesh", "levels=2"]
 REQUESTS = {
     "tube": [*SMALL, "--set", "u_end=2"],

@@ -235,7 +235,7 @@ def test_a_real_terminal_is_recognised():
 
 # -- diagram -------------------------------------------------------------------------------------
 
-COARSE = ("--mesh", "cells=16", "--mesh", "degree=3", "--mesh", "levels=2")
+COARSE = ("--mesh", "cells=16", "--mesh", "levels=2")
 
 
 @pytest.fixture(scope="module")

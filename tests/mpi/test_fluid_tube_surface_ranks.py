@@ -14,8 +14,7 @@ def test_full_circle(same_on_ranks):
 
 
 def test_secondary_branch(same_on_ranks):
-    coarse = {"cells": 24, "degree": 4, "levels": 2}
-    coarse |= {"secondary_cells": 12, "secondary_degree": 4, "secondary_levels": 2}
+    coarse = {"cells": 24, "levels": 2, "secondary_cells": 12, "secondary_levels": 2}
     bent = {
         "problem": "fluid_tube",
         "secondary": True,

@@ -4,7 +4,7 @@ import pytest
 from on_ranks import start
 
 pytestmark = pytest.mark.mpi
-MESH = {"cells": 32, "degree": 3, "levels": 2}
+MESH = {"cells": 32, "levels": 2}
 
 
 @pytest.mark.paper2

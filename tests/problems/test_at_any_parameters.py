@@ -106,14 +106,14 @@ def test_membranes_on_wide_disks_are_widened_to_them(given):
 def test_a_membrane_with_nothing_to_perturb_is_answered_in_terms_of_its_parameters():
     """A state exists and is found through narrower disks; it is taut at the lower end."""
     given = {"M": 1.764, "delta": 2.778, "c2": 0.7244, "L": 2.985, "Af": 2.238, "gamma": 7.142}
-    result = solve("wrinkled_linear", **given, zw=0.05942, numerics={"cells": 8, "degree": 4, "levels": 2})
+    result = solve("wrinkled_linear", **given, zw=0.05942, numerics={"cells": 8, "levels": 2})
     (part,) = result.absent
     assert result.quantities == {}
     assert "a smaller Af or a larger M or delta wrinkles it" in part.reason
 
 
 FAR = {"alpha": 0.8089, "beta": 9.496, "k": 88.36, "l": 1.084, "p_end": 0.3871}
-DISK = {"cells": 16, "degree": 3, "levels": 2}
+DISK = {"cells": 16, "levels": 2}
 
 
 @pytest.mark.parametrize(
@@ -222,7 +222,7 @@ def test_a_bent_branch_that_is_unstable_from_its_start_has_no_change_of_stabilit
 def test_a_tube_is_inflated_from_rest_each_time():
     """The second free branch, up to ``p_end``, started from the bulged state at first contact."""
     given = {"alpha": 0.4899, "delta1": 1.389, "lf": 1.106, "k": 668.0, "s": 9.626, "p_end": 2.367}
-    coarse = {"cells": 16, "degree": 3, "levels": 2}
+    coarse = {"cells": 16, "levels": 2}
     result = solve("tube", **given, contact="adhesive", phase="deflation", numerics=coarse)
     assert result.failures == []
     assert "p_end = 2.367 is below first contact" in result.absent[0].reason
@@ -456,7 +456,7 @@ def test_wide_disks_at_which_a_bounded_force_gives_way_are_refused(problem):
 def test_a_stiffening_liquid_tube_ends_where_it_is_wide():
     """With ``alpha = 0.51`` the level has no limit point; the trace once went on to a level of 1260."""
     given = {"L": 3.331, "delta": 6.689, "gamma": 0.1716, "alpha": 0.5086, "n_max": 1}
-    result = solve("fluid_tube", **given, numerics={"cells": 16, "degree": 3, "levels": 2})
+    result = solve("fluid_tube", **given, numerics={"cells": 16, "levels": 2})
     (rest,) = result.absent
     assert result.failures == []
     assert rest.what == "rest of branch primary"
@@ -476,7 +476,7 @@ def test_a_bent_state_that_is_far_is_reached_by_steps():
         "amplitude": 0.1056,
         "uneven": 0.1351,
     }
-    result = solve("fluid_tube_surface", **given, numerics={"cells": 16, "degree": 3})
+    result = solve("fluid_tube_surface", **given, numerics={"cells": 16})
     assert result.failures == []
     numbers = result.quantities
     assert numbers["zw_bent"].value < numbers["zw_bifurcation"].value

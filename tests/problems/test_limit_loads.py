@@ -14,7 +14,7 @@ from weakforms.problems.meridian.limits import mean_stretch_limit, require_width
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 
-COARSE = {"cells": 6, "degree": 4, "levels": 2}
+COARSE = {"cells": 6, "levels": 2}
 NUMERICS = WrinkledNumerics(**COARSE)
 
 

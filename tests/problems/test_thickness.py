@@ -12,7 +12,7 @@ from weakforms.problems.meridian.thickness import LONGEST, Thickness
 from weakforms.problems.problem import Requests, StateRequest, validated
 
 PLACES = np.linspace(0.0, 1.0, 201)
-COARSE = {"cells": 6, "degree": 4, "levels": 2}
+COARSE = {"cells": 6, "levels": 2}
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from weakforms.problems.controls.problem import ControlsParameters
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
 from weakforms.solvers.stability.spectra import Stability
 
-MESH = {"cells": 48, "degree": 4, "levels": 2}
+MESH = {"cells": 48, "levels": 2}
 
 
 def largest_reservoir(kappa, p_atm, lam_end):

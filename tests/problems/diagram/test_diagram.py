@@ -11,8 +11,8 @@ from weakforms.problems import registry
 from weakforms.problems.diagram.lines import LinesOnMesh
 from weakforms.problems.diagram.parameters import DiagramParameters
 
-COARSE = {"cells": 24, "degree": 4, "levels": 2}
-MESH = {"cells": 48, "degree": 4, "levels": 2}
+COARSE = {"cells": 24, "levels": 2}
+MESH = {"cells": 48, "levels": 2}
 
 
 @pytest.fixture(scope="module")
@@ -170,7 +170,7 @@ def test_every_line_says_where_it_begins_and_why_it_ends(alpha_plane):
 def test_a_line_at_large_pressures_is_followed_in_few_steps_and_not_taken_for_closed():
     """With steps of one length it has more than 500 points. Longer ones are no return to the start."""
     disk = {"body": "circular", "alpha": 0.9, "kind": "contact", "beta": 2.3, "l": 3.0, "t_end": 3.1}
-    result = solve("diagram", **disk, low=2.0, numerics={"cells": 8, "degree": 3, "levels": 2, "step": 0.2})
+    result = solve("diagram", **disk, low=2.0, numerics={"cells": 8, "levels": 2, "step": 0.2})
     assert result.failures == []
     (line,) = result.branches
     assert line.columns["beta"][0] == pytest.approx(2.0)
@@ -182,7 +182,7 @@ def test_a_line_at_large_pressures_is_followed_in_few_steps_and_not_taken_for_cl
 def test_a_line_ends_where_the_law_gives_way_and_says_so():
     """``w,11 = 2 mu lam2 (2 - lam2/f2)`` is zero at a pole stretch of 3.332; meshes differ beyond it."""
     disk = {"body": "circular", "model": "harmonic", "f2": 1.666, "beta": 2.378, "t_end": 0.1728}
-    coarse = {"cells": 8, "degree": 3, "levels": 2, "step": 0.2}
+    coarse = {"cells": 8, "levels": 2, "step": 0.2}
     result = solve("diagram", **disk, kind="fold", numerics=coarse)
     assert result.failures == []
     line = result.branch("end")

@@ -8,7 +8,7 @@ from weakforms.problems.diagram.bodies import VariedTube
 from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.problems.tube.waves import EVEN, ODD
 
-MESH = {"cells": 48, "degree": 4, "levels": 2}
+MESH = {"cells": 48, "levels": 2}
 OVER_LENGTH = {"x": "lf", "alpha": 0.0, "low": 5.0, "high": 10.0, "u_end": 2.5}
 
 
@@ -85,7 +85,7 @@ def test_points_on_lines_past_first_wrinkling_are_flagged(over_length):
 
 def test_points_past_the_largest_displacement_start_no_line():
     """At ``delta1 = 1.9375`` the last step of the primary branch has a point at ``u_max = 4.05``."""
-    coarse = {"cells": 24, "degree": 4, "levels": 2}
+    coarse = {"cells": 24, "levels": 2}
     given = {"alpha": 0.0, "delta1": 2.0, "low": 1.9, "high": 2.2, "u_end": 4.0}
     found = solve("diagram", **given, kind="n2", numerics=coarse)
     assert [branch.name for branch in found.branches] == ["n2", "end"]

@@ -20,7 +20,7 @@ from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.run.runner import verify
 
 pytestmark = pytest.mark.paper1
-COARSE = {"cells": 24, "degree": 3, "levels": 2}
+COARSE = {"cells": 24, "levels": 2}
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +110,7 @@ def test_the_volume_is_what_the_potential_falls_by_with_pressure(run):
 
 def test_the_free_cap_is_in_vertical_balance():
     x = np.linspace(0.1, 0.95, 120)
-    result = solve("circular", t_end=0.9, at={"t0": 0.8}, numerics={"cells": 48, "degree": 4, "levels": 2})
+    result = solve("circular", t_end=0.9, at={"t0": 0.8}, numerics={"cells": 48, "levels": 2})
     p = result.states[0].quantities["p"].value
     columns = result.states[0].fields[0].columns
     inside = (columns["X"] > 0.05) & (columns["X"] < 0.99)
@@ -123,7 +123,7 @@ def test_the_free_cap_is_in_vertical_balance():
 
 def test_a_kept_run_begins_where_a_new_one_does():
     """Both solves share the discrete disk, which the first solve leaves inflated."""
-    mesh = {"cells": 16, "degree": 3, "levels": 2}
+    mesh = {"cells": 16, "levels": 2}
     far, near = (solve("circular", alpha=0, beta=1.2, t_end=t, numerics=mesh) for t in (3.1, 2.0))
     assert far.failures == near.failures == []
     a, b = (found.points("limit_point")[0].values["p"] for found in (far, near))

@@ -7,14 +7,14 @@ from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation import branch as followed
 from weakforms.solvers.stability.modes import Singular
 
-DISK = {"cells": 16, "degree": 3, "levels": 2}
+DISK = {"cells": 16, "levels": 2}
 
 
 def test_a_limit_point_whose_extended_system_fails_is_found_by_its_rate(monkeypatch):
     """On a thin pole the turn was so sharp that round-off exceeded the tolerance of the extended system."""
     given, coarse = (
         {"beta": 1.5, "M": 0.5, "t_end": 2.0, "alpha": 0.0},
-        {"cells": 16, "degree": 3, "levels": 2},
+        {"cells": 16, "levels": 2},
     )
     (usual,) = solve("circular", **given, numerics=coarse).points("limit_point")
 
@@ -31,7 +31,7 @@ def test_a_limit_point_whose_extended_system_fails_is_found_by_its_rate(monkeypa
 
 
 def test_a_thin_pole_that_stretches_without_limit_ends_the_branch():
-    result = solve("circular", M=0.3, t_end=10.0, numerics={"cells": 16, "degree": 3, "levels": 2})
+    result = solve("circular", M=0.3, t_end=10.0, numerics={"cells": 16, "levels": 2})
     assert result.failures == []
     assert 20 < result.branch().columns["lam_pole"][-1] < 60
     assert "the thin pole, M = 0.3, is stretched to more than 20 times beta; lower t_end" in str(

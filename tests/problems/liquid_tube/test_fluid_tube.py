@@ -22,7 +22,7 @@ from weakforms.solvers.support.sampling import Interpolant
 
 pytestmark = pytest.mark.paper3
 GAMMA = 0.116
-COARSE = {"cells": 32, "degree": 4, "levels": 2}
+COARSE = {"cells": 32, "levels": 2}
 
 
 def path(L=8.0, delta=2.0, cells=12, n_max=2, gamma=GAMMA):

@@ -24,7 +24,7 @@ from weakforms.verification.cases.discovery import FoundCase
 from weakforms.verification.run.runner import verify
 
 pytestmark = pytest.mark.paper2
-COARSE = {"cells": 32, "degree": 3}
+COARSE = {"cells": 32}
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +171,7 @@ def test_stresses_beyond_the_largest_stretch_are_no_numbers():
 
 
 def test_a_law_that_locks_ends_its_branch_with_the_reason():
-    numerics = {"cells": 16, "degree": 3, "levels": 2, "step": 0.4}
+    numerics = {"cells": 16, "levels": 2, "step": 0.4}
     result = solve("tube", model="gent", jm=10.0, delta1=2.0, lf=6.0, u_end=9.0, numerics=numerics)
     assert result.failures == []
     (rest,) = result.absent

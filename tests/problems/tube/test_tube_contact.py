@@ -20,7 +20,7 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.support.sampling import Sampler
 
 pytestmark = pytest.mark.paper2
-MESH = {"cells": 48, "degree": 4, "levels": 2}
+MESH = {"cells": 48, "levels": 2}
 
 
 def data(**changes):

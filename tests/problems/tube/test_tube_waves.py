@@ -16,7 +16,7 @@ from weakforms.solvers.stability.modes import rated
 from weakforms.solvers.stability.spectra import Stability
 
 pytestmark = pytest.mark.paper2
-MESH = {"cells": 48, "degree": 4, "levels": 2}
+MESH = {"cells": 48, "levels": 2}
 NEO = {"alpha": 0.0, "delta1": 1.0, "lf": 6.0}
 
 

@@ -10,7 +10,7 @@ from weakforms.problems.problem import StateRequest
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 from weakforms.problems.wrinkled.waves.bands import Bands
 
-COARSE = {"cells": 8, "degree": 4, "levels": 2}
+COARSE = {"cells": 8, "levels": 2}
 
 
 @pytest.mark.parametrize(
