@@ -49,8 +49,8 @@ def launcher():
 def same_on_ranks(launcher, run):
     """Solves serially, in this process, and on several ranks; every number must agree."""
 
-    def check(requests: list[dict], ranks: int = 2) -> list[Result]:
-        serial, split = run(requests, 1), run(requests, ranks)
+    def check(requests: list[dict]) -> list[Result]:
+        serial, split = run(requests, 1), run(requests, 2)
         for a, b in zip(serial, split, strict=True):
             assert a.failures == b.failures == []
             assert beyond(a, b) == []

@@ -25,12 +25,14 @@ slopes in it multiply the round-off of positions."""
 
 
 SERVER = """
-import json, sys, time
+import json, os, sys, time
 from pathlib import Path
 from mpi4py import MPI
 from weakforms import solve
 
 folder, comm = Path(sys.argv[1]), MPI.COMM_WORLD
+cores = sorted(os.sched_getaffinity(0))
+os.sched_setaffinity(0, {cores[comm.rank % len(cores)]})  # they may not wait for each other on one core
 for number in range(1_000_000):
     asked = folder / f"{number}.json"
     while not asked.exists():  # a rank that waits in MPI would keep a core busy
@@ -50,14 +52,19 @@ def command(arguments: list[str], ranks: int) -> list[str]:
     return [*launch, sys.executable, "-m", "mpi4py", *arguments]
 
 
-def environment() -> dict[str, str]:
-    """The environment of that command."""
+def environment(ranks: int) -> dict[str, str]:
+    """The environment of that command.
+
+    A rank that waits for another one keeps its core: if it let another process go first, each of thousands of
+    messages would take a slice of the scheduler's time. Only more ranks than cores must let one another go.
+    """
+    crowded = ranks > len(os.sched_getaffinity(0))
     return os.environ | {
         "PYTHONPATH": str(ROOT),
         "OMPI_ALLOW_RUN_AS_ROOT": "1",
         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
         "OMPI_MCA_btl": "self,sm",
-        "OMPI_MCA_mpi_yield_when_idle": "1",  # there may be fewer cores than ranks
+        "OMPI_MCA_mpi_yield_when_idle": str(int(crowded)),
         "OMP_NUM_THREADS": "1",
     }
 
@@ -68,7 +75,7 @@ def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
         command(arguments, ranks),
         capture_output=True,
         text=True,
-        env=environment(),
+        env=environment(ranks),
         timeout=timeout,
         check=False,
     )
@@ -93,7 +100,7 @@ class Ranks:
             stdin=subprocess.DEVNULL,
             stdout=self._told,
             stderr=subprocess.STDOUT,
-            env=environment(),
+            env=environment(ranks),
         )
         self._asked = 0
 

@@ -10,7 +10,7 @@ from weakforms.verification.cases.discovery import find_cases
 
 pytestmark = [pytest.mark.mpi, pytest.mark.usefixtures("launcher")]
 CHEAP = ("closed_form.infinite_tube",)
-"""Bodies that deform homogeneously; an annulus and a wrinkling threshold are solved for on four ranks too."""
+"""Bodies that deform homogeneously. The slow tests solve every case on two and on four ranks."""
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Membranes of other rubbers: the same numbers serially and on more ranks."""
+"""Membranes of other rubbers: the same numbers serially and on two ranks."""
 
 import pytest
 
