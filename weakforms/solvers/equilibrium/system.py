@@ -219,23 +219,30 @@ class System(Lendable):
         self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
     ) -> tuple[np.ndarray, dict[str, float]]:
         """Derivative of a scalar form, given by a key, in ``U`` and each load, or in the loads named."""
+        names = list(self.load_names if loads is None else loads)
         gradient = f"gradient_{key}"
         if gradient not in self._ufl:
             self._ufl[gradient] = ufl.derivative(form, self.unknown, self.test)
-        return self._vector(gradient), self._scalar_derivatives(key, form, loads)
+            rates = (self._rate_of_scalar(key, form, name) for name in names)
+            parts = (self._ufl[part] for part in dict.fromkeys([gradient, *rates]))
+            compile_together(self.comm, [part for part in parts if part.integrals()])
+        return self._vector(gradient), self._scalar_derivatives(key, form, names)
 
-    def _scalar_derivatives(
-        self, key: str, form: ufl.Form, loads: Iterable[str] | None = None
-    ) -> dict[str, float]:
-        """``∂/∂λ`` of a scalar form for every load, or the loads named; zero for a load that is absent."""
+    def _rate_of_scalar(self, key: str, form: ufl.Form, load: str) -> str:
+        """Name of ``∂/∂λ`` of a scalar form; it aims at that load."""
+        name = f"{key}_d_{self._aim(load)}"
+        if name not in self._ufl:
+            variable = self.formulation.loads[load][1]
+            self._ufl[name] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
+        return name
+
+    def _scalar_derivatives(self, key: str, form: ufl.Form, loads: Iterable[str]) -> dict[str, float]:
+        """``∂/∂λ`` of a scalar form for the loads named; zero for a load that is absent."""
         out = {}
-        for name in self.load_names if loads is None else loads:
-            derived = f"{key}_d_{self._aim(name)}"
-            if derived not in self._ufl:
-                variable = self.formulation.loads[name][1]
-                self._ufl[derived] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
-            empty = not self._ufl[derived].integrals()
-            out[name] = 0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(derived))))
+        for load in loads:
+            name = self._rate_of_scalar(key, form, load)
+            empty = not self._ufl[name].integrals()
+            out[load] = 0.0 if empty else float(self.sum(fem.assemble_scalar(self._form(name))))
         return out
 
     def quadratic_gradient(
