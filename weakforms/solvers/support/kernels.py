@@ -32,10 +32,15 @@ MARK = "-DWEAKFORMS_GATHERED"
 """An argument of the C compiler without effect, which keeps modules of this generator apart in the cache."""
 
 
+UNLIKE = AssertionError, AttributeError, NotImplementedError, TypeError, ValueError
+"""What the code of another ffcx raises, whose loops look different: they stay as they are."""
+
+
 def install() -> None:
-    """Make ffcx write its element matrices this way; repeated calls have no effect."""
-    if not getattr(optimizer.licm, "gathers", False):
-        optimizer.licm = _gathering(optimizer.licm)
+    """Make ffcx write its element matrices this way, if it has such loops; repeated calls have no effect."""
+    usual = getattr(optimizer, "licm", None)
+    if usual is not None and not getattr(usual, "gathers", False):
+        optimizer.licm = _gathering(usual)
 
 
 def _gathering(usual: Callable) -> Callable:
@@ -45,7 +50,7 @@ def _gathering(usual: Callable) -> Callable:
     def gathering(section: lnodes.Section, *args: Any) -> lnodes.Section:
         try:
             gathered = _gathered(section)
-        except (AttributeError, TypeError, ValueError, NotImplementedError):  # code of another ffcx
+        except UNLIKE:
             gathered = None
         return usual(section, *args) if gathered is None else gathered
 
