@@ -308,6 +308,18 @@ def test_the_spring_pushes_up_to_where_it_lets_go_and_not_beyond(unilateral):
     assert np.all(f_k[2:] == 0)
 
 
+@pytest.mark.parametrize("alpha", [0.0, 0.1])
+def test_tractions_where_a_spring_just_lets_go_have_the_uncertainty_of_round_off(alpha):
+    """The state at which the mesh begins to follow that place is there twice, on both meshes."""
+    given = {"contact": "adhesive", "phase": "deflation", "spring": "unilateral", "delta1": 2.0}
+    (branch,) = solve("tube", alpha=alpha, **given, numerics=MESH).branches
+    (i,) = np.flatnonzero(np.diff(branch.columns["p"]) == 0)[:1]
+    for name in ("traction_max", "traction_front", "line_force", "V"):
+        values, uncertainty = branch.columns[name][i : i + 2], branch.uncertainty[name][i : i + 2]
+        assert abs(values[1] - values[0]) <= 2 * np.hypot(*uncertainty), name
+        assert 2 * uncertainty.max() < 1e-3, "sharp enough to be judged"
+
+
 def test_tractions_of_a_unilateral_spring_are_those_of_the_table():
     table = reference(2, "fig06b_deflation_unilateral_alpha_0.1_delta1_2")
     rows = [list(table.columns["p"]).index(p) for p in (2.8, 1.2, 0.0)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from mpi4py import MPI
 
@@ -24,11 +24,15 @@ FIRST_TERMS, MORE_TERMS = 19, 4
 SERIES = Slow(size=3e-8, order=2.0)
 """Truncation error of the series, which decreases slowly from mesh to mesh."""
 
-AT_FRONT = ("line_force", "line_force_membrane", "kappa")
+LINE_FORCES = ("line_force", "line_force_membrane")
+AT_FRONT = (*LINE_FORCES, "kappa")
 TRACTIONS = ("traction_front", "traction_max")
 """Columns that contain first derivatives at the edge of the patch, a vertex of the mesh: their order is one
 below that of energies. So do tractions of a stuck patch, by the balance of forces; those of a frictionless
 one, which are zero, contain second derivatives."""
+
+EPSILON = 2.0**-53
+"""Round-off of a number of order one."""
 
 NO_PATCH = {
     name: 0.0
@@ -43,6 +47,21 @@ NO_PATCH = {
     )
 }
 """Values of columns on the free part, where there is no patch."""
+
+
+class TubeContactFamily(BranchFamily):
+    """A part of the branch of a constrained tube."""
+
+    def left_by_round_off(self, index: int) -> Mapping[str, float]:
+        r"""Tractions, where a spring has just let go: in a block of width ``w`` slopes multiply round-off.
+
+        In the balance of forces, positions known to :math:`\epsilon` leave :math:`\epsilon (z_f / w)^2`.
+        """
+        loads = self.fine.points[index].state.loads
+        if "let_go" not in loads:
+            return {}
+        width = 1 - loads["let_go"] / loads["front"]
+        return dict.fromkeys((*TRACTIONS, *LINE_FORCES), EPSILON / width**2)
 
 
 def contact_family(
@@ -60,7 +79,7 @@ def contact_family(
         caps = dict.fromkeys(AT_FRONT, cap - 1) | dict.fromkeys(TRACTIONS, cap - 1 if frozen else 2.0)
         caps["f_t"] = numerics.degree if frozen else 2.0
         slow = SERIES if frozen else None
-        return BranchFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
+        return TubeContactFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
 
     def onset() -> SpecialPoint:
         shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]

@@ -123,10 +123,11 @@ class BranchFamily:
         names, control = self.fine.shown, self.fine.control
         if not with_uncertainty and self.traced_on_finest:
             return Branch(self.name, control, self._trace())
-        kept, missed = [], []
+        kept, missed, places = [], [], []
         for i, compared in enumerate(self._comparisons()):
             try:
                 kept.append(compared())
+                places.append(i)
             except ConvergenceError as error:
                 missed.append((i, str(error)))
         if missed:
@@ -141,7 +142,15 @@ class BranchFamily:
         caps = np.array([[*self._caps_at(levels[-1], *self.across).values()] for levels, _ in kept])
         found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow).uncertainty
         spread = _widen(found) if self.traced_on_finest else found
-        return Branch(self.name, control, columns, dict(zip(names, spread.T, strict=True)))
+        uncertainty = dict(zip(names, spread.T, strict=True))
+        for row, i in enumerate(places):
+            for name, more in self.left_by_round_off(i).items():
+                uncertainty[name][row] += more
+        return Branch(self.name, control, columns, uncertainty)
+
+    def left_by_round_off(self, _index: int) -> Mapping[str, float]:
+        """What round-off adds to the uncertainty of columns at a point of the trace; usually nothing."""
+        return {}
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace."""
