@@ -105,7 +105,7 @@ def test_the_whole_tube_meets_a_symmetry_breaking_point_the_half_does_not_see():
 
 def test_a_symmetry_breaking_point_is_a_state_of_the_half_tube_and_has_a_null_vector():
     """The branch is solved for there to round-off, although another one crosses it."""
-    mesh = TubeMesh(32, 3, 0.6, full=True)
+    mesh = TubeMesh(32, 4, 0.6, full=True)
     tube = TubeModel.free(MPI.COMM_SELF, mooney_rivlin_of(0.0), 1.0, 6.0, mesh)
     whole = free_branch(tube.system, 1.0, 2.0, 0.3)
     _, found = whole.special()
