@@ -11,22 +11,20 @@ from weakforms.verification.audit.same import differences
 
 
 @pytest.fixture(scope="session")
-def run():
-    """Solves some requests serially, or on ranks that are started once for all tests."""
-    started: dict[int, Ranks] = {}
+def on_two_ranks(launcher):
+    """Solves requests on two ranks, which are started once for all tests, and again if a test ended them."""
+    started: list[Ranks] = []
 
-    def solved(requests: list[dict], ranks: int) -> list[Result]:
-        if ranks == 1:
-            return [Result.from_json(solve(**request).to_json()) for request in requests]
-        if ranks not in started or not started[ranks].running:
-            started[ranks] = Ranks(ranks)
-        *found, size = started[ranks].solve(requests)
-        assert size == ranks
+    def solved(requests: list[dict]) -> list[Result]:
+        if not started or not started[-1].running:
+            started.append(Ranks(2))
+        *found, size = started[-1].solve(requests)
+        assert size == 2
         return [Result.from_json(item) for item in found]
 
     yield solved
-    for of in started.values():
-        of.end()
+    for ranks in started:
+        ranks.end()
 
 
 def beyond(first: Result, second: Result) -> list[str]:
@@ -46,11 +44,12 @@ def launcher():
 
 
 @pytest.fixture
-def same_on_ranks(launcher, run):
-    """Solves serially, in this process, and on several ranks; every number must agree."""
+def same_on_ranks(on_two_ranks):
+    """Solves serially, in this process, and on two ranks; every number must agree."""
 
     def check(requests: list[dict]) -> list[Result]:
-        serial, split = run(requests, 1), run(requests, 2)
+        serial = [Result.from_json(solve(**request).to_json()) for request in requests]
+        split = on_two_ranks(requests)
         for a, b in zip(serial, split, strict=True):
             assert a.failures == b.failures == []
             assert beyond(a, b) == []

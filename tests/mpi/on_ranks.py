@@ -25,7 +25,7 @@ slopes in it multiply the round-off of positions."""
 
 
 SERVER = """
-import json, os, sys, time
+import itertools, json, os, sys, time
 from pathlib import Path
 from mpi4py import MPI
 from weakforms import solve
@@ -33,7 +33,7 @@ from weakforms import solve
 folder, comm = Path(sys.argv[1]), MPI.COMM_WORLD
 cores = sorted(os.sched_getaffinity(0))
 os.sched_setaffinity(0, {cores[comm.rank % len(cores)]})  # they may not wait for each other on one core
-for number in range(1_000_000):
+for number in itertools.count():
     asked = folder / f"{number}.json"
     while not asked.exists():  # a rank that waits in MPI would keep a core busy
         time.sleep(0.02)

