@@ -1,6 +1,7 @@
 """Every page in a real browser: both colour schemes, on the width of a desktop and of a phone."""
 
 import re
+import time
 
 import pytest
 from canned_run import failing_case, passing_case, sample
@@ -70,9 +71,12 @@ def test_hostile_texts_do_nothing(window, folder):
 def test_links_lead_somewhere(window, opened):
     window.open(opened / "index.html", 1280, "light")
     window.evaluate("document.querySelector('a[href=\"paper2.html\"]').click()")
+    # The address changes before the page is there.
+    there = "location.pathname.endsWith('paper2.html') && document.readyState === 'complete'"
     for _ in range(200):
-        if window.evaluate("location.pathname").endswith("paper2.html"):
+        if window.evaluate(there):
             break
+        time.sleep(0.05)
     assert window.evaluate("document.querySelector('h1').textContent").strip().endswith("membrane")
 
 
