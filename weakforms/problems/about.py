@@ -116,7 +116,7 @@ class About:
     unestimated: str = ""
     """Why a problem states no uncertainty from refinement; empty if it does."""
     audit_numerics: Mapping[str, Any] = field(default_factory=dict)
-    """Numerics of the audit where the defaults take minutes."""
+    """Numerics that the audit tries first where the defaults take minutes."""
     audit_held: Mapping[str, Any] = field(default_factory=dict)
     """Mesh sizes that are parameters, limited in the audit to affordable values."""
     missed: Mapping[str, str] = field(default_factory=dict)

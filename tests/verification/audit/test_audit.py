@@ -30,7 +30,7 @@ from weakforms.verification.audit.any_parameters.outcome import (
     load_audit,
     print_audit,
 )
-from weakforms.verification.audit.any_parameters.runner import classified, run_audit, solved
+from weakforms.verification.audit.any_parameters.runner import classified, run_audit, solved, solved_set
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.pages import render
 
@@ -144,6 +144,25 @@ def test_a_real_draw_is_solved_stored_and_taken_over(tmp_path, monkeypatch):
     assert run_audit(["wrinkled_material"], 1, 3, 100.0, tmp_path, resume=True).draws == run.draws
     with pytest.raises(pytest.fail.Exception):
         run_audit(["wrinkled_material"], 1, 3, 99.0, tmp_path, resume=True)
+
+
+@pytest.mark.parametrize(
+    ("coarse", "default", "numerics", "seconds"),
+    [
+        ("answered", None, {"cells": 8}, 2.0),
+        ("not there", None, {"cells": 8}, 2.0),
+        ("in part", "answered", {}, 5.0),
+        ("too slow", "not converged", {}, 5.0),
+    ],
+)
+def test_default_meshes_decide_where_coarse_ones_do_not_answer(
+    monkeypatch, coarse, default, numerics, seconds
+):
+    calls = {"cells=8": (coarse, (), 2.0), "p_end=4": (default, ("on default meshes",), 3.0)}
+    monkeypatch.setattr(runner, "solved", lambda call, _: calls[call[-1]])
+    draw = solved_set("rectangle", 3, {"p_end": 4}, {"cells": 8}, 7)
+    assert (draw.numerics, draw.seconds) == (numerics, seconds)
+    assert draw.status == (default or coarse)
 
 
 def test_a_solve_that_hangs_is_ended():
