@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from weakforms import InputError, solve
 from weakforms.problems.material_choice import mooney_rivlin_of
-from weakforms.problems.rectangle.branch import RectangleModes
+from weakforms.problems.rectangle.branch import RectangleModes, traced
 from weakforms.problems.rectangle.model import RectangleModel, Sheet
 from weakforms.solvers.equilibrium.state import State
 
@@ -111,6 +111,20 @@ def test_a_gas_filled_strip_is_a_cylinder(alpha):
         assert value.uncertainty < sharp * exact
 
 
+def test_a_whole_wave_along_a_strip_is_half_a_wave_of_half_of_it():
+    """The first is found as a crossing in the states' own class, the second in the class odd in Y."""
+    found = {}
+    for c in (1.7, 0.85):
+        law = mooney_rivlin_of(0.8)
+        sheet = Sheet(law, c=c, delta=1.074, delta_y=1.074, gamma=8.0, strip=True)
+        branch = traced(RectangleModel(MPI.COMM_SELF, sheet), 0.02, 0.3, 0.2)
+        found[c] = [one.values for one in branch.special() if one.kind == "bifurcation_point"]
+    (whole,) = (one for one in found[1.7] if one["n"] == 0)
+    (half,) = (one for one in found[0.85] if one["n"] == 2)
+    assert whole["zw"] == pytest.approx(half["zw"], rel=1e-8)
+    assert whole["V_f"] == pytest.approx(2 * half["V_f"], rel=1e-8)
+
+
 def test_slack_frames_start_and_wrinkle_in_the_corners():
     found = solve("rectangle", load="gas", delta=1.0, w_end=0.8, at={"S_least": 0.0}, numerics=COARSE)
     branch, (first,) = found.branch(), found.states
@@ -131,6 +145,8 @@ def test_slack_frames_start_and_wrinkle_in_the_corners():
             {"model": "saint_venant_kirchhoff", "energy": "full"},
             "model = 'saint_venant_kirchhoff'; allowed: ",
         ),
+        ({"model": "varga", "gamma": 2.0}, "gamma = 2: the force of model = 'varga' is bounded"),
+        ({"model": "varga", "delta_y": 2.5}, "with load = 'liquid': delta up to 2"),
         ({"edges": "strip", "delta": 1.0}, "a slack strip has no first state"),
         ({"load": "gas", "at": {"zw": 0.1}}, "with load = 'gas' there is no zw; allowed: p, V"),
         ({"at": {"p": 0.1}}, "with load = 'liquid' there is no p; allowed: zw, V_f"),

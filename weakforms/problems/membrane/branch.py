@@ -13,12 +13,10 @@ from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
 from weakforms.problems.triangles.readings import LeastStress
 from weakforms.problems.triangles.start import first_state
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
-from weakforms.solvers.continuation.crossing import Crossing
-from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.stability.modes import SecondVariation
+from weakforms.solvers.stability.surface_family import SurfaceBranch
 
 
 class Readings:
@@ -46,33 +44,9 @@ class Readings:
         return dict(zip(self.columns, (self.highest(), least, *place), strict=True))
 
 
-class MembraneBranch(ModalBranch):
-    """All states over the pressure; limit points and crossings of other branches are located."""
-
-    def special(self) -> list[Solved]:
-        """Limit points, and bifurcation points where the inertia changes away from them.
-
-        Raises:
-            ConvergenceError: If several eigenvalues change sign at once, as where a symmetry is broken.
-        """
-        counts = np.array([p.n_negative for p in self.points])
-        limits = {i for i, p in enumerate(self.points) if any(p is limit for limit, _ in self._limits)}
-        crossed = [i for i in np.flatnonzero(np.diff(counts)).tolist() if not {i, i + 1} & limits]
-        if any(abs(counts[i + 1] - counts[i]) > 1 for i in crossed):
-            raise ConvergenceError(
-                f"several eigenvalues change sign between neighbours (after points {crossed}): shorter "
-                "steps are needed, or a symmetry is broken"
-            )
-        placed = self._placed()
-        for i in crossed:
-            solved = Crossing(self, i).located()
-            placed.append((self._arclength(i, solved), solved))
-        return [self.complete(solved) for _, solved in sorted(placed, key=lambda item: item[0])]
-
-
 def traced(
     model: MembraneModel, start: float, end: float, step: float, progress: Callable[[float], None]
-) -> MembraneBranch:
+) -> SurfaceBranch:
     """The branch from a small deflection to a larger one.
 
     Args:
@@ -105,6 +79,6 @@ def traced(
         progress(highest)
         return highest > end or yields(point.state)
 
-    branch = MembraneBranch(continuation, "p", begin, ends, readings)
+    branch = SurfaceBranch(continuation, "p", begin, ends, readings)
     branch.end_before(yields, GIVES_WAY)
     return branch

@@ -7,18 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from weakforms.problems.membrane.branch import MembraneBranch
 from weakforms.problems.triangles.shape import Shape
 from weakforms.results import Quantity, SpecialPoint, State
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.stability.surface_family import SurfaceFamily
+from weakforms.solvers.stability.surface_family import SurfaceBranch, SurfaceFamily
 from weakforms.solvers.uncertainty.family import BranchFamily
 
 
 class MembraneFamily(SurfaceFamily):
     """As for any branch; a state with a profile has the surface on the finest mesh instead of the profile."""
 
-    fine: MembraneBranch
+    fine: SurfaceBranch
     _last: Solved | None = None
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:

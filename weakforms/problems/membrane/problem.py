@@ -8,13 +8,14 @@ from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.membrane.about import MEMBRANE
-from weakforms.problems.membrane.branch import MembraneBranch, traced
+from weakforms.problems.membrane.branch import traced
 from weakforms.problems.membrane.family import MembraneFamily
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
 from weakforms.problems.meridian.limits import require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.results import Quantity, Result
+from weakforms.solvers.stability.surface_family import SurfaceBranch
 
 CAPS = dict.fromkeys(("S_least", "X_least", "Y_least", "Z_least", "f_w", "f_s"), 1.0)
 """Highest assumed orders: of a stress and a place among the points of quadrature, of an area."""
@@ -69,7 +70,7 @@ class Membrane(BranchProblem):
                     f"refinements; allowed: {LARGEST}; choose a coarser mesh, or numerics levels = 2"
                 )
 
-        def make(level: int) -> MembraneBranch:
+        def make(level: int) -> SurfaceBranch:
             body = parameters.body(numerics, level)
             model = MembraneModel(task.comm, body)
 

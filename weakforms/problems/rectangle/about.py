@@ -58,7 +58,7 @@ RECTANGLE = About(
             a="row of the first corner of a triangle in the table of corners; b and c alike",
             state="of a triangle: 1 taut, 0 wrinkled, -1 slack",
             t_x="direction of the larger stretch of a triangle, deformed; t_y and t_z alike",
-            n="class of the critical mode: 1 z odd in X, 2 z odd in Y, 3 odd in both",
+            n="class of the critical mode: 0 both mirrors, 1 z odd in X, 2 z odd in Y, 3 odd in both",
         ),
         Column("X", "X of a point of the diagonal, Y = c X", "X", dimension="length"),
         *(Column(name, dimension="length") for name in "xyz"),

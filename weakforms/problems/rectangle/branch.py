@@ -8,7 +8,6 @@ from functools import partial
 import numpy as np
 from dolfinx import fem
 
-from weakforms.errors import ConvergenceError
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.readings import Centre
 from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
@@ -20,8 +19,8 @@ from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.stability.modal import ModalBranch
 from weakforms.solvers.stability.modes import SecondVariation
+from weakforms.solvers.stability.surface_family import SurfaceBranch
 
 ZERO = 1e-6
 """Eigenvalues in the states' class above minus this do not count as negative: at a limit load one is zero."""
@@ -86,26 +85,8 @@ class RectangleModes:
         return self._factor.negative_count(), rate < 0
 
 
-class RectangleBranch(ModalBranch):
+class RectangleBranch(SurfaceBranch):
     """Symmetric states over the load; bifurcations into every class of displacements are located."""
-
-    def special(self) -> list[Solved]:
-        """As for any modal branch.
-
-        Raises:
-            ConvergenceError: If the inertia in the states' own class changes away from a limit load: another
-                branch with both mirrors crosses there, which this problem does not locate.
-        """
-        counts = np.array([p.n_negative for p in self.points])
-        changes = set(np.flatnonzero(np.diff(counts)).tolist())
-        limits = {i for i, p in enumerate(self.points) if any(p is limit for limit, _ in self._limits)}
-        crossed = sorted(i for i in changes if not {i, i + 1} & limits)
-        if crossed:
-            raise ConvergenceError(
-                f"an eigenvalue of the class with both mirrors changes sign after points {crossed} without a "
-                "limit load: another branch crosses"
-            )
-        return super().special()
 
     def _placed(self) -> list[tuple[float, Solved]]:
         """Besides, folds of the amount of gas or liquid: the ends of what can be reached by filling."""

@@ -7,7 +7,7 @@ import numpy as np
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.limits import require_low, require_taut
+from weakforms.problems.meridian.limits import has_bounded_force, require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.rectangle.about import RECTANGLE
 from weakforms.problems.rectangle.branch import RectangleBranch, traced
@@ -21,6 +21,10 @@ LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
 CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y_least", "f_w", "f_s"), 1.0)}
 """Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
 deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
+
+BOUNDED = {"gamma": 1.0, "delta": 2.0}
+"""Largest weight of a liquid and largest stretch of the frame for a law of bounded force. Beyond, the places
+where its sheets give way, and with them the special points, depend on the mesh."""
 
 SLACK, SLACK_START = 1.05, 0.2
 """Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
@@ -45,6 +49,7 @@ class Rectangle(BranchProblem):
         require_low(self.name, parameters.material, parameters.w_end, parameters.energy == "relaxed")
         for name, value in (("delta", parameters.delta), ("delta_y", parameters.stretch_y)):
             require_taut(self.name, parameters.material, value, name)
+        require_light(parameters)
         absent = LOAD["gas" if parameters.load == "liquid" else "liquid"]
         for wanted in requests.states:
             if wanted.name in absent:
@@ -86,3 +91,21 @@ def begins(parameters: RectangleParameters, numerics: RectangleNumerics) -> floa
     """
     slack = min(parameters.delta, parameters.stretch_y) < SLACK
     return max(numerics.start, SLACK_START) if slack and parameters.load == "liquid" else numerics.start
+
+
+def require_light(parameters: RectangleParameters) -> None:
+    """Refuse a heavy liquid on, and a much stretched frame for, a law of bounded force.
+
+    Raises:
+        InputError: With a message that names the value and what is allowed.
+    """
+    if parameters.load == "gas" or not has_bounded_force(parameters.material):
+        return
+    stretch = max(parameters.delta, parameters.stretch_y)
+    for name, value in (("gamma", parameters.gamma), ("delta", stretch)):
+        if value > BOUNDED[name]:
+            raise InputError(
+                f"rectangle: {name} = {value:g}: the force of model = {parameters.model!r} is bounded, and a "
+                "sheet of it gives way at one place under a liquid; allowed with load = 'liquid': "
+                f"{name} up to {BOUNDED[name]:g}"
+            )

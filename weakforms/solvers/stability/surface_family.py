@@ -1,18 +1,50 @@
-"""A branch of a surface on a family of meshes, the coarsest of which may be too coarse for it."""
+"""Branches of surfaces, on one mesh and on a family of meshes, the coarsest of which may be too coarse."""
 
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
+
+import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
-from weakforms.solvers.stability.modal import ModalFamily
+from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
 
 STEPS = 4
 """Number of steps beyond its end by which a mesh is followed for a special point of other meshes."""
 
 FEWEST = 2
 """Number of meshes that special points must be on, in the same order, for an uncertainty."""
+
+
+class SurfaceBranch(ModalBranch):
+    """A modal branch that other branches may cross within the states' own class of displacements.
+
+    A strip that is the same along its edges is an example: a wave along them may keep both mirrors.
+    """
+
+    def _placed(self) -> list[tuple[float, Solved]]:
+        """Besides, the points where the inertia of the tangent changes away from limit loads.
+
+        Raises:
+            ConvergenceError: If several eigenvalues change sign at once, as where a symmetry is broken.
+        """
+        counts = np.array([point.n_negative for point in self.points])
+        limits = {i for i, p in enumerate(self.points) if any(p is limit for limit, _ in self._limits)}
+        crossed = [i for i in np.flatnonzero(np.diff(counts)).tolist() if not {i, i + 1} & limits]
+        if any(abs(counts[i + 1] - counts[i]) > 1 for i in crossed):
+            raise ConvergenceError(
+                f"several eigenvalues change sign between neighbours (after points {crossed}): shorter "
+                "steps are needed, or a symmetry is broken"
+            )
+        own = {"n": 0.0} if self.modes.wave_numbers else {}
+        crossings = [Crossing(self, i).located() for i in crossed]
+        return super()._placed() + [
+            (self._arclength(i, solved), replace(solved, values=solved.values | own))
+            for i, solved in zip(crossed, crossings, strict=True)
+        ]
 
 
 class SurfaceFamily(ModalFamily):

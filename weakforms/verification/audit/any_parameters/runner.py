@@ -87,15 +87,13 @@ def run_audit(
     return run
 
 
-def solved_set(
-    name: str, number: int, given: dict[str, Any], meshes: dict[str, Any], limit: float
-) -> Draw:
+def solved_set(name: str, number: int, given: dict[str, Any], meshes: dict[str, Any], limit: float) -> Draw:
     """Solve a set on an audit's coarse meshes and, where these do not answer, on the default ones.
 
     A user who names no meshes has the default ones, so that their outcome is the one that counts.
     """
     spent = 0.0
-    for numerics in ([meshes, {}] if meshes else [{}]):
+    for numerics in [meshes, {}] if meshes else [{}]:
         status, messages, seconds = solved(words(name, given, numerics), limit)
         spent += seconds
         draw = Draw(name, number, given, numerics, status, messages, round(spent, 2))
