@@ -320,6 +320,15 @@ def test_the_branch_of_a_law_of_bounded_force_ends_where_the_law_gives_way():
     assert ends[0] == pytest.approx(ends[1], rel=1e-2)
 
 
+def test_the_branch_of_a_compressible_law_ends_where_its_membrane_has_no_thickness():
+    """Its level hardly rises there, and beyond it the energy is not a number."""
+    piece = path_of("harmonic", {"shear": 19.82, "f2": 3.465}, 8.17, 1.691, 0.4301, 16).pieces[-1]
+    assert piece.stalled is None
+    assert piece.ended.startswith("model = 'harmonic' at the stretches ")
+    l1, l2 = stretches(piece, piece.points[-1].state)
+    assert 0 < np.min(3 + (l1 * l2 - 1) / 3.465 - l1 - l2) < 0.05
+
+
 def stretches(piece, state):
     profile = piece.system.formulation.profile
     with piece.system.at(state):

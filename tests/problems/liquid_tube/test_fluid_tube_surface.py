@@ -15,6 +15,7 @@ from weakforms.forms.fluid import (
     strain_energy,
     submerged_flux,
 )
+from weakforms.problems import registry
 from weakforms.problems.liquid_tube.bent.bifurcation_point import bifurcation_on, position
 from weakforms.problems.liquid_tube.bent.family import free_surface
 from weakforms.problems.liquid_tube.bent.fitted import Fitting, KeptNewton
@@ -358,6 +359,12 @@ def test_full_circle_has_a_double_zero_and_the_same_branch():
         assert full[name].value == pytest.approx(half[name].value, rel=1e-9)
     assert abs(full["phase"].value) < 1e-10
     assert abs(full["Lambda_bent_1"].value) < 1e-6 < half["Lambda_bent_1"].value
+
+
+def test_a_finer_mesh_serves_unless_its_cells_were_asked_for():
+    problem = registry.get("fluid_tube_surface")
+    assert problem.finer(None, problem.numerics(degree=2)) == problem.numerics(cells=24, degree=2)
+    assert problem.finer(None, problem.numerics(cells=16)) is None
 
 
 def test_a_mesh_uneven_around_splits_the_pair():

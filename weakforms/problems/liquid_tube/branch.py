@@ -12,7 +12,14 @@ from scipy.interpolate import CubicSpline
 
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.liquid_tube.model import DRY, FULL, PART, TubeData, TubeModel
-from weakforms.problems.meridian.limits import GIVES_WAY, has_bounded_force, relative_stiffness, resistance
+from weakforms.problems.meridian.limits import (
+    GIVES_WAY,
+    SAMPLED,
+    has_bounded_force,
+    limit_of,
+    relative_stiffness,
+    resistance,
+)
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -180,6 +187,13 @@ class FluidPath:
             least = self._resistance.values().min(initial=np.inf)
         return self.model.mesh.comm.allreduce(least, op=MPI.MIN) < 0
 
+    def _limit(self, state: State) -> str:
+        """Why the law takes hardly any more stretch at some place, as text; empty if it does."""
+        if self.data.material is None:
+            return ""
+        points = np.linspace(0.0, self.data.length, SAMPLED)
+        return limit_of(self.data.material, zip(*self.sampled(state, points, ("lam1", "lam2")), strict=True))
+
     # -- parts --------------------------------------------------------------------------------
 
     @cached_property
@@ -189,14 +203,18 @@ class FluidPath:
         while self._left_at_top(pieces[-1]):
             full = self._full(pieces[-1])
             pieces.append(full)
-            if full.stalled or self._ends(full.points[-1]):
+            if full.stalled or full.ended or self._ends(full.points[-1]):
                 break
             pieces.append(self._draining(full))
         return pieces
 
     def _left_at_top(self, piece: ModalBranch) -> bool:
         last = piece.points[-1]
-        return piece.stalled is None and not self._ends(last) and last.state.loads["front"] > NEARLY_FULL
+        return (
+            piece.stalled is piece.ended is None
+            and not self._ends(last)
+            and last.state.loads["front"] > NEARLY_FULL
+        )
 
     def _dry_piece(self) -> SinglePoint:
         solver = ExtendedNewton(self.model.system, ["zw"])
@@ -265,7 +283,9 @@ class FluidPath:
         stop: Callable[[CurvePoint], bool],
         hidden: tuple[str, ...] = (),
     ) -> ModalBranch:
-        return ModalBranch(continuation, "zw", start, stop, self.modes, hidden)
+        branch = ModalBranch(continuation, "zw", start, stop, self.modes, hidden)
+        branch.end_at_limit(self._limit)
+        return branch
 
     def _steps(self) -> StepControl:
         return StepControl(first=self.step / 4, largest=self.step, usual_load=USUAL_LEVEL)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError
+from weakforms.problems.meridian.limits import giving_way
 from weakforms.problems.wave_numbers import EIGENVALUE
 from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
@@ -64,10 +65,14 @@ def first_state(membrane: Membrane, load: float, hint: str, volume_end: float = 
     try:
         return membrane.plain(branch.near(membrane.control, load).state)
     except InputError as error:
+        end = f", up to {volume_end:g} times the volume without load"
         if stalled:
-            raise ConvergenceError(f"{error}: {stalled}") from error
-        searched = f"{error}, up to {volume_end:g} times the volume without load; {hint}"
-        raise AbsentError(f"state at {membrane.control} = {load:g}", searched) from error
+            why = giving_way(membrane.plain_model, branch.trace.points[-1].state)
+            if not why:
+                raise ConvergenceError(f"{error}: {stalled}") from error
+            end = f"; where the branch ends, {why}"
+        what = f"state at {membrane.control} = {load:g}"
+        raise AbsentError(what, f"{error}{end}; {hint}") from error
 
 
 class WrinkledBranch:

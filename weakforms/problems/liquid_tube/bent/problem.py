@@ -113,6 +113,11 @@ class FluidTubeSurface(Problem):
                 "allowed on the half: 0"
             )
 
+    def finer(self, _parameters: WholeParameters, numerics: WholeNumerics) -> WholeNumerics | None:
+        """A mesh with half as many cells more, unless their number was asked for."""
+        given = "cells" in numerics.model_fields_set
+        return None if given else WholeNumerics(cells=numerics.cells * 3 // 2, degree=numerics.degree)
+
     def fill(self, result: Result, task: Task) -> None:
         """Locate the bifurcation on the surface's mesh and solve for a state of the branch that starts there.
 
