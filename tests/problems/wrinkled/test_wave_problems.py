@@ -157,7 +157,7 @@ def test_a_fault_in_the_second_variation_fails_named_checks(fault, monkeypatch, 
 
 
 def test_a_level_above_the_one_at_which_the_law_gives_way_is_not_there():
-    weak = {"model": "varga", "M": 0.511, "delta": 2.473, "L": 3.731, "Af": 0.4038, "gamma": 5.42}
-    (absence,) = solve("wrinkled_linear", zw=6.159, **weak).absent
+    weak = {"model": "varga", "shear": 0.3287, "M": 0.511, "delta": 2.473, "L": 3.731, "Af": 0.4038}
+    (absence,) = solve("wrinkled_linear", zw=6.159, gamma=5.42, **weak).absent
     assert "where the branch ends, its stretches are" in absence.reason
     assert absence.reason.endswith("lower zw")
