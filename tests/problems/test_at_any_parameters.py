@@ -67,10 +67,15 @@ def test_a_stiffening_tube_under_a_force_is_not_turned_inside_out():
         ({"model": "harmonic", "shear": 4.183, "f2": 3.217}, 58.34, "6.298 in tension"),
         ({"model": "varga", "shear": 0.3}, 0.61, "0.5994 in tension"),
         ({"model": "saint_venant_kirchhoff", "shear": 1.0, "poisson": 0.5}, -1.2, "-0.5773 in compression"),
+        ({"model": "saint_venant_kirchhoff", "shear": 1.0, "poisson": 0.1}, 94.0, "35.32 in tension"),
     ],
 )
 def test_a_force_that_a_law_does_not_bear_is_refused_with_the_largest_one(law, force, limit):
-    """Varga's is ``2 mu (1 - lam^(-3/2))``; Kirchhoff's ``3/2 mu lam (lam^2 - 1)`` has a least value."""
+    """Largest forces of a strip, of three kinds.
+
+    Varga's is ``2 mu (1 - lam^(-3/2))``. Kirchhoff's ``mu (1 + nu) lam (lam^2 - 1)`` has a least value, and
+    its width ``sqrt(1 - nu (lam^2 - 1))`` vanishes: for ``nu = 0.1`` at a force of 36.5, and nearly before.
+    """
     with pytest.raises(InputError, match=rf"force = {force:g}: .* no more than {limit}; choose a force near"):
         solve("infinite_tube", **law, force=force, lam_end=1.2)
     within = solve("infinite_tube", **law, force=0.5 * float(limit.split()[0]), lam_end=1.2)
@@ -289,8 +294,9 @@ def test_a_sheet_has_no_state_at_a_load_that_its_branch_does_not_reach(stalled, 
     def near(*_):
         raise InputError("p = 32 is not taken on this branch; p ranges over [0, 5.8]")
 
-    branch = SimpleNamespace(near=near, trace=SimpleNamespace(stalled=stalled))
-    plain = SimpleNamespace(control="p", plain=None, meshes=[SimpleNamespace(degree=6)])
+    trace = SimpleNamespace(stalled=stalled, points=[SimpleNamespace(state=None)])
+    branch, model = SimpleNamespace(near=near, trace=trace), SimpleNamespace(material_law=None)
+    plain = SimpleNamespace(control="p", plain_model=model, plain=None, meshes=[SimpleNamespace(degree=6)])
     monkeypatch.setattr(sheet, "wrinkled_membrane", lambda *_: plain)
     monkeypatch.setattr(wrinkled_branch, "WrinkledBranch", lambda *_: branch)
     if stalled:

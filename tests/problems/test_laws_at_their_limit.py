@@ -1,6 +1,7 @@
 """Disks stretched to what their law takes: a true reason in terms of the parameters, no internal error."""
 
 import re
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import numpy as np
@@ -150,11 +151,11 @@ def test_stretches_beyond_those_at_which_a_law_has_no_thickness_are_refused(prob
 @pytest.mark.parametrize(
     ("name", "given", "allowed"),
     [
-        ("tube_fold", {"delta1_end": 3.451}, {"delta1_end": 2.1}),
-        ("tube", {"delta1": 3.451}, {"delta1": 2.1}),
-        ("tube_scheme", {"delta1": 3.451}, {"delta1": 2.1}),
-        ("controls", {"body": "tube", "delta1": 3.451}, {"body": "tube", "delta1": 2.1}),
-        ("diagram", {"low": 1.0, "high": 3.451}, {"low": 1.0, "high": 2.1}),
+        ("tube_fold", {"delta1_end": 3.451}, {"delta1_end": 1.6}),
+        ("tube", {"delta1": 3.451}, {"delta1": 1.6}),
+        ("tube_scheme", {"delta1": 3.451}, {"delta1": 1.6}),
+        ("controls", {"body": "tube", "delta1": 3.451}, {"body": "tube", "delta1": 1.6}),
+        ("diagram", {"low": 1.0, "high": 3.451}, {"low": 1.0, "high": 1.6}),
     ],
 )
 def test_a_stretched_tube_that_the_law_does_not_take_is_refused_before_anything_is_solved(
@@ -166,6 +167,20 @@ def test_a_stretched_tube_that_the_law_does_not_take_is_refused_before_anything_
     with pytest.raises(InputError, match=rf"{name}: {changed} = 3\.451 .*harmonic.*lower {changed}"):
         problem.check(validated(problem.parameters, law | given, name), Requests())
     problem.check(validated(problem.parameters, law | allowed, name), Requests())
+
+
+@pytest.mark.parametrize(("stretch", "borne"), [(1.9, True), (2.1, False)])
+def test_a_tube_beyond_the_largest_force_of_a_strip_is_refused(stretch, borne):
+    """``F = 2 mu w (lam - w)`` with the width ``w`` of uniaxial tension is largest at ``lam`` = 2.0."""
+
+    def force(lam, f2=5.235):
+        width = (3 - 1 / f2 - lam) / (2 - lam / f2)
+        return width * (lam - width)
+
+    assert (force(stretch + 1e-3) > force(stretch)) == borne
+    law, problem = {"model": "harmonic", "f2": 5.235, "delta1": stretch}, registry.get("tube")
+    with nullcontext() if borne else pytest.raises(InputError, match=r"delta1 = 2\.1: .* necks at one place"):
+        problem.check(validated(problem.parameters, law, "tube"), Requests())
 
 
 @pytest.mark.parametrize(("problem", "given"), [("controls", {"body": "tube"}), ("tube", {})])

@@ -6,6 +6,7 @@ from small_systems import system_of
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium import newton
+from weakforms.solvers.equilibrium.constraints import MonitorPlane
 from weakforms.solvers.equilibrium.newton import OF_FORCES, RESIDUAL_LIMIT, ExtendedNewton, residual_limit
 
 SIZES = [1e-9, 1.0, 1e9]
@@ -102,3 +103,20 @@ def test_the_lower_bound_of_the_limit_is_one(size):
         assert residual_limit(system, 2 * limit) == limit
         if size < 1:
             assert low < limit
+
+
+def test_the_distance_from_a_plane_is_measured_along_its_normal():
+    """Undivided, its round-off would exceed the limit where a functional grows steeply along a branch."""
+    system = system_of(lambda u, v, p: (u - 1e3 * p / 3) * v)
+    plane = MonitorPlane({"u": 1e9, "load": 1.0}, 1e12 / 7)
+    solver = ExtendedNewton(system, ["load"])
+    state, _ = solver.solve(system.initial, [plane])
+    assert state.loads["load"] == pytest.approx(3 / 7 / (1 + 3e-12), rel=1e-13)
+    short, long = (MonitorPlane({"u": k, "load": k}, k) for k in (1.0, 1e6))
+    with system.at(state):
+        values = [one.value(solver) for one in (short, long)]
+        rows = [one.gradient(solver) for one in (short, long)]
+    assert values[0] == pytest.approx(values[1], rel=1e-14)
+    assert values[0] == pytest.approx((1e3 / 7 + 3 / 7 - 1) / np.sqrt(2), rel=1e-10)
+    assert rows[0][0] == pytest.approx(rows[1][0], rel=1e-14)
+    assert rows[0][1] == pytest.approx({"load": 1 / np.sqrt(2)}, rel=1e-14)

@@ -89,6 +89,14 @@ def test_a_sheet_that_bears_compression_has_no_front_and_more_torque():
     assert full["M"].value > 1.2 * relaxed["M"].value
 
 
+def test_a_stiffening_sheet_is_answered_up_to_large_torques():
+    """Its torque grows by 18 000 per radian, so that round-off of a plane across the branch was too large."""
+    stiff = {"model": "biderman", "c10": 0.1307, "c01": 0.9178, "c20": -0.04998, "c30": 0.01435}
+    result = solve("annulus", a=0.8633, s=1.517, energy="full", psi_end=0.7229, **stiff)
+    assert result.failures == []
+    assert result.branch().columns["psi"][-1] > 0.7
+
+
 def test_the_branch_ends_where_the_sheet_folds_over():
     found = solve("annulus", a=0.05, psi_end=0.6, numerics={"cells": 32, "levels": 2})
     last = found.branch()["psi"][-1]

@@ -147,6 +147,10 @@ def _defined_up_to(chosen: Chosen, l1: float, l2: float) -> float:
 MOST_STRETCHED, PLACES = 100.0, 400
 """Largest stretch, and least shortening, at which the force of a strip is looked at; number of stretches."""
 
+NARROWEST = 0.01
+"""Width, over that at rest, at which a strip of a compressible law has vanished; that of an incompressible
+one is ten times this at the largest stretch."""
+
 
 def bearable_force(chosen: Chosen, sign: float) -> float:
     r"""The largest force that a strip bears in uniaxial tension or, as a negative number, in compression.
@@ -158,8 +162,8 @@ def bearable_force(chosen: Chosen, sign: float) -> float:
         sign: 1 for tension, -1 for compression.
 
     Returns:
-        ``F`` at its first limit along the way from rest, or at a hundredfold stretch; infinite for a law that
-        locks before.
+        ``F`` at its first limit along the way from rest, where the strip has no width any more, or at a
+        hundredfold stretch; infinite for a law that locks before.
     """
     constants, found = dict(chosen.constants), 0.0
     for stretch in np.geomspace(1.0, MOST_STRETCHED**sign, PLACES)[1:].tolist():
@@ -167,7 +171,7 @@ def bearable_force(chosen: Chosen, sign: float) -> float:
         force = evaluated(chosen, stretch, across)["W1"]
         if not np.isfinite(force):
             return sign * np.inf
-        if sign * (force - found) < 0:
+        if sign * (force - found) < 0 or across < NARROWEST:
             break
         found = force
     return found

@@ -149,9 +149,11 @@ def require_stretched(problem: str, law: Chosen, delta1: float, name: str) -> No
     """Refuse an axial pre-stretch of a tube on disks of its contracted radius (:func:`require_bearable`).
 
     Its circumferential stretch is that of an incompressible law in uniaxial tension, ``1/sqrt(delta1)``. A
-    compressible law may not be defined there, though it is for a circumference that keeps its length.
+    compressible law may not be defined there, though it is for a circumference that keeps its length; and its
+    own width is another one (:func:`require_width`).
     """
     require_bearable(problem, law, delta1, delta1**-0.5, name)
+    require_width(problem, law, delta1, name)
 
 
 def require_bearable(problem: str, law: Chosen, l1: float, l2: float, name: str) -> None:

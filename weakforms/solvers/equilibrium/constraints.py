@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 
 import numpy as np
 
@@ -54,19 +55,32 @@ class Held:
 
 @dataclass(frozen=True)
 class MonitorPlane:
-    """The condition ``Σ weight_m m(U, λ) = target`` over functionals and loads: a plane across a branch."""
+    """The condition ``Σ weight_m m(U, λ) = target`` over functionals and loads: a plane across a branch.
+
+    It is divided by the length of the weights: where a functional grows steeply along the branch, round-off
+    of the undivided sum would exceed the limit of residuals.
+    """
 
     weights: dict[str, float]
     target: float
 
+    @property
+    def _normal(self) -> dict[str, float]:
+        return {name: weight / self._length for name, weight in self.weights.items()}
+
+    @property
+    def _length(self) -> float:
+        return hypot(*self.weights.values())
+
     def value(self, solver: ExtendedNewton) -> float:
         """Distance from the plane."""
-        return sum(w * Held(n, 0.0).value(solver) for n, w in self.weights.items()) - self.target
+        place = sum(w * Held(n, 0.0).value(solver) for n, w in self._normal.items())
+        return place - self.target / self._length
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
         """Weighted sum of the functionals' gradients."""
         row, loads = np.zeros(solver.system.size), {}
-        for name, weight in self.weights.items():
+        for name, weight in self._normal.items():
             part, rates = Held(name, 0.0).gradient(solver)
             row = row + weight * part
             loads = {k: loads.get(k, 0.0) + weight * rates.get(k, 0.0) for k in {*loads, *rates}}

@@ -36,6 +36,9 @@ SHOWN = 3
 SIGN_OF_LIFE = re.compile(r"\[\d+:\d\d\] ")
 """How a line begins that says how far a long solve is."""
 
+NEARLY = 0.99
+"""Share of the limit from which a killed process counts as ended there: the kernel counts in ticks."""
+
 WAITING = 20.0
 """A solve that waits instead of computing is ended after this many times the limit of processor time."""
 
@@ -166,7 +169,7 @@ def _process(call: list[str], limit: float) -> tuple[int | None, str]:
         with suppress(ProcessLookupError):
             os.killpg(child.pid, signal.SIGKILL)  # and its child processes
         child.wait()
-    spent = child.returncode < 0 and _processor_time() - begun >= limit
+    spent = child.returncode < 0 and _processor_time() - begun >= NEARLY * limit
     return None if spent else child.returncode, complaint
 
 
