@@ -146,7 +146,7 @@ def test_slack_frames_start_and_wrinkle_in_the_corners():
             "model = 'saint_venant_kirchhoff'; allowed: ",
         ),
         ({"model": "varga", "gamma": 2.0}, "gamma = 2: the force of model = 'varga' is bounded"),
-        ({"model": "varga", "delta_y": 2.5}, "with load = 'liquid': delta up to 2"),
+        ({"model": "varga", "delta_y": 2.5}, "delta_y = 2.5: the force of model = 'varga' is bounded"),
         ({"edges": "strip", "delta": 1.0}, "a slack strip has no first state"),
         ({"load": "gas", "at": {"zw": 0.1}}, "with load = 'gas' there is no zw; allowed: p, V"),
         ({"at": {"p": 0.1}}, "with load = 'liquid' there is no p; allowed: zw, V_f"),

@@ -22,9 +22,9 @@ CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y
 """Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
 deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
 
-BOUNDED = {"gamma": 1.0, "delta": 2.0}
-"""Largest weight of a liquid and largest stretch of the frame for a law of bounded force. Beyond, the places
-where its sheets give way, and with them the special points, depend on the mesh."""
+BOUNDED = {"gamma": 1.0, "delta": 2.0, "delta_y": 2.0}
+"""Largest weight of a liquid and largest stretches of the frame for a law of bounded force. Beyond, the
+places where its sheets give way, and with them the special points, depend on the mesh."""
 
 SLACK, SLACK_START = 1.05, 0.2
 """Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
@@ -101,8 +101,8 @@ def require_light(parameters: RectangleParameters) -> None:
     """
     if parameters.load == "gas" or not has_bounded_force(parameters.material):
         return
-    stretch = max(parameters.delta, parameters.stretch_y)
-    for name, value in (("gamma", parameters.gamma), ("delta", stretch)):
+    given = {"gamma": parameters.gamma, "delta": parameters.delta, "delta_y": parameters.stretch_y}
+    for name, value in given.items():
         if value > BOUNDED[name]:
             raise InputError(
                 f"rectangle: {name} = {value:g}: the force of model = {parameters.model!r} is bounded, and a "

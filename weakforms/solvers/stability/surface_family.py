@@ -40,11 +40,11 @@ class SurfaceBranch(ModalBranch):
                 "steps are needed, or a symmetry is broken"
             )
         own = {"n": 0.0} if self.modes.wave_numbers else {}
-        crossings = [Crossing(self, i).located() for i in crossed]
-        return super()._placed() + [
-            (self._arclength(i, solved), replace(solved, values=solved.values | own))
-            for i, solved in zip(crossed, crossings, strict=True)
-        ]
+        found = []
+        for i in crossed:  # before the classes are searched: points that are added then would move these
+            solved = Crossing(self, i).located()
+            found.append((self._arclength(i, solved), replace(solved, values=solved.values | own)))
+        return super()._placed() + found
 
 
 class SurfaceFamily(ModalFamily):
