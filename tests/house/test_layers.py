@@ -153,6 +153,15 @@ def test_no_folder_is_crowded():
     assert crowded == {}
 
 
+def test_no_module_is_long():
+    """A module beyond this has two subjects; it is split by them, not by its length."""
+    lengths = {
+        path: len(path.read_text("utf-8").splitlines())
+        for path in files("weakforms", "reference_data", "cases")
+    }
+    assert {path.relative_to(ROOT).as_posix(): lines for path, lines in lengths.items() if lines > 350} == {}
+
+
 @pytest.mark.parametrize("part", ["problems", "verification"])
 def test_tests_are_in_the_room_of_what_they_test(part):
     rooms = {path.parent.relative_to(ROOT / "tests" / part).as_posix() for path in files(f"tests/{part}")}

@@ -20,7 +20,7 @@ from weakforms.problems.liquid_tube import problem as liquid_tube
 from weakforms.problems.liquid_tube.bent import problem as bent
 from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
-from weakforms.problems.meridian.limits import has_bounded_force
+from weakforms.problems.meridian.pre_stretch import has_bounded_force
 from weakforms.problems.problem import Requests, StateRequest, validated
 from weakforms.problems.wrinkled import branch as wrinkled_branch
 from weakforms.problems.wrinkled.branch import WrinkledBranch

@@ -12,7 +12,8 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials import MATERIALS
 from weakforms.problems import registry
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
-from weakforms.problems.meridian.limits import limit_of, require_held, require_low, require_taut
+from weakforms.problems.meridian.limits import limit_of
+from weakforms.problems.meridian.pre_stretch import require_held, require_low, require_taut
 from weakforms.problems.problem import Requests, validated
 from weakforms.solvers.equilibrium.system import System
 

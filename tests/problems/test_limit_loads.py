@@ -10,7 +10,7 @@ from weakforms import solve
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.forms.materials import MATERIALS
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.limits import mean_stretch_limit, require_width
+from weakforms.problems.meridian.pre_stretch import mean_stretch_limit, require_width
 from weakforms.problems.wrinkled.membrane import Membrane
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 

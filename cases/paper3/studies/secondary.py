@@ -1,4 +1,4 @@
-"""Paper 3: the secondary branch of bent shapes, its stability and its start; the symmetry of the circle.
+"""Paper 3: the secondary branch of bent shapes, its stability and its start.
 
 Stability is under level control unless volume is mentioned. Mirror-symmetric displacements keep the plane of
 symmetry (C1v); the others break it. Among these, the rotation of the pattern about the axis has an eigenvalue
@@ -16,7 +16,6 @@ from weakforms.cases import (
     Solutions,
     decide,
     fluid_tube,
-    fluid_tube_surface,
     reference,
 )
 
@@ -33,9 +32,6 @@ PUBLISHED = {
 }
 STATES = tuple((TUBES[length, 2], at) for length, at in PUBLISHED.items())
 EVERY = tuple((tube, None) for tube in TUBES.values())
-HALF, FULL = (fluid_tube_surface(L=8, delta=2, extent=extent) for extent in ("half", "full"))
-UNEVEN, MIRRORED = FULL.at(uneven=0.2), HALF.at(amplitude=-0.1)
-SAME = ("zw_bifurcation", "V_bifurcation", "zw_bent", "V_bent", "Pi_bent")
 TURN = reference(3, "secondary_turn")
 WIDE = 0.02
 TOP = tuple(At("zw", float(TURN.columns["zw"][0]) + s * WIDE, branch="secondary") for s in (-1, 0, 1))
@@ -50,15 +46,6 @@ VERTEX = decide.Stated(
 )
 OF_SECOND_ORDER = decide.Stated(
     10 * STEP**2, "dPi/dzw = -gamma V", "ten times the square of the step, because V has more curvature here"
-)
-SAME_ZERO = decide.Stated(
-    1e-9, "the same", "the same elements on half and full circumference; SLEPc stops at 1e-10"
-)
-SAME_POINT = decide.Stated(
-    1e-4, "the same point", "the whole surface has a coarse mesh; a hundredth of an error of one percent"
-)
-BROKEN = decide.Stated(
-    1e-4, "splits the pair", "ten thousand times the difference of an exact pair on the even mesh"
 )
 
 
@@ -198,59 +185,8 @@ def work_conjugate(solutions: Solutions) -> Finding:
     return decide.at_most("relative difference", abs(off), OF_SECOND_ORDER)
 
 
-def quantities(solutions: Solutions, spec) -> dict[str, float]:  # noqa: ANN001
-    """The quantities of a solution that has no branch."""
-    return {name: q.value for name, q in solutions.result(spec).quantities.items()}
-
-
-def double_zero(solutions: Solutions) -> Finding:
-    """Critical eigenvalues and the bent state on half and full circumference, with the same elements."""
-    half, full = (quantities(solutions, spec) for spec in (HALF, FULL))
-    return decide.all_of(
-        decide.same("multiplicities", [half["multiplicity"], full["multiplicity"]], [1, 2]),
-        *(decide.at_most(f"{name} apart", abs(full[name] / half[name] - 1), SAME_ZERO) for name in SAME),
-    )
-
-
-def mirror_branch(solutions: Solutions) -> Finding:
-    """Bent states to both sides, with the same elements."""
-    one, other = (quantities(solutions, spec) for spec in (HALF, MIRRORED))
-    return decide.all_of(
-        decide.at_most(f"{name} apart", abs(other[name] / one[name] - 1), SAME_ZERO)
-        for name in ("zw_bent", "V_bent", "Pi_bent")
-    )
-
-
-def of_the_branch(solutions: Solutions) -> Finding:
-    """Level and volume at which the whole surface bends, compared with the primary branch's bifurcation."""
-    whole = quantities(solutions, HALF)
-    return decide.all_of(
-        decide.at_most(
-            f"{name}, relative difference",
-            abs(whole[f"{name}_bifurcation"] / solutions.point(TUBES[8, 2], "bifurcation_point", name) - 1),
-            SAME_POINT,
-        )
-        for name in ("zw", "V")
-    )
-
-
-def mesh_breaks_it(solutions: Solutions) -> Finding:
-    """The pair on a mesh that is not uniform around."""
-    even, uneven = (quantities(solutions, spec) for spec in (FULL, UNEVEN))
-    return decide.all_of(
-        decide.at_most(
-            "split even over uneven", abs(even["Lambda_split"]) / abs(uneven["Lambda_split"]), BROKEN
-        ),
-        decide.at_most(
-            "force that prevents the rotation, even over uneven",
-            abs(even["phase"]) / abs(uneven["phase"]),
-            BROKEN,
-        ),
-    )
-
-
 CASE = Case(
-    title="The secondary branch and the symmetry of the circle",
+    title="The secondary branch",
     source="Patil, Nordmark & Eriksson (2015), figures 2, 3, 6 and 8",
     checks=(
         *(
@@ -331,31 +267,6 @@ CASE = Case(
             "dPi/dzw = -gamma V along the secondary branch",
             tuple((TUBES[8, 2], at) for at in AROUND),
             work_conjugate,
-        ),
-        Claim(
-            "double_zero",
-            "on the full circumference the critical eigenvalue is double, on half of it single, with the "
-            "same zero and the same secondary branch",
-            ((HALF, None), (FULL, None)),
-            double_zero,
-        ),
-        Claim(
-            "mirror_branch",
-            "the secondary branch goes on to the other side with the same levels and volumes",
-            ((HALF, None), (MIRRORED, None)),
-            mirror_branch,
-        ),
-        Claim(
-            "of_the_branch",
-            "the whole surface bends where the primary branch has its first bifurcation",
-            ((HALF, None), (TUBES[8, 2], None)),
-            of_the_branch,
-        ),
-        Claim(
-            "mesh_breaks_it",
-            "a mesh that is not uniform around splits the pair and makes the bifurcation imperfect",
-            ((FULL, None), (UNEVEN, None)),
-            mesh_breaks_it,
         ),
     ),
 )

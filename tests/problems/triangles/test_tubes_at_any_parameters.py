@@ -7,7 +7,7 @@ from mpi4py import MPI
 from weakforms import solve
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import mooney_rivlin_of
-from weakforms.problems.meridian.limits import unloaded_heights
+from weakforms.problems.meridian.pre_stretch import unloaded_heights
 from weakforms.problems.triangles.meshes import tube
 from weakforms.problems.triangles.model import Body
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane

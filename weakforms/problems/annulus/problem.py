@@ -13,7 +13,7 @@ from weakforms.problems.annulus.model import FRONT, Ring
 from weakforms.problems.annulus.phases import AnnulusPhases
 from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.meridian.pre_stretch import require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.curve import SolutionCurve

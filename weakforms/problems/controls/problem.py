@@ -20,7 +20,7 @@ from weakforms.problems.homogeneous.body import Body, sphere, system_of
 from weakforms.problems.homogeneous.material import require_reachable
 from weakforms.problems.homogeneous.problem import USUAL
 from weakforms.problems.material_choice import MaterialChoice
-from weakforms.problems.meridian.limits import require_stretched, require_taut
+from weakforms.problems.meridian.pre_stretch import require_stretched, require_taut
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.solvers.continuation.curve import SolutionCurve
 

@@ -13,7 +13,7 @@ from weakforms.problems.diagram.lines import LOAD, LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.limits import require_stretched, require_taut
+from weakforms.problems.meridian.pre_stretch import require_stretched, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.tube.parameters import resolving
 from weakforms.results import Absence, Failure, Result

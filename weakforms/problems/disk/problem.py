@@ -18,7 +18,7 @@ from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.peeling import SMALLEST_FRONT, PeelingBranch, PeelingFamily
 from weakforms.problems.disk.phases import FIRST_T0, HIGHEST_P, DiskPhases
 from weakforms.problems.material_choice import MaterialChoice
-from weakforms.problems.meridian.limits import require_taut
+from weakforms.problems.meridian.pre_stretch import require_taut
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.results import SpecialPoint

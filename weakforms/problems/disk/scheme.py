@@ -28,7 +28,8 @@ from weakforms.problems.disk.model import FreeDisk
 from weakforms.problems.disk.phases import FIRST_T0, parabola
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.meridian.limits import limit_along, require_taut
+from weakforms.problems.meridian.limits import limit_along
+from weakforms.problems.meridian.pre_stretch import require_taut
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.results import Absence, Result

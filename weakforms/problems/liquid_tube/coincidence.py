@@ -19,7 +19,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.problem import CAPS, FluidTubeNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_model
-from weakforms.problems.meridian.limits import require_bearable
+from weakforms.problems.meridian.pre_stretch import require_bearable
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.results import Absence, Quantity, Result
 from weakforms.solvers.continuation.curve import Solved

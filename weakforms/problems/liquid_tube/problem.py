@@ -16,7 +16,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.limits import has_bounded_force, require_bearable, require_width
+from weakforms.problems.meridian.pre_stretch import has_bounded_force, require_bearable, require_width
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
 from weakforms.results import Absence, Failure, Result
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily

@@ -12,7 +12,7 @@ from weakforms.problems.membrane.branch import traced
 from weakforms.problems.membrane.family import MembraneFamily
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
-from weakforms.problems.meridian.limits import require_low, require_taut
+from weakforms.problems.meridian.pre_stretch import require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.results import Quantity, Result
 from weakforms.solvers.stability.surface_family import SurfaceBranch

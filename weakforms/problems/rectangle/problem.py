@@ -7,7 +7,7 @@ import numpy as np
 from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.limits import has_bounded_force, require_low, require_taut
+from weakforms.problems.meridian.pre_stretch import has_bounded_force, require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.rectangle.about import RECTANGLE
 from weakforms.problems.rectangle.branch import RectangleBranch, traced

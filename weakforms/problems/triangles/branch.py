@@ -12,8 +12,9 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.triangles.model import SurfaceModel
 from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, hermite
+from weakforms.solvers.equilibrium.balance import residual_limit
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.newton import ExtendedNewton, residual_limit
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System

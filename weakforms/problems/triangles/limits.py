@@ -9,7 +9,8 @@ from ufl.core.expr import Expr
 from weakforms.forms.materials import SurfaceLaw
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.limits import has_bounded_force, resistance
+from weakforms.problems.meridian.limits import resistance
+from weakforms.problems.meridian.pre_stretch import has_bounded_force
 from weakforms.problems.triangles.readings import LeastStress
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System

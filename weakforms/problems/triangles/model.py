@@ -26,7 +26,7 @@ from weakforms.forms.relaxed_surface import (
 )
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
-from weakforms.problems.meridian.limits import unloaded_heights
+from weakforms.problems.meridian.pre_stretch import unloaded_heights
 from weakforms.problems.triangles.meshes import Triangulation
 from weakforms.problems.triangles.symmetry import Meridian, subspace_of
 from weakforms.problems.triangles.weak_form import Membrane, scalars

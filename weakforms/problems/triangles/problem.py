@@ -12,7 +12,8 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.limits import relative_stiffness, require_bearable, require_carried
+from weakforms.problems.meridian.limits import relative_stiffness
+from weakforms.problems.meridian.pre_stretch import require_bearable, require_carried
 from weakforms.problems.problem import End, Problem, Progress, Requests, StateRequest, Task
 from weakforms.problems.triangles.about import SURFACE
 from weakforms.problems.triangles.branch import Point, SurfaceRun

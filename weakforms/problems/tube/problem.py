@@ -12,7 +12,8 @@ from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_model
-from weakforms.problems.meridian.limits import limit_along, require_stretched
+from weakforms.problems.meridian.limits import limit_along
+from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family

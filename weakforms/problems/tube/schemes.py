@@ -24,7 +24,7 @@ from pydantic import Field
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.blocks import Blocks
-from weakforms.problems.meridian.limits import require_stretched
+from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.tube.about import TUBE_SCHEME

@@ -8,8 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from weakforms.errors import AbsentError, ConvergenceError, InputError
-from weakforms.problems.meridian.limits import giving_way
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.wave_numbers import EIGENVALUE
 from weakforms.problems.wrinkled.events import Event, events
 from weakforms.problems.wrinkled.membrane import Membrane
@@ -43,36 +42,6 @@ change."""
 
 STEP, VOLUME_END = 0.5, 30.0
 """Default largest step of a branch, and volume over the unloaded one at which it ends."""
-
-
-def first_state(membrane: Membrane, load: float, hint: str, volume_end: float = VOLUME_END) -> ZonedState:
-    """The state of the plain mesh at which the branch from no load first takes a load, with its zones.
-
-    Args:
-        membrane: The membrane.
-        load: The load.
-        hint: What to change if the branch does not take the load.
-        volume_end: Volume over the unloaded one up to which the branch is followed.
-
-    Raises:
-        AbsentError: If the branch does not take it, or there is none.
-        ConvergenceError: If the branch cannot be followed so far.
-    """
-    branch = WrinkledBranch(
-        membrane, load, volume_end, STEP, Readings(membrane, 2 * membrane.meshes[-1].degree)
-    )
-    stalled = branch.trace.stalled
-    try:
-        return membrane.plain(branch.near(membrane.control, load).state)
-    except InputError as error:
-        end = f", up to {volume_end:g} times the volume without load"
-        if stalled:
-            why = giving_way(membrane.plain_model, branch.trace.points[-1].state)
-            if not why:
-                raise ConvergenceError(f"{error}: {stalled}") from error
-            end = f"; where the branch ends, {why}"
-        what = f"state at {membrane.control} = {load:g}"
-        raise AbsentError(what, f"{error}{end}; {hint}") from error
 
 
 class WrinkledBranch:

@@ -18,11 +18,7 @@ from pydantic import BeforeValidator, Field
 from weakforms.errors import AbsentError, InputError
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import (
-    require_bearable,
-    require_carried,
-    require_held,
-)
+from weakforms.problems.meridian.pre_stretch import require_bearable, require_carried, require_held
 from weakforms.problems.meridian.thickness import Thickness, require_thickness, text_over
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.problems.wave_numbers import WaveNumbers, eigenvalue_names, require_waves

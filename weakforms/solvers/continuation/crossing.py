@@ -22,9 +22,10 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
+from weakforms.solvers.equilibrium.balance import RESIDUAL_LIMIT
 from weakforms.solvers.equilibrium.constraints import Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix
-from weakforms.solvers.equilibrium.newton import RESIDUAL_LIMIT, ExtendedNewton
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.spectra import Stability
 

@@ -17,19 +17,12 @@ import numpy as np
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.equilibrium.balance import OF_FORCES, RESIDUAL_LIMIT, residual_limit
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.snes import SolveRecord, run_snes, solve_record
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
-
-RESIDUAL_LIMIT = 1e-8
-"""Residual norm above which no state is accepted if forces are of order one, however small the last step is.
-It is also the largest allowed error of a constraint."""
-
-OF_FORCES = 1e-15, 1e-10
-"""Smallest and largest value of this limit, relative to the size of the forces (:meth:`System.force_size`).
-The smallest is about 25 times round-off; the largest is the residual of a Newton step at the tolerance."""
 
 KEPT = 1e-3
 """If an iteration reduces the residual norm to less than this fraction, the next one keeps its Jacobian. It
@@ -61,23 +54,6 @@ class Constraint(Protocol):
 
     def gradient(self, solver: ExtendedNewton) -> tuple[np.ndarray, dict[str, float]]:
         """``∂g/∂U`` and ``∂g/∂λ``; ``K`` is factorised at the state that the system is lent to."""
-
-
-def residual_limit(system: System, enough: float = np.inf) -> float:
-    """Residual norm above which a state is refused; the tangent may be from a state close to it.
-
-    Args:
-        system: The system, lent to the state.
-        enough: A lower bound of the limit serves too, if it is not below this residual: it is cheaper.
-    """
-    least = _limit(system.least_force_size())
-    return least if least >= enough else _limit(system.force_size())
-
-
-def _limit(forces: float) -> float:
-    """The limit for forces of a size; it grows with them."""
-    low, high = OF_FORCES
-    return min(max(RESIDUAL_LIMIT, low * forces), high * forces)
 
 
 class ExtendedNewton:

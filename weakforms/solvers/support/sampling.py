@@ -253,3 +253,19 @@ def _horner(coefficients: list[float], t: float) -> float:
     for coefficient in reversed(coefficients):
         total = total * t + coefficient
     return total
+
+
+def lowest_on_grid(values: np.ndarray) -> tuple[float, float]:
+    """Smallest value on a rectangular grid, by parabolas, and its difference from half the points."""
+    fine, coarse = (_by_parabolas(grid) for grid in (values, values[::2, ::2]))
+    return fine, abs(fine - coarse)
+
+
+def _by_parabolas(values: np.ndarray) -> float:
+    i, j = np.unravel_index(int(np.argmin(values)), values.shape)
+    reach = 0.0
+    for row, k in ((values[:, j], i), (values[i], j)):
+        if 0 < k < len(row) - 1:
+            left, here, right = row[k - 1 : k + 2]
+            reach += (right - left) ** 2 / (8 * (left - 2 * here + right))
+    return float(values[i, j] - reach)

@@ -26,6 +26,7 @@ from weakforms.solvers.uncertainty.refinement import (
     estimate,
     estimate_in_norm,
     order_in_mean,
+    widened,
 )
 
 NOT_LOCATED = ("contact_onset", "front", "stability_change", "zone_opening", "zone_closing")
@@ -141,7 +142,7 @@ class BranchFamily:
         table = np.array([[[values[n] for n in names] for values in levels] for levels, _ in kept])
         caps = np.array([[*self._caps_at(levels[-1], *self.across).values()] for levels, _ in kept])
         found = estimate([table[:, k] for k in range(table.shape[1])], caps, slow=self.slow).uncertainty
-        spread = _widen(found) if self.traced_on_finest else found
+        spread = widened(found) if self.traced_on_finest else found
         uncertainty = dict(zip(names, spread.T, strict=True))
         for row, i in enumerate(places):
             for name, more in self.left_by_round_off(i).items():
@@ -345,9 +346,3 @@ class BranchFamily:
 
 def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:
     return spectrum_of(level.system, solved.state, max(critical, level.continuation.shift))
-
-
-def _widen(uncertainty: np.ndarray) -> np.ndarray:
-    """Largest value of each point and its neighbours, because a difference may pass through zero."""
-    padded = np.pad(uncertainty, ((1, 1), (0, 0)), mode="edge")
-    return np.maximum.reduce([padded[:-2], padded[1:-1], padded[2:]])

@@ -178,3 +178,9 @@ def doubt(orders: Iterable[float], highest: float) -> float:
     """
     excess = max(orders, default=0.0) - highest
     return float(4.0 ** min(excess, 1.0)) if excess > TOO_FAST else 1.0
+
+
+def widened(uncertainty: np.ndarray) -> np.ndarray:
+    """Largest value of each point and its neighbours, because a difference may pass through zero."""
+    padded = np.pad(uncertainty, ((1, 1), (0, 0)), mode="edge")
+    return np.maximum.reduce([padded[:-2], padded[1:-1], padded[2:]])

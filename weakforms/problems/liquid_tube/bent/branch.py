@@ -22,9 +22,10 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.walk import walk
+from weakforms.solvers.equilibrium.balance import residual_limit
 from weakforms.solvers.equilibrium.constraints import MonitorPlane, Plane
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
-from weakforms.solvers.equilibrium.newton import Constraint, residual_limit
+from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
 

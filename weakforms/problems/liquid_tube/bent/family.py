@@ -16,13 +16,9 @@ from scipy.interpolate import CubicSpline
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.liquid_tube.bent.bifurcation_point import READINGS
-from weakforms.problems.liquid_tube.bent.branch import (
-    AMPLITUDES,
-    COMPARED,
-    SecondaryBranch,
-    secondary_branch,
-)
-from weakforms.problems.liquid_tube.bent.columns import RESULTANTS, SLOPES
+from weakforms.problems.liquid_tube.bent.branch import SecondaryBranch, secondary_branch
+from weakforms.problems.liquid_tube.bent.columns import RESULTANTS
+from weakforms.problems.liquid_tube.bent.slopes import initial_slopes, slopes_beside_another_mode
 from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
@@ -33,9 +29,8 @@ from weakforms.solvers.continuation.curve import DIAGNOSTICS, Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.support.sampling import Sampler
+from weakforms.solvers.support.sampling import Sampler, lowest_on_grid
 from weakforms.solvers.uncertainty.family import BranchFamily, Compared
-from weakforms.solvers.uncertainty.refinement import estimate
 from weakforms.solvers.uncertainty.regions import Regions
 
 SUPERCONVERGENT = 2
@@ -48,13 +43,6 @@ resultants there are derivatives, and their order is the degree."""
 
 GRID = (161, 97)
 """Numbers of points, along and around, of the grid for the smallest values on a surface."""
-
-SMALL = 0.125, 0.0625, 0.03125
-"""Shares of the usual amplitudes from which initial slopes are extrapolated if another mode changes sign
-beside the bifurcation point. At usual amplitudes a tube bends in both modes there."""
-
-FACTOR = 2.0
-"""Slopes of different amplitudes agree within this many uncertainties."""
 
 THETAS = np.linspace(0, np.pi, 25)
 """Meridians of a profile."""
@@ -183,63 +171,14 @@ class SecondaryFamily(BranchFamily):
         return solved
 
     def special_points(self) -> list[SpecialPoint]:
-        """As for any branch; the bifurcation point has the branch's initial slopes as values.
-
-        The slopes on the finest mesh are those on the next coarser one plus a difference, which is much
-        smaller and needs fewer amplitudes.
-        """
+        """As for any branch; the bifurcation point has the branch's initial slopes as values."""
         points = super().special_points()
-        alone = self.levels[0].trend.alone
-        slopes = self._slopes(1.0) if alone else self._slopes_beside_another_mode()
+        find = initial_slopes if self.levels[0].trend.alone else slopes_beside_another_mode
+        slopes = find(self.levels, self.cap)
         for name, (value, uncertainty) in slopes.items():
             points[0].values[name], points[0].uncertainty[name] = value, uncertainty
         points[0].values["n"], points[0].uncertainty["n"] = 1.0, 0.0
         return points
-
-    def _slopes(self, share: float) -> dict[str, tuple[float, float]]:
-        """The initial slopes with their uncertainties, from a share of the usual amplitudes."""
-        all_of, compared = (tuple(share * a for a in given) for given in (AMPLITUDES, COMPARED))
-        for below, level in pairwise(self.levels):
-            for amplitude in compared if level is self.fine else all_of:
-                level.small[amplitude] = self._on_finer_mesh(below, level, amplitude)
-        *_, last = coarser = self.levels[:-1]
-        slopes = [level.initial(all_of) for level in coarser]
-        fewer = last.initial(all_of[:-1])  # for the error of the extrapolation
-        near, fine = last.initial(compared), self.fine.initial(compared)
-        out = {}
-        for name in (slope.name for slope in SLOPES):
-            whole = slopes[-1][name]
-            found = estimate([*(s[name] for s in slopes), whole + fine[name] - near[name]], self.cap)
-            out[name] = float(found.value), float(found.uncertainty) + abs(fewer[name] - whole)
-        return out
-
-    def _slopes_beside_another_mode(self) -> dict[str, tuple[float, float]]:
-        """The same from amplitudes so small that half of them give the same slopes.
-
-        Raises:
-            ConvergenceError: If there are none.
-        """
-        found = [self._slopes(SMALL[0])]
-        for share in SMALL[1:]:
-            found.append(self._slopes(share))
-            both = [(found[-2][name], found[-1][name]) for name in found[-1]]
-            if all(abs(a - b) <= FACTOR * (u + v) for (a, u), (b, v) in both):
-                return {name: (b, v + abs(found[-2][name][0] - b)) for name, (b, v) in found[-1].items()}
-        raise ConvergenceError(
-            "another mode changes sign so near the bifurcation point that the initial slopes of the branch "
-            f"are not found, with {SMALL[-1]:g} of the usual amplitudes neither: change L or delta"
-        )
-
-    @staticmethod
-    def _on_finer_mesh(below: SecondaryBranch, level: SecondaryBranch, amplitude: float) -> Solved:
-        """The state of a small amplitude on a mesh, from the state of the next coarser one."""
-
-        def guess() -> State:
-            if amplitude not in below.small:
-                below.small[amplitude] = below.at_amplitude(amplitude)
-            return level.fitting.taken(below.fitting, below.small[amplitude].state)
-
-        return level.at_amplitude(amplitude, guess)
 
     def _at(self, name: str, value: float, crossing: int) -> list[Solved]:
         """The state on the coarsest mesh by its trace, and on every other mesh from the one before."""
@@ -362,19 +301,3 @@ class SecondaryFamily(BranchFamily):
                 np.interp(at, n, t) for at, n, t in zip(regions.grid, numbers, (nodes, angles), strict=True)
             )
             return regions, (model.front.material(x, turned), turned)
-
-
-def lowest_on_grid(values: np.ndarray) -> tuple[float, float]:
-    """Smallest value on a rectangular grid, by parabolas, and its difference from half the points."""
-    fine, coarse = (_by_parabolas(grid) for grid in (values, values[::2, ::2]))
-    return fine, abs(fine - coarse)
-
-
-def _by_parabolas(values: np.ndarray) -> float:
-    i, j = np.unravel_index(int(np.argmin(values)), values.shape)
-    reach = 0.0
-    for row, k in ((values[:, j], i), (values[i], j)):
-        if 0 < k < len(row) - 1:
-            left, here, right = row[k - 1 : k + 2]
-            reach += (right - left) ** 2 / (8 * (left - 2 * here + right))
-    return float(values[i, j] - reach)

@@ -22,7 +22,7 @@ from weakforms.problems.liquid_tube.bent.model import SurfaceModel
 from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.material_choice import MaterialChoice, require_model
-from weakforms.problems.meridian.limits import require_bearable, require_width
+from weakforms.problems.meridian.pre_stretch import require_bearable, require_width
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.results import Absence, Failure, Quantity, Result
 from weakforms.solvers.continuation.walk import walk

@@ -29,7 +29,7 @@ from weakforms.problems.meridian.body import Body
 from weakforms.problems.problem import Numerics, Problem, Requests, Task
 from weakforms.problems.quantity_problem import on_two_meshes
 from weakforms.problems.wrinkled.body import CYLINDER, SHARED
-from weakforms.problems.wrinkled.branch import first_state
+from weakforms.problems.wrinkled.first_state import first_state
 from weakforms.problems.wrinkled.problem import BranchParameters, WrinkledNumerics, wrinkled_membrane
 from weakforms.problems.wrinkled.sheets.about import WRINKLED_SHEET
 from weakforms.problems.wrinkled.state import ZonedState

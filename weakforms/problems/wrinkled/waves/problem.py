@@ -15,10 +15,10 @@ from pydantic import Field
 
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
-from weakforms.problems.meridian.limits import require_carried, require_held
+from weakforms.problems.meridian.pre_stretch import require_carried, require_held
 from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wave_numbers import MOST_WAVES
-from weakforms.problems.wrinkled.branch import first_state
+from weakforms.problems.wrinkled.first_state import first_state
 from weakforms.problems.wrinkled.problem import (
     WrinkledNumerics,
     WrinkledParameters,
