@@ -2,9 +2,11 @@
 
 A picture or a page has hundreds of details (line styles, sizes, places, words) that no statement of a test
 names one by one. An outline lists them for a small prepared input. A change of one of them is a difference
-to a committed file, which its author looks at. After a change that is meant, write all outlines again::
+to a committed file, which its author looks at. After a change that is meant, write all outlines again, or
+those of some rooms of the tests::
 
     ./run shell -c 'python3 tests/outlines.py'
+    ./run shell -c 'python3 tests/outlines.py pages results'
 """
 
 import sys
@@ -20,6 +22,7 @@ FILES = {
     "results/outlined_results.py": "results/outlines.txt",
     "pages/outlined_pages.py": "pages/outlines.txt",
     "verification/audit/outlined_audits.py": "verification/audit/outlines.txt",
+    "problems/outlined_solves.py": "problems/outlines.txt",
 }
 """Modules with a function ``sections``, and the files with what its texts should be."""
 
@@ -139,4 +142,6 @@ def clean(text: str) -> str:
 if __name__ == "__main__":
     sys.path[:0] = [str(HERE.parent), str(HERE), *(str((HERE / module).parent) for module in FILES)]
     for module, name in FILES.items():
+        if sys.argv[1:] and Path(name).parts[0] not in sys.argv[1:]:
+            continue
         (HERE / name).write_text(written(import_module(Path(module).stem).sections()), "utf-8")

@@ -6,7 +6,9 @@ import pytest
 
 from weakforms import solve
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.stability.surface_family import STEPS, SurfaceFamily
+from weakforms.solvers.stability import surface_family
+from weakforms.solvers.stability.modal import ModalBranch
+from weakforms.solvers.stability.surface_family import STEPS, SurfaceBranch, SurfaceFamily
 
 
 def mesh(*kinds):
@@ -57,6 +59,33 @@ def test_a_special_point_beyond_the_end_on_some_meshes_is_located_there():
     with pytest.raises(ConvergenceError, match="depend on the mesh"):
         told._locate()
     assert mid.points == [1, 2]
+
+
+def test_a_crossing_in_the_own_class_is_located_before_points_are_added(monkeypatch):
+    """The search of the other classes adds points, which move the places of the crossings."""
+    told = SurfaceBranch.__new__(SurfaceBranch)
+    told.points = [
+        SimpleNamespace(n_negative=count, name=name) for count, name in zip((0, 0, 1), "abc", strict=True)
+    ]
+    told._limits, told.modes = [], SimpleNamespace(wave_numbers=())
+    told._arclength = lambda i, solved: solved.values["between"]
+    asked = []
+
+    def added(branch):
+        branch.points.insert(1, SimpleNamespace(n_negative=0, name="new"))
+        return []
+
+    class Located:
+        def __init__(self, branch, i):
+            asked.append(branch.points[i].name + branch.points[i + 1].name)
+
+        def located(self):
+            return surface_family.Solved({"between": 0.5}, None)
+
+    monkeypatch.setattr(ModalBranch, "_placed", added)
+    monkeypatch.setattr(surface_family, "Crossing", Located)
+    assert [at for at, _ in told._placed()] == [0.5]
+    assert asked == ["bc"]
 
 
 def test_finer_meshes_that_differ_too_are_refused():

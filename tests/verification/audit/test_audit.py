@@ -183,6 +183,15 @@ def test_time_spent_waiting_for_the_processor_does_not_count(monkeypatch):
         assert code == (None if ended else 0), work
 
 
+@pytest.mark.parametrize(("used", "ended"), [(0.98, False), (0.995, True)])
+def test_a_killed_process_was_too_slow_only_if_it_used_its_time(used, ended, monkeypatch):
+    """Something else may kill it, such as a lack of memory; the kernel counts processor time in ticks."""
+    times = iter([10.0, 10.0 + used])
+    monkeypatch.setattr(runner, "_processor_time", lambda: next(times))
+    code, _ = runner._process([sys.executable, "-c", "import os; os.kill(os.getpid(), 9)"], 1.0)
+    assert code == (None if ended else -9)
+
+
 def test_a_refusal_is_kept_word_for_word():
     status, messages, _ = solved(["solve", "tube", "--set", "delta1=0.5"], 100)
     assert status == "refused"
