@@ -30,6 +30,7 @@ from weakforms.verification.audit.faults.catalogue import (
 from weakforms.verification.audit.faults.children import Answer
 from weakforms.verification.audit.faults.outcome import (
     NAME,
+    SHIPPED,
     Seeded,
     keep_beside,
     load_faults,
@@ -376,11 +377,32 @@ def test_the_report_carries_the_table(run_with, tmp_path):
     assert "were not run" in without
     assert "weakforms faults --out OUT" in without
     keep_beside(tmp_path / NAME, tmp_path / "report")
-    assert Seeded.beside(tmp_path / "report").run == run
+    assert Seeded.beside(tmp_path / "report") == Seeded(run)
     (tmp_path / "report" / NAME).write_text('{"schema": "<script>"}')
     damaged = Seeded.beside(tmp_path / "report")
     assert damaged.run is None
+    assert not damaged.shipped
     assert "<script>" not in render(empty, damaged)["faults.html"]
+
+
+def test_a_report_without_a_run_shows_the_one_that_the_package_brings(run_with, tmp_path):
+    empty = RunOutcome("quick", "", "2026-01-01T00:00:00+00:00", 1.0, {})
+    pages = render(empty, Seeded.beside(tmp_path))
+    assert load_faults(SHIPPED).headline in pages["faults.html"]
+    assert "The package brings this table" in pages["faults.html"]
+    assert "in the last run before this release" in pages["index.html"]
+    own = render(empty, Seeded(shown(run_with)))
+    assert "The package brings" not in own["faults.html"]
+    assert "last run before" not in own["index.html"]
+
+
+def test_the_shipped_run_is_of_this_catalogue_and_without_a_survivor():
+    run = load_faults(SHIPPED)
+    assert run.status == "caught"
+    assert len(run.faults) == run.catalogue
+    gone = {fault.name for fault in run.faults} - set(KNOWN)
+    assert not gone, "run the catalogue again: it does not have these faults any more"
+    assert len(run.faults) >= 0.9 * len(FAULTS), "run the catalogue again: a tenth of its faults is newer"
 
 
 @pytest.mark.parametrize(

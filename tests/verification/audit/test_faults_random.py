@@ -458,7 +458,7 @@ def test_the_report_shows_them(run_one, tmp_path):
     empty = RunOutcome("quick", "", "2026-01-01T00:00:00+00:00", 1.0, {})
     keep_beside(tmp_path / RANDOM, tmp_path / "report", RANDOM)
     beside = Seeded.beside(tmp_path / "report")
-    assert (beside.run, beside.random) == (None, run)
+    assert (beside.shipped, beside.random) == (True, run)
     page = render(empty, beside)["faults.html"]
     assert "Random faults" in page
     assert 'id="mutant-x-1-abc"' in page

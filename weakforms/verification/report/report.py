@@ -37,7 +37,7 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
 
     If the folder has a ``faults.json``, an ``audit.json``, a ``coverage.json`` or an ``elsewhere.json``, the
     report shows the seeded faults, the audit, the test of uncertainties, or the comparison with other runs
-    (until the cases are run again).
+    (until the cases are run again). Without a ``faults.json`` it shows the run that the package brings.
 
     Args:
         run: Outcome of ``verify``.

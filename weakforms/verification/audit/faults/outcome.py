@@ -30,6 +30,9 @@ NAME = "faults.json"
 RANDOM = "mutants.json"
 """The same for a run of random mutants."""
 
+SHIPPED = Path(__file__).parent / "last_run.json"
+"""The last run of the whole catalogue before the release, shipped with the package."""
+
 KINDS = {
     "comparison": "a number or a count outside its bound",
     "test": "a test of the suite",
@@ -229,10 +232,15 @@ class Seeded:
     problem: str = ""
     random: FaultsRun | None = None
     """A run of random mutants, where there is one."""
+    shipped: bool = False
+    """Whether ``run`` is the one that the package brings, because the report's folder has none."""
 
     @classmethod
     def beside(cls, folder: Path) -> Seeded:
-        """From a report's own folder; a file that cannot be read is a problem to be shown, no failure."""
+        """From a report's own folder, or the run that the package brings where the folder has none.
+
+        A file in the folder that cannot be read is a problem to be shown, no failure.
+        """
         found: dict[str, FaultsRun | None] = {}
         problems = []
         for name in (NAME, RANDOM):
@@ -240,7 +248,9 @@ class Seeded:
                 found[name] = load_faults(folder / name) if (folder / name).exists() else None
             except InputError as error:
                 problems.append(str(error))
-        return cls(found.get(NAME), "; ".join(problems), found.get(RANDOM))
+        shipped = NAME in found and found[NAME] is None
+        run = load_faults(SHIPPED) if shipped else found.get(NAME)
+        return cls(run, "; ".join(problems), found.get(RANDOM), shipped)
 
 
 def keep_beside(source: Path | None, folder: Path, name: str = NAME) -> None:
