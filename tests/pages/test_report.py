@@ -12,8 +12,10 @@ import pytest
 from canned_run import failing_case, passing_case, sample, surface
 
 from weakforms.errors import EnvironmentLackError, InputError
+from weakforms.verification.audit.faults.outcome import SHIPPED, Seeded, load_faults
 from weakforms.verification.report import pdf
 from weakforms.verification.report.junit import clean, junit_xml
+from weakforms.verification.report.pages import render
 from weakforms.verification.report.report import load_run, write_report
 from weakforms.verification.report.vtu import vtu
 
@@ -31,6 +33,12 @@ def test_report_json_is_strict_and_comes_back(run, folder, tmp_path):
     assert {path.relative_to(tmp_path) for path in tmp_path.rglob("*") if path.is_file()} == names
     for name in names:
         assert (tmp_path / name).read_bytes() == (folder / name).read_bytes()
+
+
+def test_the_overview_says_that_its_seeded_faults_are_those_of_the_release(run, folder):
+    page = (folder / "index.html").read_text("utf-8")
+    assert "in the last run before this release; they were not run for this report" in page
+    assert "last run before this release" not in render(run, Seeded(load_faults(SHIPPED)))["index.html"]
 
 
 def test_numpy_numbers_and_infinities_are_written(tmp_path):
