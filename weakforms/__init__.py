@@ -41,6 +41,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """What a notebook offers after ``weakforms.``: the names for users, not the modules behind them."""
+    return sorted([*__all__, "__doc__", "__version__"])
+
+
 def __getattr__(name: str) -> Any:
     """The names of :mod:`weakforms.cases` are found here too, where case files imported them at first."""
     if name in cases.__all__:

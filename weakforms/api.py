@@ -155,6 +155,7 @@ def prepared(
     from weakforms.problems.reach import reached, within
 
     chosen = registry.get(problem)
+    _refuse_columns(chosen, parameters)
     values = validated(chosen.parameters, dict(parameters), problem)
     meshes = validated(chosen.numerics, dict(numerics), f"{problem} numerics")
     requests = Requests(tuple(states), branch_uncertainty, drawn, ahead)
@@ -178,6 +179,21 @@ def prepared(
         return result
 
     return run
+
+
+def _refuse_columns(problem: Any, given: Mapping[str, Any]) -> None:
+    """Refuse a load or another column that is given as a parameter, and say how to ask for a state there.
+
+    Raises:
+        InputError: If there is one.
+    """
+    columns = {column.name for column in problem.about.columns if not column.derived}
+    for name, value in given.items():
+        if name in columns - set(problem.parameters.model_fields) - problem.parameters.further():
+            raise InputError(
+                f"{problem.about.name} has no parameter {name!r}, which is a column: --at {name}={value} "
+                f"asks for the state there (in Python: at={{{name!r}: {value}}})"
+            )
 
 
 def state_value(name: str, value: object) -> float:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from difflib import SequenceMatcher, get_close_matches
+from itertools import groupby
 
 
 class WeakformsError(Exception):
@@ -78,12 +80,25 @@ def closest(name: object, known: Iterable[str]) -> str:
     return by_lower[max(found, key=likeness)] if found else ""
 
 
+MANY = 6
+"""Number of neighbours that differ in numbers only from which a message names the first and the last."""
+
+
+def _in_short(names: list[str]) -> list[str]:
+    """Names for a message; of ``Lambda_n0_1``, ``Lambda_n0_2`` and so on the first and the last."""
+    out: list[str] = []
+    for _, group in groupby(names, key=lambda name: re.sub(r"\d+", "", name)):
+        alike = list(group)
+        out += [f"{alike[0]} to {alike[-1]}"] if len(alike) >= MANY else alike
+    return out
+
+
 def not_among(name: object, known: Iterable[str], has: str = "it has") -> str:
     """The end of a message on a wrong name: a similar one, if there is one, and all that are known.
 
     Either ``"; it has p, V"`` or ``"; did you mean 'V'? It has p, V"``.
     """
     names = list(known)
-    listed = f"{has} {', '.join(names) or 'none'}"
+    listed = f"{has} {', '.join(_in_short(names)) or 'none'}"
     similar = closest(name, names)
     return f"; did you mean {similar!r}? {listed[0].upper()}{listed[1:]}" if similar else f"; {listed}"

@@ -74,7 +74,7 @@ def _never_turns(values: np.ndarray) -> bool:
     return len(steps) > 0 and bool(np.all(steps > 0) or np.all(steps < 0))
 
 
-def export(result: Result, folder: Path, branch: str = "") -> list[Path]:
+def export(result: Result, folder: Path, branch: str = "", frames: Sequence[State] = ()) -> list[Path]:
     """Write a result into a folder; files appear under their names only when all are complete.
 
     Args:
@@ -83,6 +83,8 @@ def export(result: Result, folder: Path, branch: str = "") -> list[Path]:
             profiles of states) and, if these profiles are surfaces in space, ``shapes.pvd`` with a VTU file
             for each state.
         branch: Branch of the shapes; default: all of them.
+        frames: States along a branch, as :func:`along` finds them: the tables have them after the states of
+            the result, and the shapes are theirs.
 
     Returns:
         The files for a reader to open.
@@ -92,8 +94,9 @@ def export(result: Result, folder: Path, branch: str = "") -> list[Path]:
         EnvironmentLackError: If meshio is missing.
     """
     folder = Path(folder)
+    result = replace(result, states=[*result.states, *frames])
     states = [s for s in result.states if s.fields and branch in ("", s.branch)]
-    shapes = [s for s in states if _is_surface(s)]
+    shapes = [s for s in frames or states if s.fields and _is_surface(s)]
     texts = {
         "branches.csv": branch_csv(result) if result.branches else "",
         "special_points.csv": csv_text(point_rows(result)) if result.special_points else "",
@@ -152,8 +155,3 @@ def _series(shapes: Sequence[State], names: Sequence[str]) -> str:
     ]
     head = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>'
     return "\n".join([head, *lines, "</Collection>\n</VTKFile>\n"])
-
-
-def with_states(result: Result, solved: Result) -> Result:
-    """A result with the states of another one, and with what failed there."""
-    return replace(result, states=solved.states, failures=[*result.failures, *solved.failures])

@@ -48,8 +48,8 @@ def request(
         if not isinstance(data[key], dict):
             raise InputError(f"request {spec}: {key!r} must be an object of names and values")
     return {
-        "parameters": data.get("parameters", {}) | dict(pairs("--set", sets)),
-        "numerics": data.get("numerics", {}) | dict(pairs("--mesh", mesh)),
+        "parameters": data.get("parameters", {}) | once("parameter", sets),
+        "numerics": data.get("numerics", {}) | once("--mesh", mesh),
         "at": [*data.get("at", {}).items(), *_states(pairs("--at", at))],
     }
 

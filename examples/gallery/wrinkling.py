@@ -34,9 +34,11 @@ for beta in (0.0, 1e-6):
 
 # %%
 axes.axhline(0, color="0.6", lw=0.8)
-axes.set(
-    xlabel="waves around the tube", ylabel="lowest eigenvalue", title=f"fluid level {LEVEL:g}", xscale="log"
-)
+axes.set(xlabel="waves around the tube", ylabel="lowest eigenvalue", xscale="log")
+axes.set_title(f"negative: unstable at the fluid level {LEVEL:g}")
+axes.set_xticks(WAVES, [str(n) for n in WAVES])
+axes.minorticks_off()
 axes.set_yscale("symlog", linthresh=0.1)
+axes.margins(y=0.1)
 axes.legend(frameon=False)
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "wrinkling.svg")

@@ -126,6 +126,17 @@ def test_help_needs_nothing(machine, args):
     assert machine.calls() == []
 
 
+@pytest.mark.parametrize("verb", ["test", "lint", "notebook", "shell", "image"])
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_help_on_a_verb_of_the_script_starts_nothing(machine, verb, option):
+    machine.put("docker", "exit 9")
+    done = machine.run(verb, option)
+    assert (done.returncode, done.stderr, machine.calls()) == (0, "", [])
+    assert done.stdout.startswith("usage: ./run")
+    assert verb in done.stdout.splitlines()[0].split()
+    assert f"./run {verb}" in done.stdout.partition("Examples:")[2]
+
+
 @pytest.mark.parametrize(
     ("args", "named"),
     [
@@ -257,6 +268,17 @@ def test_image_is_built_once(machine):
     (call,) = machine.calls("docker", "build")
     assert values(call, "--target") == ["deps"]
     assert values(call, "-t") == [machine.tag()]
+
+
+def test_what_the_image_copies_is_sent_to_the_engine():
+    """A file that .dockerignore leaves out ends the build."""
+    lines = (ROOT / "Dockerfile").read_text().splitlines()
+    copied = {name for line in lines if line.startswith("COPY ") for name in line.split()[1:-1]}
+    rules = (ROOT / ".dockerignore").read_text().split("\n")
+    assert len(copied) > 8
+    assert rules[1] == "*"
+    assert copied <= {rule[1:] for rule in rules if rule.startswith("!")}
+    assert all((ROOT / name).exists() for name in copied)
 
 
 def test_failed_build_shows_its_log(machine):

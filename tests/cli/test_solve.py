@@ -133,7 +133,9 @@ def test_parameters_need_no_option(weakforms):
     a, b = json.loads(plain.out), json.loads(option.out)
     assert a["parameters"]["l1"] == 2.0
     assert a["quantities"] == b["quantities"]
-    assert weakforms("solve", "material", "l1").complaints == ["weakforms: --set 'l1': NAME=VALUE is wanted"]
+    assert weakforms("solve", "material", "l1").complaints == [
+        "weakforms: parameter 'l1': NAME=VALUE is wanted"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -147,7 +149,14 @@ def test_parameters_need_no_option(weakforms):
         ("solve tube --at limit_points=2", "did you mean 'limit_point'?"),
         ("solve fluid_tube --branch secundary", "no branch 'secundary'; did you mean 'secondary'?"),
         ("solve tube --mesh cell=8", "no parameter 'cell'; did you mean 'cells'?"),
-        ("check paper2.fig3", "close to it: paper2.fig13, paper2.fig03"),
+        ("check paper2.fig3", "close to it: paper2.fig03, paper2.fig13"),
+        ("compare paper2.fig2 c.csv", "close to it: paper2.fig02,"),
+        ("solve tube model=neohookean", "'harmonic'; did you mean 'neo_hookean'?"),
+        ("solve tube p=1.9", "no parameter 'p', which is a column: --at p=1.9 asks for the state there"),
+        ("solve tube alpha=0.1 --set alpha=0.2", "parameter alpha=0.2: alpha is given twice"),
+        ("solve tube --mesh cells=8 --mesh cells=9", "--mesh cells=9: cells is given twice"),
+        ("solve paper2.fig03", "if it is a case: weakforms check paper2.fig03"),
+        ("check tube", "it is a problem: weakforms solve tube"),
         ("solve tube --crossing many", "--crossing 'many': a whole number from 1, or all"),
     ],
 )
@@ -159,6 +168,13 @@ def test_a_near_miss_is_answered_with_the_right_name(weakforms, words, said):
 
 def test_a_name_like_no_other_is_answered_with_all_names(weakforms):
     assert "no parameter 'qqq'; it has model, alpha, delta1" in weakforms("solve", "tube", "qqq=2").err
+
+
+def test_a_long_list_of_names_is_shortened_where_they_differ_in_numbers_only(weakforms):
+    said = weakforms("solve", "tube", "--at", "q=5").err
+    assert "Z_t_min, Lambda_n0_1 to Lambda_n" in said
+    assert "limit_point, " in said
+    assert " ... " not in said
 
 
 def test_the_version_is_shown(weakforms):
@@ -186,7 +202,7 @@ def test_help_shows_no_default_where_there_is_none(weakforms):
     assert "default: 1" in weakforms("solve", "--help").out
 
 
-def test_a_shell_completes_verbs_and_problems():
+def test_a_shell_completes_verbs_problems_and_cases():
     def completed(words: str) -> str:
         given = {
             "_WEAKFORMS_COMPLETE": "complete_bash",
@@ -202,6 +218,10 @@ def test_a_shell_completes_verbs_and_problems():
 
     assert completed("weakforms sol").split() == ["solve"]
     assert set(completed("weakforms solve tube").split()) == {"tube", "tube_fold", "tube_scheme"}
+    assert "paper2.fig03" in completed("weakforms check paper2.fig0").split()
+    assert completed("weakforms compare paper2.fig03").split() == ["paper2.fig03"]
+    assert {"tube", "tube_fold"} < set(completed("weakforms show t").split())
+    assert completed("weakforms deck t").split() == completed("weakforms diagram t").split() == ["tube"]
 
 
 def test_the_reader_of_a_pipe_may_leave_without_a_word():

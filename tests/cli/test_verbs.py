@@ -84,7 +84,7 @@ def result(weakforms, tmp_path_factory):
     path = tmp_path_factory.mktemp("solve") / "r.json"
     wanted = ("--at", "u_max=2", "--at", "limit_point=1", "--at", "V=20")
     called = weakforms(*TUBE, *wanted, "--out", path)
-    assert (called.status, called.out, called.err) == (0, "", "")
+    assert (called.status, called.out, called.complaints) == (0, "", [])
     assert list(path.parent.iterdir()) == [path]
     return path
 
@@ -333,7 +333,8 @@ def test_status_3_for_a_problem_that_is_too_hard(tmp_path):
     assert len(kept.branch()) > 100
     assert kept.special_points == []
     assert "special points" in {f.what for f in kept.failures}
-    lines = done.stderr.splitlines()
+    # A machine that is slow shows progress too, as "[0:15] states".
+    lines = [line for line in done.stderr.splitlines() if not line.startswith("[")]
     assert len(lines) == len(kept.failures)
     assert all(line.startswith("weakforms: not converged: ") and len(line) < 700 for line in lines)
 

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import meshio
@@ -221,6 +222,18 @@ def test_a_whole_branch_becomes_a_series(weakforms, tmp_path):
     pressures = [float(row["p"]) for row in rows(out / "states.csv")]
     branch = load_result(path).branch()
     assert pressures[1:] == pytest.approx(np.interp(heights, branch["u_max"], branch["p"])[1:], abs=2e-2)
+
+
+def test_states_that_were_asked_for_stay_in_the_tables_beside_those_along_a_branch(tmp_path):
+    result = made()
+    frames = [replace(state, at={"u_max": 3.0 + k}) for k, state in enumerate(result.states)]
+    exporting.export(result, tmp_path, frames=frames)
+    every = [f"u_max = {k}" for k in (1, 2, 3, 4)]
+    assert [row["what"] for row in rows(tmp_path / "states.csv")] == [f"state at {at}" for at in every]
+    numbers = {row["state"]: row["at"] for row in rows(tmp_path / "fields.csv")}
+    assert numbers == dict(zip("1234", every, strict=True))
+    sets = ET.parse(tmp_path / "shapes.pvd").getroot().findall("Collection/DataSet")
+    assert [float(item.get("timestep")) for item in sets] == [3.0, 4.0]
 
 
 def test_a_branch_of_which_every_column_turns_is_refused():

@@ -2,6 +2,7 @@
 
 import builtins
 import math
+import re
 import subprocess
 import sys
 
@@ -103,6 +104,23 @@ def test_a_misspelt_kind_of_special_point_is_an_error_and_not_an_empty_list(resu
     assert result.points("cusp_point") == []
     with pytest.raises(KeyError, match="'limit_points'; did you mean 'limit_point'"):
         result.points("limit_points")
+    with pytest.raises(KeyError, match=r"'bulge'\. The result has limit_point"):
+        result.points("bulge")
+
+
+def test_a_notebook_offers_first_what_users_need():
+    assert set(dir(weakforms)) - {"__doc__", "__version__"} == set(weakforms.__all__)
+    assert {"solve", "compare", "sweep", "load", "save"} <= set(dir(weakforms))
+    assert set(dir(weakforms)) <= set(vars(weakforms))
+
+
+def test_a_notebook_shows_where_a_state_lies_and_says_in_python_how_to_get_all_of_them(result):
+    page = result._repr_html_()
+    assert "crossing=&quot;all&quot; gives all" in page
+    assert "--crossing" not in page
+    row = re.search(r"crossing 1 of 2</td>(.*?)</tr>", page)[1]
+    value = next(iter(result.states[0].at.values()))
+    assert f">{value:g}</td>" in row
 
 
 def test_a_value_is_counted_each_time_that_the_column_takes_it(result):
@@ -119,7 +137,7 @@ def test_what_a_special_point_is_stands_before_its_other_numbers(result):
 
 
 def test_a_result_shows_itself_in_one_line(result):
-    assert repr(result) == "<Result tube: branch primary (11 points); 1 limit_point; 1 states; 1 quantities>"
+    assert repr(result) == "<Result tube: branch primary (11 points); 1 limit_point; 1 state; 1 quantity>"
     assert "ends at u_max = 5 (u_end)" in repr(result.branch())
     result.failures.append(Failure("x", "y"))
     assert "1 FAILED" in repr(result)
@@ -139,6 +157,12 @@ def test_a_notebook_shows_numbers_warnings_and_a_picture(result):
         assert text in page
     assert "<b>none</b>" not in page
     assert "&lt;b&gt;none" in page
+
+
+def test_a_picture_of_a_profile_says_which_of_several_crossings_it_is(result):
+    assert [
+        t.get_text() for t in draw_results({"": result}, "Z", "rho").axes[0].get_legend().get_texts()
+    ] == ["p = 4, crossing 1 of 2"]
 
 
 def test_saving_and_loading_keeps_everything(result, tmp_path):

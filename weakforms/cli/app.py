@@ -84,6 +84,18 @@ def problem_names() -> list[str]:
     return list(abouts())
 
 
+def case_names() -> list[str]:
+    """Ids of the cases, for the completion of a shell."""
+    from weakforms.verification.cases.discovery import case_ids
+
+    return case_ids()
+
+
+def all_names() -> list[str]:
+    """Names of the problems and ids of the cases, for the completion of a shell."""
+    return [*problem_names(), *case_names()]
+
+
 def _version(wanted: bool) -> None:
     if wanted:
         from weakforms import __version__

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from weakforms.cli.app import Engine, Jobs, Out, Resume, app, examples
+from weakforms.cli.app import Engine, Jobs, Out, Resume, app, case_names, examples
 from weakforms.errors import InputError
 
 
@@ -15,7 +15,9 @@ from weakforms.errors import InputError
     epilog=examples("weakforms check paper2.fig03", "weakforms check paper2.fig03 paper2.fig04 --out out/two")
 )
 def check(
-    names: Annotated[list[str], typer.Argument(metavar="CASE...", help="Ids of cases.")],
+    names: Annotated[
+        list[str], typer.Argument(metavar="CASE...", help="Ids of cases.", autocompletion=case_names)
+    ],
     jobs: Jobs,
     out: Out = Path("out"),
     resume: Resume = False,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from weakforms.cli.app import Engine, Json, Resume, app, examples
+from weakforms.cli.app import Engine, Json, Resume, all_names, app, examples
 from weakforms.errors import InputError
 from weakforms.terminal import console, once, plain, print_json, progress_bar, rank
 
@@ -22,7 +22,9 @@ from weakforms.terminal import console, once, plain, print_json, progress_bar, r
     )
 )
 def compare(  # noqa: PLR0913, PLR0917  (one an option)
-    case: Annotated[str, typer.Argument(help="Id of a case; with --with the name of a problem.")],
+    case: Annotated[
+        str, typer.Argument(help="Id of a case; with --with the name of a problem.", autocompletion=all_names)
+    ],
     words: Annotated[
         list[str],
         typer.Argument(

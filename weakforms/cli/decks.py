@@ -21,7 +21,13 @@ from weakforms.terminal import console, once, pairs, plain, progress_bar, rank
     )
 )
 def deck(
-    problem: Annotated[str, typer.Argument(help="tube, circular, sphere or wrinkled_tube.")],
+    problem: Annotated[
+        str,
+        typer.Argument(
+            help="tube, circular, sphere or wrinkled_tube.",
+            autocompletion=lambda: ["tube", "circular", "sphere", "wrinkled_tube"],
+        ),
+    ],
     code: Annotated[str, typer.Option("--for", help="calculix, febio, ngsolve, sfepy or gmsh.")],
     at: Annotated[list[str], typer.Option(metavar="LOAD=VALUE", help="The load and its last value.")],
     out: Annotated[Path, typer.Option(help="Folder for the deck.")],

@@ -23,7 +23,9 @@ from weakforms.terminal import complain, console, plain, rank, request
     )
 )
 def diagram(
-    problem: Annotated[str, typer.Argument(help="tube or circular.")],
+    problem: Annotated[
+        str, typer.Argument(help="tube or circular.", autocompletion=lambda: ["tube", "circular"])
+    ],
     plane: Annotated[
         tuple[str, str], typer.Option(metavar="X Y", help="The two parameters; one of them is p.")
     ],

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from weakforms.cli.app import Engine, Jobs, Json, Resume, app, examples, problem_names
+from weakforms.cli.app import Engine, Jobs, Json, Resume, all_names, app, examples, problem_names
 from weakforms.errors import InputError
 from weakforms.results import Result
 from weakforms.terminal import (
@@ -43,7 +43,7 @@ def list_(
 def show(
     name: Annotated[
         str,
-        typer.Argument(help="A problem, a case, or a file with a result.", autocompletion=problem_names),
+        typer.Argument(help="A problem, a case, or a file with a result.", autocompletion=all_names),
     ],
     as_json: Json = False,
 ) -> None:

@@ -81,9 +81,10 @@ def export(
 ) -> None:
     """Write a result as CSV tables, and its shapes as a series for ParaView (shapes.pvd).
 
-    The shapes are those of the states of the result, or with --frames of states along a whole branch.
+    The shapes are those of the states of the result, or with --frames of states along a whole branch, which
+    the tables have after the states of the result.
     """
-    from weakforms.export import along, with_states
+    from weakforms.export import along
     from weakforms.export import export as write
     from weakforms.results import load_result
     from weakforms.results.io import require_writable
@@ -92,15 +93,18 @@ def export(
     if frames == 1:
         raise InputError("--frames 1: two states or more make a series")
     require_writable(folder)
+    states, failures = [], [*result.failures]
     if frames:
         with progress_bar() as progress:
-            result = with_states(result, along(result, branch or "primary", frames, progress))
+            solved = along(result, branch or "primary", frames, progress)
+        states = solved.states
+        failures += solved.failures
     if rank() == 0:
-        for path in write(result, folder, branch):
+        for path in write(result, folder, branch, states):
             console().print(plain(path), soft_wrap=True)
-        for failure in result.failures:
+        for failure in failures:
             complain(f"not converged: {failure.what}: {failure.reason}")
-    if frames and result.failures:
+    if frames and failures:
         raise typer.Exit(3)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -11,7 +12,7 @@ import numpy as np
 from mpi4py import MPI
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from weakforms.errors import InputError, not_among
+from weakforms.errors import InputError, closest, not_among
 from weakforms.problems.about import About
 from weakforms.results import Branch, Ended, Result
 from weakforms.solvers.support.memory import release
@@ -236,10 +237,18 @@ def validated(model: type[Parameters], given: dict[str, Any], what: str) -> Any:
             name = ".".join(str(part) for part in item["loc"]) or "parameters"
             message = item["msg"].removeprefix("Value error, ")
             message = message[0].lower() + message[1:]
+            if item["type"] == "literal_error":
+                message += _nearest_of(item["input"], item["ctx"]["expected"])
             cause = item.get("ctx", {}).get("error")
             together = isinstance(cause, TogetherError)
             parts.append(str(cause) if together else f"{name} = {item['input']!r}: {message}")
         raise InputError(f"{what}: " + "; ".join(parts)) from error
+
+
+def _nearest_of(given: object, expected: str) -> str:
+    """A question whether the allowed value nearest to a wrong one is meant; empty if none is near."""
+    similar = closest(given, re.findall(r"'([^']*)'", expected))
+    return f"; did you mean {similar!r}?" if similar else ""
 
 
 def check_requests(about: About, requests: Requests, computed: Sequence[str] = ()) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -48,6 +49,8 @@ def get(name: str) -> Problem:
     Raises:
         InputError: If there is none.
     """
+    if re.fullmatch(r"(paper\d|materials|closed_form|beyond)\.\w+", name):
+        raise InputError(f"unknown problem {name!r}; if it is a case: weakforms check {name}")
     if name not in abouts():
         raise InputError(f"unknown problem {name!r}{not_among(name, abouts(), 'the problems are')}")
     return problems()[name]

@@ -14,10 +14,10 @@ def html(result: Result) -> str:
     """Branches with their ends, special points, states, quantities, what is missing, and a picture."""
     parts = [f"<b>{escape(result.problem)}</b> <small>{escape(parameters_line(result))}</small>"]
     parts += [f"<div>branch {escape(b.name)}: {escape(extent(b))}</div>" for b in result.branches]
-    rows = [*point_rows(result), *state_rows(result)]
+    rows = [*point_rows(result), *state_rows(result, whole=True)]
     parts += [_table(rows)] if rows else []
     parts += [f"<div>{escape(name)} = {escape(f'{q}')}</div>" for name, q in result.quantities.items()]
-    parts += [f"<div><i>{escape(text)}</i></div>" for text in notes(result)]
+    parts += [f"<div><i>{escape(text)}</i></div>" for text in notes(result, 'crossing="all"')]
     return "\n".join([*parts, _picture(result)])
 
 
@@ -28,7 +28,8 @@ def _table(rows: list[tuple[str, dict[str, str]]]) -> str:
     lines = [[place, *(numbers.get(name, "") for name in names)] for place, numbers in rows]
     cells = ["".join(f"<td>{escape(cell)}</td>" for cell in line) for line in lines]
     body = "".join(f"<tr>{line}</tr>" for line in cells)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    table = f"<table style='white-space:nowrap'><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    return f"<div style='overflow-x:auto'>{table}</div>"
 
 
 def _picture(result: Result) -> str:

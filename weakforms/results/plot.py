@@ -20,6 +20,7 @@ from weakforms.errors import InputError, lacking, not_among
 from weakforms.results.io import require_place_for
 from weakforms.results.model import KINDS, Branch, Field
 from weakforms.results.result import Result
+from weakforms.results.wording import which_crossing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -241,8 +242,7 @@ def _profiles(results: Mapping[str, Result], x: str, y: str) -> dict[str, Field]
             at = ", ".join(f"{name} = {value:.6g}" for name, value in state.at.items())
             for field in state.fields:
                 if {x, y} <= set(field.columns):
-                    number = f" ({state.crossing})" if state.crossing > 1 else ""
-                    out[f"{key + ': ' if key else ''}{at}{number}"] = field
+                    out[f"{key + ': ' if key else ''}{at}{which_crossing(state)}"] = field
     return out
 
 

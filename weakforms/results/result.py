@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from weakforms.errors import not_among
+from weakforms.errors import closest, not_among
 from weakforms.results.model import KINDS, Absence, Branch, Failure, Quantity, SpecialPoint, State
 
 if TYPE_CHECKING:
@@ -52,7 +52,10 @@ class Result:
             KeyError: If no point is ever of this kind, which a misspelt name would hide.
         """
         if kind not in KINDS:
-            raise KeyError(f"no kind of special point {kind!r}{not_among(kind, KINDS, 'there are')}")
+            similar, found = closest(kind, KINDS), dict.fromkeys(p.kind for p in self.special_points)
+            hint = f"; did you mean {similar!r}?" if similar else "."
+            has = f"The result has {', '.join(found) or 'none'}"
+            raise KeyError(f"no kind of special point {kind!r}{hint} {has}")
         return [
             point for point in self.special_points if point.kind == kind and branch in (None, point.branch)
         ]

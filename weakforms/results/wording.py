@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from weakforms.results.model import Branch
+from weakforms.results.model import Branch, State
 from weakforms.results.result import Result
 from weakforms.results.uncertain import uncertain
 
@@ -15,16 +15,21 @@ LABELS = ("n", "direction", "state")
 
 def short(result: Result) -> str:
     """One line about a result."""
-    branches = ", ".join(f"{b.name} ({len(b)} points)" for b in result.branches)
+    branches = ", ".join(f"{b.name} ({counted(len(b), 'point', 'points')})" for b in result.branches)
     counts: dict[str, int] = {}
     for point in result.special_points:
         counts[point.kind] = counts.get(point.kind, 0) + 1
     parts = [f"branch {branches}" if branches else ""]
     parts += [f"{count} {kind}" for kind, count in counts.items()]
-    parts += [f"{len(result.states)} states" if result.states else ""]
-    parts += [f"{len(result.quantities)} quantities" if result.quantities else ""]
+    parts += [counted(len(result.states), "state", "states")] * bool(result.states)
+    parts += [counted(len(result.quantities), "quantity", "quantities")] * bool(result.quantities)
     parts += [f"{len(result.failures)} FAILED" if result.failures else ""]
     return f"<Result {result.problem}: {'; '.join(filter(None, parts)) or 'empty'}>"
+
+
+def counted(count: int, one: str, several: str) -> str:
+    """``1 state``, ``2 states``."""
+    return f"{count} {one if count == 1 else several}"
 
 
 def parameters_line(result: Result) -> str:
@@ -38,7 +43,7 @@ def parameters_line(result: Result) -> str:
 
 def extent(branch: Branch) -> str:
     """How many points a branch has, between which values of its control, and where and why it ends."""
-    points = f"{len(branch)} points"
+    points = counted(len(branch), "point", "points")
     if branch.control in branch.columns and len(branch):
         values = branch.columns[branch.control]
         points += f", {branch.control} from {min(values):.6g} to {max(values):.6g}"
@@ -58,14 +63,26 @@ def point_rows(result: Result) -> list[tuple[str, dict[str, str]]]:
     return out
 
 
-def state_rows(result: Result) -> list[tuple[str, dict[str, str]]]:
-    """Each state, as ``p = 1.95, crossing 1 of 3``, and its other numbers with uncertainties."""
+def which_crossing(state: State) -> str:
+    """``, crossing 1 of 3`` for a value that the branch takes several times; empty if it takes it once."""
+    if max(state.crossing, state.crossings or 1) == 1:
+        return ""
+    return f", crossing {state.crossing}" + (f" of {state.crossings}" if state.crossings else "")
+
+
+def state_rows(result: Result, whole: bool = False) -> list[tuple[str, dict[str, str]]]:
+    """Each state, as ``p = 1.95, crossing 1 of 3``, and its other numbers with uncertainties.
+
+    Args:
+        result: Any result.
+        whole: Whether the numbers begin with those at which a state was asked for.
+    """
     out = []
     for state in result.states:
         place = ", ".join(f"{name} = {value:.12g}" for name, value in state.at.items())
-        if max(state.crossing, state.crossings or 1) > 1:
-            place += f", crossing {state.crossing}" + (f" of {state.crossings}" if state.crossings else "")
-        numbers = {name: f"{q}" for name, q in state.quantities.items() if name not in state.at}
+        place += which_crossing(state)
+        numbers = {name: f"{value:.12g}" for name, value in state.at.items() if whole}
+        numbers |= {name: f"{q}" for name, q in state.quantities.items() if name not in state.at}
         out.append((place + _on(state.branch, result), numbers))
     return out
 
@@ -92,18 +109,23 @@ def not_crossed(name: str, value: float, crossing: int, count: int, values: Sequ
     return f"{taken}; {name} ranges over [{min(values):.6g}, {max(values):.6g}]"
 
 
-def notes(result: Result) -> list[str]:
-    """Warnings, what is not there, what did not converge, and values that a branch takes more than once."""
+def notes(result: Result, every: str = "--crossing all") -> list[str]:
+    """Warnings, what is not there, what did not converge, and values that a branch takes more than once.
+
+    Args:
+        result: Any result.
+        every: What asks for all crossings of a value.
+    """
     out = [f"warning: {text}" for text in result.warnings]
     told = set()
     for state in result.states:
         ((name, value),) = state.at.items() if len(state.at) == 1 else (("", 0.0),)
-        every = sum(s.at == state.at and s.branch == state.branch for s in result.states)
-        if (state.crossings or 1) > every and (name, value) not in told:
+        shown = sum(s.at == state.at and s.branch == state.branch for s in result.states)
+        if (state.crossings or 1) > shown and (name, value) not in told:
             told.add((name, value))
             out.append(
                 f"note: {name} = {value:g} is crossed {state.crossings} times on the {state.branch} branch; "
-                f"this is crossing {state.crossing} (--crossing all gives all)"
+                f"this is crossing {state.crossing} ({every} gives all)"
             )
     out += [f"not there: {item.what}: {item.reason}" for item in result.absent]
     return [*out, *(f"not converged: {item.what}: {item.reason}" for item in result.failures)]

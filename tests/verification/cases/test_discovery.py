@@ -12,7 +12,7 @@ from weakforms import At, api, tube
 from weakforms.errors import InputError
 from weakforms.solvers.support import provenance
 from weakforms.verification.cases import discovery
-from weakforms.verification.cases.discovery import Expression, find_cases, get_case, select
+from weakforms.verification.cases.discovery import Expression, case_ids, find_cases, get_case, select
 from weakforms.verification.run.plan import Plan, case_wants, check_ids
 from weakforms.verification.run.solving import SOLVING, solution_key, source_digest
 
@@ -71,6 +71,10 @@ def test_cases_are_found_by_their_place(tmp_path):
     assert [c.id for c in found] == ["paper1.z", "paper2.a", "paper2.b"]
     assert found[0].description == "A case."
     assert found[0].words == "paper1.z slow"
+
+
+def test_ids_need_no_reading_of_the_cases():
+    assert case_ids() == api.cases()
 
 
 def test_selection(monkeypatch):

@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path
 
 from weakforms.errors import InputError
+from weakforms.problems.registry import abouts
 from weakforms.verification.cases.case import Case
 from weakforms.verification.cases.references import ROOT, folder_of, part
 
@@ -48,15 +49,33 @@ def find_cases(root: Path = ROOT) -> tuple[FoundCase, ...]:
     Raises:
         InputError: If a case file does not define ``CASE``.
     """
-    found = []
-    for paper in range(1, 6):
-        paths = sorted((part("cases", root) / f"paper{paper}").rglob("*.py"))
-        found += [_load(path, paper) for path in paths if not path.stem.startswith("_")]
-    found.sort(key=lambda item: (item.paper, item.id))
-    for group in GROUPS:
-        paths = sorted((part("cases", root) / group).glob("*.py"))
-        found += [_load(path, group) for path in paths if not path.stem.startswith("_")]
-    return tuple(found)
+    return tuple(_load(path, paper) for path, paper in _files(root))
+
+
+def case_ids(root: Path = ROOT) -> list[str]:
+    """Ids of all cases, without reading their files."""
+    return [_id(path, paper) for path, paper in _files(root)]
+
+
+def _files(root: Path) -> list[tuple[Path, int | str]]:
+    """The file of each case with its paper or group, in the order of the cases."""
+    of_papers = [
+        (path, paper)
+        for paper in range(1, 6)
+        for path in (part("cases", root) / f"paper{paper}").rglob("*.py")
+        if not path.stem.startswith("_")
+    ]
+    of_groups = [
+        (path, group)
+        for group in GROUPS
+        for path in sorted((part("cases", root) / group).glob("*.py"))
+        if not path.stem.startswith("_")
+    ]
+    return sorted(of_papers, key=lambda item: (item[1], _id(*item))) + of_groups
+
+
+def _id(path: Path, paper: int | str) -> str:
+    return f"{folder_of(paper)}.{path.stem}"
 
 
 def _load(path: Path, paper: int | str) -> FoundCase:
@@ -71,7 +90,7 @@ def _load(path: Path, paper: int | str) -> FoundCase:
     case = getattr(module, "CASE", None)
     if not isinstance(case, Case):
         raise InputError(f"case file {path} defines no CASE")
-    return FoundCase(f"{folder_of(paper)}.{path.stem}", paper, path, case, (module.__doc__ or "").strip())
+    return FoundCase(_id(path, paper), paper, path, case, (module.__doc__ or "").strip())
 
 
 def get_case(name: str) -> FoundCase:
@@ -81,15 +100,23 @@ def get_case(name: str) -> FoundCase:
         InputError: If there is none; the message names similar ids.
     """
     known = {found.id: found for found in find_cases()}
+    if name in abouts():
+        raise InputError(f"unknown case {name!r}; it is a problem: weakforms solve {name}")
     if name not in known:
         raise InputError(f"unknown case {name!r}; {among(name, known)}")
     return known[name]
 
 
 def among(name: str, known: Iterable[str]) -> str:
-    """The names closest to a wrong one, in one short line."""
+    """The names closest to a wrong one, in one short line; ``fig3`` means ``fig03`` first of all."""
     close = get_close_matches(name, list(known), n=5, cutoff=0.5)
+    close.sort(key=lambda word: _without_zeros(word) != _without_zeros(name))
     return f"close to it: {', '.join(close)}; all: weakforms list" if close else "see: weakforms list"
+
+
+def _without_zeros(name: str) -> str:
+    """A name whose numbers have no leading zeros."""
+    return re.sub(r"(?<!\d)0+(?=\d)", "", name)
 
 
 def select(paper: int | None = None, expression: str | None = None) -> list[FoundCase]:
