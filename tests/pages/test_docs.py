@@ -17,6 +17,7 @@ from weakforms.problems import registry
 from weakforms.problems.problem import validated
 from weakforms.verification.cases import examples
 from weakforms.verification.cases.catalogue import describe
+from weakforms.verification.report.formulas import html_formula
 from weakforms.verification.report.pdf import browser
 
 
@@ -64,6 +65,11 @@ def test_links_arrive_and_nothing_is_loaded(readers, folder):
             assert not anchor or anchor in ids[there], f"{page}: {value}"
 
 
+def typeset(text):
+    """The words of a formula on a page."""
+    return " ".join(Reader(html_formula(text)).words)
+
+
 @pytest.mark.parametrize("name", sorted(registry.abouts()))
 def test_a_problem_is_shown_with_its_form_and_a_right_example(name, readers):
     problem, about = registry.get(name), registry.abouts()[name]
@@ -71,7 +77,7 @@ def test_a_problem_is_shown_with_its_form_and_a_right_example(name, readers):
     text = " ".join(" ".join(readers[f"problems/{name}.html"].words).split())
     facts = describe(name)
     for said in (
-        facts["energy"],
+        *(typeset(line) for line in facts["energy"].split("  ")),
         facts["command"],
         *facts["example"],
         *(p["name"] for p in facts["parameters"]),
@@ -91,8 +97,25 @@ def test_every_number_with_a_meaning_is_in_the_table_of_symbols(readers):
     text = " ".join(" ".join(readers["symbols.html"].words).split())
     for about in registry.abouts().values():
         for name, meaning in about.scales.items():
-            assert f"{name} {' '.join(meaning.split())}" in text
+            assert f"{name} {' '.join(typeset(meaning).split())}" in text
     assert "λ 1 lam1 meridional stretch, 1" in text
+
+
+def test_guides_for_newcomers_come_first_and_other_lists_are_folded(folder):
+    page = (folder / "tutorials.html").read_text("utf-8")
+    contents = re.search('<nav class="contents".*?</nav>', page, re.S)[0]
+    links = re.findall(r'<a href="([^"]*)"', contents)
+    first = ["index", "search", "tutorials", "gallery", "theory", "glossary", "symbols"]
+    assert [link.removesuffix(".html") for link in links[:7]] == first
+    assert contents.count("<details>") == 3
+    problem = (folder / "problems" / "tube.html").read_text("utf-8")
+    assert re.search(r"<details open><summary>Problems</summary>", problem)
+
+
+def test_a_table_drawn_with_lines_keeps_its_lines():
+    shown = docstring("States.\n\n===== =====\nstate where\n===== =====\ntaut  here\n===== =====\n\nEnd.")
+    assert "<pre>===== =====\nstate where" in shown
+    assert docstring(r"It is :math:`\tfrac12 \rho^2`.").startswith("<p>It is 1/2\u2009<i>ρ</i><sup>2</sup>")
 
 
 def test_show_prints_what_the_page_has():

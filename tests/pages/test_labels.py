@@ -15,6 +15,7 @@ from weakforms.verification.report.case_views import surface_csv, what_differs
 from weakforms.verification.report.figures import points
 from weakforms.verification.report.figures.panel import failed_rows, panel_figure
 from weakforms.verification.report.figures.surfaces import surface_picture
+from weakforms.verification.report.formulas import html_formula
 from weakforms.verification.report.look import LOOK, TEMPLATES
 from weakforms.verification.report.pages import render
 from weakforms.verification.report.wording import kind_of_point, typeset
@@ -88,9 +89,13 @@ def test_every_problem_has_a_sketch(name):
     sketches = (TEMPLATES / "sketches.html").read_text("utf-8")
     assert f"macro {manual.sketch(name)}()" in sketches
     case = passing_case()
-    case.solutions = [{"problem": name, "parameters": {}}]
+    case.solutions = [{"problem": name, "parameters": {"n": [1, 20]}}]
     page = render(sample(case))["paper2.html"]
     assert 'class="sketch"' in page
+    shown = re.search(r'<details class="manual".*?</details>', page, re.S)[0]
+    assert html_formula(abouts()[name].energy.split("  ")[0]) in shown
+    assert "<i>n</i> = 1, 20" in shown, "several values of a parameter"
+    assert re.search(r"<text[^>]*>[^<]*\b(lam|delta|gamma|psi)", shown) is None
     assert Reader(page).open == []
 
 
@@ -126,7 +131,8 @@ def test_a_failed_check_says_what_differs_and_is_marked_in_the_figure():
     said = "differs from bad:p by 1.3004e-09 of its scale at u max = 1.25; this is >1.000 times the bound"
     assert said in text.replace("u max", "u max"), text
     drawn = case.panels[0].curves[0]
-    (row,) = failed_rows(replace(drawn, reference_name="bad"), [case.verdicts[1]])
+    drawn = replace(drawn, reference_name="bad")
+    (row,) = failed_rows(drawn, [case.verdicts[1]], ("p", "u_max"))
     place = min(range(len(drawn.residual_x)), key=lambda i: abs(drawn.residual_x[i] - 1.25))
     assert row == (drawn.reference_x[place], drawn.reference_y[place])
     marked = panel_figure(case.panels[0], "f", case.verdicts)
@@ -134,7 +140,11 @@ def test_a_failed_check_says_what_differs_and_is_marked_in_the_figure():
     assert len(marked) > len(held)
     twice = replace(drawn, reference_x=[0.0] * len(drawn.reference_x) + drawn.reference_x)
     twice.reference_y = [0.0] * len(drawn.reference_y) + drawn.reference_y
-    assert failed_rows(twice, [case.verdicts[1]]) == [row], "a profile is mirrored to both sides"
+    assert failed_rows(twice, [case.verdicts[1]], ("p",)) == [row], "a profile is mirrored to both sides"
+    good = replace(drawn, residual=[0.0] * len(drawn.residual))
+    assert failed_rows(good, [case.verdicts[1]], ("u_max",)) == [], "another column of the table is wrong"
+    wrong = replace(drawn, residual=[1.0] * len(drawn.residual))
+    assert failed_rows(wrong, [case.verdicts[1]], ("-p",)) == [row], "the curve is wrong too"
 
 
 def test_a_check_with_a_wide_bound_says_that_it_is_wide():

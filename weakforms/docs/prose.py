@@ -117,7 +117,7 @@ def _blocks(text: str) -> Iterable[tuple[str, str]]:
                 lines.append(paragraphs[at])
                 at += 1
             yield first.rstrip(":"), inspect.cleandoc("\n".join(["", *lines]))
-        elif block.startswith("    "):
+        elif block.startswith("    ") or re.match(r"\s*=+ +=+", block):  # a table drawn with lines
             yield "code", inspect.cleandoc("\n" + block)
         else:
             yield "text", block.removesuffix("::")

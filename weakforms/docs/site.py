@@ -28,9 +28,12 @@ from weakforms.verification.cases import examples
 from weakforms.verification.cases.catalogue import describe
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.references import ROOT
+from weakforms.verification.report.formulas import html_formula
 from weakforms.verification.report.look import LOOK, TEMPLATES
 from weakforms.verification.report.wording import html_tex, symbol
 
+FIRST = ("tutorials", "theory", "glossary")
+"""Guides for a newcomer, which come before the others."""
 VARIATIONS = (
     r"\delta\Pi(u; v) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} \Pi(u + \epsilon v) \,|_{\epsilon = 0} = 0, "
     r"\quad K(u; v, w) = \frac{\mathrm{d}}{\mathrm{d}\epsilon} "
@@ -89,19 +92,13 @@ class Site:
         self.written: dict[str, str] = {}
         """Pages by file name."""
         self.guides = [*sorted((ROOT / "docs").glob("*.md")), *ROOT.glob("CONTRIBUTING.md")]
-        guides = [(_title(p), f"{p.stem}.html") for p in self.guides]
+        first = [(_title(p), f"{p.stem}.html") for p in self.guides if p.stem in FIRST]
+        first.sort(key=lambda link: FIRST.index(link[1].removesuffix(".html")))
         shown = [("Gallery", "gallery.html")] * bool(scripts())
+        home = (("Home", "index.html"), ("Search", "search.html"))
         self.contents = [
-            (
-                "Guide",
-                [
-                    ("Home", "index.html"),
-                    ("Search", "search.html"),
-                    ("Symbols", "symbols.html"),
-                    *shown,
-                    *guides,
-                ],
-            ),
+            ("", [*home, *first[:1], *shown, *first[1:], ("Symbols", "symbols.html")]),
+            ("Guides", [(_title(p), f"{p.stem}.html") for p in self.guides if p.stem not in FIRST]),
             ("Problems", [(name, f"problems/{name}.html") for name in names]),
             ("Reference", [("cases", "cases.html"), *((g, f"api/{g}.html") for g in api.GROUPS)]),
         ]
@@ -114,6 +111,7 @@ class Site:
             lstrip_blocks=True,
         )
         self._environment.filters["tex"] = lambda text: Markup(html_tex(text))
+        self._environment.filters["formula"] = lambda text: Markup(html_formula(text))
 
     def write(self, page: str, template: str, title: str, section: str, **facts: Any) -> None:
         """Write one page."""

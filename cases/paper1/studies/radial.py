@@ -1,7 +1,7 @@
 """Paper 1, section 3: the usual no-slip model, in which only the radius of a point sticks.
 
 The text says that both stretches are locked. If only rho is locked, and the patch is in vertical equilibrium,
-the indentation is slightly *smaller* than without friction. This contradicts figure 6 and the abstract, so
+the indentation is slightly smaller than without friction. This contradicts figure 6 and the abstract, so
 that the paper's patch must be locked.
 """
 

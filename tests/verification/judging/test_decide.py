@@ -162,6 +162,9 @@ def test_one_failing_statement_fails_all_and_is_named():
     found = decide.all_of(good, [good, bad])
     assert not found.holds
     assert found.detail == "FAILS: cusps: 1, expected 2"
+    assert decide.all_of([good] * 30, decide.same("cusps", 1, 1)).detail == (
+        f"{good.detail} (30 times); {decide.same('cusps', 1, 1).detail}"
+    ), "what is said again is counted"
 
 
 def test_a_stated_size_is_told_with_its_reason():

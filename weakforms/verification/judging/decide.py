@@ -9,6 +9,7 @@ false, and so does the absence of numbers.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -126,7 +127,7 @@ def exact(what: str, found: Any, expected: Any, scale: float = 1.0) -> Finding:
         return Finding(False, f"{what}: there is nothing to compare")
     good = np.all(gap <= ROUNDING)
     return Finding(
-        bool(good), f"{what}: off by {np.max(gap):.1e} on {gap.size} numbers, rounding {ROUNDING:.0e}"
+        bool(good), f"{what}: off by {np.max(gap):.1g}, the worst of {gap.size}, rounding {ROUNDING:.0e}"
     )
 
 
@@ -282,7 +283,8 @@ def all_of(*findings: Finding | Iterable[Finding]) -> Finding:
     if not flat:
         return Finding(False, "nothing was found")
     failed = [f"FAILS: {f.detail}" for f in flat if not f.holds]
-    said = failed or [f.detail for f in flat]
+    times = Counter(failed or [f.detail for f in flat])
+    said = [text if count == 1 else f"{text} ({count} times)" for text, count in times.items()]
     more = [f"and {len(said) - SHOWN} more"] if len(said) > SHOWN else []
     return Finding(not failed, "; ".join([*said[:SHOWN], *more]))
 

@@ -19,7 +19,7 @@ SKETCHES = {
     "wrinkled": "wrinkled",
     "surface": "wrinkled",
     "wrinkled_material": "piece",
-    "wrinkled_patch": "piece",
+    "wrinkled_patch": "patch",
     "hemisphere": "hemisphere",
     "sphere": "balloon",
     "rectangle": "rectangle",
@@ -94,8 +94,11 @@ def _data(parameters: list[dict[str, Any]]) -> list[tuple[str, str]]:
     values: dict[str, list[str]] = {}
     for of in parameters:
         for name, value in of.items():
-            if isinstance(value, int | float | str) and not isinstance(value, bool) and value != "":
-                text = f"{value:g}" if isinstance(value, float) else str(value)
+            several = value if isinstance(value, list | tuple) else [value]
+            for one in several:
+                if not isinstance(one, int | float | str) or isinstance(one, bool) or one == "":
+                    continue
+                text = f"{one:g}" if isinstance(one, float) else str(one)
                 seen = values.setdefault(name, [])
                 if text not in seen:
                     seen.append(text)

@@ -30,6 +30,7 @@ from weakforms.verification.judging.outcome import (
 from weakforms.verification.report import summary, thesis, wording
 from weakforms.verification.report.case_views import case_view, draw, figure_files
 from weakforms.verification.report.figures.svg import share_letters
+from weakforms.verification.report.formulas import html_formula, svg_formula
 from weakforms.verification.report.junit import clean
 from weakforms.verification.report.look import LOOK, TEMPLATES
 from weakforms.verification.report.wording import file_name, unused
@@ -180,6 +181,8 @@ def _environment() -> Environment:
     }
     environment.filters |= filters | {
         "tex": lambda text: Markup(wording.html_tex(text)),
+        "formula": lambda text: Markup(html_formula(text)),
+        "drawn_formula": lambda text: Markup(svg_formula(text)),
         "plain_tex": wording.plain_tex,
         "typeset": wording.typeset,
         "symbol": wording.symbol,

@@ -15,7 +15,7 @@ def plain_tex(text: str) -> str:
     return re.sub(r"\$([^$]*)\$", lambda hit: re.sub(r"[{}^_]", "", _symbols(hit[1])), clean(text))
 
 
-GREEK = "alpha beta gamma delta eta kappa lam mu rho sigma theta Lambda Pi Theta"
+GREEK = "alpha beta gamma delta eta kappa lam mu rho sigma theta phi psi chi pi Lambda Pi Theta Phi Psi"
 """Names of numbers that begin with a Greek letter; ``lam`` is lambda."""
 NAMED = re.compile(
     rf"({'|'.join(GREEK.split())}|[A-Za-z]{{1,2}})((?<=[a-z]{{3}})[A-Z]|\d*)((?:_[A-Za-z0-9]+)*)"
@@ -28,21 +28,28 @@ LINES = {
     "contact": "first contact",
 }
 """Conditions on whose lines two at once hold, or that turn, at a special point."""
-WORDS = {"of", "in", "at", "to", "is", "or", "no", "on", "an", "as", "by", "a"}
+WORDS = {"of", "in", "at", "to", "is", "or", "no", "on", "an", "as", "by"}
 """Words that look like symbols."""
 
 
 def symbol(name: str) -> str:
     r"""A raw name of a number as TeX: ``lam1_mid`` becomes ``$\lambda_{1,\mathrm{mid}}$``."""
     found = NAMED.fullmatch(name)
-    if not found or name in WORDS:
+    if not found or found[1] in WORDS:
         return name
     letter, number, rest = found.groups()
     stem = "\\" + {"lam": "lambda"}.get(letter, letter) if letter in GREEK.split() else letter
     if len(letter) == 2 and letter not in GREEK.split():  # zw, Af
         stem, number = letter[0], letter[1] + number
-    parts = [number] * bool(number) + [p if len(p) < 2 else rf"\mathrm{{{p}}}" for p in rest.split("_")[1:]]
+    parts = [number] * bool(number) + [_index(p) for p in rest.split("_")[1:]]
     return f"${stem}_{{{','.join(parts)}}}$" if parts else f"${stem}$"
+
+
+def _index(word: str) -> str:
+    """An index of a symbol: a letter, Greek or not, or a word."""
+    if word in GREEK.split():
+        return "\\" + {"lam": "lambda"}.get(word, word)
+    return word if len(word) < 2 else rf"\mathrm{{{word}}}"
 
 
 def kind_of_point(kind: str) -> str:
@@ -104,6 +111,7 @@ def html_tex(text: str) -> str:
 def _symbols(tex: str) -> str:
     tex = re.sub(r"\\(mathrm|text|mathit)\{([^{}]*)\}", r"\2", tex)
     tex = re.sub(r"\\[,;: ]|~", "\u2009", re.sub(r"\\(mathrm|text|mathit|left|right)\b", "", tex))
+    tex = re.sub(r"\\[td]?frac\s*(\{[^{}]*\}|\w)\s*(\{[^{}]*\}|\w)\s*", "\\1/\\2\u2009", tex)
     tex = tex.replace("\\sqrt", "√")
     named = re.sub(r"\\([A-Za-z]+)", lambda hit: html.unescape(f"&{hit[1]};").strip("&;"), tex)
     return named.replace("\\", "")

@@ -36,7 +36,7 @@ WRINKLED_MATERIAL = About(
     unknown="the principal stretches of a homogeneous state, given",
     forms=("forms.wrinkling:tension_field", "forms.wrinkling:modified_gradient"),
     units=Units(modulus="C1"),
-    numbers=ENERGY_OF_LAW,
+    numbers=(*ENERGY_OF_LAW, *numbers(l1="stretch along 1", l2="stretch along 2", c2="C2/C1")),
     example=Example("l2", "W", values=tuple(0.3 + i / 10 for i in range(13))),
     unestimated=CLOSED,
 )
@@ -46,8 +46,8 @@ WRINKLED_PATCH = About(
     title="Instability of a flat wrinkled patch under pressure",
     paper=5,
     source=PAPER5,
-    energy="U + P W,  U = int W_R(l1, l2) dX dY,  W = -b int z x_X dX dY;  x = a X + e sin nX, y = b Y, "
-    "z = c + e cos nX",
+    energy="U + P W,  U = int W_R(l1, l2) dX dY,  W = -b int z x_X dX dY;  x = a X + e sin(n X), y = b Y, "
+    "z = c + e cos(n X)",
     control="e",
     unknown="the amplitude e of a displacement of a flat wrinkled patch",
     forms=("forms.wrinkling:tension_field",),
@@ -71,6 +71,10 @@ WRINKLED_PATCH = About(
         b="stretch along Y",
         x="deformed position along",
         z="deformed height",
+        c="height of the flat patch",
+        n="wave number along X",
+        Lx="length along X",
+        c2="C2/C1",
     ),
     example=Example("e", "U"),
     held_out=(Family({"a": (0.2, 0.5), "n": (6.0, 14.0)}, **LINE, at=(("e", 0.02),)),),

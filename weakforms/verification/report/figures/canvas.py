@@ -112,6 +112,15 @@ def new_axes(figure: Figure, bottom: float, height: float, x: str = "", y: str =
     return axes
 
 
+def clear_label(axes: Axes) -> None:
+    """Move the label of the vertical axis away from its numbers, as far as the margin has room."""
+    figure = axes.figure
+    ruler, shown = new_ruler(figure), [text for text in axes.get_yticklabels() if text.get_text()]
+    numbers = max((text.get_window_extent(ruler).width for text in shown), default=0.0) / figure.dpi
+    inner = figure.get_size_inches()[0] - LEFT - RIGHT
+    axes.yaxis.set_label_coords(-min(max(0.46, numbers + 0.19), LEFT - 0.08) / inner, 0.5)
+
+
 def as_columns(*columns: Sequence[float]) -> list[np.ndarray]:
     """Columns as arrays, as long as the shortest of them."""
     rows = min(map(len, columns))

@@ -20,6 +20,7 @@ from weakforms.verification.report.figures.canvas import (
     Picture,
     as_columns,
     as_math,
+    clear_label,
     drawing,
     new_axes,
     pdf,
@@ -55,7 +56,7 @@ def panel_picture(
     residuals = any(len(curve.residual) for curve in panel.curves)
     lower = 1.97 if residuals else 0.0
     with drawing(ident):
-        failed = [row for curve in panel.curves for row in failed_rows(curve, verdicts)]
+        failed = [row for curve in panel.curves for row in failed_rows(curve, verdicts, (panel.x, panel.y))]
         figure, keyed = with_legend(panel_keys(panel, bool(failed)), WIDTH, HEIGHT + FOOT, lower)
         place = (lower + keyed + FOOT, HEIGHT)
         axes = new_axes(figure, *place, as_math(panel.x_label), as_math(panel.y_label))
@@ -69,6 +70,7 @@ def panel_picture(
         for path in panel.paths:
             axes.plot(path.x, path.y, ls=":", lw=0.9, color=MUTED, zorder=1)
         draw_points(axes, panel)
+        clear_label(axes)
         for row in failed:
             axes.plot(*row, **FAILED, zorder=5)
         if residuals:
@@ -78,14 +80,25 @@ def panel_picture(
         return Picture(shown, pdf(figure, title) if printed else b"")
 
 
-def failed_rows(curve: CurveOutcome, verdicts: Sequence[Verdict]) -> list[tuple[float, float]]:
-    """The rows of a curve's reference at which a check on it fails most, as points of the panel."""
+def failed_rows(
+    curve: CurveOutcome, verdicts: Sequence[Verdict], drawn: Sequence[str]
+) -> list[tuple[float, float]]:
+    """The rows of a curve's reference at which a check on it fails most, as points of the panel.
+
+    Args:
+        curve: The curve.
+        verdicts: Those of its case.
+        drawn: The columns on the axes. A check on another column of the same table, which may be drawn in
+            another panel, marks a row here only if the row is out of its bound here too.
+    """
     found = []
     for verdict in of_curve(curve, verdicts):
         place = re.search(r" = (-?\d[-+.e\d]*)", verdict.where)
         if verdict.passed or place is None or not curve.residual_x or not curve.reference_x:
             continue
         row = int(np.argmin(np.abs(np.asarray(curve.residual_x, float) - float(place[1]))))
+        if verdict.check.rpartition(":")[2] not in drawn and curve.residual[row] <= curve.residual_bound[row]:
+            continue
         row += len(curve.reference_x) - len(curve.residual_x)  # profiles are mirrored to both sides
         point = (curve.reference_x[row], curve.reference_y[row])
         if point not in found:
