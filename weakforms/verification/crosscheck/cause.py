@@ -14,7 +14,6 @@ from itertools import islice
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from weakforms import api
 from weakforms.errors import WeakformsError
@@ -39,9 +38,6 @@ FEW = 0.2
 
 NEUTRAL = {"delta1": 1.0, "beta": 1.0}
 """Parameters with the value that means that there is no pre-stretch."""
-
-FEWEST_ROWS_OF_SLOPES = 6
-"""Rows that a quintic spline needs."""
 
 NEAR_POWER = 0.02
 """Distance from a whole number within which an exponent counts as that number."""
@@ -111,6 +107,7 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
     moved = {
         name: _columns(target, {name: value * (1 + STEP) or STEP}, *place) for name, value in _numbers(target)
     }
+    shifted = _columns(target, {}, place[0], place[1] * (1 - STEP))
     without = {
         name: _columns(target, {name: neutral}, *place)
         for name, neutral in NEUTRAL.items()
@@ -137,9 +134,8 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
             if other is not None:
                 text = f"equals {name} = {NEUTRAL[name]:g}: is the pre-stretch missing?"
                 found[text] = _rest(difference, other[column] - base[column])
-        shifted = _shifted(place[1], base[column])
         if shifted is not None:
-            factor, rest = _fitted(difference, -shifted)
+            factor, rest = _fitted(difference, (shifted[column] - base[column]) / STEP)
             way = "large" if factor > 0 else "small"
             found[f"equals {place[0]} {abs(100 * factor):.2g} % too {way}: is it scaled otherwise?"] = rest
         found |= dict(islice(_powers(difference, expected, base), 1))
@@ -149,14 +145,6 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
         column: tuple(sorted(found, key=lambda text: (-common[text], found[text])))
         for column, found in left.items()
     }
-
-
-def _shifted(x: np.ndarray, values: np.ndarray) -> np.ndarray | None:
-    """The change of a column with the scale of the abscissa, x dc/dx; ``None`` for too few rows."""
-    order = np.argsort(x)
-    if len(x) < FEWEST_ROWS_OF_SLOPES:
-        return None
-    return x * make_interp_spline(x[order], values[order], k=5).derivative()(x)
 
 
 def _powers(
