@@ -235,7 +235,7 @@ def test_pages_and_words_of_the_three_verdicts(weakforms, tmp_path, state):
     if state == "failed":
         (bad,) = [v for v in data["verdicts"] if v["status"] == "failed"]
         assert bad["signed_error"] == pytest.approx(-1e-3, rel=1e-6)
-        assert bad["units"] == "yours / ours = 0.999 in every row"
+        assert bad["units"] == "yours / ours = 0.999 in every row: is 2 pi R_f^3 0.1 % too small?"
         assert bad["units"] in page
         assert "−1.0e-03" in page or "-1.0e-03" in page
 
@@ -383,6 +383,23 @@ def test_schemas_are_sound():
         jsonschema.Draft202012Validator.check_schema(schema(name))
 
 
+@pytest.mark.parametrize("option", ["--name", "--curve"])
+def test_the_table_has_one_name_in_python_and_in_a_shell(weakforms, tmp_path, option):
+    columns = references.load(2, CURVE).columns
+    wrong = as_csv(tmp_path / "c.csv", columns | {"p": 1.001 * columns["p"]})
+    called = weakforms("compare", CASE, wrong, option, CURVE, "--column", "p")
+    assert (called.status, called.out.splitlines()[-1]) == (1, "verdict: failed")
+
+
+def test_a_default_accuracy_is_said_to_be_one(weakforms, tmp_path):
+    columns = references.load(2, CURVE).columns
+    path = as_csv(tmp_path / "c.csv", columns | {"p": columns["p"] * (1 + 1e-4 * columns["u_max"])})
+    called = weakforms("compare", CASE, path, "--name", CURVE, "--column", "p")
+    assert "which is asked of our own code; --accuracy claims another one" in called.out
+    called = weakforms("compare", CASE, path, "--name", CURVE, "--column", "p", "--accuracy", "1e-5")
+    assert "asked of our own code" not in called.out
+
+
 def test_the_words_of_compare_with_a_solution(weakforms, tmp_path):
     lam = np.linspace(1.1, 2.0, 4)
     pressure = 4 * (lam - lam**-5 + 0.2 * (lam**3 - lam**-3)) / lam**2
@@ -404,4 +421,5 @@ def test_the_words_of_compare_with_a_solution(weakforms, tmp_path):
     assert weakforms(*given, "--accuracy", "1e-4").status == 0
     unclaimed = weakforms(*given)
     assert (unclaimed.status, "no accuracy is claimed" in unclaimed.out) == (5, True)
+    assert unclaimed.out.splitlines()[-1] == "verdict: not judged"
     assert "no column 'P_'" in weakforms("solve", "sphere", "--at", f"P_=@{path}").err

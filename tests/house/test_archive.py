@@ -101,7 +101,7 @@ def test_the_apptainer_definition_has_the_packages_of_the_image():
 def test_the_workflow_asks_for_a_curve_that_there_is():
     text = (CI / "github.yml").read_text("utf-8")
     case, curve, column, accuracy = re.search(
-        r"compare (\S+) mine.csv --curve (\S+) --column (\S+) --accuracy (\S+) --json", text
+        r"compare (\S+) mine.csv --name (\S+) --column (\S+) --accuracy (\S+) --json", text
     ).groups()
     mine = {"u_max": [0.5, 1.0, 1.5], column: [1.0, 1.0, 1.0]}
     assert compare(case, mine, curve, float(accuracy), only=[column]).status == "failed"

@@ -14,9 +14,9 @@ from weakforms.terminal import console, once, plain, print_json, progress_bar, r
 
 @app.command(
     epilog=examples(
-        "weakforms compare paper2.fig02 mine.csv --curve fig02b_delta1_1 --column p",
+        "weakforms compare paper2.fig02 mine.csv --name fig02b_delta1_1 --column p",
         "weakforms compare paper2.fig02 si.csv --map p=pressure --constant R_f=0.02 --out verdict",
-        "weakforms compare paper2.fig02 n10.csv n20.csv n40.csv --curve fig02b_delta1_1",
+        "weakforms compare paper2.fig02 n10.csv n20.csv n40.csv --name fig02b_delta1_1",
         "weakforms compare tube mine.csv alpha=0.2 delta1=1.05 --with solve --accuracy 1e-4",
         "weakforms compare tube mine.csv --with r.json --over u_max",
     )
@@ -33,7 +33,10 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
             "their limit. With --with solve also parameters of the problem.",
         ),
     ],
-    curve: Annotated[str | None, typer.Option(help="Which curve of the case.")] = None,
+    name: Annotated[
+        str | None,
+        typer.Option("--name", "--curve", help="Which curve of the case, as show CASE lists them."),
+    ] = None,
     accuracy: Annotated[
         float | None,
         typer.Option(help="Relative accuracy that the curve claims; default: what the case asks for."),
@@ -77,7 +80,11 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
         float, typer.Option(help="Size of the cells of a mesh over the size on the next one.")
     ] = 2.0,
     cause: Annotated[
-        bool, typer.Option("--cause", help="Solve for what explains a column out of bounds; needs DOLFINx.")
+        bool,
+        typer.Option(
+            "--cause",
+            help="Solve for what explains the errors; needs DOLFINx.",
+        ),
     ] = False,
     out: Annotated[
         Path | None, typer.Option(help="Folder for verdicts.json, pictures and a page that shows both.")
@@ -104,7 +111,7 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
     verdicts = compare_curve(
         case,
         files if len(files) > 1 else files[0],
-        curve,
+        name,
         accuracy,
         once("--map", names),
         once("--constant", constants),

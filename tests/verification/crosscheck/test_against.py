@@ -171,6 +171,46 @@ def test_a_dead_load_is_named():
     assert any("a dead load" in text for text in found.verdicts[0].causes)
 
 
+DEAD = {
+    "u_max": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0],
+    "p": [0.66455, 1.192079, 1.634503, 2.022631, 2.374956, 2.702984, 3.014146, 3.313396, 3.604134, 3.88876],
+}
+"""The tube of :data:`TUBE` under a radial load per area of the stretched cylinder that neither turns nor
+grows, by scipy's boundary value solver."""
+
+
+def test_a_dead_load_is_named_where_stretches_vary():
+    found = compare("tube", DEAD, against=TUBE, over="u_max", accuracy=1e-6, cause=True, only=["p"])
+    assert found.verdicts[0].causes[0].startswith("is about the table times (1 + u_max)^1: a dead load")
+    assert not any("lf" in text for text in found.verdicts[0].causes)
+
+
+def test_a_large_difference_of_a_parameter_is_named_with_its_size():
+    """The tube is shorter by a tenth: its sensitivity alone says 13 %."""
+    at = [("u_max", u) for u in np.linspace(0.3, 1.5, 7)]
+    result = weakforms.solve("tube", **TUBE, lf=5.4, at=at)
+    curve = {n: [float(s.quantities[n].value) for s in result.states] for n in ("u_max", "p")}
+    found = compare("tube", curve, against=TUBE, over="u_max", accuracy=1e-6, cause=True)
+    size = float(found.verdicts[0].causes[0].removeprefix("equals lf ").split(" % too small")[0])
+    assert size == pytest.approx(10, rel=0.1)
+
+
+def test_an_abscissa_of_another_scale_is_named():
+    curve = {"lam": 1.002 * LAM, "P": balloon()}
+    found = compare("sphere", curve, against={"alpha": 0.1}, accuracy=1e-6, cause=True)
+    assert found.verdicts[0].causes[0] == "equals lam 0.2 % too large: is it scaled otherwise?"
+
+
+def test_errors_are_explained_without_a_claim():
+    curve = {"lam": LAM, "P": balloon(0.1005)}
+    found = checked(compare("sphere", curve, against={"alpha": 0.1}, cause=True))
+    assert (found.status, found.claimed) == ("not judged", None)
+    assert found.verdicts[0].causes[0] == "equals alpha 0.5 % too large"
+    assert "above the table" in found.verdicts[0].trend
+    right = compare("sphere", {"lam": LAM, "P": balloon()}, against={"alpha": 0.1}, cause=True)
+    assert (right.verdicts[0].trend, right.verdicts[0].causes) == ("", ())
+
+
 def test_an_error_of_no_known_kind_has_no_cause():
     curve = {"lam": LAM, "P": balloon() * (1 + 1e-3 * np.cos(40 * LAM))}
     found = compare("sphere", curve, against={"alpha": 0.1}, accuracy=1e-6, cause=True)

@@ -274,6 +274,8 @@ SI = {"R_f": 0.02, "C1": 4e5, "h": 1.5e-4}
         (2 / 0.02**2, SI, "yours / ours = 5000 in every row: 2/R_f^2?"),
         (-1.0, SI, "yours / ours = -1 in every row: the other sign?"),
         (1.2345, SI, "yours / ours = 1.2345 in every row"),
+        (1.01, SI, "yours / ours = 1.01 in every row: is C1 h/R_f 1 % too large?"),
+        (0.995, None, "yours / ours = 0.995 in every row: is C1 h/R_f 0.5 % too small?"),
         (0.1, None, "yours / ours = 0.1 in every row: alpha or C1 h/R_f (see --constant)?"),
     ],
 )
@@ -301,6 +303,12 @@ def test_an_abscissa_in_units_is_recognised():
     verdicts = verdict_on(FREE, columns_of(FREE, t0=0.02))
     assert verdicts.status == "failed"
     assert "is t0 in units of R_f" in verdicts.verdicts[0].units
+    t0 = columns_of(FREE)["t0"]
+    rows = slice(*np.searchsorted(0.02 * t0, [t0.min() / 2, np.inf]))
+    half = {name: values[rows] for name, values in columns_of(FREE, t0=0.02, p=3000).items()}
+    inside = np.sum(half["t0"] >= t0.min())
+    assert len(half["t0"]) / 2 < inside < len(half["t0"])
+    assert "is t0 in units of R_f" in verdict_on(FREE, half).verdicts[0].units
 
 
 @pytest.mark.parametrize(

@@ -251,11 +251,14 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
         for k, numbers in enumerate(cells or [("–", "–", "missing", "–")]):
             table.add_row(*((v.column, WORDS[v.status]) if k == 0 else ("", "largest error")), *numbers)
     console.print(table)
+    unclaimed = "" if verdicts.claimed else ", which is asked of our own code; --accuracy claims another one"
     for v in verdicts.verdicts:
         if v.asked is None and v.reached is not None:
             line(f"{v.check}: no accuracy is claimed; the curve reaches {scientific(v.reached)}")
         elif v.status == FAILED and v.reached is not None and not v.units:
-            line(f"{v.check}: the curve reaches {scientific(v.reached)}, not {scientific(v.asked)}")
+            line(
+                f"{v.check}: the curve reaches {scientific(v.reached)}, not {scientific(v.asked)}{unclaimed}"
+            )
         for text in filter(None, (v.units, v.trend, *v.causes)):
             line(f"{v.check}: {text}")
         if v.judged_rows < v.rows:
@@ -265,6 +268,7 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
     line(f"errors are relative to {scale_text(verdicts.abscissa)}")
     if verdicts.left_out:
         line(f"left out: {', '.join(verdicts.left_out)}")
+    line(f"verdict: {verdicts.status}")
 
 
 OF_EACH = "each check has its own"

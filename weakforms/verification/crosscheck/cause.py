@@ -30,6 +30,9 @@ STEP = 1e-3
 EXPLAINED = 0.1
 """Part of the errors that an explanation may leave over: what is left must be a tenth of them at most."""
 
+LINEAR = 0.05
+"""Relative change of a parameter beyond which a solution there takes the place of its sensitivity."""
+
 FEW = 0.2
 """Part of the rows: if no more are out of bounds, a sentence names them and says nothing of the others."""
 
@@ -39,17 +42,25 @@ NEUTRAL = {"delta1": 1.0, "beta": 1.0}
 NEAR_POWER = 0.02
 """Distance from a whole number within which an exponent counts as that number."""
 
+ABOUT_POWER = 0.25
+"""The same for a body that is stretched differently from place to place, so that no power is exact."""
+
+
+def limits(judged: JudgedColumn) -> np.ndarray:
+    """The errors beyond which rows differ from the table: their bounds; without a claim its uncertainty."""
+    return judged.bound if judged.verdict.asked is not None else 2 * judged.known
+
 
 def trend(judged: JudgedColumn, over: str) -> str:
     """The errors of a column in words: their ratio to the table, the rows out of bounds, or how errors grow.
 
     Args:
-        judged: A column out of bounds.
+        judged: A column out of bounds, or one that differs from the table and claims nothing.
         over: Name of the abscissa.
     """
     order = np.argsort(judged.x)
     error, size = judged.error[order], np.abs(judged.error[order])
-    beyond = np.flatnonzero(size > judged.bound[order])
+    beyond = np.flatnonzero(size > limits(judged)[order])
     if not len(beyond):
         return ""  # what is not finite has no size
     side = "above" if error[beyond].sum() > 0 else "below"
@@ -78,7 +89,7 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
 
     Args:
         target: The table, with the parameters of its solution.
-        failed: Columns out of bounds, all with the same rows.
+        failed: Columns to be explained, all with the same rows.
 
     Raises:
         EnvironmentLackError: If DOLFINx is missing.
@@ -96,6 +107,7 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
     moved = {
         name: _columns(target, {name: value * (1 + STEP) or STEP}, *place) for name, value in _numbers(target)
     }
+    shifted = _columns(target, {}, place[0], place[1] * (1 - STEP))
     without = {
         name: _columns(target, {name: neutral}, *place)
         for name, neutral in NEUTRAL.items()
@@ -108,6 +120,13 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
         for name, value in _numbers(target):
             if (other := moved[name]) is not None:
                 factor, rest = _fitted(difference, (other[column] - base[column]) / STEP)
+                if rest <= EXPLAINED and value and abs(factor) > LINEAR:
+                    factor = max(factor, -1.0)
+                    there = _columns(target, {name: value * (1 + factor)}, *place)
+                    if there is None:
+                        continue
+                    part, rest = _fitted(difference, there[column] - base[column])
+                    factor *= part
                 size = abs(100 * factor)
                 way = f"{size:{'.2g' if size < 99.5 else '.0f'}} % too {'large' if factor > 0 else 'small'}"
                 found[f"equals {name} {way}" if value else f"equals {name} = {factor:.3g}"] = rest
@@ -115,6 +134,10 @@ def causes(target: Target, failed: Sequence[JudgedColumn]) -> dict[str, tuple[st
             if other is not None:
                 text = f"equals {name} = {NEUTRAL[name]:g}: is the pre-stretch missing?"
                 found[text] = _rest(difference, other[column] - base[column])
+        if shifted is not None:
+            factor, rest = _fitted(difference, (shifted[column] - base[column]) / STEP)
+            way = "large" if factor > 0 else "small"
+            found[f"equals {place[0]} {abs(100 * factor):.2g} % too {way}: is it scaled otherwise?"] = rest
         found |= dict(islice(_powers(difference, expected, base), 1))
         left[column] = {text: rest for text, rest in found.items() if rest <= EXPLAINED}
     common = Counter(text for found in left.values() for text in found)
@@ -133,21 +156,27 @@ def _powers(
     times a stretch.
     """
     ratio = (expected + difference) / np.where(expected, expected, np.nan)
-    for name, stretch in base.items():
-        if (
-            not name.startswith("lam")
-            or np.any(stretch <= 0)
-            or np.ptp(stretch) < 0.05
-            or not np.all(ratio > 0)
-        ):
+    if not np.all(ratio > 0):
+        return
+    stretches = {name: values for name, values in base.items() if name.startswith("lam")}
+    if "u_max" in base and "lam2_mid" not in base:
+        stretches["(1 + u_max)"] = 1 + base["u_max"]
+    for name, stretch in stretches.items():
+        if np.any(stretch <= 0) or np.ptp(stretch) < 0.05:
             continue
-        slope = float(np.polyfit(np.log(stretch), np.log(ratio), 1)[0])
+        slope, constant = (float(value) for value in np.polyfit(np.log(stretch), np.log(ratio), 1))
         power = round(slope)
-        if power and abs(slope - power) <= NEAR_POWER:
-            rest = _rest(difference, expected * (stretch**power - 1))
+        if not power or abs(slope - power) > ABOUT_POWER:
+            continue
+        fits = [("is about", np.exp(constant) * stretch**slope)]
+        if abs(slope - power) <= NEAR_POWER:
+            fits.insert(0, ("equals", stretch**power))
+        for how, factor in fits:
+            rest = _rest(difference, expected * (factor - 1))
             if rest <= EXPLAINED:
-                text = f"equals the table times {name}^{power}: a dead load, or stress per undeformed area?"
+                text = f"{how} the table times {name}^{power}: a dead load, or stress per undeformed area?"
                 yield text, rest
+                break
 
 
 def _numbers(target: Target) -> Iterator[tuple[str, float]]:

@@ -10,7 +10,7 @@ import numpy as np
 from weakforms.errors import InputError, not_among
 from weakforms.results import CurveFile
 from weakforms.verification.cases.references import Reference
-from weakforms.verification.crosscheck.cause import causes, trend
+from weakforms.verification.crosscheck.cause import causes, limits, trend
 from weakforms.verification.crosscheck.columns import CurveLike, our_columns, read, require_same_parameters
 from weakforms.verification.crosscheck.convergence import (
     RATIO,
@@ -87,7 +87,7 @@ def compare(  # noqa: PLR0913  (each a choice of the caller)
         over: With ``against``, the column over which the curve is compared; by default one that never turns.
         crossing: With ``against``, which crossing of each abscissa along the branch.
         ratio: Size of the cells of each curve over the size of those of the next one.
-        cause: Whether to solve for what explains a column that is out of bounds
+        cause: Whether to solve for what explains a column that is out of bounds, or that claims nothing
             (:mod:`~weakforms.verification.crosscheck.cause`); needs DOLFINx.
 
     Raises:
@@ -114,7 +114,7 @@ def compare(  # noqa: PLR0913  (each a choice of the caller)
     meshes = [_judged(target, own, asked, only, constants or {}) for own in owns]
     (x, keep, judged), table, own = meshes[-1], target.table, owns[-1]
     rows = table.columns[table.abscissa]
-    failed = [j for j in judged if j.verdict.status == FAILED]
+    failed = [j for j in judged if _differs(j, len(owns) > 1)]
     explained = causes(target, failed) if cause else {}
     for found in failed:
         found.verdict.trend = trend(found, table.abscissa)
@@ -127,6 +127,7 @@ def compare(  # noqa: PLR0913  (each a choice of the caller)
         table=(float(rows.min()), float(rows.max())),
         rows=len(x),
         ignored_rows=int(np.sum(~keep)),
+        claimed=accuracy,
         unjudged_rows={j.verdict.column: j.verdict.unjudged_rows for j in judged},
         table_rows=len(table),
         met_rows=met(rows, x),
@@ -140,6 +141,13 @@ def compare(  # noqa: PLR0913  (each a choice of the caller)
             if len(of) > 1 and all(len(j.x) for j in of)
         ),
     )
+
+
+def _differs(judged: JudgedColumn, several: bool) -> bool:
+    """Whether a column is to be explained: it is out of bounds; a single curve without a claim differs."""
+    if judged.verdict.asked is not None or several:
+        return judged.verdict.status == FAILED
+    return bool(np.any(np.abs(judged.error) > limits(judged)))
 
 
 def _ours(
@@ -200,8 +208,10 @@ def _judged(
         judged.append(judge_column(table, column, x, values, asked[column], numbers))
         verdict = judged[-1].verdict
         verdict.units = forgotten(judged[-1], target.problem, constants, table.parameters)
-        if verdict.status == FAILED and not verdict.units and 2 * len(x) < len(keep) and hint:
-            verdict.units = f"most rows lie outside of the table: {hint}"
+        outside = len(keep) - len(x)
+        far = 2 * len(x) < len(keep) or (outside and np.all(np.abs(judged[-1].error) > 1))
+        if verdict.status == FAILED and not verdict.units and far and hint:
+            verdict.units = f"{outside} of {len(keep)} rows lie outside of the table: {hint}"
     return x, keep, judged
 
 

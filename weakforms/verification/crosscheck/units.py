@@ -17,6 +17,9 @@ CONSTANT_SPREAD = 1e-2
 MATCH = 1e-2
 """Relative distance within which a ratio counts as a product of powers of constants."""
 
+SLIP = 0.1
+"""Largest distance of a ratio from 1 that counts as a slip in the constants of the scaling."""
+
 POWERS = range(-3, 4)
 """Powers of the constants in such a product."""
 
@@ -36,7 +39,7 @@ def forgotten(
         parameters: ... or by a power of one of the table's parameters.
     """
     size = np.abs(judged.expected)
-    if judged.verdict.status != FAILED or not size.any():
+    if (judged.verdict.asked is not None and judged.verdict.status != FAILED) or not size.any():
         return ""
     told = size > FLOOR * size.max()  # near a zero the ratio has no meaning
     values = judged.expected + judged.error * np.maximum(size, judged.verdict.scale_floor)
@@ -55,6 +58,9 @@ def forgotten(
     near_one = abs(math.log(abs(ratio))) < math.log(2)  # a mistake, not a unit
     unit = "" if constants or near_one else symbols(problem, judged.verdict.column)
     guesses += [f"{unit} (see --constant)"] if unit else []
+    if abs(abs(ratio) - 1) <= SLIP and not any(guesses) and symbols(problem, judged.verdict.column):
+        way = f"{100 * abs(abs(ratio) - 1):.2g} % too {'large' if abs(ratio) > 1 else 'small'}"
+        guesses = [f"is {symbols(problem, judged.verdict.column)} {way}"]
     return ": ".join([said, *filter(None, [" or ".join(filter(None, guesses))])]) + "?" * any(guesses)
 
 

@@ -42,6 +42,8 @@ class Verdicts:
     missing: tuple[str, ...]
     """Columns to be judged that the curve does not have."""
     left_out: tuple[str, ...]
+    claimed: float | None
+    """Accuracy that the caller claims; without one a case asks what it asks of our own code."""
     """Columns of the table that were not to be judged."""
     verdicts: tuple[ColumnVerdict, ...]
     pictures: tuple[PanelOutcome, ...]
