@@ -67,8 +67,8 @@ def refused(weakforms, solves, tmp_path, monkeypatch):
         (f"{TUBE} --set lf=0.9", "lf '0.9' greater than or equal to 1"),
         (f"{TUBE} --set delta1=5.01", "delta1 '5.01' less than or equal to 5"),
         (f"{TUBE} --set alpha=much", "alpha 'much' number"),
-        (f"{TUBE} --set alpha", "--set 'alpha' NAME=VALUE"),
-        (f"{TUBE} --set =1", "--set '=1' NAME=VALUE"),
+        (f"{TUBE} --set alpha", "parameter 'alpha' NAME=VALUE"),
+        (f"{TUBE} --set =1", "parameter '=1' NAME=VALUE"),
         (f"{TUBE} --set phase=deflation", "phase 'deflation' allowed"),
         (f"{TUBE} --set contact=glue", "contact 'glue' 'none'"),
         (f"{TUBE} --mesh cells=4", "cells '4' greater than or equal to 8"),
@@ -111,10 +111,10 @@ def test_words(refused, words, said):
     refused(words, *said.split())
 
 
-@pytest.mark.parametrize("option", ["--set", "--at", "--mesh"])
-def test_empty_values(refused, option):
+@pytest.mark.parametrize(("option", "said"), [("--set", "parameter"), ("--at", "--at"), ("--mesh", "--mesh")])
+def test_empty_values(refused, option, said):
     for value in ("", " ", "=", "alpha= "):
-        refused([*TUBE.split(), option, value], option, "NAME=VALUE")
+        refused([*TUBE.split(), option, value], said, "NAME=VALUE")
 
 
 @pytest.mark.parametrize(

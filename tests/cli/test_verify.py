@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from io import StringIO
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -18,8 +19,12 @@ from rich.progress import Progress, TextColumn, TimeRemainingColumn
 from weakforms import api, terminal, tube
 from weakforms.errors import ConvergenceError
 from weakforms.verification.cases import catalogue, discovery
+from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.run import runner, solving
 from weakforms.verification.run.effort import Effort
+from weakforms.verification.run.plan import Plan
+from weakforms.verification.run.runner import expectation
+from weakforms.verification.run.usual import usual_megabytes, usual_times
 
 PAGES = {
     "figures",
@@ -152,7 +157,7 @@ def test_a_log_says_what_is_planned_and_how_each_case_went(weakforms, tiny, tmp_
     said = [text for line in lines if (text := line.partition("] ")[2]) != "starting"]
     assert said[0] == "1 case: 2 solutions to solve"
     again = weakforms("verify", "--out", tmp_path / "out").err
-    assert re.search(r"(?m)2 solutions to solve, about .+ s by the times of the last run$", again)
+    assert re.search(r"(?m)2 solutions to solve, about .+ s by the times of the last run, \d+ MB$", again)
     assert sum(line.startswith("1 of 1 case: paper2.tiny passed, 1 check, ") for line in said) == 1
     assert any(line.startswith("0 of 2 solved; tube(") for line in said)  # where the work is, meanwhile
 
@@ -329,6 +334,29 @@ def test_an_interrupted_run_goes_on_where_it_was(undisturbed, tmp_path, ending, 
     assert details(out) == undisturbed
 
 
+def test_a_first_run_is_estimated_by_the_shipped_times_at_the_pace_of_this_machine(tmp_path):
+    specs = [tube(alpha=a) for a in (0, 0.1, 0.2)]
+    usual = {str(spec): seconds for spec, seconds in zip(specs, (10.0, 20.0, 30.0), strict=True)}
+    effort = Effort(tmp_path / "times.json", specs, usual)
+    assert (effort.expected(2), effort.is_of_this_machine) == (30.0, False)
+    effort.finish(specs[0], 5.0)
+    assert effort.share() == (5.0, 30.0), "this machine is twice as fast"
+    effort.finish(specs[1], 25.0)
+    effort.finish(specs[2], 30.0)
+    assert effort.is_of_this_machine
+
+
+def test_times_of_most_solutions_are_shipped():
+    states, shipped = Plan.of(find_cases()).states, usual_times()
+    known = [spec for spec in states if str(spec) in shipped]
+    assert len(known) >= 0.9 * len(states), "write them again: see weakforms/verification/run/usual.py"
+    assert usual_megabytes(known[:10]) == pytest.approx(
+        usual_megabytes([*known[:10], tube(alpha=0.77)]) / 1.1
+    )
+    text = expectation(Effort(Path("nowhere"), states, shipped), [*states], 2)
+    assert re.fullmatch(r", about .+ min( .+ s)? by the times of a machine with two cores, \d+ MB", text)
+
+
 def test_progress_counts_seconds_not_solutions(tmp_path):
     specs = [tube(alpha=a) for a in (0, 0.1, 0.2)]
     first = Effort(tmp_path / "times.json", specs)
@@ -344,6 +372,8 @@ def test_progress_counts_seconds_not_solutions(tmp_path):
     assert again.count == "1 of 3"
     assert again.expected(2) == 16.0
     assert first.expected(1) == 0
-    assert Effort(tmp_path / "times.json", [*specs, tube(alpha=0.3)]).expected(1) is None
+    assert Effort(tmp_path / "times.json", [*specs, tube(alpha=0.3)]).expected(1) == 44.0
+    new = [tube(alpha=a) for a in (0.3, 0.4, 0.5, 0.6)]
+    assert Effort(tmp_path / "times.json", [*specs, *new]).expected(1) is None, "fewer than half are known"
     (tmp_path / "times.json").write_text("[1")
     assert Effort(tmp_path / "times.json", specs).share() == (0, 3.0)

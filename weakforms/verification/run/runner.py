@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -25,6 +25,7 @@ from weakforms.verification.run.machine import environment
 from weakforms.verification.run.plan import Plan, checks_of
 from weakforms.verification.run.solutions import Solutions
 from weakforms.verification.run.solving import Solver
+from weakforms.verification.run.usual import usual_megabytes, usual_times
 from weakforms.verification.run.workers import at_once
 from weakforms.world import world
 
@@ -146,6 +147,16 @@ def sole_writer(out: Path, writes: bool) -> Iterator[None]:
         yield
 
 
+def expectation(effort: Effort, specs: Sequence[Spec], count: int) -> str:
+    """How long solutions will take, so many at a time, and how large their files are, as text."""
+    seconds = effort.expected(count)
+    if seconds is None:
+        return ""
+    whose = "the last run" if effort.is_of_this_machine else "a machine with two cores"
+    size = max(1, round(usual_megabytes(specs)))
+    return f", about {duration(seconds)} by the times of {whose}, {size} MB"
+
+
 def verify(
     cases: list[FoundCase],
     out: Path,
@@ -168,9 +179,10 @@ def verify(
     progress = progress or WorkProgress()
     count = at_once(jobs)
     together = f", {count} at a time" if count > 1 else ""
-    # Known from an earlier run into this folder; what a resumed run keeps takes no time again.
-    usual = None if resume else Effort(out / TIMES, plan.states).expected(count)
-    long = "" if usual is None else f", about {duration(usual)} by the times of the last run"
+    # What a resumed run keeps takes no time again.
+    long = (
+        "" if resume else expectation(Effort(out / TIMES, plan.states, usual_times()), [*plan.states], count)
+    )
     progress.plan(
         f"{plural(len(cases), 'case')}: {plural(len(plan.states), 'solution')} to solve{together}{long}"
     )

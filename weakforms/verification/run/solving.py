@@ -18,6 +18,7 @@ from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.judging.consistency import traces
 from weakforms.verification.run.effort import TIMES, Effort
 from weakforms.verification.run.plan import Plan
+from weakforms.verification.run.usual import usual_times
 from weakforms.verification.run.workers import in_this_process, workers
 
 
@@ -138,7 +139,7 @@ class Solver:
             settled: Called with each spec when its result is available or has failed.
         """
         progress = progress or WorkProgress()
-        effort = Effort(self.folder.parent / TIMES, plan.states)
+        effort = Effort(self.folder.parent / TIMES, plan.states, usual_times())
         todo = []
         for spec, states in plan.states.items():
             path = self.folder / f"{solution_key(spec, states)}.json"
