@@ -243,6 +243,7 @@ def test_pages_and_words_of_the_three_verdicts(weakforms, tmp_path, state):
         assert bad["units"] in page
         assert bad["units"] in called.out
         assert "−1.0e-03" in page or "-1.0e-03" in page
+    assert ("stroke-width: 1.8" in page) == (state == "failed"), "the ring at a row where a check fails"
     if state == "unclaimed":
         said = (
             "accuracy is claimed, and the curve does not reach the 5.0e-10 asked of our own code: "
