@@ -22,7 +22,8 @@ def weakforms_check() -> Callable[..., Verdicts]:
     """``weakforms_check(case, curve, name=None, accuracy=None)``: fails with the table of verdicts.
 
     The fixture accepts all arguments of :func:`weakforms.compare`. It also fails if there is no verdict ("not
-    judged"), unless ``unjudged=True`` allows this.
+    judged"), unless ``unjudged=True`` allows this: a column is missing, or no accuracy is claimed and the
+    curve needs one, or the table is too coarse.
     """
     from weakforms.errors import InputError
     from weakforms.verification.crosscheck.compare import compare

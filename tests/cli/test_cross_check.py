@@ -70,10 +70,11 @@ def test_a_curve_with_units(weakforms, tmp_path):
     assert metres_and_pascals["p"][5] == pytest.approx(table()["p"][5] * 2.1e5 * 1.5e-4 / 0.02, rel=1e-15)
     file = as_csv(tmp_path / "c.csv", metres_and_pascals)
     words = [*ONLY_P, file]
-    assert weakforms(*words).status == 1
+    assert weakforms(*words).status == 1, "a factor of 1575"
     given = [word for name, value in CONSTANTS.items() for word in ("--constant", f"{name}={value}")]
     assert weakforms(*words, *given).status == 0
-    assert weakforms(*words, *given[:-1], "h_o=1.6e-4").status == 1
+    thicker = (*words, *given[:-1], "h_o=1.6e-4")
+    assert (weakforms(*thicker, "--accuracy", "1e-6").status, weakforms(*thicker).status) == (1, 5)
 
 
 @pytest.mark.parametrize(
@@ -189,7 +190,7 @@ def test_a_number_is_declared_once_in_a_problem_and_has_one_symbol():
 def test_a_page_of_the_verdict(weakforms, tmp_path):
     file = as_csv(tmp_path / "c.csv", table(p=1 + 1e-4))
     out = tmp_path / "verdict"
-    called = weakforms(*ONLY_P, file, "--out", out)
+    called = weakforms(*ONLY_P, file, "--accuracy", "1e-6", "--out", out)
     assert called.status == 1
     assert sorted(path.name for path in out.iterdir()) == ["index.html", "p.svg", "verdicts.json"]
     data = json.loads((out / "verdicts.json").read_text())
@@ -209,35 +210,48 @@ def test_a_page_that_cannot_be_written(weakforms, tmp_path):
     assert (called.status, called.err.count("\n")) == (2, 1)
 
 
-@pytest.mark.parametrize("state", ["passed", "failed", "not judged"])
+@pytest.mark.parametrize("state", ["passed", "failed", "not judged", "unclaimed"])
 def test_pages_and_words_of_the_three_verdicts(weakforms, tmp_path, state):
     columns = references.load(2, CURVE).columns
-    if state == "failed":
+    if state in ("failed", "unclaimed"):
         columns = columns | {"V": columns["V"] * (1 - 1e-3)}
     if state == "not judged":
         columns = {name: values for name, values in columns.items() if name != "p"}
     out, file = tmp_path / "verdict", as_csv(tmp_path / "c.csv", columns)
-    called = weakforms("compare", CASE, file, "--curve", CURVE, "--out", out)
+    claimed = ("--accuracy", "1e-6") if state == "failed" else ()
+    called = weakforms("compare", CASE, file, "--curve", CURVE, "--out", out, *claimed)
     status, title, word = {
         "passed": (0, "Within bounds", "within"),
         "failed": (1, "Out of bounds", "OUT OF BOUNDS"),
-        "not judged": (5, "Not judged", "NOT JUDGED"),
-    }[state]
+    }.get(state, (5, "Not judged", "NOT JUDGED"))
     assert (called.status, called.err) == (status, "")
     assert word in called.out
     page = (out / "index.html").read_text()
     assert f"<title>{title}: {CURVE}" in page
-    assert page.count(f"</span> {state}</span>") == (5 if state == "passed" else 2)
+    badge = "not judged" if state == "unclaimed" else state
+    assert page.count(f"</span> {badge}</span>") == (5 if state == "passed" else 2)
     data = json.loads((out / "verdicts.json").read_text())
     jsonschema.validate(data, schema("verdicts"))
-    assert (data["status"], data["passed"]) == (state, status == 0)
+    assert (data["status"], data["passed"]) == (badge, status == 0)
     assert data["missing"] == (["p"] if state == "not judged" else [])
-    if state == "failed":
-        (bad,) = [v for v in data["verdicts"] if v["status"] == "failed"]
+    asked = "claimed" if claimed else "asked of our own code"
+    assert page.count(f"Accuracy {asked} ") == (3 if state == "unclaimed" else 4)
+    if state in ("failed", "unclaimed"):
+        (bad,) = [v for v in data["verdicts"] if v["status"] != "passed"]
         assert bad["signed_error"] == pytest.approx(-1e-3, rel=1e-6)
         assert bad["units"] == "yours / ours = 0.999 in every row: is 2 pi R_f^3 0.1 % too small?"
         assert bad["units"] in page
+        assert bad["units"] in called.out
         assert "−1.0e-03" in page or "-1.0e-03" in page
+    assert ("stroke-width: 1.8" in page) == (state == "failed"), "the ring at a row where a check fails"
+    if state == "unclaimed":
+        said = (
+            "accuracy is claimed, and the curve does not reach the 5.0e-10 asked of our own code: "
+            "it reaches 1.0e-03, which --accuracy 1e-03 claims"
+        )
+        assert bad["claim"] == f"no {said}"
+        assert f"{CURVE}:V: no {said}\n" in called.out
+        assert f"<p>No {said}.</p>" in page
 
 
 def test_help_tells_the_exit_statuses(weakforms):
@@ -324,7 +338,8 @@ def requests(tmp_path):
     written = {
         "good": {"case": CASE, "curve": "curve.csv", "name": CURVE, "columns": ["p"]},
         "missing": {"case": CASE, "curve": "curve.csv", "name": CURVE},
-        "bad": {"case": CASE, "curve": curve, "name": CURVE},
+        "bad": {"case": CASE, "curve": curve, "name": CURVE, "accuracy": 1e-6},
+        "coarse": {"case": CASE, "curve": curve, "name": CURVE, "columns": ["p"]},
         "solved": {"problem": "tube", "parameters": {"alpha": 0.2}, "at": {"u_max": 1.0}},
         "unknown": {"problem": "cube"},
         "escaping": {"case": CASE, "curve": "../secret.csv", "name": CURVE},
@@ -336,7 +351,7 @@ def requests(tmp_path):
     return folder
 
 
-STATUS = {"good": 0, "missing": 5, "bad": 1, "solved": 0}
+STATUS = {"good": 0, "missing": 5, "bad": 1, "coarse": 5, "solved": 0}
 STATUS |= dict.fromkeys(("unknown", "escaping", "mixed", "broken"), 2)
 
 
@@ -354,6 +369,8 @@ def test_a_folder_of_requests(weakforms, requests, solves):
             jsonschema.validate(data, schema(kind))
         if kind == "error":
             assert data["exit_status"] == status
+        if name == "coarse":
+            assert data["verdicts"][0]["claim"].endswith("it reaches 1.0e-03, which --accuracy 1e-03 claims")
         if name == "mixed":
             assert "either a problem, or a case and a curve" in data["message"]
 
@@ -387,17 +404,19 @@ def test_schemas_are_sound():
 def test_the_table_has_one_name_in_python_and_in_a_shell(weakforms, tmp_path, option):
     columns = references.load(2, CURVE).columns
     wrong = as_csv(tmp_path / "c.csv", columns | {"p": 1.001 * columns["p"]})
-    called = weakforms("compare", CASE, wrong, option, CURVE, "--column", "p")
+    called = weakforms("compare", CASE, wrong, option, CURVE, "--column", "p", "--accuracy", "1e-6")
     assert (called.status, called.out.splitlines()[-1]) == (1, "verdict: failed")
 
 
-def test_a_default_accuracy_is_said_to_be_one(weakforms, tmp_path):
+def test_what_is_asked_of_our_own_code_is_no_claim_of_another(weakforms, tmp_path):
     columns = references.load(2, CURVE).columns
     path = as_csv(tmp_path / "c.csv", columns | {"p": columns["p"] * (1 + 1e-4 * columns["u_max"])})
     called = weakforms("compare", CASE, path, "--name", CURVE, "--column", "p")
-    assert "which is asked of our own code; --accuracy claims another one" in called.out
+    assert called.status == 5
+    assert "does not reach the 1.0e-09 asked of our own code: it reaches 5.0e-04, which" in called.out
     called = weakforms("compare", CASE, path, "--name", CURVE, "--column", "p", "--accuracy", "1e-5")
-    assert "asked of our own code" not in called.out
+    assert (called.status, "asked of our own code" in called.out) == (1, False)
+    assert "the curve reaches 5.0e-04, not 1.0e-05" in called.out
 
 
 def test_the_words_of_compare_with_a_solution(weakforms, tmp_path):

@@ -35,7 +35,7 @@ def test_right(weakforms_check):
     assert weakforms_check("paper2.fig03", pathlib.Path("right.csv"), name={NAME!r}).passed
 
 def test_wrong(weakforms_check):
-    weakforms_check("paper2.fig03", pathlib.Path("wrong.csv"), name={NAME!r})
+    weakforms_check("paper2.fig03", pathlib.Path("wrong.csv"), name={NAME!r}, accuracy=1e-6)
 """
 
 
@@ -186,7 +186,8 @@ def test_statuses_of_the_command_line(installed, folder):
     for words, status, said in (
         (["list"], 0, "paper2.fig03"),
         (["compare", "paper2.fig03", "right.csv", *curve], 0, "within"),
-        (["compare", "paper2.fig03", "wrong.csv", *curve], 1, "OUT OF BOUNDS"),
+        (["compare", "paper2.fig03", "wrong.csv", *curve, "--accuracy", "1e-6"], 1, "OUT OF BOUNDS"),
+        (["compare", "paper2.fig03", "wrong.csv", *curve], 5, "no accuracy is claimed"),
         (["compare", "paper2.fig03"], 2, "Missing argument"),
         (["compare", "paper2.fig03", "right.csv", *curve, "--accuracy", "much"], 2, "--accuracy"),
         (["no-such-verb"], 2, "no-such-verb"),

@@ -248,11 +248,13 @@ def table_columns(*names: str, part: slice = slice(None), **factors: float) -> d
         (table_columns("u_max", "p"), ("--column", "p"), 0, "left out: lam1_mid, t1_mid, V"),
         (table_columns(part=slice(None, None, -1)), (), 0, "all of it is judged"),
         (table_columns(part=slice(20, 60)), (), 0, "part of it is judged"),
-        (table_columns(p=1 + 3e-7), (), 1, "OUT OF BOUNDS"),
+        (table_columns(p=1 + 3e-7), (), 5, "p: no accuracy is claimed"),
+        (table_columns(p=1 + 3e-7), ("--accuracy", "1e-7"), 1, "OUT OF BOUNDS"),
         (table_columns(V=-1), (), 1, "OUT OF BOUNDS"),
         (table_columns("u_max", "p", p=1 + 3e-7), ("--accuracy", "1e-6", "--column", "p"), 0, "within"),
         (table_columns("u_max", "p", p=1 + 3e-9), ("--accuracy", "1e-9"), 1, "OUT OF BOUNDS"),
-        (table_columns(u_max=1 + 1e-5), (), 1, "OUT OF BOUNDS"),
+        (table_columns(u_max=1 + 1e-5), (), 5, "NOT JUDGED"),
+        (table_columns(u_max=1 + 1e-5), ("--accuracy", "1e-6"), 1, "OUT OF BOUNDS"),
     ],
 )
 def test_compare(weakforms, written, columns, options, status, said):
@@ -263,7 +265,8 @@ def test_compare(weakforms, written, columns, options, status, said):
 
 def test_verdicts_as_json(weakforms, written):
     columns = table_columns(part=slice(5, 50), p=1 + 1e-4)
-    called = weakforms("compare", CASE, written(columns), "--curve", CURVE, "--json")
+    words = ("compare", CASE, written(columns), "--curve", CURVE, "--json")
+    called = weakforms(*words, "--accuracy", "1e-6")
     data = json.loads(called.out)
     assert (called.status, data["schema"], data["passed"]) == (1, "weakforms.verdicts/1", False)
     assert (data["case"], data["curve"], data["abscissa"]) == (CASE, CURVE, "u_max")
@@ -273,7 +276,15 @@ def test_verdicts_as_json(weakforms, written):
     assert (wrong["check"], wrong["passed"]) == (f"{CURVE}:p", False)
     assert wrong["error"] == pytest.approx(1e-4, rel=0.1)
     assert wrong["bound"] == pytest.approx(wrong["asked"] + 2 * wrong["reference_uncertainty"])
+    assert wrong["claim"] == ""
     assert (right["check"], right["passed"]) == (f"{CURVE}:V", True)
+    called = weakforms(*words)
+    data = json.loads(called.out)
+    assert (called.status, data["status"], data["claimed"]) == (5, "not judged", None)
+    assert [v["status"] for v in data["verdicts"]] == ["not judged", *["passed"] * 3]
+    wrong, right = data["verdicts"][0], data["verdicts"][-1]
+    assert (wrong["asked"], right["asked"], right["claim"]) == (None, 5e-10, "")
+    assert wrong["claim"].endswith(", which --accuracy 1e-04 claims")
 
 
 def test_our_own_result_passes_as_a_curve(weakforms, result):
@@ -299,7 +310,7 @@ def test_a_wide_interpolation_error_does_not_pass_for_agreement(weakforms, writt
     x, y = columns["u_max"][60:], columns["p"][60:]
     middle = {"u_max": (x[1:] + x[:-1]) / 2}
     middle["p"] = np.interp(middle["u_max"], x, y) + 1e-5
-    assert weakforms(*words, written(middle)).status == 1
+    assert weakforms(*words, written(middle), "--accuracy", "1e-6").status == 1
 
 
 # -- the whole program ---------------------------------------------------------------------------

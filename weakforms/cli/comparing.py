@@ -39,7 +39,7 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
     ] = None,
     accuracy: Annotated[
         float | None,
-        typer.Option(help="Relative accuracy that the curve claims; default: what the case asks for."),
+        typer.Option(help="Relative accuracy that the curve claims, up to 0.1; default: none."),
     ] = None,
     names: Annotated[
         list[str] | None,
@@ -95,7 +95,10 @@ def compare(  # noqa: PLR0913, PLR0917  (one an option)
 
     The curve must have every column that the case judges, unless --column selects some. Exit status: 0 within
     bounds, 1 out of bounds, 2 bad input (also a result for other parameters), 5 not judged (a column is
-    missing, or the table is too coarse for the accuracy in most of its rows).
+    missing, or claims no accuracy and needs one, or the table is too coarse for it in most of its rows).
+
+    Without --accuracy a curve passes within what the case asks of our own code. Otherwise the verdict says
+    which accuracy the curve reaches, and how to claim it; one that reaches none up to 0.1 is out of bounds.
     """
     from weakforms.verification.cases.catalogue import print_verdicts
     from weakforms.verification.crosscheck.compare import compare as compare_curve

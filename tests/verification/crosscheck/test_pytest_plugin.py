@@ -31,11 +31,18 @@ def test_let_through(weakforms_check):
     verdicts = weakforms_check("paper2.fig03", TABLE, NAME, unjudged=True)
     assert verdicts.status == "not judged" and verdicts.missing == ("lam1_mid", "t1_mid")
 
+def test_unclaimed_let_through(weakforms_check):
+    verdicts = weakforms_check("paper2.fig03", WRONG, NAME, only=ONLY, unjudged=True)
+    assert verdicts.status == "not judged" and not verdicts.missing
+
 def test_wrong(weakforms_check):
+    weakforms_check("paper2.fig03", WRONG, NAME, accuracy=1e-9, only=ONLY)
+
+def test_unclaimed(weakforms_check):
     weakforms_check("paper2.fig03", WRONG, NAME, only=ONLY)
 
 def test_wrong_and_missing(weakforms_check):
-    weakforms_check("paper2.fig03", WRONG, NAME, unjudged=True)
+    weakforms_check("paper2.fig03", WRONG, NAME, accuracy=1e-9, unjudged=True)
 
 def test_missing(weakforms_check):
     weakforms_check("paper2.fig03", TABLE, NAME)
@@ -57,13 +64,16 @@ def project(pytester):
 
 def test_fixture(project):
     done = project.runpytest_inprocess("-p", "weakforms.pytest_plugin")
-    done.assert_outcomes(passed=4, failed=4)
+    done.assert_outcomes(passed=5, failed=5)
     done.stdout.fnmatch_lines(
         [
             "paper2.fig03, fig03a_delta1_1.1: 100 rows over u_max in *all of it is judged",
             "*p *OUT OF BOUNDS*1.0e-04*1.0e-09*u_max = *",
             "*V *within*",
             "left out: lam1_mid, t1_mid",
+            "*p *NOT JUDGED*1.0e-04*1.0e-04*u_max = *",
+            "*p: no accuracy is claimed, and *: it reaches 1.0e-04, which --accuracy 1e-04 claims",
+            "verdict: not judged",
             "*p *OUT OF BOUNDS*",
             "*lam1_mid *NOT JUDGED*missing*",
             "*p *within*",

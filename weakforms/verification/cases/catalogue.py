@@ -251,15 +251,12 @@ def print_verdicts(verdicts: Verdicts, console: Console) -> None:
         for k, numbers in enumerate(cells or [("–", "–", "missing", "–")]):
             table.add_row(*((v.column, WORDS[v.status]) if k == 0 else ("", "largest error")), *numbers)
     console.print(table)
-    unclaimed = "" if verdicts.claimed else ", which is asked of our own code; --accuracy claims another one"
     for v in verdicts.verdicts:
-        if v.asked is None and v.reached is not None:
-            line(f"{v.check}: no accuracy is claimed; the curve reaches {scientific(v.reached)}")
-        elif v.status == FAILED and v.reached is not None and not v.units:
-            line(
-                f"{v.check}: the curve reaches {scientific(v.reached)}, not {scientific(v.asked)}{unclaimed}"
-            )
-        for text in filter(None, (v.units, v.trend, *v.causes)):
+        reached = v.claim
+        if v.status == FAILED:  # of a forgotten unit, how far off the curve is says nothing
+            missed = f"the curve reaches {scientific(v.reached)}, not {scientific(v.asked)}"
+            reached = "" if v.units else v.claim or missed
+        for text in filter(None, (reached, v.units, v.trend, *v.causes)):
             line(f"{v.check}: {text}")
         if v.judged_rows < v.rows:
             line(f"{v.check}: {v.detail}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from weakforms.errors import InputError, not_among
 from weakforms.results import CurveFile
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.crosscheck.cause import causes, limits, trend
+from weakforms.verification.crosscheck.claims import LARGEST_ACCURACY, judge_unclaimed
 from weakforms.verification.crosscheck.columns import CurveLike, our_columns, read, require_same_parameters
 from weakforms.verification.crosscheck.convergence import (
     RATIO,
@@ -40,9 +42,6 @@ from weakforms.verification.crosscheck.units import abscissa_hint, forgotten
 from weakforms.verification.crosscheck.verdicts import Verdicts
 from weakforms.verification.judging.checks.curve import Curve
 
-LARGEST_ACCURACY = 0.1
-"""Largest accuracy that a curve may claim; with a larger one nearly every curve would pass."""
-
 
 def compare(  # noqa: PLR0913  (each a choice of the caller)
     case: str,
@@ -68,14 +67,17 @@ def compare(  # noqa: PLR0913  (each a choice of the caller)
     the curve does not have it and ``only`` does not leave it out. A curve that covers part of the table is
     judged on that part. Every verdict says what accuracy the curve reaches.
 
+    Without ``accuracy`` a column passes within what the case asks of our own code. Otherwise it is not
+    judged, and the verdict says which accuracy may be claimed; it fails if there is none
+    (:mod:`~weakforms.verification.crosscheck.claims`).
+
     Args:
         case: Id of a case, such as ``paper2.fig03``; with ``against`` the name of a problem.
         curve: A CSV or JSON file, or columns by name, with the table's abscissa, which must be monotone.
             Several of them, from a coarse mesh to a fine one, are judged by their limit
             (:mod:`~weakforms.verification.crosscheck.convergence`).
         name: Name of the table, if the case has several.
-        accuracy: Relative accuracy that the curve claims, up to 0.1; by default what the case asks of our own
-            code. Several curves, and those compared with a solution, claim none by default.
+        accuracy: Relative accuracy that the curve claims, up to 0.1; by default none.
         columns: Names in the curve by names in the table, such as ``{"p": "pressure"}``.
         constants: If the curve has units, the radius, modulus and thickness with which the paper scales, such
             as ``{"R_f": 0.02, "C1": 2e5, "h_o": 1e-4}``.
@@ -111,7 +113,7 @@ def compare(  # noqa: PLR0913  (each a choice of the caller)
     asked = target.asked if accuracy is None else dict.fromkeys(target.table.ordinates, accuracy)
     if accuracy is None and (against is not None or len(owns) > 1):
         asked = dict.fromkeys(target.asked or target.table.ordinates)
-    meshes = [_judged(target, own, asked, only, constants or {}) for own in owns]
+    meshes = [_judged(target, own, asked, only, constants or {}, accuracy is not None) for own in owns]
     (x, keep, judged), table, own = meshes[-1], target.table, owns[-1]
     rows = table.columns[table.abscissa]
     failed = [j for j in judged if _differs(j, len(owns) > 1)]
@@ -191,6 +193,7 @@ def _judged(
     asked: Mapping[str, float | None],
     only: Sequence[str] | None,
     constants: Mapping[str, float],
+    claimed: bool,
 ) -> tuple[np.ndarray, np.ndarray, list[JudgedColumn]]:
     """The abscissa within the table, the rows it belongs to, and every column judged."""
     table = target.table
@@ -205,7 +208,8 @@ def _judged(
         numbers, values = np.flatnonzero(keep) + 1, own[column][keep]
         if not np.all(np.isfinite(values)):
             raise InputError(f"column {column!r} has no number in row {numbers[~np.isfinite(values)][0]}")
-        judged.append(judge_column(table, column, x, values, asked[column], numbers))
+        judge = partial(judge_column, table, column, x, values, numbers=numbers)
+        judged.append(judge(asked[column]) if claimed else judge_unclaimed(judge, asked[column]))
         verdict = judged[-1].verdict
         verdict.units = forgotten(judged[-1], target.problem, constants, table.parameters)
         outside = len(keep) - len(x)

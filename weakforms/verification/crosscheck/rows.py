@@ -58,6 +58,8 @@ class ColumnVerdict(Verdict):
     """The meaning of a constant ratio between curve and table, if there is one."""
     reached: float | None = None
     """The smallest accuracy that the curve could claim: with it every row is judged and within its bound."""
+    claim: str = ""
+    """What accuracy the curve may claim and how, if it claims none and does not pass without."""
     trend: str = ""
     """How the errors go along the curve, if the column is out of bounds."""
     causes: tuple[str, ...] = ()
@@ -249,7 +251,7 @@ def scale_text(abscissa: str) -> str:
 def _detail(table: Reference, status: str, rows: int, judged: int, asked: float | None, floor: float) -> str:
     text = f"{rows} rows; errors are divided by {floor:.6g} at least"
     if asked is None:
-        return f"{text}; no accuracy is claimed"
+        return text
     if judged < rows:
         text += f"; {rows - judged} lie where the table is too coarse to judge to {asked:g}"
     if status != NOT_JUDGED:

@@ -15,7 +15,7 @@ STATED = (
     *("check", "kind", "passed", "statement", "detail", "error", "bound", "asked"),
     *("reference_uncertainty", "where", "reference"),
     *("status", "column", "judged_rows", "signed_error", "row", "largest", "scale", "scale_floor", "units"),
-    *("reached", "trend", "causes", "rows_judged"),
+    *("reached", "claim", "trend", "causes", "rows_judged"),
 )
 """Entry of the JSON of a verdict: the uncertainty of the curve is unknown."""
 
@@ -42,9 +42,9 @@ class Verdicts:
     missing: tuple[str, ...]
     """Columns to be judged that the curve does not have."""
     left_out: tuple[str, ...]
-    claimed: float | None
-    """Accuracy that the caller claims; without one a case asks what it asks of our own code."""
     """Columns of the table that were not to be judged."""
+    claimed: float | None
+    """Accuracy that the caller claims; without one no column passes but by what is asked of our own code."""
     verdicts: tuple[ColumnVerdict, ...]
     pictures: tuple[PanelOutcome, ...]
     """For each judged column the curve, the table, and the error of every row with its bound."""

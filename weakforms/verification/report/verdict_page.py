@@ -7,6 +7,7 @@ from pathlib import Path
 from markupsafe import Markup
 
 from weakforms.results.io import dumps, require_writable, write_atomically
+from weakforms.verification.crosscheck.rows import FAILED
 from weakforms.verification.crosscheck.verdicts import Verdicts
 from weakforms.verification.report.figures.panel import panel_figure
 from weakforms.verification.report.figures.svg import standalone
@@ -28,9 +29,9 @@ def write_verdicts(verdicts: Verdicts, folder: Path) -> Path:
         InputError: If the folder cannot be written to.
     """
     require_writable(folder)
-    of = {verdict.column: verdict for verdict in verdicts.verdicts}
+    failed = {verdict.column: (verdict,) for verdict in verdicts.verdicts if verdict.status == FAILED}
     pictures = {
-        picture.name: panel_figure(picture, f"verdict-{picture.name}", (of[picture.name],))
+        picture.name: panel_figure(picture, f"verdict-{picture.name}", failed.get(picture.name, ()))
         for picture in verdicts.pictures
     }
     for name, svg in pictures.items():
