@@ -10,7 +10,7 @@ from stand_ins import always, bare, raising, refused
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.contact.history import ITERATIONS, History
 from weakforms.problems.liquid_tube import coincidence
-from weakforms.problems.liquid_tube.bent import bifurcation_point, family, fitted
+from weakforms.problems.liquid_tube.bent import bifurcation_point, fitted, slopes
 from weakforms.problems.liquid_tube.bent import branch as bent_branch
 from weakforms.problems.liquid_tube.bent import problem as whole_surface
 from weakforms.problems.liquid_tube.bent.family import SecondaryFamily
@@ -150,16 +150,24 @@ def test_a_mode_that_changes_sign_beside_a_bifurcation_is_counted_there(monkeypa
     assert found == others
 
 
-def slopes_of(*given):
-    told = bare(SecondaryFamily)
-    told._slopes = lambda share: {"dzw_dV": given[family.SMALL.index(share)]}
-    return told._slopes_beside_another_mode
+def slopes_of(monkeypatch, *given):
+    """The search beside another mode, with slopes that are given for each share of the amplitudes."""
+
+    def found(_levels, _cap, share):
+        return {"dzw_dV": given[slopes.SMALL.index(share)]}
+
+    monkeypatch.setattr(slopes, "initial_slopes", found)
+    return lambda: slopes.slopes_beside_another_mode([], 4.0)
 
 
-def test_initial_slopes_beside_another_mode_are_those_of_two_sets_of_amplitudes():
-    assert slopes_of((1.0, 0.1), (1.1, 0.01))()["dzw_dV"] == pytest.approx((1.1, 0.11))
-    assert slopes_of((3.0, 0.1), (1.1, 0.01), (1.09, 0.01))()["dzw_dV"] == pytest.approx((1.09, 0.02))
-    refused("initial slopes .* change L or delta$", slopes_of((3.0, 0.1), (2.0, 0.1), (1.0, 0.1)))
+def test_initial_slopes_beside_another_mode_are_those_of_two_sets_of_amplitudes(monkeypatch):
+    assert slopes_of(monkeypatch, (1.0, 0.1), (1.1, 0.01))()["dzw_dV"] == pytest.approx((1.1, 0.11))
+    assert slopes_of(monkeypatch, (3.0, 0.1), (1.1, 0.01), (1.09, 0.01))()["dzw_dV"] == pytest.approx(
+        (1.09, 0.02)
+    )
+    refused(
+        "initial slopes .* change L or delta$", slopes_of(monkeypatch, (3.0, 0.1), (2.0, 0.1), (1.0, 0.1))
+    )
 
 
 def test_a_bifurcation_point_that_is_no_equilibrium(monkeypatch):
