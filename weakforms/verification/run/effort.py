@@ -68,9 +68,10 @@ class Effort:
             if str(spec) in times:
                 known.setdefault(spec.problem, []).append(times[str(spec)])
         usual = fmean(v for values in known.values() for v in values) if known else 1.0
+        means = {problem: fmean(values) for problem, values in known.items()}
 
         def expected(spec: Spec) -> float:
-            return times.get(str(spec), fmean(known.get(spec.problem, [usual])))
+            return times.get(str(spec), means.get(spec.problem, usual))
 
         total = sum(map(expected, self._specs))
         return sum(map(expected, self._done)), total
