@@ -12,7 +12,7 @@ from weakforms.problems.problem import Problem, Requests, Task
 from weakforms.problems.wrinkled.about import WRINKLED_TUBE_THRESHOLD
 from weakforms.problems.wrinkled.critical import threshold
 from weakforms.problems.wrinkled.membrane import natural_radius
-from weakforms.problems.wrinkled.problem import WrinkledNumerics
+from weakforms.problems.wrinkled.problem import WIDEST, WrinkledNumerics
 from weakforms.results import Failure, Result
 
 
@@ -28,7 +28,7 @@ class ThresholdParameters(MaterialChoice):
     delta: float = Field(2.0, gt=1, le=6, description="axial pre-stretch")
     c2: float = Field(0.01, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     L: float = Field(8.0, ge=1, le=40, description="undeformed length L_o/Ao")
-    Af: float = Field(1.0, gt=0, le=3, description="radius of the disks; 1 is Case 2")
+    Af: float = Field(1.0, gt=0, le=WIDEST, description="radius of the disks; 1 is Case 2")
     upper: bool = Field(False, description="which threshold: above the uniform thickness, not below it")
 
 
