@@ -54,6 +54,17 @@ def test_the_edge_of_a_wet_part_is_in_the_uncertainties_of_the_lower_limit_level
         assert abs(lower.values[name] - value) < lower.uncertainty[name] < 5e-3, name
 
 
+def test_a_liquid_far_heavier_than_the_critical_one_is_begun_by_way_of_lighter_ones():
+    """It wets the middle only: Newton's method fails from a guess that is wet all over."""
+    law = {"model": "beda_chevalier", "k1": 2.584, "k2": 0.4161, "k3": 0.0001458, "power": 13.69}
+    sheet = {"delta": 2.108, "c": 2.614, "gamma": 24.68, "energy": "full"}
+    found = solve("rectangle", **law, **sheet, w_end=0.31, numerics=COARSE | {"cells": 4})
+    assert found.failures == []
+    branch = found.branch()
+    assert branch["w_c"][0] == pytest.approx(0.02, rel=1e-9)
+    assert branch["zw"][0] < 0
+
+
 def test_the_amount_folds_where_its_rate_vanishes():
     """Neo-Hookean under a light liquid: the level has a limit first, then the liquid itself."""
     found = solve("rectangle", alpha=0.0, gamma=1.0, w_end=2.2, numerics=COARSE)

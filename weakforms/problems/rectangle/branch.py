@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
+from math import sqrt
 
 import numpy as np
 from dolfinx import fem
 
+from weakforms.errors import ConvergenceError
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.readings import Centre
 from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
@@ -19,6 +21,7 @@ from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.stability.surface_family import SurfaceBranch
 
@@ -125,7 +128,7 @@ def traced(
     solver = ExtendedNewton(model.system, [control])
     continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
     frame = {"delta": model.sheet.delta, "delta_y": model.sheet.delta_y}
-    first = first_state(solver, start, frame, model.cosine(start))
+    first = _first(model, solver, start, frame)
     begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
 
     given = model.sheet.law, model.law, RULE[model.sheet.degree]
@@ -138,3 +141,32 @@ def traced(
     branch = RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
     branch.end_before(yields, GIVES_WAY)
     return branch
+
+
+LIGHTER, LIGHTEST = 0.5, 1 / 64
+"""Factor by which the liquid is made lighter to find a first state, and the smallest share of its weight."""
+
+
+def _first(model: RectangleModel, solver: ExtendedNewton, start: float, frame: Mapping[str, float]) -> State:
+    """First state of a branch; under a heavy liquid by way of lighter ones.
+
+    A liquid heavier than the critical one wets a part of the sheet only, whose edge Newton's method does not
+    find from a guess that is wet all over.
+
+    Raises:
+        ConvergenceError: If it is found under no liquid, or is lost while the weight is raised.
+    """
+    share, state = 1.0, None
+    while state is None:
+        try:
+            with model.weighing(share):
+                state = first_state(solver, start, frame, model.cosine(start))
+        except ConvergenceError:
+            if model.sheet.load == "gas" or share <= LIGHTEST:
+                raise
+            share *= LIGHTER
+    while share < 1.0:
+        share = min(1.0, share / sqrt(LIGHTER))
+        with model.weighing(share):
+            state = solver.solve(state, [Held("w_c", start)])[0]
+    return state

@@ -14,7 +14,8 @@ quarter with other conditions on the mirrors. Together they are all displacement
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -138,6 +139,16 @@ class RectangleModel:
 
         out.interpolate(shape)
         return out.x.array[: self.system.size].copy()
+
+    @contextmanager
+    def weighing(self, share: float) -> Iterator[None]:
+        """Make the liquid lighter inside of this context: it has a share of its weight ``gamma``."""
+        own = self._weight.value.copy()
+        self._weight.value = share * own
+        try:
+            yield
+        finally:
+            self._weight.value = own
 
     # -- form ----------------------------------------------------------------------------------
 
