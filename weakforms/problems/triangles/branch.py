@@ -76,7 +76,6 @@ class SurfaceRun:
         self.model, self.system, self.control = model, model.system, control
         self.rings = model.body.triangles.rings
         self.stability = Stability(model.system)
-        self.stability.factor.use_pivoting()
         self._lowest = Lowest(model.system, factor=self.stability.factor)
         self._subspace = model.symmetric()
         self._newton: ExtendedNewton | None = None
