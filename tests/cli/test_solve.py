@@ -293,7 +293,8 @@ def test_diagram_draws_its_picture_and_says_where_it_is(drawn):
         (("circular", "--plane", "alpha", "p", "--kind", "n1"), "body = 'circular' has no lines of waves"),
         (("tube", "--plane", "alpha", "p", "--set", "x=lf"), "--set x: the verb's argument or option"),
         (("tube", "--plane", "alpha", "p", "--picture", "d.txt"), "cannot draw into d.txt"),
-        (("sphere", "--plane", "alpha", "p"), "body = 'sphere'"),
+        (("torus", "--plane", "alpha", "p"), "body = 'torus'"),
+        (("sphere", "--plane", "alpha", "p", "--kind", "mirror"), "body = 'sphere' has no mirror"),
     ],
 )
 def test_diagram_refuses_bad_input_in_one_line(weakforms, solves, words, message):

@@ -28,6 +28,13 @@ def test_lines_of_bending(same_on_ranks):
     assert [point.kind for point in found.special_points].count("fold_n1") == 2
 
 
+def test_lines_of_balloons_and_long_tubes(same_on_ranks):
+    tube = {"body": "infinite_tube", "ends": "held", "kind": "localisation,n1", "high": 1.4}
+    balloon = {"body": "sphere", "x": "alpha", "kind": "fold", "low": 0.15}
+    found, _ = same_on_ranks([{"problem": "diagram"} | given for given in (tube, balloon)])
+    assert [point.kind for point in found.special_points] == ["localisation_n1"] * 2
+
+
 @pytest.mark.paper2
 def test_controls_of_inflation(same_on_ranks):
     inflated = {"problem": "controls", "alpha": 0.0, "V_r": 20.0, "numerics": {"cells": 48, "levels": 2}}

@@ -108,6 +108,15 @@ def test_long_tubes_bend_before_their_limit_point(tmp_path):
     assert "lf = 8: bends first" in text
 
 
+def test_a_held_tube_bends_and_bulges_at_once_where_a_closed_one_has_its_limit(tmp_path):
+    text = ran("long_tubes", tmp_path, str(tmp_path / "pears.svg"))
+    lam1, p = (numbers(text, rf"{name} =") for name in ("lam1", "p"))
+    table = references.load("beyond", "uniform_both_waves").columns
+    assert lam1 == pytest.approx([table["lam1"][0]] * 2, abs=1e-8)
+    assert p == pytest.approx([table["p"][0]] * 2, abs=1e-8)
+    assert "pears up to mu2 = 0.0070787" in text
+
+
 def test_a_heavy_liquid_keeps_the_corners_taut(tmp_path):
     gas, light, heavy = numbers(ran("corners", tmp_path), "wrinkled part")
     assert gas > light > heavy

@@ -77,6 +77,7 @@ def test_no_picture_shows_a_raw_name():
         ("fold_n1", "limit point and $n = 1$"),
         ("n1_n2", "$n = 1$ and $n = 2$"),
         ("tip_mirror", "turn of mirror breaking"),
+        ("localisation_n1", "long waves and $n = 1$"),
         ("wrinkling_fold", "first wrinkling and limit point"),
     ],
 )

@@ -12,6 +12,8 @@ from weakforms.cli.solving import end_of, solved
 from weakforms.errors import InputError
 from weakforms.terminal import complain, console, plain, rank, request
 
+BODIES = ("tube", "circular", "sphere", "infinite_tube")
+
 
 @app.command(
     epilog=examples(
@@ -20,11 +22,14 @@ from weakforms.terminal import complain, console, plain, rank, request
         "weakforms diagram tube --plane lf p --set alpha=0.05 --set low=5 --set high=9",
         "weakforms diagram tube --plane lf p --kind fold,n1 --set alpha=0 --set u_end=2.5",
         "weakforms diagram circular --plane alpha p",
+        "weakforms diagram sphere --plane mu2 p model=ogden low=0.0005 high=0.02 --kind fold,n1",
+        "weakforms diagram infinite_tube --plane lam1 p ends=held --kind localisation,n1",
     )
 )
 def diagram(
     problem: Annotated[
-        str, typer.Argument(help="tube or circular.", autocompletion=lambda: ["tube", "circular"])
+        str,
+        typer.Argument(help="tube, circular, sphere or infinite_tube.", autocompletion=lambda: list(BODIES)),
     ],
     plane: Annotated[
         tuple[str, str], typer.Option(metavar="X Y", help="The two parameters; one of them is p.")
@@ -36,7 +41,7 @@ def diagram(
         str,
         typer.Option(
             metavar="KIND,...",
-            help="fold, mirror, n1, n2, n3, wrinkling, contact; default: all without waves around the axis.",
+            help="fold, mirror, localisation, n1, n2, n3, wrinkling, contact; default: all but n1 to n3.",
         ),
     ] = "all",
     sets: Annotated[
@@ -53,6 +58,8 @@ def diagram(
     picture: Annotated[Path, typer.Option(help="Picture: .png, .svg or .pdf.")] = Path("diagram.png"),
 ) -> None:
     """Follow limit points, broken symmetry, first wrinkling and first contact in a plane, and draw them.
+
+    Of a sphere and a long tube the lines are those of any law: limit points, pears (n1), long waves.
 
     It solves the problem diagram, and writes the same result. Points at which two conditions hold are
     located: cusps, tips, coincidences. Regions of the picture are labelled with the numbers of negative

@@ -3,6 +3,7 @@
 from weakforms.results.curves import CurveFile, read_curve
 from weakforms.results.io import load_result, validate, write_atomically
 from weakforms.results.model import (
+    OF_LONG_WAVES,
     SYMMETRY_BREAKING,
     TWO_CONDITIONS,
     WITH_WAVES,
@@ -18,6 +19,7 @@ from weakforms.results.model import (
 from weakforms.results.result import Result
 
 __all__ = [
+    "OF_LONG_WAVES",
     "SYMMETRY_BREAKING",
     "TWO_CONDITIONS",
     "WITH_WAVES",

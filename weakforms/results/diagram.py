@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 LOOKS = {
     "fold": ("-", COLOURS[0]),
     "mirror": ("-", COLOURS[1]),
+    "localisation": ("-", COLOURS[2]),
     "n1": ("-", COLOURS[4]),
     "n2": ("-", COLOURS[5]),
     "n3": ((0, (6, 1)), COLOURS[1]),
@@ -37,8 +38,13 @@ LOOKS = {
 FAINT = 0.35
 """Opacity of the parts of lines on which the membrane would be wrinkled."""
 
-COUNTED = {"fold": "n_negative", "mirror": "n_mirror"} | {f"n{n}": f"n_negative_n{n}" for n in (1, 2, 3)}
+COUNTED = {"fold": "n_negative", "mirror": "n_mirror", "localisation": "n_localisation"} | {
+    f"n{n}": f"n_negative_n{n}" for n in (1, 2, 3)
+}
 """Kinds at which an eigenvalue changes sign, and the column with the number of the other negative ones."""
+
+DEPTHS = ("u_max", "t0", "lam", "lam2")
+"""Columns of largest displacement, of which each membrane has one."""
 
 COLUMNS, ROWS = 121, 161
 """Number of places at which regions are told apart, along both axes."""
@@ -143,7 +149,7 @@ def crossings_at(result: Result, vary: str, value: float) -> list[Crossing]:
 
 def depth_of(result: Result) -> str:
     """The column with the largest displacement, which increases along the primary branch."""
-    return "u_max" if "u_max" in result.branches[0].columns else "t0"
+    return next(name for name in DEPTHS if name in result.branches[0].columns)
 
 
 def states_between(crossings: list[Crossing], low: float) -> list[tuple[float, float, int]]:

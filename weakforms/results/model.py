@@ -53,6 +53,9 @@ WITH_WAVES = (
 )
 """The same on lines at which 1 to 3 waves around the axis are neutral."""
 
+OF_LONG_WAVES = ("fold_localisation", "tip_localisation", "wrinkling_localisation", "localisation_n1")
+"""The same on lines at which long axisymmetric waves of a long tube are neutral."""
+
 KINDS = (
     *("limit_point", "bifurcation_point", "cusp_point", "contact_onset", "front", "stability_change"),
     *("pull_off", "zone_opening", "zone_closing", "volume_fold", "wrinkling_onset"),
@@ -60,6 +63,7 @@ KINDS = (
     *SYMMETRY_BREAKING,
     *WITH_WAVES,
     "mass_fold",
+    *OF_LONG_WAVES,
 )
 """Kinds of special points, as in the schema."""
 
@@ -229,7 +233,8 @@ class SpecialPoint:
     stability_change, pull_off, zone_opening, zone_closing, volume_fold, mass_fold, wrinkling_onset,
     mirror_breaking, bifurcation_n1 to bifurcation_n6; where two conditions hold on a line of a diagram,
     fold_mirror, tip_mirror, wrinkling_fold, wrinkling_mirror, contact_fold, contact_mirror, and
-    with n1 to n3 in place of mirror; mirror_n1 to mirror_n3, n1_n2, n1_n3, n2_n3.
+    with n1 to n3, or localisation, in place of mirror; mirror_n1 to mirror_n3, n1_n2, n1_n3, n2_n3,
+    localisation_n1.
     """
 
     kind: str

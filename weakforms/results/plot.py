@@ -47,6 +47,7 @@ POLYGONS = (
     (5, 0, 36),
     (6, 1, 30),
     *((sides, 1, 25) for sides in range(3, 17)),
+    *((5, 0, 18), (8, 0, 0), (4, 1, 20), (3, 1, 55)),
 )
 MARKERS = dict(zip(KINDS, [*"os*DPXv^>dhpH8", *POLYGONS], strict=True))
 """Marker of each kind of special point, filled, because its edge is white."""

@@ -119,6 +119,13 @@ SCOPES = {
     ("tube", "field_H"): [({}, True), (CONTACT, False), ({"model": "ogden"}, False)],
     ("tube", "field_F_axial"): [({}, True), ({"extent": "full"}, False), ({"model": "ogden"}, False)],
     ("diagram", "u_max"): [({}, True), ({"body": "disk"}, False)],
+    ("diagram", "lam1_mid"): [({}, True), ({"body": "sphere"}, False)],
+    ("diagram", "volume"): [({}, False), ({"body": "sphere"}, True), ({"body": "infinite_tube"}, True)],
+    ("diagram", "balance"): [
+        ({"body": "sphere"}, True),
+        ({"body": "infinite_tube", "ends": "held"}, False),
+        ({"body": "circular"}, False),
+    ],
     ("hemisphere", "work"): [({}, False), ({"load": "gas"}, True)],
     ("hemisphere", "rate"): [({}, True), ({"load": "gas"}, False)],
     ("wrinkled_tube", "field_axial"): [({}, True), ({"load_end": 2.0}, False)],

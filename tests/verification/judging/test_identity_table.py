@@ -235,6 +235,22 @@ def test_a_column_of_a_trace_is_that_of_its_others(problem, name):
     assert not judged(problem, name, solution(problem, meridian(problem), same, columns))
 
 
+@pytest.mark.parametrize("stretches", [{"lam": STRETCH(S)}, {"lam1": LAM1(S), "lam2": LAM2(S)}])
+def test_volume_and_tension_of_balloons_and_long_tubes_are_closed_forms(stretches):
+    p, force = LOAD(S), 0.4
+    if "lam" in stretches:
+        volume, tension = 2 * stretches["lam"] ** 3 / 3, p * stretches["lam"] / 2
+    else:
+        volume, hoop = stretches["lam1"] * stretches["lam2"] ** 2 / 2, stretches["lam2"]
+        tension = np.minimum(p * hoop, force / hoop + p * hoop / 2)
+    right = {"p": p, **stretches, "V": volume, "t_min": tension}
+    for name, column in (("volume", "V"), ("balance", "t_min")):
+        for factor in (1.0, 1.01):
+            result = solution("diagram", {}, columns=right | {column: factor * right[column]})
+            result.parameters["force"] = force
+            assert judged("diagram", name, result) is (factor == 1.0)
+
+
 def test_a_column_that_should_be_positive_is_not_negative():
     columns = {name: STRETCH(S) for name in ("lam1", "lam2", "lam_across")}
     for problem, names in (("infinite_tube", ("lam1", "lam2")), ("homogeneous", tuple(columns))):

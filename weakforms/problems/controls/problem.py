@@ -14,7 +14,8 @@ from weakforms.problems.branch_problem import Family as AnyFamily
 from weakforms.problems.controls.about import CONTROLS
 from weakforms.problems.controls.branch import ControlledBranch, ControlledFamily, Gas
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
-from weakforms.problems.diagram.problem import GRADING, MOVING
+from weakforms.problems.diagram.problem import MOVING
+from weakforms.problems.diagram.subjects import GRADING
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.homogeneous.body import Body, sphere, system_of
 from weakforms.problems.homogeneous.material import require_reachable

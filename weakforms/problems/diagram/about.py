@@ -5,15 +5,18 @@ import math
 from weakforms.problems import column
 from weakforms.problems.about import LINE, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
-from weakforms.results import WITH_WAVES
+from weakforms.results import OF_LONG_WAVES, WITH_WAVES
 
 WAVES = ("n1", "n2", "n3")
 """Kinds of lines at which one, two or three waves around the axis are neutral."""
 
-PLAIN = ("fold", "mirror", "wrinkling", "contact")
-"""Kinds of lines without waves."""
+BREAKING = ("mirror", "localisation")
+"""Kinds of lines at which a symmetry along the axis breaks."""
 
-LINES = (*PLAIN[:2], *WAVES, *PLAIN[2:])
+PLAIN = ("fold", *BREAKING, "wrinkling", "contact")
+"""Kinds of lines without waves around the axis."""
+
+LINES = (*PLAIN[:3], *WAVES, *PLAIN[3:])
 """Kinds of lines, and names of the first line of each."""
 
 MOST = 4
@@ -21,15 +24,23 @@ MOST = 4
 
 NAMES = (*(name + (f"_{k}" if k > 1 else "") for name in LINES for k in range(1, MOST + 1)), "end")
 
+UNIFORM = {"coarse": {"step": 0.15}, "fine": {"step": 0.05, "levels": 3}}
+
 DIAGRAM = About(
     name="diagram",
     title="Lines of critical points in a plane of two parameters",
     paper="beyond",
-    source="the membranes of papers 1 and 2; extended systems: Govaerts (2000), chapters 3, 4 and 7",
-    energy="that of tube or circular without a substrate, with all parameters as loads",
-    control="the parameter that varies besides p (past a cusp or tip compare over u_max or t0)",
-    unknown="(rho, eta) as of tube or circular, with p and another parameter, and a null vector",
-    forms=("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
+    source="the membranes of papers 1 and 2, balloons and long tubes of any law; extended systems: Govaerts "
+    "(2000), chapters 3, 4 and 7; long waves: Haughton & Ogden (1979), Fu, Pearce & Liu (2008)",
+    energy="that of tube or circular without a substrate, of a sphere or a long tube, with all parameters as "
+    "loads",
+    control="the parameter that varies besides p (past a cusp or tip compare over u_max, t0, lam or lam2)",
+    unknown="(rho, eta) as of tube or circular, or the stretches of a sphere or a long tube, with p and "
+    "another parameter, and a null vector",
+    forms=(
+        *("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
+        *("problems.diagram.balloon:VariedSphere", "problems.diagram.long_tube:HeldTube"),
+    ),
     units=Units("R_f", "C1", "h_o", 2 * math.pi),
     columns=(
         column.PRESSURE,
@@ -41,7 +52,16 @@ DIAGRAM = About(
         Column("t0", "height of the disk's pole over {length}", "t_0"),
         Column("lam1_mid", "meridional stretch at the mid-plane, 1"),
         Column("lam_pole", "both stretches at the pole, 1"),
-        Column("V", "enclosed volume of the half tube, or under the disk, over {volume}", "V"),
+        Column("lam", "stretch of the sphere, 1", r"\lambda"),
+        column.LAM1,
+        column.LAM2,
+        Column("force", "axial force of free ends, besides the pressure, over {axial}"),
+        Column(
+            "V",
+            "enclosed volume of the half tube, of the sphere, of a long tube of length {length} at rest, or "
+            "under the disk, over {volume}",
+            "V",
+        ),
         Column("Pi", "total potential of the same over {energy}"),
         *derived(
             Column(
@@ -49,11 +69,13 @@ DIAGRAM = About(
                 "least principal Cauchy resultant over {resultant}; negative: the membrane would be wrinkled",
             ),
             Column("n_mirror", "negative eigenvalues of modes that are odd under the mirror, 1"),
+            Column("n_localisation", "negative eigenvalues of long axisymmetric waves of a long tube, 1"),
             *(
                 Column(
                     f"n_negative_{kind}",
                     f"negative eigenvalues of {kind[1]} wave{'s' * (kind != 'n1')} around the axis (each of "
-                    "them twice: cos and sin), 1",
+                    f"them twice: cos and sin), or of modes of degree {kind[1]} of the sphere "
+                    f"({2 * int(kind[1]) + 1} times each), 1",
                 )
                 for kind in WAVES
             ),
@@ -65,7 +87,7 @@ DIAGRAM = About(
     ),
     numbers=(
         *numbers(
-            length="R_f, radius of the disks, or of the clamp",
+            length="R_f, radius of the disks, of the clamp, or of the sphere or the infinite tube at rest",
             s="S/R_f, radius of a substrate around the tube",
             l="L/R_f, height of a substrate above the disk",
             S_least="place of the least resultant as a fraction of the meridian, of states",
@@ -74,14 +96,12 @@ DIAGRAM = About(
         ),
         column.RHO,
         Column("eta", "deformed axial position, or height, over {length}", r"\eta"),
-        column.LAM1,
-        column.LAM2,
         column.T1,
         column.T2,
     ),
     special_points=(
         *("cusp_point", "fold_mirror", "tip_mirror", "wrinkling_fold", "wrinkling_mirror"),
-        *("contact_fold", "contact_mirror", *WITH_WAVES),
+        *("contact_fold", "contact_mirror", *WITH_WAVES, *OF_LONG_WAVES),
     ),
     branches=NAMES,
     example=Example("delta1", "p", {"kind": "fold"}, numerics={"cells": 32, "levels": 2}),
@@ -109,6 +129,24 @@ DIAGRAM = About(
             at=(("u_max", 1.8),),
             branch="mirror",
             label="mirror",
+        ),
+    ),
+    held_out=(
+        Family(
+            {"mu2": (0.001, 0.006)},
+            **UNIFORM,
+            fixed={"body": "sphere", "model": "ogden", "kind": "n1", "x": "mu2", "low": 5e-4, "high": 0.01},
+            at=(("lam", 2.2),),
+            branch="n1",
+            label="pears",
+        ),
+        Family(
+            {"alpha": (0.02, 0.2)},
+            **UNIFORM,
+            fixed={"body": "infinite_tube", "ends": "held", "kind": "localisation", "high": 2.0},
+            at=(("lam1", 1.5),),
+            branch="localisation",
+            label="long waves",
         ),
     ),
     audit_numerics={"levels": 2},

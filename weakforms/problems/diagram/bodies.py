@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import ClassVar
 
@@ -20,6 +20,7 @@ from mpi4py import MPI
 
 from weakforms.forms.materials import SurfaceLaw, surface_law
 from weakforms.problems.branch_problem import from_rest
+from weakforms.problems.diagram.followed import PLACE, ended_by_law
 from weakforms.problems.disk.phases import FIRST_T0, TAUT, USUAL_LOAD
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
@@ -109,6 +110,11 @@ class VariedModel(MeridianModel):
         t1, t2 = self.resultants
         return LeastValue(self.system, ufl.min_value(t1, t2), 2 * self.degree + 1)
 
+    def at_onset(self) -> dict[str, float]:
+        """Whether the least resultant is at the end, and where it is."""
+        self.least.turn()
+        return {"at_end": int(self.least.at_end), PLACE: self.least.place}
+
     @cached_property
     def limit(self) -> Callable[[State], str]:
         """Why the law takes no more than a state."""
@@ -134,11 +140,6 @@ class VariedModel(MeridianModel):
     def gives_way(self, point: CurvePoint) -> str:
         """Why the law takes no more stretch in the middle of the membrane; empty if it does."""
         raise NotImplementedError
-
-    @classmethod
-    def breaks(cls, kind: str) -> bool:
-        """Whether lines of a kind, ``mirror`` or ``n1`` to ``n3``, are known for this membrane."""
-        return cls.odd is not None if kind == "mirror" else bool(cls.parities)
 
     def operators(self, kind: str) -> dict[int, Callable[[], SecondVariation]]:
         """The second variations whose null vectors break a symmetry, by their parity along the axis.
@@ -261,7 +262,7 @@ class VariedDisk(VariedModel):
         beta = self.system.initial.loads["beta"]
         if beta >= TAUT:
             ends = {"usual_load": USUAL_LOAD, "kind": kind, "gives_way": self.gives_way}
-            return self._ended(from_rest(self.system, "p", "t0", end, step, **ends))
+            return ended_by_law(from_rest(self.system, "p", "t0", end, step, **ends), self)
         stretch, radius = beta + 0.3 * FIRST_T0**2, np.repeat(self.nodes(), 2)
         guess = self.system.initial.copy()
         guess.u[0::2] = (1 + (stretch / beta - 1) * (1 - radius**2))[0::2]
@@ -275,41 +276,10 @@ class VariedDisk(VariedModel):
         def stop(point: CurvePoint) -> bool:
             return point.monitors["t0"] > end or bool(self.gives_way(point))
 
-        return self._ended(kind(continuation, "p", start, stop))
-
-    def _ended(self, branch: EquilibriumBranch) -> EquilibriumBranch:
-        """The branch with its end, if that is the law's."""
-        branch.end_at_limit(self.limit)
-        last = branch.points[-1]
-        why = branch.ended or self.gives_way(last)
-        if why:
-            branch.ended = f"free inflation was followed up to t0 = {last.monitors['t0']:.6g}, "
-            branch.ended += f"p = {last.state.loads['p']:.6g}: {why}"
-        return branch
+        return ended_by_law(kind(continuation, "p", start, stop), self)
 
     def gives_way(self, point: CurvePoint) -> str:
         """The law may take no more stretch at the pole; its constants may be loads."""
         law, stretch, loads = self.material_law, point.monitors["lam_pole"], point.state.loads
         constants = tuple((name, loads.get(name, value)) for name, value in law.constants)
         return limit_of(replace(law, constants=constants), [(stretch, stretch)])
-
-
-@dataclass(frozen=True)
-class Subject:
-    """What a diagram is drawn of."""
-
-    model: type[VariedModel]
-    parameters: tuple[str, ...]
-    """Names of the parameters of the body, each of which may be an axis of the plane."""
-    end: str
-    """Parameter that ends the primary branch, a value of the model's ``depth``."""
-    obstacle: str
-    """Parameter with the position of a substrate."""
-    touch: Callable[[float], float]
-    """Value of ``depth`` at first contact."""
-
-
-SUBJECTS = {
-    "tube": Subject(VariedTube, ("delta1", "lf"), "u_end", "s", lambda s: s - 1),
-    "circular": Subject(VariedDisk, ("beta",), "t_end", "l", lambda height: height),
-}

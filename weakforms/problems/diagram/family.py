@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from weakforms.problems.diagram.followed import PLACE
 from weakforms.problems.diagram.lines import LinesOnMesh, Seed
 from weakforms.problems.tube.stability import is_wrinkled
 from weakforms.results import Quantity, SpecialPoint
@@ -15,10 +16,7 @@ from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.uncertainty.family import BranchFamily
 
-PLACE = "S_least"
-"""Where the least resultant is; a number of states on a line of wrinkling."""
-
-COUNTS = {"mirror": "n_mirror"}
+COUNTS = {"mirror": "n_mirror", "localisation": "n_localisation"}
 """Column with the number of negative eigenvalues of a kind, if it is not that of waves."""
 
 
@@ -66,12 +64,11 @@ class LineFamily(BranchFamily):
                 if counts:
                     found[COUNTS.get(kind, f"n_negative_{kind}")] = sum(counts)
             if self.kind == "wrinkling":
-                model.least.turn()
-                found |= {"at_end": int(model.least.at_end), PLACE: model.least.place}
+                found |= model.at_onset()
             else:
                 found["wrinkled"] = int(is_wrinkled(model.system.monitors()["t_min"]))
             for parity, form in model.operators(self.kind).items():
-                if form() is line.condition.variation():
+                if parity and form() is line.condition.variation():
                     found["parity"] = parity
         return found
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.diagram.bodies import VariedModel
+from weakforms.problems.diagram.followed import Followed
 from weakforms.problems.disk.phases import USUAL_LOAD
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
@@ -18,6 +18,7 @@ from weakforms.solvers.continuation.line import (
     CriticalLine,
     LineContinuation,
     Meeting,
+    Turning,
     singular_too,
     tips,
     zeros_of,
@@ -25,7 +26,7 @@ from weakforms.solvers.continuation.line import (
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.stability.modes import OwnVariation, SecondVariation, Singular
+from weakforms.solvers.stability.modes import OwnVariation, SecondVariation, Singular, nearest_to_zero
 from weakforms.solvers.stability.spectra import Stability
 
 LOAD = "p"
@@ -45,7 +46,7 @@ STEPS = 60
 LOOP = 4.0
 """Number of steps after which a line that comes within a step of its first point is closed."""
 
-ORDER = ("fold", "mirror", "n1", "n2", "n3").index
+ORDER = ("fold", "mirror", "localisation", "n1", "n2", "n3").index
 """Order of two kinds in the name of a point that is of both."""
 
 Operator = Callable[[], SecondVariation]
@@ -98,7 +99,7 @@ class LinesOnMesh:
 
     def __init__(
         self,
-        model: VariedModel,
+        model: Followed,
         window: Window,
         touch: float,
         step: float,
@@ -185,8 +186,9 @@ class LinesOnMesh:
         found = []
         for i in np.flatnonzero(margins[:-1] * margins[1:] < 0).tolist():
             guess = branch.between(i, margins[i] / (margins[i] - margins[i + 1]))
-            with self.system.at(guess):
-                self.model.least.turn()
+            if isinstance(self.model.least, Turning):
+                with self.system.at(guess):
+                    self.model.least.turn()
             found.append(self._solved(branch, i, guess, self.model.least))
         return found
 
@@ -281,7 +283,7 @@ class LinesOnMesh:
             return self.model.least
         if kind == "fold":
             own = OwnVariation(solver)
-            mode = Stability(self.system).modes(at, 1)[0]
+            mode = nearest_to_zero(Stability(self.system), at)
             return Singular(lambda: own, self.system.mass_times(mode.vector))
         with self.system.at(at):
             found = [(form, form().nearest()) for form in self.model.operators(kind).values()]

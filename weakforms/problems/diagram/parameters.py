@@ -8,13 +8,16 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.problems.diagram.about import LINES, PLAIN, WAVES
-from weakforms.problems.diagram.bodies import SUBJECTS, Subject
+from weakforms.problems.diagram.about import BREAKING, LINES, PLAIN, WAVES
 from weakforms.problems.diagram.lines import LOAD, Window
+from weakforms.problems.diagram.subjects import SUBJECTS, Subject
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs
 
-USUAL = {"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)}
+USUAL = {
+    **{"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)},
+    **{"force": (0.0, 3.0), "lam1": (1.05, 3.0)},
+}
 """Ranges of the parameters of a plane, if none are given."""
 
 LONGEST_MIRRORED = 12.0
@@ -22,6 +25,7 @@ LONGEST_MIRRORED = 12.0
 middle falls exponentially with the length: at 18 its eigenvalue is 1e-10 where others are 1, on any mesh."""
 
 ONLY = {"tube": ({"body": ("tube",)},), "circular": ({"body": ("circular",)},)}
+LONG = {"body": ("infinite_tube",)}
 
 
 class DiagramNumerics(MeshNumerics):
@@ -37,10 +41,12 @@ class DiagramParameters(MaterialChoice):
     needs: ClassVar[Needs] = {
         **dict.fromkeys(("delta1", "lf", "s", "u_end"), ONLY["tube"]),
         **dict.fromkeys(("beta", "l", "t_end"), ONLY["circular"]),
+        **{"ends": (LONG,), "force": (LONG | {"ends": ("free",)},), "lam1": (LONG | {"ends": ("held",)},)},
+        "lam_end": ({"body": ("sphere", "infinite_tube")},),
     }
 
-    body: Literal["tube", "circular"] = Field("tube", description="membrane")
-    x: str = Field("", description="first axis; default: delta1 of the tube, beta of the disk")
+    body: Literal["tube", "circular", "sphere", "infinite_tube"] = Field("tube", description="membrane")
+    x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
     y: str = Field("p", description="second axis; one of both is p")
     kind: str = Field(
         "all", description=f"kinds of lines, with commas: {', '.join(LINES)}; all: those without waves"
@@ -57,16 +63,22 @@ class DiagramParameters(MaterialChoice):
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch of the disk")
     l: float = Field(0.5, gt=0.06, le=5, description="height L/R_f of a substrate")  # noqa: E741
     t_end: float = Field(3.0, gt=0.06, le=10, description="largest pole height of the disk")
+    ends: Literal["free", "held"] = Field("free", description="ends of the infinite tube")
+    force: float = Field(0.0, ge=-5, le=100, description="axial force of free ends over 2 pi R_o h_o C1")
+    lam1: float = Field(1.2, ge=1, le=10, description="axial stretch at which ends are held")
+    lam_end: float = Field(
+        4.0, gt=1.001, le=50, description="largest stretch of the sphere, or around the infinite tube"
+    )
 
     @property
     def subject(self) -> Subject:
         """What the diagram is drawn of."""
-        return SUBJECTS[self.body]
+        return SUBJECTS.get(f"{self.body}, {self.ends}", SUBJECTS[self.body])
 
     @property
     def axes(self) -> tuple[str, str]:
         """The axes."""
-        return self.x or self.subject.parameters[0], self.y
+        return self.x or next(iter(self.known), ""), self.y
 
     @property
     def vary(self) -> str:
@@ -82,8 +94,7 @@ class DiagramParameters(MaterialChoice):
     @property
     def kinds(self) -> tuple[str, ...]:
         """The kinds of lines that are followed."""
-        broken = ("mirror", *WAVES)
-        allowed = [name for name in LINES if name not in broken or self.subject.model.breaks(name)]
+        allowed = [name for name in LINES if name in self.subject.lines]
         named = PLAIN if self.kind == "all" else [word.strip() for word in self.kind.split(",")]
         if self.kind == "all" and self.unheld:
             named = [name for name in named if name != "mirror"]
@@ -108,7 +119,8 @@ class DiagramParameters(MaterialChoice):
     @property
     def broken(self) -> tuple[str, ...]:
         """The kinds of broken symmetry that are looked for on lines of other kinds."""
-        return self.waves if self.unheld else ("mirror", *self.waves)
+        plain = [name for name in BREAKING if name in self.subject.lines]
+        return (*(name for name in plain if name != "mirror" or not self.unheld), *self.waves)
 
     def range_of(self, name: str) -> tuple[float, float]:
         """Range of a parameter that may be an axis."""
@@ -130,4 +142,5 @@ class DiagramParameters(MaterialChoice):
     @property
     def touch(self) -> float:
         """Value of the membrane's column ``depth`` at first contact."""
-        return self.subject.touch(getattr(self, self.subject.obstacle))
+        subject = self.subject
+        return subject.touch(getattr(self, subject.obstacle)) if subject.obstacle else inf

@@ -7,13 +7,12 @@ import numpy as np
 from weakforms.errors import AbsentError, ConvergenceError, InputError, not_among
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
-from weakforms.problems.diagram.about import DIAGRAM, LINES
+from weakforms.problems.diagram.about import BREAKING, DIAGRAM, LINES
 from weakforms.problems.diagram.family import LineFamily
 from weakforms.problems.diagram.lines import LOAD, LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.material_choice import require_model
-from weakforms.problems.meridian.pre_stretch import require_stretched, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.tube.parameters import resolving
 from weakforms.results import Absence, Failure, Result
@@ -23,9 +22,6 @@ SCANNED = 9
 
 MOVING = 2.0
 """Order of values at a place that moves through the cells."""
-
-GRADING = 0.6
-"""Concentration of cells at the disks of a tube."""
 
 
 class Diagram(BranchProblem):
@@ -43,24 +39,26 @@ class Diagram(BranchProblem):
         self._check_axes(parameters)
         self._check_kinds(parameters)
         self._check_range(parameters)
-        material = parameters.material
-        if parameters.waves:
+        if parameters.waves and parameters.body == "tube":
             require_model("diagram: waves around the axis", parameters, tuple(LAWS))
-        own, tube = parameters.subject.parameters[0], parameters.body == "tube"
-        stretches = {own: getattr(parameters, own)}
-        if parameters.vary == own:
-            stretches |= {"low": parameters.window.low, "high": parameters.window.high}
-        for name, stretch in stretches.items():
-            if tube:
-                require_stretched(self.name, material, stretch, name)
-            else:
-                require_taut(self.name, material, stretch, name)
+        subject = parameters.subject
+        for own in subject.parameters[:1]:
+            values = {own: getattr(parameters, own)}
+            if parameters.vary == own:
+                values |= {"low": parameters.window.low, "high": parameters.window.high}
+            for name, value in values.items():
+                subject.require(self.name, parameters.material, value, name)
 
     def _check_axes(self, given: DiagramParameters) -> None:
         x, y = given.axes
         if x == y:
             raise InputError(f"diagram: x = y = {x!r}: a plane has two different parameters; change x or y")
         allowed = [LOAD, *given.known]
+        if not given.known:
+            raise InputError(
+                f"diagram: {given.body} with model = {given.model!r} has no parameter besides p; choose a "
+                "model with constants"
+            )
         for axis, name in (("x", x), ("y", y)):
             if name not in allowed:
                 what = f"{given.body} with model = {given.model!r}"
@@ -80,10 +78,8 @@ class Diagram(BranchProblem):
             if name not in LINES:
                 raise InputError(f"diagram: kind = {name!r}{not_among(name, [*LINES, 'all'])}")
             if name not in (*given.kinds, "all"):
-                what = "no mirror" if name == "mirror" else "no lines of waves around its axis"
-                raise InputError(
-                    f"diagram: kind = {name!r}: body = {given.body!r} has {what}; allowed with body = 'tube'"
-                )
+                why = given.subject.without[name]
+                raise InputError(f"diagram: kind = {name!r}: body = {given.body!r} {why}")
 
     def _check_range(self, given: DiagramParameters) -> None:
         window, (least, most) = given.window, given.range_of(given.vary)
@@ -115,7 +111,7 @@ class Diagram(BranchProblem):
         sides += (("p_low", LOAD, window.p_low), ("p_high", LOAD, window.p_high))
         found = [End(*side) for side in sides if np.isfinite(side[2])]
         if not branch.startswith("end"):  # which has this displacement all along
-            found.append(End(given.subject.end, given.subject.model.depth, window.end))
+            found.append(End(given.subject.end, given.subject.depth, window.end))
         return [*found, End("closed", given.vary, None, "the line returns to its first point")]
 
     def families(self, task: Task) -> dict[str, Family]:
@@ -147,7 +143,7 @@ class Diagram(BranchProblem):
         places = [first, *np.linspace(window.low, window.high, SCANNED).tolist()]
         names: dict[str, Seed] = {}
         missing = []
-        counted = {"fold", "mirror", *given.waves} & {*given.kinds}
+        counted = {"fold", *BREAKING, *given.waves} & {*given.kinds}
         for kind in (*given.kinds, *(("end",) if counted else ())):
             seeds = coarse.seeds(kind, places)
             names |= {kind + (f"_{k + 1}" if k else ""): seed for k, seed in enumerate(seeds)}
@@ -172,14 +168,20 @@ class Diagram(BranchProblem):
         result.numerics["begins"] = begins
 
     def resolving(self, parameters: DiagramParameters, numerics: DiagramNumerics) -> DiagramNumerics:
-        """More cells for long tubes."""
+        """More cells for long tubes; two solutions of what has no mesh, which differ by round-off."""
+        if parameters.subject.uniform and "levels" not in numerics.model_fields_set:
+            return numerics.model_copy(update={"levels": 2})
         window = parameters.window
         longest = window.high if parameters.vary == "lf" else parameters.lf
         return resolving(longest, numerics) if parameters.body == "tube" else numerics
 
-    def points(self, _parameters: DiagramParameters) -> np.ndarray:
-        """61 fractions of the meridian, without a pole, where stretches are limits."""
-        return np.linspace(0.0, 1.0, 61)
+    def finer(self, parameters: DiagramParameters, numerics: DiagramNumerics) -> DiagramNumerics | None:
+        """Meshes with twice as many cells; none for what has no mesh."""
+        return None if parameters.subject.uniform else super().finer(parameters, numerics)
+
+    def points(self, parameters: DiagramParameters) -> np.ndarray:
+        """61 fractions of the meridian; one where all places are alike."""
+        return np.array([0.5]) if parameters.subject.uniform else np.linspace(0.0, 1.0, 61)
 
 
 def _lines_on(cells: int, task: Task) -> LinesOnMesh:
@@ -188,8 +190,7 @@ def _lines_on(cells: int, task: Task) -> LinesOnMesh:
     values = {name: getattr(given, name) for name in given.subject.parameters}
     constants = dict(given.material.constants)
     values |= {name: constants[name] for name in (given.vary,) if name in constants}
-    grading = GRADING if given.body == "tube" else 0.0
-    model = given.subject.model(task.comm, given.material, values, cells, numerics.degree, grading)
+    model = given.subject.make(task.comm, given.material, values, cells, numerics.degree)
     return LinesOnMesh(model, given.window, given.touch, numerics.step, given.broken)
 
 
@@ -206,7 +207,7 @@ def _none(given: DiagramParameters, kind: str) -> str:
     window, subject = given.window, given.subject
     return (
         f"diagram: no point of kind {kind} on the primary branches at {SCANNED} values of {given.vary} from "
-        f"{window.low:g} to {window.high:g}, up to {subject.model.depth} = {window.end:g} or to where the "
+        f"{window.low:g} to {window.high:g}, up to {subject.depth} = {window.end:g} or to where the "
         "law is at its limit; change low or "
         f"high, or raise {subject.end}"
     )

@@ -55,26 +55,35 @@ class ClosedProblem(BranchProblem):
 def branch_of(body: Body, chosen: Chosen, along: str, end: float, step: float) -> EquilibriumBranch:
     """Equilibria from the state of rest, by arc length, until a column passes its end."""
     system = system_of(body, chosen)
-    begin = _start_under_force(system, body, step) if body.force else None
+    begin = None
+    if body.force:
+        begin = under_force(system, system.initial, body.unknowns[0], body.force, step)
     return from_rest(system, body.load, along, end, step, begin, USUAL)
 
 
-def _start_under_force(system: System, body: Body, step: float) -> State:
-    """The state under the body's force alone, reached from rest in steps, so that it is not inside out.
+def under_force(system: System, rest: State, along: str, force: float, step: float) -> State:
+    """The state under an axial force alone, reached from rest in steps, so that it is not inside out.
+
+    Args:
+        system: The equilibrium equations, with a load ``force``.
+        rest: The state of rest.
+        along: The stretch that grows with the force.
+        force: The force.
+        step: Largest step.
 
     Raises:
         ConvergenceError: If the force is not reached.
     """
     control = StepControl(first=step / 4, largest=step, usual_load=USUAL)
     continuation = Continuation(ExtendedNewton(system, ["force"]), control=control)
-    sign = 1.0 if body.force > 0 else -1.0
-    start = continuation.start(system.initial, Held("force", 0.0), towards={body.unknowns[0]: sign})
+    sign = 1.0 if force > 0 else -1.0
+    start = continuation.start(rest, Held("force", 0.0), towards={along: sign})
     pulled = EquilibriumBranch(
-        continuation, "force", start, lambda point: sign * (point.state.loads["force"] - body.force) > 0
+        continuation, "force", start, lambda point: sign * (point.state.loads["force"] - force) > 0
     )
     if pulled.stalled:
-        raise ConvergenceError(f"force = {body.force:g} is not reached from rest: {pulled.stalled}")
-    return pulled.at("force", body.force).state
+        raise ConvergenceError(f"force = {force:g} is not reached from rest: {pulled.stalled}")
+    return pulled.at("force", force).state
 
 
 def fold_line_of(

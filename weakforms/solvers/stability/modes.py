@@ -106,7 +106,7 @@ class SecondVariation(System):
 
     def nearest(self) -> Mode:
         """The eigenvalue nearest to zero at the state of the base system, with its mode."""
-        return self.stability.modes(self._at_rest(), 1)[0]
+        return nearest_to_zero(self.stability, self._at_rest())
 
     def highest_negative(self) -> Mode:
         """The negative eigenvalue nearest to zero at the state of the base system, with its mode.
@@ -154,6 +154,14 @@ def judged(stability: Stability, state: State, count: int) -> Spectrum:
         return stability.spectrum(state, count)
     except ConvergenceError:
         return stability.spectrum(state, count, shift=CRITICAL)
+
+
+def nearest_to_zero(stability: Stability, state: State) -> Mode:
+    """The eigenvalue nearest to zero, with its mode; a small matrix may be singular to the last bit."""
+    try:
+        return stability.modes(state, 1)[0]
+    except ConvergenceError:
+        return stability.mode_at(state, 0.0)
 
 
 def counted(system: System, factor: Factorization, shift: float) -> int:

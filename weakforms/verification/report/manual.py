@@ -59,7 +59,7 @@ def manual(case: CaseOutcome) -> list[dict[str, Any]]:
         out.append(
             {
                 "about": about,
-                "sketch": sketch(name),
+                "sketch": sketch(_drawn_as(name, data)),
                 "symbols": symbols,
                 "data": _data(data),
             }
@@ -70,6 +70,13 @@ def manual(case: CaseOutcome) -> list[dict[str, Any]]:
 def sketch(problem: str) -> str:
     """The name of the sketch of a problem; empty if it has none."""
     return SKETCHES.get(problem, SKETCHES.get(problem.partition("_")[0], ""))
+
+
+def _drawn_as(problem: str, data: list[dict[str, Any]]) -> str:
+    """What is sketched of a problem: the only body that has lines in a diagram, if that is a problem too."""
+    bodies = {str(of.get("body", "")) for of in data}
+    body = bodies.pop() if len(bodies) == 1 else ""
+    return body if body in SKETCHES or body.partition("_")[0] in SKETCHES else problem
 
 
 def references(case: CaseOutcome) -> dict[str, list[str]]:

@@ -24,6 +24,7 @@ NAMED = re.compile(
 LINES = {
     "fold": "limit point",
     "mirror": "mirror breaking",
+    "localisation": "long waves",
     "wrinkling": "first wrinkling",
     "contact": "first contact",
 }

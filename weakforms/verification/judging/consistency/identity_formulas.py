@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from weakforms.results import Field, Result, State
 from weakforms.verification.judging.bounds import compare
 from weakforms.verification.judging.consistency import quadrature
-from weakforms.verification.judging.consistency.identities import Columns, Found, Identity
+from weakforms.verification.judging.consistency.identities import Columns, Found, Identity, equal
 
 PAPER_GAMMA = 1000.0 * 9.81 * 0.010**2 / (0.2111e6 * 0.1e-3)
 """Weight of the liquid of Papers 4 and 5 by their data: water, ``Ao`` = 1 cm, ``C1`` = 0.2111 MPa, 0.1 mm."""
@@ -241,3 +241,25 @@ def swelling(result: Result, state: State, _: Field) -> quadrature.Estimated:
     """Volume of a torus over that without stress."""
     without, volume = 2 * np.pi**2 * result.parameters["b"] ** 2, state.quantities["V"]
     return volume.value / without, (volume.uncertainty or 0.0) / without
+
+
+def of_uniform(name: str, column: str, statement: str, other: Callable[[Columns], np.ndarray]) -> Identity:
+    """A column of balloons and long tubes by the others and by the parameters."""
+
+    def look(result: Result) -> Iterator[Found]:
+        given = result.parameters
+        yield from equal(column, statement, lambda columns: other({**given, **columns})).look(result)
+
+    return Identity(name, statement, look)
+
+
+def uniform_volume(c: Columns) -> np.ndarray:
+    """``2 lam^3/3`` of a balloon, ``lam1 lam2^2/2`` of a tube of unit length at rest, over ``2 pi``."""
+    return 2 * c["lam"] ** 3 / 3 if "lam" in c else c["lam1"] * c["lam2"] ** 2 / 2
+
+
+def uniform_tension(c: Columns) -> np.ndarray:
+    """The least resultant that balances pressure, and the force of free ends."""
+    if "lam" in c:
+        return c["p"] * c["lam"] / 2
+    return np.minimum(c["p"] * c["lam2"], (c["force"] + c["p"] * c["lam2"] ** 2 / 2) / c["lam2"])

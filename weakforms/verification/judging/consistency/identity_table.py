@@ -66,6 +66,18 @@ def _of_tube(given: Given) -> bool:
     return given.get("body", "tube") == "tube"
 
 
+def _uniform(given: Given) -> bool:
+    return given.get("body", "tube") in ("sphere", "infinite_tube")
+
+
+def _not_uniform(given: Given) -> bool:
+    return not _uniform(given)
+
+
+def _balanced(given: Given) -> bool:
+    return _uniform(given) and given.get("ends", "free") == "free"
+
+
 def _gas(given: Given) -> bool:
     return given.get("load") == "gas"
 
@@ -149,7 +161,20 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         _over(field("t1", "t1 is that of the law at the stretches", formulas.cauchy_resultant(1)), _of_paper),
         _over(field("t2", "t2 is that of the law at the stretches", formulas.cauchy_resultant(2)), _of_paper),
     ),
-    "diagram": OF_BODY,
+    "diagram": (
+        *(
+            _over(identity, identity.over if identity.name in ("u_max", "V") else _not_uniform)
+            for identity in OF_BODY
+        ),
+        _over(
+            formulas.of_uniform("volume", "V", "volume of the balloon or tube", formulas.uniform_volume),
+            _uniform,
+        ),
+        _over(
+            formulas.of_uniform("balance", "t_min", "tension balances pressure", formulas.uniform_tension),
+            _balanced,
+        ),
+    ),
     "controls": (work("p", lambda _, c: -c["V"]), stable(), *OF_BODY),
     "hemisphere": (
         stable(),
