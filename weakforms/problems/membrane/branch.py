@@ -102,7 +102,7 @@ def _begun(model: MembraneModel, continuation: Continuation, start: Start) -> Cu
         ConvergenceError: If there is none.
     """
     system, body = model.system, model.body
-    if body.reference.is_loose:
+    if body.reference.slides:
         guess = State(model.raised(HEIGHT * body.reference.size), system.initial.loads | {"p": start.p})
         try:
             first = least_energy(system, guess)

@@ -39,9 +39,7 @@ class MembraneNumerics(MeshNumerics):
     )
     step: float = Field(0.2, ge=0.01, le=0.5, description="largest arc-length step")
     start: float = Field(0.02, ge=1e-4, le=0.3, description="w_c of the first point")
-    p_start: float = Field(
-        5e-3, ge=1e-4, le=1, description="p of the first point if edges slide and none is held"
-    )
+    p_start: float = Field(5e-3, ge=1e-4, le=1, description="p of the first point if edges slide")
 
 
 class MembraneParameters(MaterialChoice):

@@ -122,7 +122,7 @@ class Reference:
 
     @property
     def is_loose(self) -> bool:
-        """Whether edges slide and none is held: it bears a load only where it has moved."""
+        """Whether edges slide and none is held: a pre-stretch of the supports has no effect."""
         return bool(self.slides) and not len(self.held)
 
     @property
