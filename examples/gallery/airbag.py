@@ -1,8 +1,8 @@
 """A square airbag: two sheets joined at their edges inflate, and wrinkle along most of the seam.
 
-A quarter of one sheet is solved, with planes of symmetry and a seam that slides in its plane. The relaxed energy
-bears no compression: where the sheet would be compressed across one direction it wrinkles along the other, and
-around the middle it stays taut. Lines show the direction of the wrinkles on wrinkled triangles.
+A quarter of one sheet is solved, with planes of symmetry and a seam that slides in its plane. The relaxed
+energy bears no compression: where the sheet would be compressed across one direction it wrinkles along the
+other, and around the middle it stays taut. Lines show the direction of the wrinkles on wrinkled triangles.
 Run: ``./run shell -c "python3 examples/gallery/airbag.py airbag.svg"``.
 """
 
@@ -52,7 +52,7 @@ axes = figure.add_subplot(1, 2, 1, projection="3d", computed_zorder=False)
 below = sheet * (1, 1, -1)
 axes.add_collection3d(Poly3DCollection(below, facecolors="#9a9a9a", antialiased=False, zorder=1))
 axes.add_collection3d(Poly3DCollection(sheet, facecolors=colours, antialiased=False, zorder=2))
-axes.add_collection3d(Line3DCollection(folds + (0, 0, 0.004), colors="k", linewidths=0.6, zorder=3))
+axes.add_collection3d(Line3DCollection(folds + np.array([0, 0, 0.004]), colors="k", linewidths=0.6, zorder=3))
 axes.set(xlim=(-0.95, 0.95), ylim=(-0.95, 0.95), zlim=(-0.5, 0.5))
 axes.set_box_aspect((1.9, 1.9, 1.0), zoom=1.12)
 axes.view_init(elev=38, azim=-62)

@@ -126,8 +126,9 @@ def principal_stretches(c: Expr) -> tuple[Expr, Expr]:
 def surface_tension_field(c: Expr, law: SurfaceLaw) -> Expr:
     r"""Relaxed energy of a membrane without symmetry, from the right Cauchy-Green tensor.
 
-    The membrane is taut if :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`), or with another natural width
-    ``n`` if :math:`l_2 > n(l_1)`; else wrinkled with :math:`w_r(l_1)` where :math:`l_1 > 1`; else slack.
+    The membrane is taut if :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`), or with another natural
+    width ``n`` if :math:`l_2 > n(l_1)`; else wrinkled with :math:`w_r(l_1)` where :math:`l_1 > 1`; else
+    slack.
 
     Args:
         c: Right Cauchy-Green tensor in an orthonormal frame of the reference surface, 2 x 2.

@@ -30,8 +30,8 @@ SERIES = Series(
         "u_far": ("1/a", "displacement of the corner towards the centre"),
         "f_w": ("1", "wrinkled part of the reference area"),
     },
-    method="Two families of elements that share the relaxed energy and its derivatives: least potential energy "
-    "on squares (a) with biquadratic and (b) with bicubic polynomials. " + rule("bicubic"),
+    method="Two families of elements that share the relaxed energy and its derivatives: least potential "
+    "energy on squares (a) with biquadratic and (b) with bicubic polynomials. " + rule("bicubic"),
     grid=f"squares along half a side: (a) {QUADRATIC[1][0]} and {QUADRATIC[1][1]}, "
     f"(b) {CUBIC[1][0]} and {CUBIC[1][1]}",
     tolerance="Newton steps until nodal forces are 1e-11 of the pressure; the tangent is positive definite",
@@ -39,13 +39,14 @@ SERIES = Series(
 
 
 PLEATS = 1e-3
-"""About half of the range of heights of minima that differ in the pleats of the seam, at the printed pressure."""
+"""About half of the range of heights of minima that differ in the pleats of the seam."""
 
 
 SCATTER = (
-    "Finer meshes develop more pleats along the seam, to which the relaxed energy has no resistance. The height "
-    "of the centre then moves without order: minima on five kinds of elements had heights from 0.5099 to 0.5120, "
-    "and about half of this range is in its uncertainty. The seam's midpoint does not converge and is not given."
+    "Finer meshes develop more pleats along the seam, to which the relaxed energy has no resistance. The "
+    "height of the centre then moves without order: minima on five kinds of elements had heights from "
+    "0.5099 to 0.5120, and about half of this range is in its uncertainty. The seam's midpoint does not "
+    "converge and is not given."
 )
 
 

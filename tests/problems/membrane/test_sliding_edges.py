@@ -33,7 +33,7 @@ def written(path, of, lift=0.0, groups=("left", "bottom", "seam")):
     edges = [of.mirrors["X"], of.mirrors["Y"], of.slides["Z"]]
     cells = [("triangle", of.cells), *(("line", e) for e in edges)]
     tags = [np.ones(len(of.cells), int), *(np.full(len(e), k + 2) for k, e in enumerate(edges))]
-    mesh = meshio.Mesh(of.points + [0, 0, lift], cells)
+    mesh = meshio.Mesh(of.points + np.array([0, 0, lift]), cells)
     mesh.cell_data = {"gmsh:physical": tags, "gmsh:geometrical": tags}
     mesh.field_data = {name: np.array([k + 2, 1]) for k, name in enumerate(groups)}
     mesh.write(path, file_format="gmsh22")
@@ -91,7 +91,7 @@ def test_the_first_state_is_a_minimum_from_any_guess():
 
 def test_a_minimum_that_is_not_reached_is_an_error(monkeypatch):
     monkeypatch.setattr("weakforms.problems.membrane.descent.MOST", 3)
-    with pytest.raises(ConvergenceError, match="no first state.*has not reached its minimum after 3 steps"):
+    with pytest.raises(ConvergenceError, match=r"no first state.*has not reached its minimum after 3 steps"):
         solve("membrane", mesh="airbag", **GIVEN, at={"p": PRESSURE}, numerics=COARSE)
 
 
@@ -102,7 +102,11 @@ def test_a_file_has_the_numbers_of_the_built_in_quarter(tmp_path):
     groups = {"mirror": "left,bottom", "slide": "seam"}
     file = solve("membrane", mesh=path, **groups, **GIVEN, at={"p": PRESSURE}, numerics=numerics)
     own = solve(
-        "membrane", mesh="airbag", **GIVEN, at={"p": PRESSURE}, numerics={"cells": 4, "degree": 1, "levels": 2}
+        "membrane",
+        mesh="airbag",
+        **GIVEN,
+        at={"p": PRESSURE},
+        numerics={"cells": 4, "degree": 1, "levels": 2},
     )
     (one,), (other,) = file.states, own.states
     assert file.failures == own.failures == []
@@ -157,7 +161,7 @@ def test_supports_that_are_refused(tmp_path):
             solve("membrane", mesh=mesh, **given)
     with pytest.raises(InputError, match="energy = 'full' loses its ellipticity"):
         solve("membrane", mesh="airbag", **GIVEN, energy="full")
-    with pytest.raises(InputError, match="delta = 1.1: no edge is held"):
+    with pytest.raises(InputError, match=r"delta = 1\.1: no edge is held"):
         solve("membrane", mesh="airbag")
 
 
@@ -173,12 +177,14 @@ def test_edges_that_slide_in_no_plane_or_in_two(tmp_path):
     step[:, 2] = 0.2 * step[:, 0]
     edges = of.slides["Z"]
     right = (of.points[edges, 0] == 1).all(axis=1)
-    left = type(of)(step, of.cells, of.held, {"X": edges[right], "Y": of.mirrors["Y"]}, slides={"Z": of.mirrors["X"]})
+    left = type(of)(
+        step, of.cells, of.held, {"X": edges[right], "Y": of.mirrors["Y"]}, slides={"Z": of.mirrors["X"]}
+    )
     path = written(tmp_path / "step.msh", left, groups=("right", "bottom", "left"))
     with pytest.raises(InputError, match="lies in another plane Z = constant"):
         from_file(path, 1.0, [], ["bottom"], ["right", "left"])
 
 
 def test_a_pressure_below_the_first_one_is_not_on_the_branch():
-    with pytest.raises(InputError, match="p = 0.001"):
+    with pytest.raises(InputError, match=r"p = 0\.001"):
         solve("membrane", mesh="airbag", **GIVEN, at={"p": 1e-3}, numerics={**COARSE, "degree": 1})

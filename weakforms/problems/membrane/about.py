@@ -26,8 +26,8 @@ MEMBRANE = About(
         Column("U", "strain energy over {energy}", "U"),
         Column(
             "u_far",
-            "displacement of the farthest sliding corner towards (X_c, Y_c, Z_c) over {length}; without sliding "
-            "edges absent",
+            "displacement of the farthest sliding corner towards (X_c, Y_c, Z_c) over {length}; absent if no "
+            "edges slide",
         ),
         *derived(
             *numbers(

@@ -21,7 +21,6 @@ from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.stability.surface_family import SurfaceBranch
 
-
 HEIGHT = 0.3
 """Height, over the size of the surface, of the guess of the first state of a membrane whose edges slide."""
 
@@ -114,6 +113,7 @@ def _begun(model: MembraneModel, continuation: Continuation, start: Start) -> Cu
         first = first_state(solver, start.w_c, {"delta": body.delta}, np.zeros(system.size))
     except ConvergenceError as error:
         raise ConvergenceError(
-            f"no first state at w_c = {start.w_c:g}: {error}; choose another numerics start, or a larger delta"
+            f"no first state at w_c = {start.w_c:g}: {error}; choose another numerics start, "
+            "or a larger delta"
         ) from error
     return continuation.start(first, Held("w_c", start.w_c), towards={"w_c": 1.0})

@@ -172,8 +172,8 @@ def _require_supported(given: Reference, open_edges: np.ndarray, groups: list[st
         refuse("every corner of a triangle is held; allowed: a surface with corners that are free to move")
     if not len(given.held) and rigid_motions(given):
         refuse(
-            "no edge is held: it may move as a rigid body; allowed without a held edge: mirrors X, Y and Z, or "
-            "edges that slide in one of these planes instead"
+            "no edge is held: it may move as a rigid body; allowed without a held edge: mirrors X, Y and Z, "
+            "or edges that slide in one of these planes instead"
         )
     if given.is_flat:
         if any(abs(given.direction[AXES.index(axis)]) > 0.5 for axis in given.mirrors):

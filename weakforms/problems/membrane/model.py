@@ -5,7 +5,8 @@ r"""Weak form of a membrane of any shape under gas, on straight or curved triang
 with the stress-free surface as reference. ``V`` is the volume between the membrane and its reference
 surface, stretched by ``delta`` about a point; ``V_0`` is the integral over that surface. Held edges are on
 it. Edges on a plane of symmetry, and edges that slide in a plane, stay in the plane; ``z_e`` is the height of
-a horizontal one, at which the edges of the membrane then carry no load. The unknown is the displacement from the stretched surface.
+a horizontal one, at which the edges of the membrane then carry no load. The unknown is the displacement from
+the stretched surface.
 """
 
 from __future__ import annotations
@@ -154,7 +155,7 @@ class MembraneModel:
     # -- supports --------------------------------------------------------------------------------
 
     def _conditions(self) -> list[fem.DirichletBC]:
-        """No displacement of held edges, and none across planes of symmetry and planes in which edges slide."""
+        """No displacement of held edges, nor across planes of symmetry and planes in which edges slide."""
         given = self.body.reference
         out = [self._zero(i, given.held) for i in range(3)]
         out += [self._zero(AXES.index(axis), edges) for axis, edges in given.mirrors.items()]

@@ -92,9 +92,7 @@ class Surface:
             out[AXES[i]] = np.vstack([before, edges]) if before is not edges else edges
         return out
 
-    def _plane(
-        self, kind: str, name: str, edges: np.ndarray, chosen: Callable[[np.ndarray], np.intp]
-    ) -> int:
+    def _plane(self, kind: str, name: str, edges: np.ndarray, chosen: Callable[[np.ndarray], np.intp]) -> int:
         """The coordinate that is constant on open edges; of two, by the normals of the triangles beside."""
         spread = np.ptp(self.points[np.unique(edges)], axis=0)
         constant = np.flatnonzero(spread < PLANE * self._size)
@@ -118,7 +116,7 @@ def rigid_motions(given: Reference) -> int:
             held[axis].append(edges)
     away = (given.points - given.points.mean(axis=0)) / given.size
     rows = []
-    for i, (axis, parts) in enumerate(held.items()):
+    for i, parts in enumerate(held.values()):
         nodes = np.unique(np.vstack([edges.reshape(-1, 2) for edges in parts]))
         unit = np.eye(3)[i]
         turns = np.cross(away[nodes], unit)  # e_i . (w x r) = w . (r x e_i)

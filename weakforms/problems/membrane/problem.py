@@ -90,7 +90,9 @@ class Membrane(BranchProblem):
                 task.progress(f"branch, mesh {level + 1} of {levels}", round(100 * share), 100)
 
             passed(0.0)
-            return traced(model, Start(numerics.start, numerics.p_start), parameters.w_end, numerics.step, passed)
+            return traced(
+                model, Start(numerics.start, numerics.p_start), parameters.w_end, numerics.step, passed
+            )
 
         return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, ("p", "V"), caps=CAPS)}
 

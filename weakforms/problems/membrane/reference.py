@@ -72,7 +72,7 @@ class Reference:
     def middle(self) -> np.ndarray:
         """The point that a pre-stretch keeps: the centroid of the area, on every plane of symmetry.
 
-        It is also on planes in which edges slide, if no plane of symmetry has another value of the coordinate.
+        It is also on planes in which edges slide, if no parallel plane of symmetry is given.
         """
         weight = np.linalg.norm(self.normals, axis=1)
         out = weight @ self.points[self.corners].mean(axis=1) / weight.sum()
@@ -127,7 +127,7 @@ class Reference:
 
     @property
     def far(self) -> int:
-        """The node of the sliding edges that is farthest from :attr:`centre`; of equal ones the first in space."""
+        """The node of the sliding edges farthest from :attr:`centre`; of equal ones the first in space."""
         nodes = np.unique(np.vstack([*self.slides.values()]))
         away = np.linalg.norm(self.points[nodes] - self.points[self.centre], axis=1)
         most = nodes[away > away.max() * (1 - 1e-9)]

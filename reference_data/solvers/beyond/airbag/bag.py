@@ -1,8 +1,8 @@
 r"""Least energy of a quarter of one sheet of a square airbag, on square elements of Lagrange polynomials.
 
 The sheet ``[-1, 1]^2`` is joined at its edges with another one. By symmetry a quarter ``[0, 1]^2`` has
-``x = 0`` on ``X = 0``, ``y = 0`` on ``Y = 0``, and a seam on ``X = 1`` and ``Y = 1`` that is free in its plane,
-``z = 0``. The potential ``U - p V`` with :math:`V = \int z (x_X y_Y - x_Y y_X)` is minimised.
+``x = 0`` on ``X = 0``, ``y = 0`` on ``Y = 0``, and a seam on ``X = 1`` and ``Y = 1`` that is free in its
+plane, ``z = 0``. The potential ``U - p V`` with :math:`V = \int z (x_X y_Y - x_Y y_X)` is minimised.
 """
 
 from __future__ import annotations
@@ -114,9 +114,7 @@ class Bag:
         pair = along, across
         block = [
             [
-                sum(
-                    pair[r].T @ diags(w * moduli[r, i, s, j]) @ pair[s] for r in range(2) for s in range(2)
-                )
+                sum(pair[r].T @ diags(w * moduli[r, i, s, j]) @ pair[s] for r in range(2) for s in range(2))
                 for j in range(3)
             ]
             for i in range(3)
@@ -165,10 +163,6 @@ class Bag:
         return {"w_c": float(x[2, 0]), "u_far": float(2**0.5 - np.hypot(x[0, -1], x[1, -1]))}
 
 
-
-
-
-
 def _is_positive(factor: object) -> bool:
-    """Whether a symmetric matrix is positive definite, by the pivots of a factorisation along its diagonal."""
+    """Whether a symmetric matrix is positive definite, by pivots along its diagonal."""
     return bool((factor.perm_r == factor.perm_c).all() and (factor.U.diagonal() > 0).all())
