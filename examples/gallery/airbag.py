@@ -31,7 +31,7 @@ result = weakforms.solve(
     poisson=POISSON,
     w_end=0.511,
     at={"p": PRESSURE},
-    numerics={"cells": 8, "levels": 2},
+    numerics={"cells": 6, "levels": 2},
 )
 
 # %%
@@ -49,7 +49,7 @@ colours = np.tile(colours, 4)
 
 figure = FigureCanvasAgg(Figure(figsize=(11, 4.6), layout="tight")).figure
 axes = figure.add_subplot(1, 2, 1, projection="3d", computed_zorder=False)
-below = sheet * (1, 1, -1)
+below = (sheet * (1, 1, -1))[sheet[:, :, 2].min(axis=1) < 0.1]  # the rest of it is not seen
 axes.add_collection3d(Poly3DCollection(below, facecolors="#9a9a9a", antialiased=False, zorder=1))
 axes.add_collection3d(Poly3DCollection(sheet, facecolors=colours, antialiased=False, zorder=2))
 axes.add_collection3d(Line3DCollection(folds + np.array([0, 0, 0.004]), colors="k", linewidths=0.6, zorder=3))
