@@ -18,6 +18,7 @@ from weakforms import solve
 from weakforms.errors import InputError
 from weakforms.forms.materials import MATERIALS, surface_law
 from weakforms.forms.materials.surface import LAWS, pair_of_powers
+from weakforms.forms.relaxed_surface import state
 from weakforms.forms.wrinkling import surface_tension_field, tension_field
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
@@ -266,3 +267,33 @@ def test_an_energy_that_is_not_used_is_that_of_rest_if_the_law_is_not_finite_eve
     assert used == pytest.approx(there)
     assert np.isfinite(far).all()
     assert (far == pytest.approx(rest)) == (model == "gent")
+
+
+def test_a_compressible_sheet_wrinkles_below_its_own_width():
+    """Saint Venant-Kirchhoff: taut where e2 > -nu e1, wrinkled with E e1^2/2, slack without tension."""
+    shear, nu = 0.7, 0.4
+    law = surface_law(
+        "saint_venant_kirchhoff",
+        {"shear": fem.Constant(MESH, shear), "poisson": fem.Constant(MESH, nu)},
+    )
+    c = fem.Constant(MESH, np.eye(2))
+    tensor = ufl.variable(ufl.as_tensor([[c[0, 0], c[0, 1]], [c[1, 0], c[1, 1]]]))
+    energy = surface_tension_field(tensor, law)
+    stress = ufl.diff(energy, tensor)
+    parts = ufl.as_vector([energy, *(stress[i, j] for i in (0, 1) for j in (0, 1)), state(tensor, law)])
+    young = 2 * (1 + nu) * shear
+    # Narrower by less and by more than nu e1: with the width of an incompressible sheet all would be taut.
+    strains = {(0.1, 0.05): 1, (0.1, -0.039): 1, (0.1, -0.041): 0, (-0.2, 0.1): 0, (-0.01, -0.1): -1}
+    turn = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
+    found = evaluated(parts, c, [turn @ np.diag([1 + 2 * a, 1 + 2 * b]) @ turn.T for a, b in strains])
+    for values, ((a, b), kind) in zip(found, strains.items(), strict=True):
+        if kind == 1:
+            energy_ = young / (1 - nu**2) * (a**2 + b**2 + 2 * nu * a * b) / 2
+            principal = np.array([a + nu * b, b + nu * a]) * young / (1 - nu**2)
+        else:
+            top = max(a, b, 0.0)
+            energy_, principal = young * top**2 / 2, young * np.array([a, b]).clip(0) * (kind == 0)
+        assert values[5] == kind
+        assert values[0] == pytest.approx(energy_, abs=1e-14)
+        turned = 2 * turn.T @ values[1:5].reshape(2, 2) @ turn
+        assert np.diag(turned) == pytest.approx(principal, abs=1e-12)

@@ -9,5 +9,15 @@ def test_membrane(same_on_ranks):
     coarse = {"cells": 4, "levels": 2}
     disk = {"problem": "membrane", "alpha": 0.0, "w_end": 1.4, "numerics": coarse, "at": [("w_max", 0.5)]}
     slack = {"problem": "membrane", "mesh": "square", "delta": 1.0, "w_end": 0.4, "numerics": coarse}
-    found = same_on_ranks([disk, slack])
-    assert [len(result.special_points) for result in found] == [1, 0]
+    bag = {
+        "problem": "membrane",
+        "mesh": "airbag",
+        "delta": 1,
+        "model": "saint_venant_kirchhoff",
+        "w_end": 0.56,
+    }
+    # At a pressure of this size the pleats of the seam, of which round-off may choose others, are few.
+    bag |= {"shear": 0.357, "poisson": 0.4, "at": [("p", 0.06)]}
+    bag["numerics"] = {**coarse, "degree": 1, "p_start": 0.05}
+    found = same_on_ranks([disk, slack, bag])
+    assert [len(result.special_points) for result in found] == [1, 0, 0]

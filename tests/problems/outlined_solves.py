@@ -78,6 +78,14 @@ SOLVES: dict[str, dict[str, Any]] = {
     "hemisphere, gas": {"load": "gas", "n": (2,), "numerics": BLOCKS},
     "surface": {"meridional": 12, "circumferential": 8, "numerics": {"scan": 10, "shown": 1}},
     "membrane": {"mesh": "square", "w_end": 0.6, "at": {"w_c": 0.4}, "numerics": {"cells": 4}},
+    "membrane, seam": {
+        **{"mesh": "airbag", "delta": 1, "model": "saint_venant_kirchhoff", "shear": 0.357, "poisson": 0.4},
+        **{
+            "w_end": 0.56,
+            "at": {"p": 0.06},
+            "numerics": {"cells": 4, "levels": 2, "degree": 1, "p_start": 0.05},
+        },
+    },
     "rectangle": {"w_end": 0.6, "load": "gas", "at": {"w_c": 0.4}, "numerics": {"cells": 4}},
     "rectangle, liquid": {"gamma": 1.0, "w_end": 0.6, "numerics": {"cells": 4}},
     "annulus": {"s": 1.05, "psi_end": 0.3, "at": {"psi": 0.2}, "numerics": LINE},

@@ -105,11 +105,17 @@ def least_stress(c: Expr, law: SurfaceLaw) -> Expr:
     return min_value(*stresses)
 
 
-def state(c: Expr) -> Expr:
-    """:data:`TAUT`, :data:`WRINKLED` or :data:`SLACK`, by the same conditions as the energy."""
+def state(c: Expr, law: SurfaceLaw | None = None) -> Expr:
+    """:data:`TAUT`, :data:`WRINKLED` or :data:`SLACK`, by the same conditions as the energy.
+
+    Args:
+        c: Right Cauchy-Green tensor, 2 x 2.
+        law: A law with its own width in uniaxial tension; other laws have the same states.
+    """
     l1, l2 = principal_stretches(c)
     lax = conditional(gt(l1, 1), WRINKLED, SLACK)
-    return conditional(gt(det(c) * l2**2, 1), TAUT, lax)
+    width = law.width if law else None
+    return conditional(gt(l2, width(l1)) if width else gt(det(c) * l2**2, 1), TAUT, lax)
 
 
 def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:

@@ -126,8 +126,9 @@ def principal_stretches(c: Expr) -> tuple[Expr, Expr]:
 def surface_tension_field(c: Expr, law: SurfaceLaw) -> Expr:
     r"""Relaxed energy of a membrane without symmetry, from the right Cauchy-Green tensor.
 
-    The membrane is taut if :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`); else wrinkled with
-    :math:`w_r(l_1)` where :math:`l_1 > 1`; else slack.
+    The membrane is taut if :math:`D\,l_2^2 > 1` (that is :math:`l_1 l_2^2 > 1`), or with another natural
+    width ``n`` if :math:`l_2 > n(l_1)`; else wrinkled with :math:`w_r(l_1)` where :math:`l_1 > 1`; else
+    slack.
 
     Args:
         c: Right Cauchy-Green tensor in an orthonormal frame of the reference surface, 2 x 2.
@@ -137,8 +138,9 @@ def surface_tension_field(c: Expr, law: SurfaceLaw) -> Expr:
     """
     l1, l2 = principal_stretches(c)
     area = max_value(det(c), TINY**2)
-    slackened = conditional(gt(l1, 1), relaxed(law.stretches)(l1), 0.0)
-    taut = gt(area * l2**2, 1)
+    width = law.width or natural_width
+    slackened = conditional(gt(l1, 1), relaxed(law.stretches, width)(l1), 0.0)
+    taut = gt(l2, law.width(l1)) if law.width else gt(area * l2**2, 1)
     return conditional(taut, law.where(taut, tr(c), area), slackened)
 
 

@@ -46,6 +46,9 @@ class SurfaceLaw:
     bounded: bool = False
     """Whether it is finite for all positive stretches. If not, it is evaluated at rest where its value is
     not used: UFL multiplies an unused expression by zero, which does not remove an infinity."""
+    width: Callable[[Expr], Expr] | None = None
+    """Width in uniaxial tension as a function of the stretch along it; none: that of an incompressible law,
+    ``lam1^(-1/2)``."""
 
     def where(self, taken: Condition, trace: Expr, area: Expr) -> Expr:
         """Energy as a function of the invariants where a condition holds; any finite number elsewhere."""
@@ -192,8 +195,10 @@ def surface_law(model: str, constants: Mapping[str, Expr]) -> SurfaceLaw:
 
     A law that is not in :data:`LAWS` has no energy in the invariants; using it raises a ``KeyError``.
     """
+    material = MATERIALS[model]
     return SurfaceLaw(
-        MATERIALS[model].energy(constants),
+        material.energy(constants),
         lambda trace, area: LAWS[model](trace, area, **constants),
         model in BOUNDED,
+        None if material.incompressible else material.natural_width(constants),
     )

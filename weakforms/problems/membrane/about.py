@@ -12,10 +12,10 @@ MEMBRANE = About(
     energy="Pi/(C1 h a^2) = int W(C) dA - p V,  V = int z N_z dA less that of the reference surface "
     "stretched by delta;  W = I1 - 3 + alpha (I2 - 3) where taut, and with energy = relaxed "
     "lam1^2 + 2/lam1 - 3 + alpha (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another model w "
-    "and w(lam1, lam1^(-1/2)), its S for C1",
+    "and w(lam1, n(lam1)) with its natural width n, its S for C1",
     control="p (compare over V, which increases past limit points)",
     unknown="the displacement from the reference surface stretched by delta, zero on held edges, zero across "
-    "planes of symmetry",
+    "planes of symmetry and planes in which edges slide",
     forms=("forms.relaxed_surface:relaxed_energy", "forms.relaxed_surface:pressure_potential"),
     units=Units("a", "C1", "h"),
     columns=(
@@ -24,6 +24,11 @@ MEMBRANE = About(
         Column("V", "volume between the membrane and its stretched reference surface over {volume}", "V"),
         column.POTENTIAL,
         Column("U", "strain energy over {energy}", "U"),
+        Column(
+            "u_far",
+            "displacement of the farthest sliding corner towards (X_c, Y_c, Z_c) over {length}; absent if no "
+            "edges slide",
+        ),
         *derived(
             *numbers(
                 f_w="wrinkled part of the reference area",

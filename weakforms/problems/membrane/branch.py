@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.membrane.descent import least_energy
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.readings import Highest
 from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
@@ -15,8 +17,22 @@ from weakforms.problems.triangles.start import first_state
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.stability.surface_family import SurfaceBranch
+
+HEIGHT = 0.3
+"""Height, over the size of the surface, of the guess of the first state of a membrane whose edges slide."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """The first point of a branch."""
+
+    w_c: float
+    """Deflection of a membrane with held edges."""
+    p: float
+    """Pressure of a membrane whose edges slide: up to some deflection it has no stiffness."""
 
 
 class Readings:
@@ -45,13 +61,13 @@ class Readings:
 
 
 def traced(
-    model: MembraneModel, start: float, end: float, step: float, progress: Callable[[float], None]
+    model: MembraneModel, start: Start, end: float, step: float, progress: Callable[[float], None]
 ) -> SurfaceBranch:
     """The branch from a small deflection to a larger one.
 
     Args:
         model: The membrane on one mesh.
-        start: Deflection ``w_c`` at the first point.
+        start: What is given at the first point.
         end: Largest deflection at which the branch ends.
         step: Largest step.
         progress: Called with the largest deflection at every point.
@@ -61,14 +77,8 @@ def traced(
     """
     solver = ExtendedNewton(model.system, ["p"])
     continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
-    try:
-        first = first_state(solver, start, {"delta": model.body.delta}, np.zeros(model.system.size))
-    except ConvergenceError as error:
-        raise ConvergenceError(
-            f"no first state at w_c = {start:g}: {error}; choose another numerics start, or a larger delta"
-        ) from error
+    begin = _begun(model, continuation, start)
     readings = Readings(model)
-    begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
 
     given = model.body.law, model.law, model.rule
     yields = gives_way(model.system, model.membrane.cauchy_green, *given)
@@ -82,3 +92,28 @@ def traced(
     branch = SurfaceBranch(continuation, "p", begin, ends, readings)
     branch.end_before(yields, GIVES_WAY)
     return branch
+
+
+def _begun(model: MembraneModel, continuation: Continuation, start: Start) -> CurvePoint:
+    """The first point, from which the deflection rises.
+
+    Raises:
+        ConvergenceError: If there is none.
+    """
+    system, body = model.system, model.body
+    if body.reference.slides:
+        guess = State(model.raised(HEIGHT * body.reference.size), system.initial.loads | {"p": start.p})
+        try:
+            first = least_energy(system, guess)
+        except ConvergenceError as error:
+            raise ConvergenceError(f"no first state: {error}; choose another numerics p_start") from error
+        return continuation.start(first, Held("p", start.p), towards={"p": 1.0})
+    try:
+        solver = continuation.solver
+        first = first_state(solver, start.w_c, {"delta": body.delta}, np.zeros(system.size))
+    except ConvergenceError as error:
+        raise ConvergenceError(
+            f"no first state at w_c = {start.w_c:g}: {error}; choose another numerics start, "
+            "or a larger delta"
+        ) from error
+    return continuation.start(first, Held("w_c", start.w_c), towards={"w_c": 1.0})

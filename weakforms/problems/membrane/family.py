@@ -31,7 +31,7 @@ class MembraneFamily(SurfaceFamily):
             return state
         model = self.fine.modes.model
         with model.system.at(self._last.state):
-            return replace(state, fields=Shape(model.mesh, model.membrane)())
+            return replace(state, fields=Shape(model.mesh, model.membrane, law=model.law)())
 
     def special_points(self) -> list[SpecialPoint]:
         """As for any branch: there are no classes of modes."""

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
 from weakforms.errors import InputError, not_among
-from weakforms.problems.membrane.reference import AXES, OPPOSITE, PLANE, Reference, quadratics
+from weakforms.problems.membrane.planes import Surface, keys, rigid_motions
+from weakforms.problems.membrane.reference import AXES, Reference, quadratics
 from weakforms.problems.triangles.checks import at, edges_of, require_manifold
 from weakforms.problems.triangles.files import compact, read_mesh
 
@@ -27,6 +30,10 @@ NODES = np.array([(0, 0), (1, 0), (0, 1), (0.5, 0.5), (0, 0.5), (0.5, 0)])
 """Places of the nodes of a curved triangle."""
 
 
+KINDS = "held", "mirror", "slide"
+"""Parameters that name groups of edges."""
+
+
 class Refusal:
     """Raises errors about one file."""
 
@@ -38,14 +45,18 @@ class Refusal:
         raise InputError(f"{self.named}: {what}")
 
 
-def from_file(path: str, unit: float, held: Sequence[str], mirrors: Sequence[str]) -> Reference:
+def from_file(
+    path: str, unit: float, held: Sequence[str], mirrors: Sequence[str], slides: Sequence[str] = ()
+) -> Reference:
     """The surface in a file; read again only if the file has changed.
 
     Args:
         path: A file that meshio reads, with straight or quadratic triangles.
         unit: Length in the units of the file by which all lengths are divided.
-        held: Names of groups of edges that are held; without any, every edge that is on no mirror.
+        held: Names of groups of edges that are held; without any, every edge that is on no mirror and does
+            not slide.
         mirrors: Names of groups of edges on planes of symmetry.
+        slides: Names of groups of edges that slide in a plane.
 
     Raises:
         InputError: If it cannot be read, is no suitable surface, or is not supported everywhere.
@@ -53,12 +64,12 @@ def from_file(path: str, unit: float, held: Sequence[str], mirrors: Sequence[str
     file = Path(path)
     status = file.stat() if file.is_file() else None
     seen = (status.st_mtime_ns, status.st_size) if status else None
-    return _read(path, unit, tuple(held), tuple(mirrors), seen)
+    return _read(path, unit, (tuple(held), tuple(mirrors), tuple(slides)), seen)
 
 
 @lru_cache(maxsize=8)
 def _read(
-    path: str, unit: float, held: tuple[str, ...], mirrors: tuple[str, ...], _seen: tuple[int, int] | None
+    path: str, unit: float, named: tuple[tuple[str, ...], ...], _seen: tuple[int, int] | None
 ) -> Reference:
     refuse = Refusal(path)
     read = read_mesh(Path(path), refuse.named, ("triangle", "triangle6"))
@@ -75,21 +86,27 @@ def _read(
     groups = {name: number[edges] for name, edges in _groups(read).items()}
     open_edges = _require_surface(points, cells, unit, refuse)
     every, _ = edges_of(cells[:, :3])
-    known = _keys(every)
-    for name in {*held} & {*mirrors}:
-        refuse(f"group {name!r} is both in held and in mirror; allowed: in one of them")
-    for name in (*held, *mirrors):
+    known = keys(every)
+    held, mirrors, slides = named
+    for (one, names), (other, others) in combinations(zip(KINDS, named, strict=True), 2):
+        for name in {*names} & {*others}:
+            refuse(f"group {name!r} is both in {one} and in {other}; allowed: in one of them")
+    for name in (*held, *mirrors, *slides):
         if name not in groups:
             refuse(f"no group of edges is called {name!r}{not_among(name, [*groups] or ['none'])}")
-        if not np.isin(_keys(groups[name]), known).all():
+        if not np.isin(keys(groups[name]), known).all():
             refuse(f"group {name!r} has edges that are edges of no triangle")
-    planes = _planes(points, cells[:, :3], {name: groups[name] for name in mirrors}, refuse)
-    reflected = _keys(np.vstack([*planes.values(), np.empty((0, 2), int)]))
+    given = Surface(points, cells[:, :3], refuse)
+    mirrored, sliding = (
+        find({name: groups[name] for name in names})
+        for find, names in ((given.mirrors, mirrors), (given.slides, slides))
+    )
+    moving = keys(np.vstack([*mirrored.values(), *sliding.values(), np.empty((0, 2), int)]))
     if held:
         fixed = np.vstack([groups[name] for name in held])
     else:
-        fixed = open_edges[~np.isin(_keys(open_edges), reflected)]
-    given = Reference(points, cells, fixed, planes)
+        fixed = open_edges[~np.isin(keys(open_edges), moving)]
+    given = Reference(points, cells, fixed, mirrored, slides=sliding)
     _require_supported(given, open_edges, [*groups], refuse)
     return _upwards(given)
 
@@ -104,12 +121,6 @@ def _groups(read: meshio.Mesh) -> dict[str, np.ndarray]:
                 name = names.get((int(tag), 1), str(int(tag)))
                 parts.setdefault(name, []).append(block.data[tags == tag][:, :2].astype(np.int64))
     return {name: np.vstack(edges) for name, edges in parts.items()}
-
-
-def _keys(edges: np.ndarray) -> np.ndarray:
-    """One number for each edge, whatever its direction."""
-    low, high = np.sort(edges, axis=1).T
-    return low * 2**31 + high
 
 
 def _require_surface(points: np.ndarray, cells: np.ndarray, unit: float, refuse: Refusal) -> np.ndarray:
@@ -146,65 +157,29 @@ def _require_regular(points: np.ndarray, cells: np.ndarray, refuse: Refusal) -> 
         )
 
 
-def _planes(
-    points: np.ndarray, corners: np.ndarray, groups: dict[str, np.ndarray], refuse: Refusal
-) -> dict[str, np.ndarray]:
-    """Groups of edges by the coordinate that is constant on each; the surface is on one side of it."""
-    out: dict[str, np.ndarray] = {}
-    size = float(np.ptp(points, axis=0).max())
-    a, b, c = (points[corners[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    every, count = edges_of(corners)
-    open_keys = _keys(every[count == 1])
-    sides = np.column_stack([_keys(corners[:, ends]) for ends in OPPOSITE])
-    for name, edges in groups.items():
-        spread = np.ptp(points[np.unique(edges)], axis=0)
-        constant = np.flatnonzero(spread < PLANE * size)
-        if not len(constant):
-            refuse(f"group {name!r} of mirror lies in no plane X, Y or Z = constant")
-        inner = edges[~np.isin(_keys(edges), open_keys)]
-        if len(inner):
-            place = at(points[inner[0]].mean(axis=0))
-            refuse(f"group {name!r} of mirror is inside of the surface {place}; allowed: open edges")
-        # The surface goes on beyond its mirror. A straight edge has two constant coordinates, one of which
-        # may be that of the plane in which the surface lies beside it.
-        beside = normals[np.isin(sides, _keys(edges)).any(axis=1)]
-        i = constant[np.argmin(np.abs(beside[:, constant]).mean(axis=0))]
-        away = points[:, i] - points[edges[0, 0], i]
-        if away.min() < -PLANE * size and away.max() > PLANE * size:
-            place = at(points[np.argmin(np.sign(away.sum()) * away)])
-            refuse(
-                f"the surface has nodes on both sides of the mirror {AXES[i]} = {points[edges[0, 0], i]:.6g} "
-                f"of group {name!r}, such as {place}; allowed: one side"
-            )
-        if AXES[i] in out:
-            refuse(f"two groups of mirror have {AXES[i]} = constant; allowed: one, with all its edges")
-        out[AXES[i]] = edges
-    return out
-
-
 def _require_supported(given: Reference, open_edges: np.ndarray, groups: list[str], refuse: Refusal) -> None:
-    """Refuse edges that are neither held nor on a mirror, triangles turned over, and rigid motions."""
-    supported = _keys(np.vstack([given.held, *given.mirrors.values()]))
-    free = open_edges[~np.isin(_keys(open_edges), supported)]
+    """Refuse edges without support, triangles turned over, and rigid motions."""
+    supported = keys(np.vstack([given.held, *given.mirrors.values(), *given.slides.values()]))
+    free = open_edges[~np.isin(keys(open_edges), supported)]
     if len(free):
         names = f"; groups of this file: {', '.join(groups)}" if groups else ""
         place = at(given.points[free[0]].mean(axis=0))
         refuse(
-            f"{len(free)} edges are neither held nor on a mirror, the first {place}: "
+            f"{len(free)} edges are neither held nor on a mirror, the first {place}, nor do they slide: "
             f"a pressure on a membrane with a free edge has no potential; add their group to held{names}"
         )
     if np.isin(given.corners, given.held).all():
         refuse("every corner of a triangle is held; allowed: a surface with corners that are free to move")
-    if not len(given.held) and len(given.mirrors) < 3:
+    if not len(given.held) and rigid_motions(given):
         refuse(
-            "no edge is held: it may move as a rigid body; allowed without a held edge: mirrors X, Y and Z"
+            "no edge is held: it may move as a rigid body; allowed without a held edge: mirrors X, Y and Z, "
+            "or edges that slide in one of these planes instead"
         )
     if given.is_flat:
         if any(abs(given.direction[AXES.index(axis)]) > 0.5 for axis in given.mirrors):
             refuse(
-                "a group of mirror lies in the plane of the flat sheet; allowed: planes that cut the sheet"
+                "a group of mirror lies in the plane of the flat sheet; allowed: planes that cut the sheet; "
+                "edges that slide in the plane of the sheet belong to slide"
             )
         total = given.normals.sum(axis=0)
         wrong = np.flatnonzero(given.normals @ total <= 0)
@@ -220,4 +195,4 @@ def _upwards(given: Reference) -> Reference:
     if not given.is_flat or given.normals[:, 2].sum() >= 0:
         return given
     turned = [0, 2, 1, 3, 5, 4][: given.cells.shape[1]]
-    return Reference(given.points, given.cells[:, turned], given.held, given.mirrors)
+    return replace(given, cells=given.cells[:, turned])

@@ -4,8 +4,9 @@ r"""Weak form of a membrane of any shape under gas, on straight or curved triang
 
 with the stress-free surface as reference. ``V`` is the volume between the membrane and its reference
 surface, stretched by ``delta`` about a point; ``V_0`` is the integral over that surface. Held edges are on
-it. Edges on a plane of symmetry stay in the plane; ``z_e`` is the height of a horizontal one, at which the
-edges of the membrane then carry no load. The unknown is the displacement from the stretched surface.
+it. Edges on a plane of symmetry, and edges that slide in a plane, stay in the plane; ``z_e`` is the height of
+a horizontal one, at which the edges of the membrane then carry no load. The unknown is the displacement from
+the stretched surface.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from weakforms.problems.triangles.readings import corner_weight
 from weakforms.problems.triangles.weak_form import RULE, Membrane, scalars
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.support import compat
 
 
 @dataclass(frozen=True)
@@ -94,8 +96,7 @@ class MembraneModel:
         start = self.stretched()
         given = (self.mesh, self.law, self.scalars, fem.Constant(self.mesh, 0.0))
         position = start if displacement is None else start + displacement
-        reference = self.body.reference
-        edge = float(reference.middle[2]) if "Z" in reference.mirrors else 0.0
+        edge = self.body.reference.edge
         return Membrane.at(position, *given, relaxed=self.body.relaxed, edge=edge)
 
     def _formulation(self) -> Formulation:
@@ -104,12 +105,17 @@ class MembraneModel:
         energy = (at.strain + at.load) * self.dx
         # Gas alone: the load's potential is -p times the volume.
         volume = -ufl.diff(at.load - start.load, self.scalars["p"][1])
-        mode = state(at.cauchy_green)
+        mode = state(at.cauchy_green, self.law)
 
         def share(value: float) -> ufl.Form:
             return ufl.conditional(ufl.eq(mode, value), 1.0, 0.0) / self.area * self.dx
 
         reads = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": 2 * self.body.degree})
+        given, slid = self.body.reference, {}
+        if given.slides:
+            inwards = given.points[given.centre] - given.points[given.far]
+            inwards /= np.linalg.norm(inwards)
+            slid["u_far"] = ufl.dot(self.unknown, ufl.as_vector(inwards.tolist())) * self._at_node(given.far)
         return Formulation(
             unknown=self.unknown,
             residual=ufl.derivative(energy, self.unknown, test),
@@ -117,29 +123,43 @@ class MembraneModel:
             bcs=self._conditions(),
             mass=ufl.inner(trial, test) * self.dx,
             monitors={
-                "w_c": self.deflection * self._centre() * reads,
+                "w_c": self.deflection * self._at_node(given.centre) * reads,
                 "V": volume * self.dx,
                 "Pi": (at.strain + at.load - start.load) * self.dx,
                 "U": at.strain * self.dx,
+                **{name: value * reads for name, value in slid.items()},
                 "f_w": share(WRINKLED),
                 "f_s": share(SLACK),
             },
         )
 
-    def _centre(self) -> fem.Function:
-        """The weight that reads a deflection at the reference surface's centre."""
+    def _at_node(self, node: int) -> fem.Function:
+        """The weight that reads a displacement at a corner of the reference surface."""
         cells = self.mesh.topology.index_map(2).size_local
         vertices = self.mesh.topology.connectivity(2, 0).array.reshape(-1, 3)[:cells]
-        here = self.node[vertices] == self.body.reference.centre
-        return corner_weight(self.mesh, self.body.degree, here)
+        return corner_weight(self.mesh, self.body.degree, self.node[vertices] == node)
+
+    def raised(self, height: float) -> np.ndarray:
+        """Displacement in the direction of deflections by :attr:`Reference.rise` times a height."""
+        space = fem.functionspace(self.mesh, ("Lagrange", 1))
+        rise = fem.Function(space)
+        cells = self.mesh.topology.connectivity(2, 0).array.reshape(-1, 3)
+        rise.x.array[space.dofmap.list[: len(cells)]] = self.body.reference.rise[self.node[cells]]
+        lifted = ufl.as_vector((height * self.direction).tolist()) * rise
+        out = fem.Function(self.space)
+        out.interpolate(fem.Expression(lifted, compat.interpolation_points(self.space.element)))
+        values = out.x.array[: self.system.size].copy()
+        values[self.system.bc_dofs] = 0.0
+        return values
 
     # -- supports --------------------------------------------------------------------------------
 
     def _conditions(self) -> list[fem.DirichletBC]:
-        """No displacement of held edges, and none across a plane of symmetry."""
+        """No displacement of held edges, nor across planes of symmetry and planes in which edges slide."""
         given = self.body.reference
         out = [self._zero(i, given.held) for i in range(3)]
-        return out + [self._zero(AXES.index(axis), edges) for axis, edges in given.mirrors.items()]
+        out += [self._zero(AXES.index(axis), edges) for axis, edges in given.mirrors.items()]
+        return out + [self._zero(AXES.index(axis), edges) for axis, edges in given.slides.items()]
 
     def _zero(self, component: int, edges: np.ndarray) -> fem.DirichletBC:
         part = self.space.sub(component)

@@ -12,16 +12,16 @@ from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.membrane.files import from_file
 from weakforms.problems.membrane.model import Body
 from weakforms.problems.membrane.reference import Reference
-from weakforms.problems.membrane.shapes import disk, square
+from weakforms.problems.membrane.shapes import airbag, disk, square
 from weakforms.problems.problem import Needs
 from weakforms.problems.triangles.files import SUFFIXES
 
-BUILT_IN = ("disk", "square")
+BUILT_IN = ("disk", "square", "airbag")
 
 
 def _known(mesh: str) -> str:
     if mesh not in BUILT_IN and Path(mesh).suffix.lower() not in SUFFIXES:
-        raise ValueError(f"'disk', 'square' or a file ending in {', '.join(SUFFIXES)} is required")
+        raise ValueError(f"'disk', 'square', 'airbag' or a file ending in {', '.join(SUFFIXES)} is required")
     return mesh
 
 
@@ -39,27 +39,31 @@ class MembraneNumerics(MeshNumerics):
     )
     step: float = Field(0.2, ge=0.01, le=0.5, description="largest arc-length step")
     start: float = Field(0.02, ge=1e-4, le=0.3, description="w_c of the first point")
+    p_start: float = Field(5e-3, ge=1e-4, le=1, description="p of the first point if edges slide")
 
 
 class MembraneParameters(MaterialChoice):
     """The membrane, its supports and its load."""
 
     ratio: ClassVar[str] = "alpha"
-    needs: ClassVar[Needs] = {name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror")}
+    needs: ClassVar[Needs] = {name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide")}
     movable: ClassVar = {"w_end": "le"}
 
     mesh: Annotated[str, AfterValidator(_known)] = Field(
         "disk",
-        description="disk, square, or a file with triangles (msh, vtu, stl)",
-        examples=["disk", "square"],
+        description="disk, square, airbag (a quarter of one sheet), or a file with triangles (msh, vtu, stl)",
+        examples=["disk", "square", "airbag"],
     )
     unit: float = Field(
         1.0, gt=0, le=1e9, description="file: the length, as in the file, by which lengths are divided"
     )
     held: str = Field(
-        "", max_length=1000, description="file: held groups of edges, with commas; default all but mirror"
+        "", max_length=1000, description="file: held groups of edges, with commas; default all others"
     )
     mirror: str = Field("", max_length=1000, description="file: groups of edges on planes of symmetry")
+    slide: str = Field(
+        "", max_length=1000, description="file: groups of edges that slide in a plane X, Y or Z = constant"
+    )
     delta: float = Field(1.1, ge=1, le=3, description="pre-stretch: stretch of the supports about a point")
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     energy: Literal["relaxed", "full"] = Field(
@@ -75,13 +79,22 @@ class MembraneParameters(MaterialChoice):
     def _has(self, name: str, values: tuple[Any, ...]) -> bool:
         return self.is_file if name == "mesh" else super()._has(name, values)
 
+    @property
+    def is_loose(self) -> bool:
+        """Whether edges slide and none is held.
+
+        Raises:
+            InputError: If the mesh is a file that is not suitable.
+        """
+        return self.given().is_loose if self.is_file else self.mesh == "airbag"
+
     def given(self) -> Reference:
         """The surface in the file.
 
         Raises:
             InputError: If it is not suitable.
         """
-        return from_file(self.mesh, self.unit, names(self.held), names(self.mirror))
+        return from_file(self.mesh, self.unit, names(self.held), names(self.mirror), names(self.slide))
 
     def body(self, numerics: MembraneNumerics, level: int) -> Body:
         """The membrane on one mesh.
@@ -94,6 +107,8 @@ class MembraneParameters(MaterialChoice):
             reference = disk(cells, degree)
         elif self.mesh == "square":
             reference = square(cells)
+        elif self.mesh == "airbag":
+            reference = airbag(cells)
         else:
             reference = self.given()
             for _ in range(level):

@@ -8,7 +8,7 @@ from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.membrane.about import MEMBRANE
-from weakforms.problems.membrane.branch import traced
+from weakforms.problems.membrane.branch import Start, traced
 from weakforms.problems.membrane.family import MembraneFamily
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
@@ -19,6 +19,9 @@ from weakforms.solvers.stability.surface_family import SurfaceBranch
 
 CAPS = dict.fromkeys(("S_least", "X_least", "Y_least", "Z_least", "f_w", "f_s"), 1.0)
 """Highest assumed orders: of a stress and a place among the points of quadrature, of an area."""
+
+KIRCHHOFF = "saint_venant_kirchhoff"
+"""A law without resistance to being flattened, for which only the relaxed energy is a problem statement."""
 
 LARGEST = 2_000_000
 """Largest number of unknowns on the finest mesh."""
@@ -39,11 +42,19 @@ class Membrane(BranchProblem):
             InputError: With a message that names the value and the allowed ones, or the place in the mesh.
         """
         super().check(parameters, requests)
-        require_foldable(self.name, parameters, invariants=True)
+        require_foldable(self.name, parameters, invariants=True, others=[KIRCHHOFF])
+        if parameters.model == KIRCHHOFF and parameters.energy == "full":
+            raise InputError(
+                f"membrane: model = {KIRCHHOFF!r} with energy = 'full' loses its ellipticity in compression; "
+                "allowed: energy = 'relaxed'"
+            )
         require_low(self.name, parameters.material, parameters.w_end, parameters.energy == "relaxed")
         require_taut(self.name, parameters.material, parameters.delta, "delta")
-        if parameters.is_file:
-            parameters.given()
+        if parameters.is_loose and parameters.delta != 1:
+            raise InputError(
+                f"membrane: delta = {parameters.delta:g}: no edge is held, and edges that slide keep no "
+                "pre-stretch; allowed: delta = 1"
+            )
 
     def computed(self, _parameters: MembraneParameters) -> tuple[str, ...]:
         """The largest deflection, and the least stress, which is zero where the first wrinkle appears."""
@@ -79,7 +90,9 @@ class Membrane(BranchProblem):
                 task.progress(f"branch, mesh {level + 1} of {levels}", round(100 * share), 100)
 
             passed(0.0)
-            return traced(model, numerics.start, parameters.w_end, numerics.step, passed)
+            return traced(
+                model, Start(numerics.start, numerics.p_start), parameters.w_end, numerics.step, passed
+            )
 
         return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, ("p", "V"), caps=CAPS)}
 

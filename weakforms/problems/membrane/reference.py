@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -42,6 +42,9 @@ class Reference:
     """Edges on planes of symmetry, by the coordinate that is constant there."""
     point: int | None = None
     """A corner at which the deflection is read; by default one that :attr:`centre` chooses."""
+    slides: Mapping[str, np.ndarray] = field(default_factory=dict)
+    """Edges that slide in a plane to which the surface need not be normal, by the coordinate that is constant
+    there."""
 
     @property
     def corners(self) -> np.ndarray:
@@ -67,24 +70,35 @@ class Reference:
 
     @property
     def middle(self) -> np.ndarray:
-        """The point that a pre-stretch keeps: the centroid of the area, on every plane of symmetry."""
+        """The point that a pre-stretch keeps: the centroid of the area, on every plane of symmetry.
+
+        It is also on planes in which edges slide, if no parallel plane of symmetry is given.
+        """
         weight = np.linalg.norm(self.normals, axis=1)
         out = weight @ self.points[self.corners].mean(axis=1) / weight.sum()
-        for axis, edges in self.mirrors.items():
+        for axis, edges in (self.slides | self.mirrors).items():
             i = AXES.index(axis)
             out[i] = self.points[edges[0, 0], i]
         return out
 
     @cached_property
     def centre(self) -> int:
-        r"""The corner where a shallow membrane rises most: of the largest ``w`` with :math:`\Delta w = -1`.
-
-        The solution, by linear triangles on the corners, vanishes on held edges; without any, on planes of
-        symmetry.
-        """
+        """The corner where a shallow membrane rises most (:attr:`rise`)."""
         if self.point is not None:
             return self.point
-        edges = self.held if len(self.held) else np.vstack([*self.mirrors.values()])
+        # Of equal ones the first in space, so that the order of a file does not matter.
+        top = np.flatnonzero(self.rise > 1 - 1e-9)
+        return int(top[np.lexsort(self.points[top].round(9).T)[0]])
+
+    @cached_property
+    def rise(self) -> np.ndarray:
+        r"""Height ``w`` of a shallow membrane at each node over the largest one: :math:`\Delta w = -1`.
+
+        The solution, by linear triangles on the corners, vanishes on edges that are held or slide; without
+        any, on planes of symmetry. It is zero at nodes that are no corners.
+        """
+        lowest = np.vstack([self.held, *self.slides.values()])
+        edges = lowest if len(lowest) else np.vstack([*self.mirrors.values()])
         nodes, inverse = np.unique(self.corners, return_inverse=True)
         cells = inverse.reshape(-1, 3)
         sides = np.stack(
@@ -96,10 +110,28 @@ class Reference:
         matrix = csr_matrix((stiffness.ravel(), (rows, columns)), shape=(len(nodes),) * 2)
         load = np.bincount(cells.ravel(), np.repeat(twice / 6, 3), len(nodes))
         free = np.flatnonzero(~np.isin(nodes, edges))
-        height = spsolve(matrix[free][:, free].tocsc(), load[free])
-        # Of equal ones the first in space, so that the order of a file does not matter.
-        top = nodes[free[height > height.max() * (1 - 1e-9)]]
-        return int(top[np.lexsort(self.points[top].round(9).T)[0]])
+        out = np.zeros(len(self.points))
+        out[nodes[free]] = spsolve(matrix[free][:, free].tocsc(), load[free])
+        return out / out.max()
+
+    @property
+    def edge(self) -> float:
+        """Height of the edges that move in a horizontal plane, at which they bear no load; 0 without any."""
+        horizontal = self.mirrors.get("Z", self.slides.get("Z"))
+        return 0.0 if horizontal is None else float(self.points[horizontal[0, 0], 2])
+
+    @property
+    def is_loose(self) -> bool:
+        """Whether edges slide and none is held: a pre-stretch of the supports has no effect."""
+        return bool(self.slides) and not len(self.held)
+
+    @property
+    def far(self) -> int:
+        """The node of the sliding edges farthest from :attr:`centre`; of equal ones the first in space."""
+        nodes = np.unique(np.vstack([*self.slides.values()]))
+        away = np.linalg.norm(self.points[nodes] - self.points[self.centre], axis=1)
+        most = nodes[away > away.max() * (1 - 1e-9)]
+        return int(most[np.lexsort(self.points[most].round(9).T)[0]])
 
     @property
     def direction(self) -> np.ndarray:
@@ -120,13 +152,17 @@ class Reference:
             points, cells = self._curved(cells)
         halves = [np.column_stack([six[:, a], six[:, 3 + i], six[:, b]]) for i, (a, b) in enumerate(OPPOSITE)]
         chains = np.vstack(halves)
-        parts = {axis: _halved(edges, chains) for axis, edges in self.mirrors.items()}
+        mirrors, slides = (
+            {axis: _halved(edges, chains) for axis, edges in planes.items()}
+            for planes in (self.mirrors, self.slides)
+        )
         return replace(
             self,
             points=points,
             cells=cells,
             held=_halved(self.held, chains),
-            mirrors=parts,
+            mirrors=mirrors,
+            slides=slides,
             point=self.centre,
         )
 

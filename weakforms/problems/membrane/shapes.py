@@ -1,4 +1,4 @@
-"""Stress-free surfaces that need no file: a disk and a square."""
+"""Stress-free surfaces that need no file: a disk, a square, and a quarter of one sheet of a square airbag."""
 
 from __future__ import annotations
 
@@ -55,8 +55,29 @@ def square(cells: int) -> Reference:
     Args:
         cells: Squares along half a side.
     """
-    n = 2 * cells
-    line = np.linspace(-1, 1, n + 1)
+    points, found = _crossed(np.linspace(-1, 1, 2 * cells + 1))
+    return Reference(points, found, boundary(found), {})
+
+
+def airbag(cells: int) -> Reference:
+    """A quarter ``[0, 1]^2`` of one of the two sheets of a square airbag, joined at its edges.
+
+    By symmetry the seam slides in the plane ``Z = 0``.
+
+    Args:
+        cells: Squares along half a side.
+    """
+    points, found = _crossed(np.linspace(0, 1, cells + 1))
+    edges = boundary(found)
+    x, y = points[edges, :2].max(axis=1).T
+    mirrors = {"X": edges[x == 0], "Y": edges[y == 0]}
+    seam = edges[(points[edges, 0] == 1).all(axis=1) | (points[edges, 1] == 1).all(axis=1)]
+    return Reference(points, found, np.empty((0, 2), int), mirrors, slides={"Z": seam})
+
+
+def _crossed(line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and triangles of a square cut into squares with both diagonals."""
+    n = len(line) - 1
     corners = np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2)
     half = (line[1:] + line[:-1]) / 2
     centres = np.stack(np.meshgrid(half, half, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -65,5 +86,4 @@ def square(cells: int) -> Reference:
     around = [(i + a) * (n + 1) + j + b for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
     middle = (n + 1) ** 2 + np.arange(n * n)
     triangles = [np.column_stack([around[k], around[(k + 1) % 4], middle]) for k in range(4)]
-    found = np.stack(triangles, axis=1).reshape(-1, 3)
-    return Reference(np.column_stack([flat, 0 * flat[:, 0]]), found, boundary(found), {})
+    return np.column_stack([flat, 0 * flat[:, 0]]), np.stack(triangles, axis=1).reshape(-1, 3)

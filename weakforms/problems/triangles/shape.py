@@ -9,6 +9,7 @@ import ufl
 from dolfinx import fem
 from dolfinx.mesh import Mesh
 
+from weakforms.forms.materials import SurfaceLaw
 from weakforms.forms.relaxed_surface import state as state_of
 from weakforms.problems.triangles.weak_form import Membrane
 from weakforms.results import Field
@@ -26,10 +27,15 @@ class Shape:
         mesh: The reference surface, in the plane or in space.
         membrane: The membrane at the unknown position.
         mirrors: Signs of ``X`` and ``Y`` of each copy of the mesh that makes the whole sheet.
+        law: See :func:`weakforms.forms.relaxed_surface.state`.
     """
 
     def __init__(
-        self, mesh: Mesh, membrane: Membrane, mirrors: Sequence[tuple[int, int]] = ((1, 1),)
+        self,
+        mesh: Mesh,
+        membrane: Membrane,
+        mirrors: Sequence[tuple[int, int]] = ((1, 1),),
+        law: SurfaceLaw | None = None,
     ) -> None:
         self._mesh, self._mirrors, self._dim = mesh, mirrors, mesh.geometry.dim
         place, reference = ufl.SpatialCoordinate(mesh), ufl.Jacobian(mesh)
@@ -41,7 +47,7 @@ class Shape:
             for j in (0, 1)
         ]
         corner = [*place, *membrane.position]
-        middle = [*place, *tangents, state_of(membrane.cauchy_green)]
+        middle = [*place, *tangents, state_of(membrane.cauchy_green, law)]
         self._corners = fem.Expression(ufl.as_vector(corner), VERTICES)
         self._middle = fem.Expression(ufl.as_vector(middle), CENTROID)
         self._cells = np.arange(mesh.topology.index_map(2).size_local, dtype=np.int32)

@@ -1,0 +1,1 @@
+"""A square airbag: least energy of one sheet on quadrilateral elements."""
