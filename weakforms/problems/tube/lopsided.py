@@ -23,6 +23,7 @@ from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.tube.model import STEEPEST, USUAL_LOAD, TubeModel, yielding, yields
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.results import Quantity, SpecialPoint
+from weakforms.results.wording import counted
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.expansion import Expansion
@@ -79,6 +80,7 @@ class LopsidedBranch(TubeBranch):
         system = primary.system
         self.crossed = [crossings[begin]]
         """The crossings at which the branch begins and, if it joins free inflation again, ends."""
+        self._others = [solved for i, solved in enumerate(crossings) if i != begin]
         solver = ExtendedNewton(system, [primary.control])
         self.expansion = Expansion.at(solver, crossings[begin].state, primary.control, AMPLITUDE)
         steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
@@ -94,9 +96,13 @@ class LopsidedBranch(TubeBranch):
         self.end_at_limit(primary.limit)
         if yields(self.points[-1]):
             self.ended = f"the lopsided branch ends: {yielding(self.points[-1])}"
+
+    def _insert_limits(self) -> None:
+        """As for any branch, between its ends: the pressure turns at a crossing too."""
         self._begin()
         if self.points[-1].monitors[AMPLITUDE] < 0:
-            self._join([solved for i, solved in enumerate(crossings) if i != begin])
+            self._join()
+        super()._insert_limits()
 
     def _first_beside(self, continuation: Continuation) -> CurvePoint:
         """The first lopsided state, near enough to the crossing for its expansion to be a good guess."""
@@ -130,20 +136,16 @@ class LopsidedBranch(TubeBranch):
             point.arclength += length
         self.points.insert(0, self._crossing(self.crossed[0], self.expansion.mode, 0.0, first))
 
-    def _join(self, others: Sequence[Solved]) -> None:
-        """Replace the last point, beyond the mirror symmetry, by the nearest of the other crossings.
-
-        Raises:
-            ConvergenceError: If it is not where the branch arrives.
-        """
+    def _join(self) -> None:
+        """Replace the last point, beyond the mirror symmetry, by the crossing where the branch arrives."""
         before, last = self.points[-2:]
         length = last.arclength - before.arclength
-        gaps = [max(self.continuation.distance(s.state, p.state) for p in (before, last)) for s in others]
+        gaps = [max(self.continuation.distance(s.state, p.state) for p in (before, last)) for s in self._others]
         if not gaps or min(gaps) > length:
             del self.points[-1]
             self.ended = "the branch becomes symmetric where free inflation has no located crossing"
             return
-        found = others[int(np.argmin(gaps))]
+        found = self._others[int(np.argmin(gaps))]
         mode = Expansion.at(self.solver, found.state, self.control, AMPLITUDE).mode
         length = self.continuation.distance(found.state, before.state)
         self.points[-1] = self._crossing(found, -mode, before.arclength + length, before)
@@ -250,7 +252,7 @@ def require_crossings(count: int, number: int, primary: TubeBranch) -> None:
     """
     if count >= number:
         return
-    there = f"only {count} points" if count else "no point"
+    there = f"only {counted(count, 'point', 'points')}" if count else "no point"
     last = primary.points[-1].monitors["u_max"]
     raise AbsentError(
         "secondary branch",
