@@ -29,7 +29,7 @@ from weakforms.problems.tube.parameters import (
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
 from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
-from weakforms.results import Absence
+from weakforms.results import Absence, Failure
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -113,6 +113,11 @@ class Tube(BranchProblem):
             if any(wanted.branch == "secondary" for wanted in task.requests.states):
                 raise
             primary.absent.append(Absence(error.what, str(error)))
+            return {"primary": primary}
+        except ConvergenceError as error:
+            if any(wanted.branch == "secondary" for wanted in task.requests.states):
+                raise
+            primary.failures.append(Failure("secondary branch", str(error)))
             return {"primary": primary}
         return {"primary": primary, "secondary": secondary}
 
