@@ -140,7 +140,9 @@ class LopsidedBranch(TubeBranch):
         """Replace the last point, beyond the mirror symmetry, by the crossing where the branch arrives."""
         before, last = self.points[-2:]
         length = last.arclength - before.arclength
-        gaps = [max(self.continuation.distance(s.state, p.state) for p in (before, last)) for s in self._others]
+        gaps = [
+            max(self.continuation.distance(s.state, p.state) for p in (before, last)) for s in self._others
+        ]
         if not gaps or min(gaps) > length:
             del self.points[-1]
             self.ended = "the branch becomes symmetric where free inflation has no located crossing"

@@ -149,8 +149,8 @@ def _require_lopsided_possible(parameters: TubeParameters, requests: Requests) -
         return
     if parameters.contact != "none":
         raise InputError(
-            f"tube: secondary = true with contact = {parameters.contact!r}: lopsided states are those of free "
-            "inflation; set contact = 'none'"
+            f"tube: secondary = true with contact = {parameters.contact!r}: lopsided states are those of "
+            "free inflation; set contact = 'none'"
         )
     if parameters.extent == "half":
         raise InputError("tube: secondary = true: lopsided states are not symmetric; set extent = 'full'")

@@ -72,12 +72,10 @@ class State(ritz.State):
         return float(self.z[self.basis.middle])
 
     def meridian(self, places: Array) -> tuple[Array, Array]:
-        """rho and eta at places along the half length, from -1 to 1."""
+        """Rho and eta at places along the half length, from -1 to 1."""
         basis = self.basis
         e = np.clip(np.searchsorted(basis.edges, places, side="right") - 1, 0, 2 * basis.elements - 1)
-        rows = ritz.lagrange(
-            ritz.lobatto(basis.degree), (places - basis.edges[e]) / np.diff(basis.edges)[e]
-        )
+        rows = ritz.lagrange(ritz.lobatto(basis.degree), (places - basis.edges[e]) / np.diff(basis.edges)[e])
         columns = e[:, None] * basis.degree + np.arange(basis.degree + 1)
         r, z = ((rows * values[columns]).sum(axis=1) for values in (self.r, self.z))
         return r, z

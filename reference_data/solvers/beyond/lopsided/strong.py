@@ -61,7 +61,7 @@ class State:
         return float(self.y[0][-1, -1, 4] - self.y[1][-1, -1, 4])
 
     def meridian(self, z: Array) -> tuple[Array, Array]:
-        """rho and eta at places along the half length, from -1 to 1."""
+        """Rho and eta at places along the half length, from -1 to 1."""
         above, below = (self.mesh.evaluate(y, np.abs(z)) for y in self.y)
         found = np.where((z >= 0)[:, None], above, below)
         return found[:, 0], found[:, 1]

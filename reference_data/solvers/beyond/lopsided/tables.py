@@ -1,9 +1,9 @@
-"""Tables of the lopsided states of the free tube: branches, their first curvatures, a limit point, a profile."""
+"""Tables of lopsided states of the free tube: branches, their curvatures, a limit point, a profile."""
 
 from __future__ import annotations
 
 from functools import cache, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -20,20 +20,20 @@ class Asked(NamedTuple):
     tube: Tube
     between: tuple[float, float]
     u_end: float
-    volumes: tuple[float, ...]
+    volumes: tuple[Any, ...]
     fitted: float
     """Largest w from which the curvatures are extrapolated."""
 
 
 ASKED = {
     "neo_hookean": Asked(
-        Tube(0.0, 1.0, 6.0), (1.25, 1.45), 1.9, (12.0, 12.5, 13.0, 14.0, 15.0, 16.5, 18.0, 19.5), 0.08
+        Tube(0.0, 1.0, 6.0), (1.25, 1.45), 2.1, (12.0, 12.5, 13.0, 14.0, 15.0, 16.5, 18.0, 19.5), 0.08
     ),
     "alpha_0_05": Asked(
         Tube(0.05, 1.0, 6.0), (1.5, 1.7), 2.2, (15.8, 16.5, 17.5, 19.0, 21.0, 23.0, 25.0), 0.08
     ),
     "alpha_0_07": Asked(
-        Tube(0.07, 1.0, 6.0), (1.8, 2.0), 3.0, (20.1, 21.0, 22.5, 25.0, 28.0, 31.0, 34.0, 36.5, 38.1), 0.06
+        Tube(0.07, 1.0, 6.0), (1.8, 2.0), 3.0, (20.1, 20.5, *np.arange(21.0, 37.1, 1.0), 37.6, 38.0), 0.06
     ),
     "long": Asked(
         Tube(0.1, 1.0, 10.0), (1.25, 1.4), 4.0, (20.0, 21.0, 24.0, 30.0, 40.0, 55.0, 75.0, 90.0, 105.0), 0.08
@@ -68,9 +68,9 @@ COLUMNS = {
 METHOD = (
     "Two codes on the whole tube without a condition of symmetry, which share the data of the tube and no "
     "equation: (a) collocation of the strong equations of paper 2 in two halves that meet at the middle; (b) "
-    "the energy of a surface in space by polynomials of high degree, with second derivatives by complex steps "
-    "of its gradient, from the states of (a) as guesses. Curvatures are fits of polynomials in w_mid^2 to "
-    "states of small amplitude. " + rule("a")
+    "the energy of a surface in space by polynomials of high degree, with second derivatives by complex "
+    "steps of its gradient, from the states of (a) as guesses. Curvatures are fits of polynomials in w_mid^2 "
+    "to states of small amplitude. " + rule("a")
 )
 GRID = (
     f"(a) {strong.MESHES[0].elements} and {strong.MESHES[1].elements} elements of degree "
@@ -225,7 +225,9 @@ def limits() -> Table:
     both = Both(by_equations, by_energy)
     found = read(table, both, ("p",))
     for name, attribute in (("V", "volume"), ("u_max", "u_max"), ("w_mid", "w_mid")):
-        pairs = [[np.array([getattr(s[0], attribute)]) for s in levels] for levels in (by_energy, by_equations)]
+        pairs = [
+            [np.array([getattr(s[0], attribute)]) for s in levels] for levels in (by_energy, by_equations)
+        ]
         found.append(column(table, name, *pairs, floor=PLACE))
     title = "Limit point of the pressure among the lopsided states of a long tube"
     extra = {"keys": ["alpha", "delta1", "lf", "u_end"]}
@@ -241,7 +243,9 @@ def profile() -> Table:
     table, tube = "lopsided_profile", ASKED[PROFILE].tube
     places = np.linspace(-1, 1, 31)
     both = states(PROFILE, np.array([v for v in ASKED[PROFILE].volumes if v <= VOLUME]), "V")
-    read_all = [[level[-1].meridian(places) for level in levels] for levels in (both.by_energy, both.by_equations)]
+    read_all = [
+        [level[-1].meridian(places) for level in levels] for levels in (both.by_energy, both.by_equations)
+    ]
     found = [
         column(table, name, *([meridian[k] for meridian in levels] for levels in read_all), floor=0.0)
         for k, name in enumerate(("rho", "eta"))
