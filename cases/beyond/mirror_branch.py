@@ -121,6 +121,15 @@ CASE = Case(
             title=r"A lopsided meridian: $\alpha = 0$, $V = 16.5$",
             curves=(Curve(NEO, "lopsided", reference="lopsided_profile", at=LOPSIDED, branch=BRANCH),),
         ),
+        Panel(
+            "f",
+            x=Axis("V", 10, 40),
+            y=Axis("w_mid", 0, 1.2),
+            title=r"Amplitude; symmetric states have $w_{mid} = 0$",
+            markers=("mirror_breaking",),
+            counted=("n_negative_volume",),
+            curves=tuple(Curve(spec, TABLES[spec][1], branch=BRANCH) for spec in (NEO, SOFT, JOINING)),
+        ),
     ),
     checks=(
         Points("mirror_breaking", "lopsided_crossings", BASE, KEYS, ASKED | CURVATURES, branch=BRANCH),
