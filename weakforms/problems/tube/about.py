@@ -65,6 +65,11 @@ STABILITY = (
 )
 """Columns of free inflation for which wave numbers are asked."""
 
+LOPSIDED = (
+    Column("w_mid", "axial displacement of the mid-plane over {length}, on the secondary branch", "w_{mid}"),
+)
+"""Columns of lopsided states only."""
+
 PRE_STRETCH = Column("delta1", "axial pre-stretch, 1", r"\delta_1")
 NUMBERS = (
     *numbers(
@@ -93,6 +98,14 @@ WAVES = numbers(
     direction="1 if an eigenvalue becomes negative with growing u_max, -1 if it becomes positive",
 )
 
+CURVATURES = numbers(
+    p_2="initial curvature of the secondary branch: p = p_c + p_2 w_mid^2, w_mid over R_f, p scaled as p is",
+    V_2="the same of its volume: V = V_c + V_2 w_mid^2",
+    A1="coefficient of (p - p_c) w_mid in the equation of the amplitude, from the third variation of Pi",
+    A3="coefficient of w_mid^3 in it, from the third and fourth variation; p_2 = -A3/A1",
+)
+"""Values of the mirror-breaking point at which the secondary branch begins."""
+
 SHARED = {
     "paper": 2,
     "source": "Patil, Nordmark & Eriksson (2014), Proc. R. Soc. A 470, 20140282",
@@ -119,9 +132,10 @@ TUBE = About(
         "forms.revolution:strain_energy",
         "forms.revolution:gas_energy",
     ),
-    columns=(*FREE, *STABILITY, *CONTACT, *column.DIAGNOSTICS),
-    numbers=(*NUMBERS, *WAVES),
+    columns=(*FREE, *LOPSIDED, *STABILITY, *CONTACT, *column.DIAGNOSTICS),
+    numbers=(*NUMBERS, *WAVES, *CURVATURES),
     special_points=("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset", *BIFURCATIONS),
+    branches=("primary", "secondary"),
     example=Example("p", "u_max", {"alpha": 0.1, "delta1": 1.1}, numerics={"cells": 32, "levels": 2}),
     tuned=(
         Family(

@@ -79,6 +79,9 @@ class TubeModel(MeridianModel):
 
     name = "tube"
 
+    hidden: tuple[str, ...] = ()
+    """Functionals that are zero on free inflation and not shown there."""
+
     def __init__(
         self,
         comm: MPI.Intracomm,

@@ -47,6 +47,7 @@ class TubeParameters(MaterialChoice):
         "spring": [{"phase": ("deflation",)}],
         "u_end": [{"contact": ("none",)}],
         "n": [{"contact": ("none",)}],
+        "secondary_from": [{"secondary": (True,)}],
     }
     movable: ClassVar = {"u_end": "le", "p_end": "le"}
 
@@ -70,6 +71,19 @@ class TubeParameters(MaterialChoice):
         description="wave numbers for which stability is computed, such as 0,1,2; 0: axisymmetric, also "
         "without the mirror symmetry of half a tube",
     )
+    secondary: bool = Field(
+        False,
+        description="also follow the lopsided states of free inflation (extent = full), on which the bulge "
+        "moves to one end; n = 0 is then computed too",
+    )
+    secondary_from: int = Field(
+        1, ge=1, le=9, description="which of the points where the mirror symmetry breaks they begin at"
+    )
+
+    @property
+    def stability(self) -> tuple[int, ...]:
+        """Wave numbers that are computed: those asked for, and 0 with lopsided states."""
+        return self.n if 0 in self.n or not self.secondary else (0, *self.n)
 
 
 class TubeFoldParameters(MaterialChoice):

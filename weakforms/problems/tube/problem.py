@@ -17,6 +17,7 @@ from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
+from weakforms.problems.tube.lopsided import AMPLITUDE, WholeTube, lopsided_family
 from weakforms.problems.tube.model import FIRST_U, TubeMesh, TubeModel, fold_line_between, free_branch
 from weakforms.problems.tube.parameters import (
     LONGEST_WHOLE,
@@ -28,6 +29,7 @@ from weakforms.problems.tube.parameters import (
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
 from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
+from weakforms.results import Absence, Failure
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -54,6 +56,7 @@ class Tube(BranchProblem):
         require_stretched(self.name, parameters.material, parameters.delta1, "delta1")
         if parameters.n:
             _require_waves_possible(parameters)
+        _require_lopsided_possible(parameters, requests)
         if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
                 "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"
@@ -72,10 +75,13 @@ class Tube(BranchProblem):
 
     def computed(self, parameters: TubeParameters) -> tuple[str, ...]:
         """The lowest eigenvalues."""
-        return ("eigenvalue_1", *(name for n in parameters.n for name in eigenvalue_names(n)))
+        return ("eigenvalue_1", *(name for n in parameters.stability for name in eigenvalue_names(n)))
 
-    def ends(self, parameters: TubeParameters, _branch: str) -> list[End]:
-        """Where free inflation, contact and deflation end."""
+    def ends(self, parameters: TubeParameters, branch: str) -> list[End]:
+        """Where free inflation, its lopsided states, contact and deflation end."""
+        if branch == "secondary":
+            joined = End("primary", AMPLITUDE, 0.0, "it joins free inflation again")
+            return [joined, End("u_end", "V", None, "its volume is that at the end of free inflation")]
         if parameters.contact == "none":
             return [End("u_end", "u_max", parameters.u_end, largest=True)]
         begins = parameters.phase == "deflation"
@@ -90,12 +96,30 @@ class Tube(BranchProblem):
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         if parameters.contact != "none":
             return {"primary": contact_family(parameters, numerics, comm, progress)}
+        if parameters.secondary:
+            return self._with_secondary(task)
         make, order = branch_maker(parameters, numerics, comm, progress), 2 * numerics.degree
         if not parameters.n:
             return {"primary": BranchFamily(make, numerics.levels, order, across=("p", "u_max"))}
-        # Resultants are derivatives: inside of a cell they have the order of the degree.
-        caps = dict.fromkeys(EXTREMES, float(numerics.degree))
-        return {"primary": TubeFamily(make, numerics.levels, order, ("p", "u_max"), caps=caps)}
+        return {"primary": _with_stability(make, numerics)}
+
+    def _with_secondary(self, task: Task) -> dict[str, Family]:
+        """Free inflation with its stability, and the lopsided states if there are any."""
+        parameters, numerics, progress = task.parameters, task.numerics, task.progress
+        primary = _with_stability(branch_maker(parameters, numerics, task.comm, progress), numerics)
+        try:
+            secondary = lopsided_family(primary, parameters.secondary_from, numerics.step, progress)
+        except AbsentError as error:
+            if any(wanted.branch == "secondary" for wanted in task.requests.states):
+                raise
+            primary.absent.append(Absence(error.what, str(error)))
+            return {"primary": primary}
+        except ConvergenceError as error:
+            if any(wanted.branch == "secondary" for wanted in task.requests.states):
+                raise
+            primary.failures.append(Failure("secondary branch", str(error)))
+            return {"primary": primary}
+        return {"primary": primary, "secondary": secondary}
 
     def resolving(self, parameters: TubeParameters, numerics: TubeNumerics) -> TubeNumerics:
         """More cells for long tubes."""
@@ -117,6 +141,28 @@ def _require_waves_possible(parameters: TubeParameters) -> None:
     require_model("tube: waves around the axis", parameters, tuple(LAWS))
 
 
+def _require_lopsided_possible(parameters: TubeParameters, requests: Requests) -> None:
+    """Refuse lopsided states of a tube that has none, and states of a branch that is not solved for."""
+    if not parameters.secondary:
+        if any(wanted.branch == "secondary" for wanted in requests.states):
+            raise InputError("tube: the secondary branch is solved for only with secondary = true")
+        return
+    if parameters.contact != "none":
+        raise InputError(
+            f"tube: secondary = true with contact = {parameters.contact!r}: lopsided states are those of "
+            "free inflation; set contact = 'none'"
+        )
+    if parameters.extent == "half":
+        raise InputError("tube: secondary = true: lopsided states are not symmetric; set extent = 'full'")
+
+
+def _with_stability(make: Callable[[int], SolutionCurve], numerics: TubeNumerics) -> TubeFamily:
+    """Free inflation with its stability on all meshes."""
+    # Resultants are derivatives: inside of a cell they have the order of the degree.
+    caps = dict.fromkeys(EXTREMES, float(numerics.degree))
+    return TubeFamily(make, numerics.levels, 2 * numerics.degree, ("p", "u_max"), caps=caps)
+
+
 def branch_maker(
     parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
 ) -> Callable[[int], SolutionCurve]:
@@ -130,14 +176,16 @@ def branch_maker(
             numerics.grading,
             full=parameters.extent == "full",
         )
-        model = TubeModel.free(comm, parameters.material, parameters.delta1, parameters.lf, at)
+        tube = WholeTube if parameters.secondary else TubeModel
+        model = tube.free(comm, parameters.material, parameters.delta1, parameters.lf, at)
         kind: Callable[..., SolutionCurve] = EquilibriumBranch
-        if parameters.n:
-            kind = partial(TubeBranch, modes=TubeModes(model, parameters.n, at.full))
+        if parameters.stability:
+            modes, hidden = TubeModes(model, parameters.stability, at.full), tube.hidden
+            kind = partial(TubeBranch, modes=modes, hidden=hidden)
         limit = limit_along(model)
         branch = free_branch(model.system, parameters.delta1, parameters.u_end, numerics.step, kind, limit)
         if isinstance(branch, TubeBranch):
-            branch.end = parameters.u_end
+            branch.end, branch.limit = parameters.u_end, limit
         if branch.ended is not None:
             branch.ended = f"tube: {branch.ended}; lower u_end"
         if branch.stalled is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import inf
@@ -38,6 +38,9 @@ class TubeBranch(ModalBranch):
 
     end = inf
     """``u_max`` at which the branch ends. Its last step goes beyond, on each mesh by another length."""
+
+    limit: Callable[[State], str] = staticmethod(lambda _state: "")
+    """Why the law takes no more than a state, where a trace may stall."""
 
     @property
     def computed(self) -> Sequence[str]:
@@ -121,6 +124,10 @@ class TubeFamily(ModalFamily):
         """Special points; the extremes have round-off too."""
         points = super().special_points()
         return [replace(point, uncertainty=_with_rounding(point.uncertainty)) for point in points]
+
+    def located(self, kind: str) -> list[tuple[Solved, ...]]:
+        """The special points of a kind in their order, each on all meshes."""
+        return [same for same in self._special() if same[-1].kind == kind]
 
     def _quantity(
         self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0, most: float = np.inf

@@ -249,12 +249,23 @@ class System(Lendable):
         self, phi: np.ndarray, loads: Iterable[str] | None = None
     ) -> tuple[np.ndarray, dict[str, float]]:
         r"""Gradient of ``φᵀ K φ`` in ``U`` and in the loads named, for fixed ``φ``: the third variation."""
-        key = "quadratic"
-        if key not in self._ufl:
-            self._ufl[key] = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._phi)
+        return self.scalar_gradient("quadratic", self._quadratic(phi), loads)
+
+    def quartic(self, phi: np.ndarray) -> float:
+        """Fourth variation of the potential, in the one direction ``φ``."""
+        quadratic = self._quadratic(phi)
+        if "quartic" not in self._ufl:
+            rate = ufl.derivative(quadratic, self.unknown, self._phi)
+            self._ufl["quartic"] = ufl.derivative(rate, self.unknown, self._phi)
+        return float(self.sum(fem.assemble_scalar(self._form("quartic"))))
+
+    def _quadratic(self, phi: np.ndarray) -> ufl.Form:
+        """``φᵀ K φ`` as a functional of the state, with the values of ``φ`` written into it."""
+        if "quadratic" not in self._ufl:
+            self._ufl["quadratic"] = ufl.action(ufl.action(self._ufl["tangent"], self._phi), self._phi)
         self._phi.x.array[: self.size] = phi
         self._phi.x.scatter_forward()
-        return self.scalar_gradient(key, self._ufl[key], loads)
+        return self._ufl["quadratic"]
 
     def force_size(self) -> float:
         r"""Size of the nodal forces before they balance, :math:`\| \sum_j |K_{ij}| \, |U_i| \|`.
