@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from reference_data.solvers.beyond.annulus_shooting import Ring, Shooting
-from reference_data.solvers.beyond.annulus_spectral import Pieces
+from reference_data.solvers.beyond.annulus.shooting import Ring, Shooting
+from reference_data.solvers.beyond.annulus.spectral import Pieces
 from reference_data.solvers.core.tables import Levels, Series, Table, agreed, rule, steps
 from reference_data.solvers.registry import Builder
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from reference_data.solvers.beyond.annulus_shooting import Ring, Shooting, energy, pulled, slopes, taut
-from reference_data.solvers.beyond.annulus_spectral import Pieces, density
+from reference_data.solvers.beyond.annulus.shooting import Ring, Shooting, energy, pulled, slopes, taut
+from reference_data.solvers.beyond.annulus.spectral import Pieces, density
 from reference_data.solvers.beyond.tables_annulus import STRETCHED_TAUT, WIDE, shot, spectral
 
 

@@ -1,0 +1,1 @@
+"""Two methods for the sheared annulus, without common equations."""
