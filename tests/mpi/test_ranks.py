@@ -58,6 +58,14 @@ def test_whole_tube_and_eigenvalues(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_lopsided_states_of_a_tube(same_on_ranks):
+    whole = {"problem": "tube", "alpha": 0, "u_end": 1.4, "extent": "full", "secondary": True}
+    (found,) = same_on_ranks([whole | {"numerics": MESH}])
+    assert found.special_points[0].kind == "limit_point"
+    assert found.branch("secondary")["w_mid"].max() > 0.3
+
+
+@pytest.mark.paper2
 def test_tube_with_waves_around(same_on_ranks):
     half = {"problem": "tube", "alpha": 0, "u_end": 1.6, "n": [0, 1, 2], "at": [("u_max", 1.2)]}
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.2, "n": [1], "extent": "full"}

@@ -33,6 +33,13 @@ SOLVES: dict[str, dict[str, Any]] = {
         "at": {"p": 1.0},
         "numerics": LINE,
     },
+    "tube, lopsided": {
+        "alpha": 0.0,
+        "extent": "full",
+        "secondary": True,
+        "u_end": 1.5,
+        "numerics": {"cells": 16, "levels": 2, "step": 0.2},
+    },
     "tube, frictionless": {"contact": "frictionless", **CLAMPED, "at": {"p": 2.0}, "numerics": LINE},
     "tube, glued": {**GLUED, **CLAMPED, "p_end": 2.5, "at": {"p": 1.0}, "numerics": LINE},
     "tube_fold": {"alpha": 0.1, "numerics": LINE},
