@@ -24,7 +24,13 @@ from reference_data.solvers.paper5.hemisphere.states import start
 from weakforms.verification.cases.discovery import find_cases
 
 DATA = Path(__file__).resolve().parents[3] / "reference_data" / "materials"
-PAIRS = [(model, name) for model in ("ogden", "gent") for name in CONSTANTS[model]]
+PAIRS = [
+    pytest.param(model, name, marks=[pytest.mark.slow] if i else [])
+    for model in ("ogden", "gent")
+    for i, name in enumerate(CONSTANTS[model])
+]
+"""All constants; the first one of each law in every run, the others with ``-m slow``."""
+
 TABLES = {"disk_contact": "disk_adhesive", "tube_contact": "tube_adhesive", "hemisphere": "hemisphere"}
 
 
