@@ -16,6 +16,8 @@ MODULES = sorted(p.relative_to(DATA / "solvers") for f in FOLDERS for p in f.glo
 TEXTS = ("title", "source", "method", "grid", "tolerance", "notes", "abscissa")
 
 UNFINISHED = {
+    "beyond.lopsided.tables.limits",
+    "beyond.tables_airbag.state",
     "beyond.tables_controls.mass_folds",
     "beyond.tables_tube_bends.limit_points",
     "beyond.tables_tube_bends.waves",
