@@ -63,6 +63,18 @@ def test_show_problem_says_what_is_admissible(weakforms):
     assert [word for word in expected if word not in text] == []
 
 
+def test_show_material_says_which_constants_are_admissible(weakforms):
+    laws = json.loads(weakforms("show", "material", "--json").out)["materials"]
+    text = weakforms("show", "material").out
+    expected = [law["energy"] for law in laws] + [
+        f"{c['name']} = {c['default']:g}, allowed {c['allowed']}: {c['description']}"
+        for law in laws
+        for c in law["constants"]
+    ]
+    assert len(expected) > 50
+    assert [words for words in expected if words not in text] == []
+
+
 def test_show_case_lists_checks_and_references(weakforms):
     facts = json.loads(weakforms("show", CASE, "--json").out)
     tables = {t["name"]: t for t in facts["references"]}
