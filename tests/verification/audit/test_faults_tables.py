@@ -17,8 +17,9 @@ SMALL = "sphere_limits_varga"
 def pair(tmp_path):
     """The verdicts on a table against another one with an uncertainty of 1e-6 in y."""
 
-    def judge(new, committed="x,y\n1,2\n2,3\n", said="", toml=TOML):
-        texts = (("new.csv", new), ("new.toml", said + toml), ("old.csv", committed), ("old.toml", TOML))
+    def judge(new, committed="x,y\n1,2\n2,3\n", said="", toml=TOML, known=""):
+        old = ("old.csv", committed), ("old.toml", known + TOML)
+        texts = (("new.csv", new), ("new.toml", said + toml), *old)
         for name, text in texts:
             (tmp_path / name).write_text(text)
         found = compared(tmp_path / "new.csv", tmp_path / "old.csv")
@@ -46,6 +47,21 @@ def test_columns_must_agree_within_the_stated_uncertainty(pair, new, wrong):
 def test_texts_of_a_table_must_agree(pair):
     assert pair("x,y\n1,2\n2,3\n", said='regenerate = "otherwise"\n') == []
     assert pair("x,y\n1,2\n2,3\n", said='notes = "another method"\n') == ["the table"]
+
+
+@pytest.mark.parametrize(
+    ("values", "wrong"),
+    [
+        ("V = 116.75352768405318\nn = 3", []),
+        ("V = 116.7535\nn = 3", []),
+        ("V = 116.755\nn = 3", ["the table"]),
+        ("V = 116.75352768405318\nn = 4", ["the table"]),
+        ("V = 116.75352768405318", ["the table"]),
+    ],
+)
+def test_solved_numbers_among_the_parameters_may_differ_by_round_off_only(pair, values, wrong):
+    known = "[parameters]\nV = 116.75352768405317\nn = 3\n"
+    assert pair("x,y\n1,2\n2,3\n", said=f"[parameters]\n{values}\n", known=known) == wrong
 
 
 @pytest.mark.parametrize(

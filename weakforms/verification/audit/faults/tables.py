@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
+import math
 import os
 import resource
 import signal
@@ -39,6 +40,9 @@ MOST = 12
 
 TEXTS = ("title", "source", "type", "method", "grid", "tolerance", "abscissa", "notes", "parameters")
 """What a table says of itself that must not change either."""
+
+SOLVED = 1e-6
+"""Largest difference of two numbers in such texts, relative to those above one; some are solutions."""
 
 WIDER = 3.0
 """Factor by which an uncertainty may differ from the committed one. It contains differences of rounding,
@@ -145,6 +149,15 @@ def run_table(name: str, folder: Path, root: Path | None = None) -> dict[str, An
     return {"status": "passed" if good else "failed", "verdicts": verdicts, "errors": []}
 
 
+def _alike(ours: Any, theirs: Any) -> bool:
+    """Whether two entries of a table say the same; numbers in them may be solutions, with round-off."""
+    if isinstance(ours, dict) and isinstance(theirs, dict):
+        return ours.keys() == theirs.keys() and all(_alike(ours[key], theirs[key]) for key in ours)
+    if isinstance(ours, float) and isinstance(theirs, float):
+        return math.isclose(ours, theirs, rel_tol=SOLVED, abs_tol=SOLVED)
+    return bool(ours == theirs)
+
+
 def compared(new: Path, committed: Path) -> list[dict[str, Any]]:
     """One verdict for each column: equal within the stated uncertainty and the last digit of the table.
 
@@ -154,7 +167,7 @@ def compared(new: Path, committed: Path) -> list[dict[str, Any]]:
     ours, theirs = _columns(new), _columns(committed)
     said, known = (tomllib.loads(path.with_suffix(".toml").read_text("utf-8")) for path in (new, committed))
     about, stated = known["columns"], said["columns"]
-    others = [key for key in TEXTS if said.get(key) != known.get(key)]
+    others = [key for key in TEXTS if not _alike(said.get(key), known.get(key))]
     if others:
         return [_verdict("the table", False, f"it says something else of its {', '.join(others)}")]
     if list(ours) != list(theirs) or {len(v) for v in ours.values()} != {len(v) for v in theirs.values()}:
