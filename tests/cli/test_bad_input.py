@@ -86,7 +86,7 @@ def refused(weakforms, solves, tmp_path, monkeypatch):
         (f"{TUBE} --crossing -1", "crossing -1 1 or more"),
         (f"{TUBE} --crossing two", "'two' whole number"),
         (f"{TUBE} --branch other", "'other' primary"),
-        (f"{TUBE} --branch secondary", "secondary = true"),
+        (f"{TUBE} --at p=1 --branch secondary", "secondary = true"),
         (f"{TUBE} --format xml", "'xml' json csv"),
         (f"{TUBE} --spec missing.json", "missing.json No such file"),
         ("check paper2.fig99 --out new", "'paper2.fig99' paper2.fig09"),
