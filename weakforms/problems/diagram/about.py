@@ -58,8 +58,8 @@ DIAGRAM = About(
         Column("force", "axial force of free ends, besides the pressure, over {axial}"),
         Column(
             "V",
-            "enclosed volume of the half tube, of the sphere, of a long tube of length {length} at rest, or "
-            "under the disk, over {volume}",
+            "enclosed volume of the half tube, of the sphere, under the disk, or of a piece of a long tube "
+            "that is as long at rest as its radius, over {volume}",
             "V",
         ),
         Column("Pi", "total potential of the same over {energy}"),
