@@ -129,7 +129,8 @@ def ratios() -> dict[str, float]:
     for info in pkgutil.walk_packages(solvers.__path__, f"{solvers.__name__}."):
         if info.name.rpartition(".")[2].startswith("tables") and ".core." not in info.name:
             module = importlib.import_module(info.name)
-            modules |= dict.fromkeys(module.TABLES, "/".join(info.name.split(".")[2:]))
+            # A table may be offered again by a module further up: it belongs to the one found first.
+            modules = dict.fromkeys(module.TABLES, "/".join(info.name.split(".")[2:])) | modules
     out: dict[str, float] = {}
     for path in (ROOT / "reference_data").glob("*/*.toml"):
         for column in tomllib.loads(path.read_text())["columns"].values():

@@ -102,6 +102,10 @@ def test_numbers_of_points_carry_what_they_are_off():
     for name, ((value, spread), exact) in found.items():
         assert abs(value - exact) <= 2 * spread + 1e-13, name
         assert spread < 1e-3, name
+    for place in (0.3 * x[1], 1 - 0.3 * (1 - x[-2])):  # in the first and in the last interval
+        value, spread = quadrature.extreme(x, (x - place) ** 2 - 0.5, np.argmin)
+        assert abs(value + 0.5) <= spread < 1e-3
+    assert quadrature.extreme(x, x, np.argmin) == (0.0, 0.0)
     assert abs(quadrature.where(x, x**3, 0.2) - 0.2 ** (1 / 3)) < 1e-6
     assert quadrature.beyond(x, y, 0.99) is None
     assert quadrature.lengths([0.0, 1.0, 3.0], lambda middle: middle > 1) == 2.0

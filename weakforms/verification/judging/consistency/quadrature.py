@@ -114,11 +114,11 @@ def _by_interval(weight: BSpline, of: BSpline, edges: np.ndarray) -> np.ndarray:
 
 def extreme(x: np.ndarray, y: np.ndarray, pick: Callable[[np.ndarray], int]) -> Estimated:
     """Largest or smallest value, by the splines between the neighbours of the point that has it."""
-    i = int(pick(y))
-    if not 0 < i < len(y) - 1:
-        return float(y[i]), 0.0
-    about = np.linspace(x[i - 1], x[i + 1], PLACES)
+    i, last = int(pick(y)), len(y) - 1
+    about = np.linspace(x[max(i - 1, 0)], x[min(i + 1, last)], PLACES)
     values, others = (spline(about) for spline in splines(x, y))
+    if about[pick(values)] == x[i] and i in (0, last):
+        return float(y[i]), 0.0
     fine = float(values[pick(values)])
     apart = float(np.max(np.abs(values - others)))  # the difference at the tops alone may happen to vanish
     between = float(np.max(np.abs(np.diff(values, 2))))  # more than the top rises above the places looked at
