@@ -114,6 +114,8 @@ def prepare(
         raise InputError(f"{problem}: crossing = {crossing} must be 1 or more, or 'all'")
     wanted = at.items() if isinstance(at, Mapping) else at
     states = [StateRequest(name, state_value(name, v), crossing, branch, profile=()) for name, v in wanted]
+    if branch != "primary" and not states:
+        raise InputError(f"{problem}: branch = {branch!r} is where requested states lie; request one with at")
     return prepared(problem, parameters, numerics, states, ahead=True, accuracy=accuracy)
 
 

@@ -87,6 +87,7 @@ def refused(weakforms, solves, tmp_path, monkeypatch):
         (f"{TUBE} --crossing two", "'two' whole number"),
         (f"{TUBE} --branch other", "'other' primary"),
         (f"{TUBE} --at p=1 --branch secondary", "secondary = true"),
+        (f"{TUBE} --branch secondary", "'secondary' at"),
         (f"{TUBE} --format xml", "'xml' json csv"),
         (f"{TUBE} --spec missing.json", "missing.json No such file"),
         ("check paper2.fig99 --out new", "'paper2.fig99' paper2.fig09"),

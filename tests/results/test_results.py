@@ -226,6 +226,19 @@ def test_a_folder_is_locked_only_while_it_is_written_to(tmp_path):
         pass
 
 
+def test_only_half_written_files_of_an_ended_run_are_removed(tmp_path):
+    cases = tmp_path / "cases"
+    cases.mkdir()
+    left = [cases / f".result.{name}" for name in ("json.k2_9abcd", "html.12.part", "vtu.x0000000")]
+    kept = [cases / name for name in (".result.json", ".result.txt.k2_9abcd", "result.json.k2_9abcd")]
+    for path in (*left, *kept):
+        path.write_text("")
+    (cases / ".folder.json.abcdefgh").mkdir()
+    with sole_use(tmp_path):
+        assert not any(path.exists() for path in left)
+    assert sorted(cases.iterdir()) == sorted([*kept, cases / ".folder.json.abcdefgh"])
+
+
 def test_places_are_tried_before_solving(tmp_path):
     (tmp_path / "file").write_text("")
     require_place_for(tmp_path / "file")

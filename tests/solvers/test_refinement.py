@@ -1,8 +1,12 @@
 """The uncertainty of a number from several meshes bounds its error."""
 
+from functools import partial
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.refinement import (
     ALGEBRAIC,
     Estimate,
@@ -125,6 +129,22 @@ def test_round_off_in_the_order_of_a_field():
     steps = np.array([6e-11, 2e-11, 0.0])
     assert order_in_mean([np.full(3, 0.5 + s) for s in steps]) == pytest.approx(1.0, abs=1e-4)
     assert order_in_mean([np.full(3, 8.0 + s) for s in steps]) == 0
+
+
+def test_the_order_of_a_field_counts_where_that_of_a_point_is_accidental():
+    """Differences of order 1 at a point, in a field of order 4; an order that is known is used as it is."""
+    family = SimpleNamespace(_cap=lambda *_names: 4.0, least={"other": 4.0}, slow=None)
+    values = [1.0 + 0.3, 1.0 + 0.1, 1.0]
+    quantity = partial(BranchFamily._quantity, family, values)
+    alone = estimate(values, 4.0).uncertainty
+    assert quantity("x").uncertainty == pytest.approx(alone)
+    assert quantity("x", in_mean=4.0).uncertainty == pytest.approx(
+        1.5 * estimate(values, 4.0, None, 4.0).uncertainty
+    )
+    assert quantity("x", in_mean=4.0).uncertainty < alone / 5
+    assert quantity("x", in_mean=0.5).uncertainty == pytest.approx(alone)
+    assert quantity("other").uncertainty == pytest.approx(estimate(values, 4.0, least=4.0).uncertainty)
+    assert quantity("x", most=2.0).uncertainty == pytest.approx(estimate(values, 2.0).uncertainty)
 
 
 def test_doubt_at_its_ends():

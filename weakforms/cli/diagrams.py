@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, get_args
 
 import typer
 
@@ -12,7 +12,11 @@ from weakforms.cli.solving import end_of, solved
 from weakforms.errors import InputError
 from weakforms.terminal import complain, console, plain, rank, request
 
-BODIES = ("tube", "circular", "sphere", "infinite_tube")
+
+def _bodies() -> list[str]:
+    from weakforms.problems.diagram.parameters import DiagramParameters
+
+    return list(get_args(DiagramParameters.model_fields["body"].annotation))
 
 
 @app.command(
@@ -29,7 +33,7 @@ BODIES = ("tube", "circular", "sphere", "infinite_tube")
 def diagram(
     problem: Annotated[
         str,
-        typer.Argument(help="tube, circular, sphere or infinite_tube.", autocompletion=lambda: list(BODIES)),
+        typer.Argument(help="tube, circular, sphere or infinite_tube.", autocompletion=_bodies),
     ],
     plane: Annotated[
         tuple[str, str], typer.Option(metavar="X Y", help="The two parameters; one of them is p.")

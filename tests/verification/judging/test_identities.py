@@ -107,6 +107,8 @@ def test_numbers_of_points_carry_what_they_are_off():
         assert abs(value + 0.5) <= spread < 1e-3
     assert quadrature.extreme(x, x, np.argmin) == (0.0, 0.0)
     assert abs(quadrature.where(x, x**3, 0.2) - 0.2 ** (1 / 3)) < 1e-6
+    assert quadrature.where(x, 1 + x, 0.5) == 0.0
+    assert quadrature.where(x, x / 2, 0.6) == 1.0
     assert quadrature.beyond(x, y, 0.99) is None
     assert quadrature.lengths([0.0, 1.0, 3.0], lambda middle: middle > 1) == 2.0
 
