@@ -5,7 +5,7 @@ from mpi4py import MPI
 
 from weakforms import solve
 from weakforms.api import solve_requests
-from weakforms.errors import AbsentError
+from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.problem import StateRequest
 from weakforms.problems.wrinkled.problem import WrinkledNumerics, WrinkledParameters, wrinkled_membrane
 from weakforms.problems.wrinkled.waves.bands import Bands
@@ -95,3 +95,13 @@ def test_a_zone_that_closes_at_the_surface_of_the_liquid_is_found():
     assert abs(closing.values["t"] - state.quantities["t_level"].value) < 5e-4
     assert state.quantities["gw_min"].value == pytest.approx(1, abs=1e-7)
     assert state.quantities["wrinkled_fraction"].value == 0
+
+
+@pytest.mark.parametrize(
+    ("problem", "given"),
+    [("wrinkled_tube", {"M": 1.5, "Af": 0.6, "load_end": 1.0}), ("hemisphere", {"low_end": -0.9})],
+)
+def test_meshes_too_coarse_for_any_point_are_told(problem, given):
+    """One cell in each block of the coarsest mesh: the branch ended with an internal error."""
+    with pytest.raises(ConvergenceError, match="no point could be solved for on all meshes; raise cells"):
+        solve(problem, numerics={"cells": 4}, **given)

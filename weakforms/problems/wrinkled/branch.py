@@ -177,7 +177,11 @@ class WrinkledBranch:
         return out
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
-        """All columns over the points of the trace, with uncertainties if requested."""
+        """All columns over the points of the trace, with uncertainties if requested.
+
+        Raises:
+            ConvergenceError: If no point can be solved for on all meshes.
+        """
         fine = [(i, self._all_columns(held) | self.readings.diagnostics(held)) for i, held in self._fine]
         names = list(fine[0][1])
         columns = {n: np.array([row[n] for _, row in fine]) for n in names}
@@ -192,6 +196,10 @@ class WrinkledBranch:
                 continue
             errors.append([self.readings.estimate(n, [v[n] for v in table]).uncertainty for n in shown])
             kept.append(j)
+        if not kept:
+            raise ConvergenceError(
+                f"branch {self.name}: no point could be solved for on all meshes; raise cells"
+            )
         spread = dict(zip(shown, np.array(errors).T, strict=True))
         columns = {n: values[kept] for n, values in columns.items()}
         return Branch(self.name, self.control, columns, spread)
