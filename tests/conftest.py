@@ -14,6 +14,7 @@ from threading import Event, Thread
 
 # PETSc takes over the signals of a crash when it starts. Started here, before pytest does, it leaves them to
 # pytest, which says what Python was doing.
+import pytest
 from petsc4py import PETSc  # noqa: F401
 
 # Started in the background, as a job of a build server may be, a process ignores interrupts, and so do its
@@ -141,9 +142,28 @@ class SignOfLife:
         self.reporter.flush()
 
 
+def compiled_forms() -> int:
+    """Number of modules in the cache of compiled forms."""
+    from dolfinx.jit import DOLFINX_DEFAULT_JIT_OPTIONS
+
+    folder, _ = DOLFINX_DEFAULT_JIT_OPTIONS["cache_dir"]
+    return sum(1 for _ in Path(folder).glob("*.c.cached"))
+
+
+def pytest_terminal_summary(terminalreporter, config) -> None:
+    """Say how much of the time went into the compiler."""
+    found = config.stash[FORMS]
+    terminalreporter.write_line(f"{compiled_forms() - found} modules of forms were compiled, {found} found")
+
+
+FORMS = pytest.StashKey[int]()
+"""Number of modules of forms that were compiled before the session."""
+
+
 def pytest_sessionstart(session) -> None:
     """The printing process writes progress lines, unless it has a terminal for its dots."""
     config = session.config
+    config.stash[FORMS] = compiled_forms()
     reporter = config.pluginmanager.getplugin("terminalreporter")
     if not (reporter is None or reporter.isatty or hasattr(config, "workerinput")):
         config.pluginmanager.register(SignOfLife(reporter, session))

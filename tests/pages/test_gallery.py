@@ -117,6 +117,7 @@ def test_a_held_tube_bends_and_bulges_at_once_where_a_closed_one_has_its_limit(t
     assert "pears up to mu2 = 0.0070787" in text
 
 
+@pytest.mark.slow
 def test_a_heavy_liquid_keeps_the_corners_taut(tmp_path):
     gas, light, heavy = numbers(ran("corners", tmp_path), "wrinkled part")
     assert gas > light > heavy

@@ -258,9 +258,9 @@ def pre_stretch_forgotten_in_hoop(monkeypatch):
 @pytest.mark.parametrize(
     "fault",
     [
-        wrong_pressure_sign,
-        wrong_sign_in_second_invariant,
-        wrong_power_of_volume,
+        pytest.param(wrong_pressure_sign, marks=pytest.mark.slow),
+        pytest.param(wrong_sign_in_second_invariant, marks=pytest.mark.slow),
+        pytest.param(wrong_power_of_volume, marks=pytest.mark.slow),
         pre_stretch_forgotten_in_hoop,
     ],
 )

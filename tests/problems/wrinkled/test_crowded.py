@@ -1,8 +1,11 @@
 """Spectra of waves so short that their bending stiffness alone makes all eigenvalues nearly equal."""
 
+import pytest
+
 from weakforms.api import solve_requests
 
 
+@pytest.mark.slow
 def test_crowded_eigenvalues_of_short_waves_are_found():
     """``beta n^4`` is a billion times the other stiffness: SLEPc's usual basis did not converge."""
     shape = {"M": 1.803, "delta": 4.272, "c2": 0.2296, "L": 4.985, "Af": "critical"}

@@ -286,7 +286,14 @@ def wrong_switch(monkeypatch):
         monkeypatch.setattr(module, "wrinkling_function", lambda a, b: b * a)
 
 
-@pytest.mark.parametrize("fault", [liquid_pushes_inwards, level_counted_double, uniform_thickness])
+@pytest.mark.parametrize(
+    "fault",
+    [
+        pytest.param(liquid_pushes_inwards, marks=pytest.mark.slow),
+        pytest.param(level_counted_double, marks=pytest.mark.slow),
+        uniform_thickness,
+    ],
+)
 def test_a_fault_in_the_weak_form_fails_named_checks(fault, monkeypatch, tmp_path):
     fault(monkeypatch)
     found = FoundCase("paper4.sentinel", 4, Path(__file__), SENTINEL, "")
@@ -296,7 +303,9 @@ def test_a_fault_in_the_weak_form_fails_named_checks(fault, monkeypatch, tmp_pat
     assert any(name.startswith("fig02_M_1.5_zw_7.44") for name in beyond), "beyond its bound, not a stall"
 
 
-@pytest.mark.parametrize("fault", [second_invariant_forgotten_in_folds, wrong_switch])
+@pytest.mark.parametrize(
+    "fault", [second_invariant_forgotten_in_folds, pytest.param(wrong_switch, marks=pytest.mark.slow)]
+)
 def test_a_fault_in_the_folds_leaves_a_branch_that_ends_too_low(fault, monkeypatch, tmp_path):
     """The branch turns at half the level of the profile: the message says that no state can be compared."""
     fault(monkeypatch)

@@ -20,7 +20,10 @@ def read(name: str, rows: int) -> tuple[dict, dict[str, np.ndarray]]:
     return about, dict(zip(head.split(","), numbers.T, strict=True))
 
 
-LINES = ("lines_fold_alpha", "lines_wrinkling_disk", "lines_wrinkling_front")
+LINES = (
+    "lines_fold_alpha",
+    *(pytest.param(f"lines_wrinkling_{place}", marks=pytest.mark.slow) for place in ("disk", "front")),
+)
 
 
 @pytest.mark.parametrize("name", LINES)
