@@ -136,6 +136,8 @@ SCOPES = {
     ("hemisphere", "rate"): [({}, True), ({"load": "gas"}, False)],
     ("wrinkled_tube", "field_axial"): [({}, True), ({"load_end": 2.0}, False)],
     ("sphere", "work"): [({}, True), ({"vary": "alpha"}, False)],
+    ("sheet", "shear"): [({}, True), ({"loading": "stretch"}, False)],
+    ("sheet", "pull"): [({"loading": "strip"}, True), ({}, False)],
     ("annulus", "field_gw"): [({}, True), ({"model": "saint_venant_kirchhoff"}, False)],
     ("surface", "surface"): [({}, True), ({"geometry": "hemisphere"}, False)],
     ("tube", "Pi"): [({}, True), ({"extent": "full"}, False), ({"model": "ogden"}, False)],

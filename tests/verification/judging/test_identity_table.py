@@ -214,6 +214,19 @@ def test_the_potential_changes_by_the_work_of_the_load(problem):
     assert not judged(problem, "work", solution(problem, meridian(problem), columns=columns))
 
 
+@pytest.mark.parametrize(("load", "stress"), [("gam", "tau"), ("lam", "T_x")])
+def test_the_energy_of_a_sheet_changes_by_the_work_of_its_edges(load, stress):
+    potential = (2.0 * VOLUME * LOAD.deriv()).integ()
+    (held,) = (i for i in IDENTITIES["sheet"] if i.over({"loading": "shear"}) is (load == "gam"))
+    for factor in (1.0, 1.01):
+        result = solution(
+            "sheet", {}, columns={stress: VOLUME(S), load: LOAD(S), "Pi": factor * potential(S)}
+        )
+        result.parameters["c"] = 2.0
+        ((_, _, found),) = held.look(result)
+        assert found.passed(SHARP) is (factor == 1.0)
+
+
 @pytest.mark.parametrize("problem", SLOPES)
 def test_a_column_is_the_slope_of_another(problem):
     given, names = SLOPES[problem]

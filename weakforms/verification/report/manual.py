@@ -25,6 +25,7 @@ SKETCHES = {
     "rectangle": "rectangle",
     "membrane": "outline",
     "annulus": "annulus",
+    "sheet": "sheet",
     "torus": "torus",
     "homogeneous": "piece",
     "material": "piece",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -78,6 +79,14 @@ def _balanced(given: Given) -> bool:
     return _uniform(given) and given.get("ends", "free") == "free"
 
 
+def _sheared(given: Given) -> bool:
+    return given.get("loading", "shear") == "shear"
+
+
+def _not_sheared(given: Given) -> bool:
+    return not _sheared(given)
+
+
 def _gas(given: Given) -> bool:
     return given.get("load") == "gas"
 
@@ -88,6 +97,11 @@ def _liquid(given: Given) -> bool:
 
 def _over(identity: Identity, over: Any) -> Identity:
     return Identity(identity.name, identity.statement, identity.look, over)
+
+
+def _renamed(name: str, identity: Identity) -> Identity:
+    """One of several identities of a problem that would have the same name."""
+    return replace(identity, name=name)
 
 
 def _end(which: int, name: str) -> Any:
@@ -298,6 +312,10 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         ),
     ),
     # Traces over a level that turns twice are too coarse for its work; a claim integrates it by polynomials.
+    "sheet": (
+        _renamed("shear", _over(work("gam", lambda r, c: r.parameters["c"] * c["tau"]), _sheared)),
+        _renamed("pull", _over(work("lam", lambda r, c: r.parameters["c"] * c["T_x"]), _not_sheared)),
+    ),
     "membrane": (work("p", lambda _, c: -c["V"]),),
     "rectangle": (_over(work("p", lambda _, c: -c["V"]), _gas),),
     "surface": tuple(

@@ -1,0 +1,13 @@
+"""Sheets in their plane: the same numbers serially and on two ranks."""
+
+import pytest
+
+pytestmark = pytest.mark.mpi
+
+
+def test_sheets(same_on_ranks):
+    coarse = {"cells": 8, "levels": 2}
+    sheared = {"problem": "sheet", "s": 1.1, "gam_end": 0.5, "at": [("gam", 0.4)]}
+    strip = {"problem": "sheet", "loading": "strip", "lam_end": 1.4, "at": [("lam", 1.2)]}
+    found = same_on_ranks([given | {"numerics": coarse} for given in (sheared, strip)])
+    assert [result.states[0].quantities["lam1"].value > 1.1 for result in found] == [True, True]

@@ -1,0 +1,93 @@
+"""Sheets whose edges are moved in their plane: any law, meshes, and what is refused."""
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from weakforms import InputError, solve
+from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.sheet.model import Sheet, SheetModel
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
+
+SMALL = {"cells": 4, "levels": 2}
+LAWS = [{"alpha": 0.3}, {"model": "ogden"}, {"model": "gent"}]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_a_strip_of_any_law_has_the_width_and_the_force_of_a_test_piece(law):
+    (pulled,) = solve("sheet", loading="strip", c=2.0, at={"lam": 1.5}, numerics=SMALL, **law).states
+    (piece,) = solve("homogeneous", loading="uniaxial", at={"lam": 1.5}, **law).states
+    assert pulled.quantities["lam2"].value == pytest.approx(1.5**-0.5, rel=1e-9)
+    assert pulled.quantities["T_x"].value == pytest.approx(piece.quantities["T"].value, rel=1e-9)
+    assert abs(pulled.quantities["T_y"].value) < 1e-10
+    assert "f_w" not in pulled.quantities
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_a_narrowed_sheet_of_any_law_has_the_force_of_a_strip_where_it_is_wrinkled(law):
+    at = [("lam", 1.2), ("lam", 1.8)]
+    taut, folded = solve("sheet", loading="stretch", s=0.8, at=at, numerics=SMALL, **law).states[::-1]
+    strip = solve("sheet", loading="strip", at=at, numerics=SMALL, **law).states
+    assert folded.quantities["f_w"].value == pytest.approx(1.0)
+    assert folded.quantities["T_x"].value == pytest.approx(strip[0].quantities["T_x"].value, rel=1e-9)
+    assert abs(folded.quantities["T_y"].value) < 1e-10
+    assert taut.quantities["f_w"].value == 0.0
+    assert taut.quantities["T_y"].value > 0.1
+
+
+def test_the_length_of_a_sheet_scales_its_energy_only():
+    short, long = (
+        solve("sheet", c=c, at={"gam": 0.4}, numerics=SMALL).states[0].quantities for c in (1.0, 2.5)
+    )
+    assert long["Pi"].value == pytest.approx(2.5 * short["Pi"].value, rel=1e-10)
+    for name in ("tau", "T_x", "T_y", "lam1", "lam2"):
+        assert long[name].value == pytest.approx(short[name].value, rel=1e-10)
+
+
+@pytest.mark.parametrize("degree", [1, 2])
+@pytest.mark.parametrize(
+    ("loading", "s", "load"), [("shear", 1.3, 0.4), ("shear", 1.0, 0.4), ("stretch", 0.8, 2.0)]
+)
+def test_a_disturbed_guess_returns_to_the_homogeneous_state(loading, s, load, degree):
+    """Also where the sheet is wrinkled: lines of tension that end at held edges have stiffness."""
+    model = SheetModel(MPI.COMM_SELF, Sheet(mooney_rivlin_of(0.1), loading, 1.0, s), 6, degree)
+    system, control = model.system, model.sheet.control
+    model.unknown.interpolate(lambda x: 0.02 * np.sin(np.pi * x[:2]) * np.sin(np.pi * x[1::-1]))
+    guess = State(model.unknown.x.array.copy(), system.initial.loads | {control: load})
+    found, _ = ExtendedNewton(system, [control]).solve(guess, [Held(control, load)])
+    assert np.abs(guess.u).max() > 0.01
+    assert np.abs(found.u).max() < 1e-10
+
+
+def test_a_law_of_bounded_stretch_ends_the_branch():
+    result = solve("sheet", model="gent", jm=5.0, gam_end=3.0, numerics=SMALL)
+    (rest,) = result.absent
+    assert "sheet: at gam = 2." in rest.reason
+    assert rest.reason.endswith("lower gam_end")
+    assert result.branch().columns["gam"][-1] < 2.4
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"s": 0.9}, r"s = 0\.9 with loading = 'shear': .* allowed: s from 1, or loading = 'stretch'"),
+        ({"model": "gent", "jm": 2.0, "s": 2.0}, r"sheet: s = 2: .*lower s"),
+        ({"model": "varga", "loading": "strip", "at": {"gam": 0.1}}, "gam"),
+        ({"at": {"gam": 7.0}}, "gam = 7 lies beyond"),
+    ],
+)
+def test_what_has_no_state_is_refused(given, said):
+    with pytest.raises(InputError, match=said):
+        solve("sheet", **given)
+
+
+def test_parameters_of_another_loading_are_told():
+    with pytest.warns(UserWarning, match="s = 1.1 has no effect"):
+        solve("sheet", loading="strip", s=1.1, lam_end=1.2, numerics=SMALL)
+
+
+def test_a_law_without_a_relaxed_form_is_refused():
+    with pytest.raises(InputError, match="model"):
+        solve("sheet", model="saint_venant_kirchhoff", shear=1.0, poisson=0.3)

@@ -1,0 +1,1 @@
+"""Flat sheets whose edges are moved in their plane."""

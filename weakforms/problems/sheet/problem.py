@@ -1,0 +1,156 @@
+"""Problem ``sheet``: parameters, and the branch over the shear or the stretch of the edges."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
+from weakforms.problems.material_choice import MaterialChoice, require_foldable
+from weakforms.problems.meridian.limits import limit_of
+from weakforms.problems.meridian.pre_stretch import require_taut
+from weakforms.problems.problem import End, Needs, Requests, Task, TogetherError
+from weakforms.problems.sheet.about import SHEET
+from weakforms.problems.sheet.model import Sheet, SheetModel
+from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.equilibrium.constraints import Held
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.uncertainty.family import BranchFamily
+
+
+class SheetNumerics(MeshNumerics):
+    """Meshes of the sheet: squares across its width, each cut into four triangles."""
+
+    degree: int = Field(2, ge=1, le=2, description="polynomial degree of the unknowns")
+    cells: int = Field(8, ge=2, le=256, description="squares across the width on the finest mesh")
+    levels: int = Field(2, ge=2, le=4, description="meshes, each twice as fine as the one before")
+    step: float = Field(0.04, ge=0.005, le=0.5, description="largest arc-length step")
+    start: float = Field(
+        0.02,
+        ge=1e-4,
+        le=0.1,
+        description="gam or lam - 1 of the first point: without load a sheet may be slack",
+    )
+
+
+class SheetParameters(MaterialChoice):
+    """The sheet, its edges and their motion."""
+
+    ratio: ClassVar[str] = "alpha"
+    edges: ClassVar = [{"loading": ("shear", "stretch")}]
+    needs: ClassVar[Needs] = {
+        "s": edges,
+        "energy": edges,
+        "gam_end": [{"loading": ("shear",)}],
+        "lam_end": [{"loading": ("stretch", "strip")}],
+    }
+    movable: ClassVar = {"gam_end": "le", "lam_end": "le"}
+
+    loading: Literal["shear", "stretch", "strip"] = Field(
+        "shear",
+        description="shear: the edge Y = 1 moves along X; stretch: the sheet is pulled in X, its width held; "
+        "strip: it is pulled in X and finds its width",
+    )
+    c: float = Field(1.0, ge=0.25, le=8, description="length over width of the stress-free sheet")
+    s: float = Field(1.0, ge=0.5, le=3, description="stretch of the edges in Y")
+    alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    energy: Literal["relaxed", "full"] = Field(
+        "relaxed",
+        description="relaxed: the sheet bears no compression; full: it bears compression; a strip bears none",
+    )
+    gam_end: float = Field(1.0, gt=0.1, le=5, description="shear at which the branch ends")
+    lam_end: float = Field(2.0, gt=1.1, le=10, description="stretch in X at which the branch ends")
+
+    @model_validator(mode="after")
+    def _in_tension(self) -> Self:
+        if self.loading == "shear" and self.s < 1:
+            raise TogetherError(
+                f"s = {self.s:g} with loading = 'shear': a narrowed sheet is slack at first; allowed: s from "
+                "1, or loading = 'stretch'"
+            )
+        return self
+
+    @property
+    def sheet(self) -> Sheet:
+        """The sheet. A strip takes the full energy: at its own width both are equal, and this is smooth."""
+        if self.loading == "strip":
+            return Sheet(self.material, self.loading, self.c, relaxed=False)
+        return Sheet(self.material, self.loading, self.c, self.s, self.energy == "relaxed")
+
+    @property
+    def end(self) -> tuple[str, float]:
+        """Name of the parameter that ends the branch, and its value."""
+        name = f"{self.sheet.control}_end"
+        return name, getattr(self, name)
+
+
+class SheetProblem(BranchProblem):
+    """A flat sheet in its plane, its edges sheared or stretched."""
+
+    about, parameters, numerics = SHEET, SheetParameters, SheetNumerics
+    surfaces = True
+
+    def check(self, parameters: SheetParameters, requests: Requests) -> None:
+        """Refuse laws without a relaxed form, and a stretch of the edges beyond a law's limit.
+
+        Raises:
+            InputError: With a message that names the value and the allowed ones.
+        """
+        super().check(parameters, requests)
+        require_foldable(self.name, parameters, invariants=True)
+        require_taut(self.name, parameters.material, max(parameters.s, 1.0), "s")
+
+    def ends(self, parameters: SheetParameters, _branch: str) -> list[End]:
+        """The last shear or stretch."""
+        name, value = parameters.end
+        return [End(name, parameters.sheet.control, value, largest=True)]
+
+    def families(self, task: Task) -> dict[str, Family]:
+        """The branch on all meshes."""
+        given, numerics = task.parameters, task.numerics
+
+        def make(level: int) -> EquilibriumBranch:
+            task.progress("branch", level, numerics.levels)
+            model = SheetModel(task.comm, given.sheet, numerics.meshes[level], numerics.degree)
+            return traced(model, numerics, *given.end)
+
+        across = (given.sheet.control, "Pi")
+        return {"primary": BranchFamily(make, numerics.levels, 2.0 * numerics.degree, across)}
+
+    def points(self, parameters: SheetParameters) -> np.ndarray:
+        """21 points of the diagonal, by their ``X``."""
+        return np.linspace(0.0, parameters.c, 21)
+
+
+def traced(model: SheetModel, numerics: SheetNumerics, by: str, end: float) -> EquilibriumBranch:
+    """The branch from a small shear or stretch to a larger one, or to the limit of the law.
+
+    Args:
+        model: The sheet on one mesh.
+        numerics: Its largest step and its start.
+        by: The parameter that ends the branch.
+        end: Its value.
+    """
+    system, control, law = model.system, model.sheet.control, model.sheet.law
+    start = numerics.start + (control == "lam")
+    steps = StepControl(first=numerics.step / 4, largest=numerics.step)
+    continuation = Continuation(ExtendedNewton(system, [control]), control=steps)
+    rest = State(system.initial.u, system.initial.loads | {control: start})
+    first, _ = continuation.solve(rest, Held(control, start))
+
+    def limit(point: CurvePoint) -> str:
+        return limit_of(law, [(point.monitors["lam1"], point.monitors["lam2"])])
+
+    def stop(point: CurvePoint) -> bool:
+        return point.state.loads[control] > end or bool(limit(point))
+
+    begin = continuation.start(first, Held(control, start), towards={control: 1.0})
+    branch = EquilibriumBranch(continuation, control, begin, stop)
+    last = branch.points[-1]
+    if branch.stalled is None and (why := limit(last)):
+        branch.ended = f"sheet: at {control} = {last.state.loads[control]:.6g} {why}; lower {by}"
+    return branch
