@@ -6,7 +6,7 @@ import pytest
 from dolfinx import fem, mesh
 from mpi4py import MPI
 
-from weakforms.solvers.support.sampling import Peak
+from weakforms.solvers.support.sampling import Peak, lowest_on_grid
 
 DENSE = np.linspace(0.0, 1.0, 200_001)
 
@@ -53,3 +53,20 @@ def test_random_polynomials():
 
 def test_a_value_that_is_no_number_is_infinite():
     assert peak_of(lambda x: np.where(x > 0.5, np.nan, x), 8, 2)[0] == np.inf
+
+
+def test_the_lowest_value_of_a_grid_lies_between_its_points():
+    """Exact for a paraboloid; the uncertainty is the difference from a grid with half as many points."""
+    x, y = np.meshgrid(np.linspace(-1, 1, 41), np.linspace(-1, 1, 21), indexing="ij")
+    low, apart = lowest_on_grid(2 * (x - 0.113) ** 2 + 3 * (y + 0.271) ** 2 - 0.5)
+    assert low == pytest.approx(-0.5, abs=1e-13)
+    assert apart < 1e-13
+    rough = -np.cos(2 * (x - 0.113)) - np.cos(3 * (y + 0.271))
+    low, apart = lowest_on_grid(rough)
+    assert abs(low + 2) <= apart < 1e-2
+    assert low < rough.min()
+
+
+def test_the_lowest_value_at_an_edge_of_a_grid_is_that_of_its_point():
+    x, y = np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 9), indexing="ij")
+    assert lowest_on_grid(x + (y - 0.3) ** 2)[0] == pytest.approx(0.0, abs=1e-13)
