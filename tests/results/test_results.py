@@ -243,8 +243,9 @@ def test_places_are_tried_before_solving(tmp_path):
     (tmp_path / "file").write_text("")
     require_place_for(tmp_path / "file")
     require_place_for(tmp_path / "new" / "r.json")
+    require_place_for(tmp_path / "new" / "far" / "inside" / "r.json")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "new"]
-    assert list((tmp_path / "new").iterdir()) == []
+    assert [p.name for p in (tmp_path / "new").iterdir()] == ["far"]
     for bad in (tmp_path, tmp_path / "file" / "x", tmp_path / ("x" * 300), tmp_path / ("x" * 300) / "y"):
         with pytest.raises(InputError, match="cannot write"):
             require_place_for(bad)

@@ -70,3 +70,5 @@ def test_the_lowest_value_of_a_grid_lies_between_its_points():
 def test_the_lowest_value_at_an_edge_of_a_grid_is_that_of_its_point():
     x, y = np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 9), indexing="ij")
     assert lowest_on_grid(x + (y - 0.3) ** 2)[0] == pytest.approx(0.0, abs=1e-13)
+    assert lowest_on_grid((y - 0.3) ** 2 - x)[0] == pytest.approx(-1.0, abs=1e-13)
+    assert lowest_on_grid((x - 0.3) ** 2 - y)[0] == pytest.approx(-1.0, abs=1e-13)

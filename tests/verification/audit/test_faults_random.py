@@ -293,6 +293,11 @@ def test_files_that_few_words_of_the_line_point_to_are_guessed_first(tmp_path):
     assert "audit/test_coverage.py" in next(text for text in found if "test_contract" not in text)
 
 
+def test_a_line_of_a_reference_solver_is_first_tried_on_what_tables_ask_for(tmp_path):
+    found = [text for text, _ in Watchers(tmp_path).of("reference_data/solvers/paper2/tables_free.py", 176)]
+    assert found[0] == "tests/references/test_tables_asked.py::test_tables_ask_for_what_is_committed"
+
+
 @pytest.mark.parametrize(
     ("file", "said", "on_ranks"),
     [

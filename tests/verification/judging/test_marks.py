@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from weakforms import Curve, tube
+from weakforms import Axis, Curve, Panel, tube
 from weakforms.results import Branch, Quantity, Result, State
 from weakforms.verification.cases.references import Reference
 from weakforms.verification.judging.consistency import marks
@@ -28,6 +28,19 @@ def test_a_mark_off_its_line_by_more_than_its_size_fails(mark, passes):
 
 def test_a_line_that_is_no_number_fails():
     assert not marks.judge(panel([0, 1], [0, np.nan], (0.5, 1.0)))[0].passed
+
+
+def test_a_verdict_is_expected_where_a_table_has_both_columns_of_a_panel():
+    of = tube(alpha=0.1, delta1=1.5)
+    curves = {"none": Curve(of, "c"), "one": Curve(of, "c", "fig02b_delta1_1.5")}
+
+    def found(y: str, *names: str) -> list[str]:
+        drawn = tuple(curves[name] for name in names)
+        return marks.names(2, Panel("a", x=Axis("u_max", 0, 2), y=Axis(y, 0, 2), curves=drawn))
+
+    assert found("p", "none") == []
+    assert found("p", "none", "one") == ["marks:a"]
+    assert found("lam2_mid", "one") == []
 
 
 def test_a_panel_without_marks_has_no_verdict():

@@ -20,6 +20,12 @@ CONTRACT = "tests/house/test_contract.py"
 DECLARING = ("weakforms/problems/", "weakforms/forms/materials/")
 """Folders of what it holds."""
 
+ASKED = "tests/references/test_tables_asked.py"
+"""What holds all that tables ask for (parameters, abscissae, texts) against the committed ones."""
+
+SOLVERS = "reference_data/solvers/"
+"""Folder of the files that may change it."""
+
 RANKS = "tests/mpi"
 """Folder of the tests that start several ranks."""
 
@@ -88,14 +94,16 @@ class Imports:
                 yield from found
 
     def first(self, file: str, line: int) -> list[str]:
-        """Test functions to run before the others: of the contract, of the file itself, on several ranks.
+        """Test functions to run before others: of contract or tables, of the file itself, on several ranks.
 
         Tests of the file itself import it and are named as it is. Tests on ranks are chosen by the words that
         their functions share with the name of the file.
         """
         path = self._root / file
-        contract = self._root / CONTRACT
-        found = functions(contract, CONTRACT) if file.startswith(DECLARING) and contract.exists() else []
+        found = []
+        for name, folders in ((CONTRACT, DECLARING), (ASKED, SOLVERS)):
+            if file.startswith(folders) and (self._root / name).exists():
+                found += functions(self._root / name, name)
         for name in sorted(self._used_by[file]):
             if Path(name).name == f"test_{path.name}" and _is_test(name, set()):
                 found += functions(self._root / name, name)
