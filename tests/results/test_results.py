@@ -3,6 +3,7 @@
 import copy
 import json
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -224,6 +225,16 @@ def test_a_folder_is_locked_only_while_it_is_written_to(tmp_path):
         pass
     with sole_use(tmp_path):
         pass
+
+
+def test_a_file_is_written_beside_its_place(tmp_path, monkeypatch):
+    """Elsewhere, the folder for temporary files for instance, may be another file system."""
+    moved, replaced = [], os.replace
+    monkeypatch.setattr(os, "replace", lambda *paths: moved.append(paths) or replaced(*paths))
+    write_atomically(tmp_path / "new" / "r.json", "{}")
+    ((temporary, place),) = moved
+    assert Path(temporary).parent == Path(place).parent == tmp_path / "new"
+    assert Path(temporary).name.startswith(".r.json.")
 
 
 def test_only_half_written_files_of_an_ended_run_are_removed(tmp_path):

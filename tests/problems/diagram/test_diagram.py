@@ -220,6 +220,23 @@ def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, messa
     assert "\n" not in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    ("given", "ends"),
+    [
+        ({"x": "delta1"}, (1.0, 2.0)),
+        ({"x": "lf"}, (4.0, 12.0)),
+        ({"x": "alpha"}, (0.0, 0.3)),
+        ({"x": "beta", "body": "circular"}, (1.0, 3.0)),
+        ({"x": "force", "body": "infinite_tube"}, (0.0, 3.0)),
+        ({"x": "lam1", "body": "infinite_tube", "ends": "held"}, (1.05, 3.0)),
+        ({"x": "lf", "low": 5.0}, (5.0, 12.0)),
+    ],
+)
+def test_a_plane_has_a_usual_range_of_each_parameter(given, ends):
+    window = DiagramParameters(**given).window
+    assert (window.low, window.high) == ends
+
+
 def test_a_plane_without_a_line_says_what_was_searched():
     plane = {"alpha": 0.25, "x": "alpha", "low": 0.2, "kind": "mirror", "numerics": COARSE}
     result = solve("diagram", **plane)

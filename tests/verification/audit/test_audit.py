@@ -5,6 +5,7 @@ import sys
 import time
 from contextlib import suppress
 from dataclasses import replace
+from datetime import UTC, datetime
 from io import StringIO
 from pathlib import Path
 from typing import Literal
@@ -31,6 +32,7 @@ from weakforms.verification.audit.any_parameters.outcome import (
     print_audit,
 )
 from weakforms.verification.audit.any_parameters.runner import classified, run_audit, solved, solved_set
+from weakforms.verification.audit.any_parameters.verb import audit_verb
 from weakforms.verification.judging.outcome import RunOutcome
 from weakforms.verification.report.pages import render
 
@@ -231,6 +233,24 @@ def test_a_file_that_is_no_audit_is_a_problem_to_be_shown(tmp_path):
     data["draws"][0]["status"] = "fine"
     (tmp_path / NAME).write_text(json.dumps(data))
     assert "status 'fine'" in Audited.beside(tmp_path).problem
+
+
+@pytest.mark.parametrize("seed", [None, 7])
+def test_the_seed_is_that_of_the_day_unless_one_is_given(seed, tmp_path, monkeypatch):
+    asked = []
+
+    def run(names, count, chosen, *_rest):
+        asked.append((names, count, chosen))
+        return AuditRun(chosen, count, 60.0, "2026-01-01T00:00:00+00:00", 3.0, "abc", {})
+
+    monkeypatch.setattr(runner, "run_audit", run)
+    days = [datetime.now(UTC)]
+    audit_verb(["tube", "tube"], 3, seed, 300.0, tmp_path, False, True, Console(file=StringIO()))
+    days.append(datetime.now(UTC))
+    seeds = [7] if seed else [int(day.strftime("%Y%m%d")) for day in days]
+    ((names, count, chosen),) = asked
+    assert (names, count) == (["tube"], 3)
+    assert chosen in seeds
 
 
 def test_the_folder_is_tried_before_anything_is_solved(monkeypatch):

@@ -94,6 +94,7 @@ def test_a_first_integral_that_varies_fails(spread, uncertainty, passes):
     check = Constant("H", SPEC, At("p", 1.0, profile=()), 1e-6, "H is constant")
     (verdict,) = verdicts_of(check, profile=field)
     assert verdict.passed == passes
+    assert verdict.reference_uncertainty == 0.0  # the exact solution's spread
 
 
 @pytest.mark.parametrize("holds", [True, False])
