@@ -206,6 +206,9 @@ def test_the_fastest_that_run_a_line_come_first_then_those_beside_them(tmp_path,
     found = [text for text, _ in watchers.of("weakforms/x.py", 3)]
     tests = [*(f"tests/a.py::{name}" for name in order), "tests/c.py::guessed"]
     assert found == ["tests/d.py::contract", *tests]
+    monkeypatch.setattr(lines.tables, "watching", lambda *_: ["table t"])
+    found = [text for text, _ in watchers.of("weakforms/x.py", 3)]
+    assert found.index("tests/a.py::quick") < found.index("table t") < found.index("tests/a.py::elsewhere")
     changed = replace(here, digests={"weakforms/x.py": "another"})
     assert changed.sees("tests/a.py::quick", "weakforms/x.py", 3, ROOT), "any line of a file that changed"
 
