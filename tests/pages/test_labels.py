@@ -85,19 +85,27 @@ def test_kinds_of_points_are_words(kind, words):
     assert kind_of_point(kind) == words
 
 
+@pytest.fixture(scope="module")
+def manuals() -> dict[str, str]:
+    """What a page says of each problem, from one case that solves all of them."""
+    case = passing_case()
+    case.solutions = [{"problem": name, "parameters": {"n": [1, 20]}} for name in abouts()]
+    page = render(sample(case))["paper2.html"]
+    assert Reader(page).open == []
+    texts = re.findall(r'<details class="manual".*?</details>', page, re.S)
+    return dict(zip(abouts(), texts, strict=True))
+
+
 @pytest.mark.parametrize("name", sorted(abouts()))
-def test_every_problem_has_a_sketch(name):
+def test_every_problem_has_a_sketch(name, manuals):
     sketches = (TEMPLATES / "sketches.html").read_text("utf-8")
     assert f"macro {manual.sketch(name)}()" in sketches
-    case = passing_case()
-    case.solutions = [{"problem": name, "parameters": {"n": [1, 20]}}]
-    page = render(sample(case))["paper2.html"]
-    assert 'class="sketch"' in page
-    shown = re.search(r'<details class="manual".*?</details>', page, re.S)[0]
-    assert html_formula(abouts()[name].energy.split("  ")[0]) in shown
-    assert "<i>n</i> = 1, 20" in shown, "several values of a parameter"
-    assert re.search(r"<text[^>]*>[^<]*\b(lam|delta|gamma|psi)", shown) is None
-    assert Reader(page).open == []
+    text = manuals[name]
+    assert 'class="sketch"' in text
+    assert f"<code>{name}</code>" in text
+    assert html_formula(abouts()[name].energy.split("  ")[0]) in text
+    assert "<i>n</i> = 1, 20" in text, "several values of a parameter"
+    assert re.search(r"<text[^>]*>[^<]*\b(lam|delta|gamma|psi)", text) is None
 
 
 def test_a_surface_has_the_colours_of_a_field_and_a_bar_that_explains_them():
