@@ -7,6 +7,7 @@ from typing import ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice, require_foldable
 from weakforms.problems.meridian.limits import limit_of
@@ -41,10 +42,8 @@ class SheetParameters(MaterialChoice):
     """The sheet, its edges and their motion."""
 
     ratio: ClassVar[str] = "alpha"
-    edges: ClassVar = [{"loading": ("shear", "stretch")}]
     needs: ClassVar[Needs] = {
-        "s": edges,
-        "energy": edges,
+        **dict.fromkeys(("s", "energy"), ({"loading": ("shear", "stretch")},)),
         "gam_end": [{"loading": ("shear",)}],
         "lam_end": [{"loading": ("stretch", "strip")}],
     }
@@ -60,7 +59,7 @@ class SheetParameters(MaterialChoice):
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     energy: Literal["relaxed", "full"] = Field(
         "relaxed",
-        description="relaxed: the sheet bears no compression; full: it bears compression; a strip bears none",
+        description="relaxed: the sheet bears no compression; full: it bears compression",
     )
     gam_end: float = Field(1.0, gt=0.1, le=5, description="shear at which the branch ends")
     lam_end: float = Field(2.0, gt=1.1, le=10, description="stretch in X at which the branch ends")
@@ -95,7 +94,7 @@ class SheetProblem(BranchProblem):
     surfaces = True
 
     def check(self, parameters: SheetParameters, requests: Requests) -> None:
-        """Refuse laws without a relaxed form, and a stretch of the edges beyond a law's limit.
+        """Refuse laws without a relaxed form, stretches beyond a law's limit, and states of another loading.
 
         Raises:
             InputError: With a message that names the value and the allowed ones.
@@ -103,6 +102,14 @@ class SheetProblem(BranchProblem):
         super().check(parameters, requests)
         require_foldable(self.name, parameters, invariants=True)
         require_taut(self.name, parameters.material, max(parameters.s, 1.0), "s")
+        loading, control = parameters.loading, parameters.sheet.control
+        absent = {"gam", "lam"} - {control} | ({"f_w", "f_s"} if loading == "strip" else set())
+        for wanted in requests.states:
+            if wanted.name in absent:
+                raise InputError(
+                    f"sheet: with loading = {loading!r} there is no column {wanted.name}; its load is "
+                    f"{control}"
+                )
 
     def ends(self, parameters: SheetParameters, _branch: str) -> list[End]:
         """The last shear or stretch."""
@@ -139,8 +146,7 @@ def traced(model: SheetModel, numerics: SheetNumerics, by: str, end: float) -> E
     start = numerics.start + (control == "lam")
     steps = StepControl(first=numerics.step / 4, largest=numerics.step)
     continuation = Continuation(ExtendedNewton(system, [control]), control=steps)
-    rest = State(system.initial.u, system.initial.loads | {control: start})
-    first, _ = continuation.solve(rest, Held(control, start))
+    homogeneous = State(system.initial.u, system.initial.loads | {control: start})
 
     def limit(point: CurvePoint) -> str:
         return limit_of(law, [(point.monitors["lam1"], point.monitors["lam2"])])
@@ -148,7 +154,7 @@ def traced(model: SheetModel, numerics: SheetNumerics, by: str, end: float) -> E
     def stop(point: CurvePoint) -> bool:
         return point.state.loads[control] > end or bool(limit(point))
 
-    begin = continuation.start(first, Held(control, start), towards={control: 1.0})
+    begin = continuation.start(homogeneous, Held(control, start), towards={control: 1.0})
     branch = EquilibriumBranch(continuation, control, begin, stop)
     last = branch.points[-1]
     if branch.stalled is None and (why := limit(last)):

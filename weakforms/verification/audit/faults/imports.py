@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from itertools import zip_longest
 from pathlib import Path
 
+from weakforms.verification.audit.faults.tables import SOLVERS
 from weakforms.verification.cases.discovery import find_cases
 
 UNSEEN = ("tests/mpi/", "tests/verification/audit/test_faults", "tests/cases/test_cases")
@@ -22,9 +23,6 @@ DECLARING = ("weakforms/problems/", "weakforms/forms/materials/")
 
 ASKED = "tests/references/test_tables_asked.py"
 """What holds all that tables ask for (parameters, abscissae, texts) against the committed ones."""
-
-SOLVERS = "reference_data/solvers/"
-"""Folder of the files that may change it."""
 
 RANKS = "tests/mpi"
 """Folder of the tests that start several ranks."""

@@ -217,9 +217,11 @@ def measured(out: Path) -> list[Measured]:
 
 
 class Watchers:
-    """Who sees a line: measured ones that run it, or its file; tables; those beside; importers of its file.
+    """Finds who sees a line, in the order in which they are to be run.
 
-    Before them stand the stored contract of the problems, and tests on ranks if the line speaks of ranks.
+    First come the stored contract of the problems or what tables ask for, and tests on ranks if the line
+    speaks of ranks. Measured tests that run the line follow, then those that run its file, tables computed
+    again, other tests of the same files, and at last those that import the file.
 
     A test that finds a solution in a fixture or a cache does not run the lines that made it, so the other
     tests of a file that runs the line follow. A line that was run before lines were noted (in a file that

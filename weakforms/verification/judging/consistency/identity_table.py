@@ -95,13 +95,8 @@ def _liquid(given: Given) -> bool:
     return not _gas(given)
 
 
-def _over(identity: Identity, over: Any) -> Identity:
-    return Identity(identity.name, identity.statement, identity.look, over)
-
-
-def _renamed(name: str, identity: Identity) -> Identity:
-    """One of several identities of a problem that would have the same name."""
-    return replace(identity, name=name)
+def _over(identity: Identity, over: Any, name: str = "") -> Identity:
+    return replace(identity, over=over, name=name or identity.name)
 
 
 def _end(which: int, name: str) -> Any:
@@ -311,11 +306,11 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
             lambda given: given.get("model") != "saint_venant_kirchhoff",
         ),
     ),
-    # Traces over a level that turns twice are too coarse for its work; a claim integrates it by polynomials.
     "sheet": (
-        _renamed("shear", _over(work("gam", lambda r, c: r.parameters["c"] * c["tau"]), _sheared)),
-        _renamed("pull", _over(work("lam", lambda r, c: r.parameters["c"] * c["T_x"]), _not_sheared)),
+        _over(work("gam", lambda r, c: r.parameters["c"] * c["tau"]), _sheared, "shear"),
+        _over(work("lam", lambda r, c: r.parameters["c"] * c["T_x"]), _not_sheared, "pull"),
     ),
+    # Traces over a level that turns twice are too coarse for its work; a claim integrates it by polynomials.
     "membrane": (work("p", lambda _, c: -c["V"]),),
     "rectangle": (_over(work("p", lambda _, c: -c["V"]), _gas),),
     "surface": tuple(
