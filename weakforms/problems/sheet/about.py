@@ -51,7 +51,7 @@ SHEET = About(
     example=Example("gam", "tau", {"s": 1.05}, numerics={"cells": 4, "levels": 2}),
     tuned=(
         Family(
-            {"alpha": (0.0, 0.2), "s": (1.0, 1.3)},
+            {"alpha": (0.0, 0.2), "s": (1.1, 1.3)},
             SMALL,
             LARGE,
             fixed={"gam_end": 0.8},

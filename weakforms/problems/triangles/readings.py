@@ -11,7 +11,8 @@ from mpi4py import MPI
 from ufl.core.expr import Expr
 
 ALIKE = 1e-9
-"""Relative difference of stresses at points that are images of each other."""
+"""Difference of stresses, over the larger of the stress and the law's modulus, at points that are images of
+each other: near a slack state stresses are small and their round-off is that of the modulus."""
 
 
 class LeastStress:
@@ -38,7 +39,7 @@ class LeastStress:
             values[:, 1:] = np.abs(values[:, 1:])
         lowest = values[:, 0].min(initial=np.inf)
         lowest = min(self._mesh.comm.allgather(lowest))
-        near = values[values[:, 0] <= lowest + ALIKE * abs(lowest)]
+        near = values[values[:, 0] <= lowest + ALIKE * max(1.0, abs(lowest))]
         _, *place = max(
             (row for rows in self._mesh.comm.allgather(near.tolist()) for row in rows), key=_order
         )
