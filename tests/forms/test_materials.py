@@ -284,6 +284,13 @@ def test_the_incompressible_elimination_is_the_papers():
     assert numbers("neo_hookean", a, b)[1] * a == pytest.approx(2 * a**2 - pressure, rel=1e-14)
 
 
+@pytest.mark.parametrize("term", [1, 2, 3])
+def test_one_term_of_ogden_is_a_law(term):
+    constants = {f"mu{i}": float(i == term) for i in (1, 2, 3)} | {f"alpha{i}": 2.0 for i in (1, 2, 3)}
+    assert MATERIALS["ogden"].refusal(constants) == ""
+    assert "must not be 0" in MATERIALS["ogden"].refusal(constants | {f"mu{term}": 0.0})
+
+
 # -- parameters --------------------------------------------------------------------------------------
 
 

@@ -207,6 +207,10 @@ def test_written_files_have_the_usual_permissions_and_line_ends(tmp_path):
     assert path.stat().st_mode & 0o777 == 0o666 & ~mask
 
 
+def test_json_keeps_letters_beyond_ascii_as_they_are():
+    assert dumps({"λ": "Åbo"}) == '{\n "λ": "Åbo"\n}\n'
+
+
 def test_links_are_followed_and_devices_are_not_replaced(tmp_path):
     (tmp_path / "real").write_text("old")
     (tmp_path / "link").symlink_to("real")

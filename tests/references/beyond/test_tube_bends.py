@@ -122,6 +122,19 @@ def test_points_that_one_method_misses_are_refused(monkeypatch):
         bends.located(tube, (counts, values), lambda _: None, lambda _: 0.0)
 
 
+def test_a_limit_point_is_where_the_rate_of_the_pressure_changes_its_sign(monkeypatch):
+    """A rate between 0 and 1 is one of a rising pressure; the same holds for compression."""
+    rates = [2.0, 0.5, -0.5]
+    monkeypatch.setattr(bends, "search", lambda _: bends.Search(np.arange(3.0), rates, rates))
+    monkeypatch.setattr(bends, "located", lambda tube, signs, *_: signs)
+    for module in (ritz, strong):
+        monkeypatch.setattr(module, "rate", lambda rate: rate)
+        monkeypatch.setattr(module, "least_hoop", lambda least: (least, 0.0))
+    for points in (bends.limits, bends.onsets):
+        counts, values = points.__wrapped__(Tube(0.0, 1.0, 6.0))
+        assert (counts.tolist(), values.tolist()) == ([0, 0, 1], rates)
+
+
 def test_families_are_named_once():
     assert len(set(FAMILIES)) == len(FAMILIES) == 5
     assert all(sorted((*f.zero, *f.free)) == [0, 1, 2] for f in FAMILIES)

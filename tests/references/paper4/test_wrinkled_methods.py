@@ -47,6 +47,16 @@ def tracked(membrane: Membrane, load: float) -> col.State:
     return cas.solved(membrane, load).tracked[1]
 
 
+@pytest.mark.parametrize(
+    ("first", "fronts", "words"),
+    [(True, 0, "gw>1"), (False, 1, "gw<1 gw>1"), (True, 2, "gw>1 gw<1 gw>1"), (False, 2, "gw<1 gw>1 gw<1")],
+)
+def test_zones_of_the_full_energy_are_one_more_than_their_fronts(first, fronts, words):
+    measures = SimpleNamespace(first=first, fronts=[0.0] * fronts)
+    solved = SimpleNamespace(membrane=SimpleNamespace(energy="standard"), measured=([None, measures], []))
+    assert cas.Solved.zones.fget(solved) == words
+
+
 @pytest.mark.parametrize("c2", [0.0, 0.01, 0.4])
 @pytest.mark.parametrize("l1", [1.05, 1.8, 4.0])
 def test_relaxed_energy_and_its_derivatives(c2, l1):

@@ -320,6 +320,21 @@ def test_a_line_that_speaks_of_ranks_is_tried_on_ranks(file, said, on_ranks, tmp
     assert len(found) == len(set(found))
 
 
+@pytest.mark.parametrize(
+    ("file", "test"),
+    [
+        ("weakforms/problems/triangles/model.py", "test_relaxed_surface_ranks.py::test_surface"),
+        ("weakforms/problems/triangles/readings.py", "test_rectangle_ranks.py::test_rectangle"),
+        ("weakforms/problems/wrinkled/state.py", "test_relaxed_ranks.py::test_waves_around_the_cylinder"),
+    ],
+)
+def test_tests_on_ranks_are_those_of_what_uses_the_file(file, test, tmp_path):
+    rows = (ROOT / file).read_text("utf-8").split("\n")
+    line = next(k for k, text in enumerate(rows, 1) if "comm" in text)
+    found = [text for text, _ in Watchers(tmp_path).of(file, line)]
+    assert f"tests/mpi/{test}" in found
+
+
 # -- what becomes of one -----------------------------------------------------------------------------
 
 TESTS = ("passes", "asserts", "breaks", "stalls", "lets_pass")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from itertools import zip_longest
 from pathlib import Path
@@ -20,6 +20,9 @@ CONTRACT = "tests/house/test_contract.py"
 
 DECLARING = ("weakforms/problems/", "weakforms/forms/materials/")
 """Folders of what it holds."""
+
+NAMING = (*DECLARING, "tests/problems/")
+"""Folders whose files say by their names which problem uses a file."""
 
 ASKED = "tests/references/test_tables_asked.py"
 """What holds all that tables ask for (parameters, abscissae, texts) against the committed ones."""
@@ -95,7 +98,8 @@ class Imports:
         """Test functions to run before others: of contract or tables, of the file itself, on several ranks.
 
         Tests of the file itself import it and are named as it is. Tests on ranks are chosen by the words that
-        their functions share with the name of the file.
+        their functions share with the name of the file, or of what uses it; a word that few of them
+        use counts more.
         """
         path = self._root / file
         found = []
@@ -108,14 +112,17 @@ class Imports:
         text = path.read_text("utf-8").split("\n")[line - 1] if path.exists() else ""
         if not (file.startswith("weakforms/") and SPEAKS_OF_RANKS.search(text)):
             return found
-        words = set(re.findall("[a-z]+", file))
-        tests = [
-            (-len(words & set(re.findall("[a-z]+", said))), name)
+        names = [file, *(name for name in self._used_by[file] if name.startswith(NAMING))]
+        words = set(re.findall("[a-z]+", " ".join(names)))
+        said = {
+            name: words & set(re.findall("[a-z]+", text))
             for path in sorted((self._root / RANKS).glob("test_*.py"))
             if path.name != LONG
-            for name, said in _bodies(path, f"{RANKS}/{path.name}").items()
-        ]
-        return [*found, *(name for _, name in sorted(tests)[:FEW])]
+            for name, text in _bodies(path, f"{RANKS}/{path.name}").items()
+        }
+        often = Counter(word for shared in said.values() for word in shared)
+        tests = sorted((-sum(1 / often[word] for word in shared), name) for name, shared in said.items())
+        return [*found, *(name for _, name in tests[:FEW])]
 
     def _rank(self, name: str, text: str, file: str) -> int:
         """First those named as the file is, or as it begins; cases by what they say."""
