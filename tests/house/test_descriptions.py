@@ -23,7 +23,7 @@ SCALED = {
     "surface": "M delta c2 L Af gamma",
     "rectangle": "delta gamma alpha",
     "annulus": "a alpha",
-    "sheet": "alpha c s",
+    "sheet": "alpha c s lam0",
     "torus": "b alpha",
 }
 """Parameters of the papers and of sheets that results print with their scaling."""

@@ -97,6 +97,10 @@ SOLVES: dict[str, dict[str, Any]] = {
     "rectangle, liquid": {"gamma": 1.0, "w_end": 0.6, "numerics": {"cells": 4}},
     "sheet": {"s": 1.1, "gam_end": 0.5, "at": {"gam": 0.4}, "numerics": {"cells": 4, "levels": 2}},
     "sheet, strip": {"loading": "strip", "lam_end": 1.4, "numerics": {"cells": 4, "levels": 2}},
+    "sheet, bent": {
+        **{"loading": "bend", "c": 0.5, "kap_end": 0.6, "at": {"kap": 0.5}},
+        "numerics": {"cells": 4, "levels": 2},
+    },
     "annulus": {"s": 1.05, "psi_end": 0.3, "at": {"psi": 0.2}, "numerics": LINE},
     "torus": {"b": 0.3, "v_end": 2.5, "at": {"v": 1.8}, "numerics": LINE},
     "material": {"model": "ogden"},

@@ -214,10 +214,11 @@ def test_the_potential_changes_by_the_work_of_the_load(problem):
     assert not judged(problem, "work", solution(problem, meridian(problem), columns=columns))
 
 
-@pytest.mark.parametrize(("load", "stress"), [("gam", "tau"), ("lam", "T_x")])
+@pytest.mark.parametrize(("load", "stress"), [("gam", "tau"), ("lam", "T_x"), ("kap", "M")])
 def test_the_energy_of_a_sheet_changes_by_the_work_of_its_edges(load, stress):
     potential = (2.0 * VOLUME * LOAD.deriv()).integ()
-    (held,) = (i for i in IDENTITIES["sheet"] if i.over({"loading": "shear"}) is (load == "gam"))
+    loading = {"gam": "shear", "lam": "strip", "kap": "bend"}[load]
+    (held,) = (identity for identity in IDENTITIES["sheet"] if identity.over({"loading": loading}))
     for factor in (1.0, 1.01):
         result = solution(
             "sheet", {}, columns={stress: VOLUME(S), load: LOAD(S), "Pi": factor * potential(S)}

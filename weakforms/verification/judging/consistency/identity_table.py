@@ -83,8 +83,12 @@ def _sheared(given: Given) -> bool:
     return given.get("loading", "shear") == "shear"
 
 
-def _not_sheared(given: Given) -> bool:
-    return not _sheared(given)
+def _bent(given: Given) -> bool:
+    return given.get("loading") == "bend"
+
+
+def _pulled(given: Given) -> bool:
+    return given.get("loading") in ("stretch", "strip")
 
 
 def _gas(given: Given) -> bool:
@@ -308,7 +312,8 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
     ),
     "sheet": (
         _over(work("gam", lambda r, c: r.parameters["c"] * c["tau"]), _sheared, "shear"),
-        _over(work("lam", lambda r, c: r.parameters["c"] * c["T_x"]), _not_sheared, "pull"),
+        _over(work("lam", lambda r, c: r.parameters["c"] * c["T_x"]), _pulled, "pull"),
+        _over(work("kap", lambda r, c: r.parameters["c"] * c["M"]), _bent, "bending"),
     ),
     # Traces over a level that turns twice are too coarse for its work; a claim integrates it by polynomials.
     "membrane": (work("p", lambda _, c: -c["V"]),),
