@@ -135,6 +135,17 @@ def test_a_law_of_bounded_stretch_ends_the_branch():
     assert result.branch().columns["gam"][-1] < 2.4
 
 
+def test_a_strip_is_followed_to_its_largest_force():
+    """A law whose force falls from lam = 2.46 on, where a strip of any length necks."""
+    law = {"model": "biderman", "c10": 1.241, "c01": 0.03202, "c20": -0.0655, "c30": 0.001862}
+    result = solve("sheet", loading="strip", lam_end=2.8, numerics=SMALL, **law)
+    force, (rest,) = result.branch().columns["T_x"], result.absent
+    assert not result.failures
+    assert "the force of the strip is largest; from there on it necks" in rest.reason
+    assert np.all(np.diff(force) > 0)
+    assert result.branch().columns["lam"][-1] == pytest.approx(2.45, abs=0.05)
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [

@@ -23,6 +23,9 @@ from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.uncertainty.family import BranchFamily
 
+FEWEST = 2
+"""Number of points that a branch keeps."""
+
 SHARE = 0.125
 """Largest step of a bent sheet over its last curvature, which is small if the sheet is hardly stretched."""
 
@@ -190,12 +193,21 @@ def traced(model: SheetModel, numerics: SheetNumerics, by: str, end: float) -> E
         outer = model.sheet.lam0 + point.state.loads["kap"] * model.sheet.s / 2
         return limit_of(law, [(max(l1, outer), l2)])
 
+    def necks(point: CurvePoint) -> bool:
+        return model.sheet.loading == "strip" and point.n_negative > 0
+
     def stop(point: CurvePoint) -> bool:
-        return point.state.loads[control] > end or bool(limit(point))
+        return point.state.loads[control] > end or necks(point) or bool(limit(point))
 
     begin = continuation.start(homogeneous, Held(control, start), towards={control: 1.0})
     branch = EquilibriumBranch(continuation, control, begin, stop)
+    while necks(branch.points[-1]) and len(branch.points) > FEWEST:
+        at = branch.points.pop().state.loads[control]
+        branch.ended = (
+            f"sheet: before {control} = {at:.6g} the force of the strip is largest; from there on it necks "
+            f"at one place; lower {by}"
+        )
     last = branch.points[-1]
-    if branch.stalled is None and (why := limit(last)):
+    if branch.stalled is branch.ended is None and (why := limit(last)):
         branch.ended = f"sheet: at {control} = {last.state.loads[control]:.6g} {why}; lower {by}"
     return branch
