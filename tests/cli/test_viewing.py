@@ -5,16 +5,19 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import meshio
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from weakforms import export as exporting
 from weakforms.results import Branch, Ended, Field, Quantity, Result, SpecialPoint, State, load_result
 from weakforms.results.io import dumps
+from weakforms.results.plot import save
 
 VERSIONS = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
 
@@ -74,6 +77,13 @@ def test_a_picture_is_written_in_the_format_of_its_name(weakforms, stored, tmp_p
     assert (called.status, called.err, called.out) == (0, "", f"picture: {out}\n")
     assert out.read_bytes().startswith(begins)
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(["a.json", "b.json", out.name])
+
+
+def test_a_picture_is_made_beside_its_place(tmp_path, monkeypatch):
+    """The folder for temporary files may lie on another disk, from which nothing can be renamed."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "not there"))
+    save(Figure(), tmp_path / "a.png")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
 
 
 def test_columns_of_profiles_are_drawn_as_profiles(weakforms, stored, tmp_path):

@@ -74,6 +74,8 @@ def test_no_picture_shows_a_raw_name():
         ("mass_fold", "mass fold"),
         ("wrinkling_onset", "wrinkling onset"),
         ("bifurcation_n1", "bifurcation, $n = 1$"),
+        ("bifurcation_point", "bifurcation point"),
+        ("mirror_breaking", "mirror breaking"),
         ("fold_n1", "limit point and $n = 1$"),
         ("n1_n2", "$n = 1$ and $n = 2$"),
         ("tip_mirror", "turn of mirror breaking"),

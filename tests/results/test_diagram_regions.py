@@ -82,6 +82,8 @@ def test_a_result_with_a_diagram_draws_it_in_its_plane(plane):
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("alpha", "p:  P R_f/(C1 h_o)")
     assert len(axes.collections) >= 2
     assert plane.plot("u_max", "p").axes[0].get_xlabel() == "u_max"
+    assert plane.plot("u_max").axes[0].get_xlabel() == "u_max"
+    assert plane.plot(y="u_max").axes[0].get_ylabel() == "u_max"
     plane.parameters |= {"x": "beta"}  # of a file that was changed: no such column
     assert plane.plot().axes[0].get_ylabel() == "alpha"
 

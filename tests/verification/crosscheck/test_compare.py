@@ -175,6 +175,16 @@ def test_two_rows_are_no_curve(count):
     assert "a verdict needs 3 rows" in verdicts.verdicts[0].detail
 
 
+@pytest.mark.parametrize("part", [slice(0, 20), slice(40, 60), slice(None)], ids=["begin", "middle", "all"])
+def test_errors_are_relative_to_the_part_of_the_table_that_a_curve_covers(part):
+    """The largest value may lie between rows of the curve, and values beyond its ends do not count."""
+    table = references.load(2, TUBE[1])
+    x, values = (table.columns[name][part] for name in ("u_max", "p"))
+    ends = np.array([0, len(x) - 1])
+    judged = judge_column(table, "p", x[ends], values[ends], 1e-3, ends + 1)
+    assert judged.verdict.scale_floor == pytest.approx(FLOOR * values.max(), rel=1e-12)
+
+
 def test_a_curve_that_jumps_over_the_table_is_told_so():
     curve = {name: values[[0, 50, -1]] for name, values in columns_of(TUBE).items()}
     verdicts = verdict_on(TUBE, curve)

@@ -1,11 +1,15 @@
 """Curves of several meshes: order, limit, and a verdict on both."""
 
+from io import StringIO
+
 import jsonschema
 import numpy as np
 import pytest
+from rich.console import Console
 
 from weakforms import InputError, compare
 from weakforms.verification.cases import references
+from weakforms.verification.cases.catalogue import WORDS, print_verdicts
 from weakforms.verification.run.requests import schema
 
 CASE, NAME = "paper2.fig03", "fig03a_delta1_1.1"
@@ -45,6 +49,13 @@ def test_other_ratios_and_other_rows():
     assert found.order == pytest.approx(2, abs=0.05)
     assert verdicts.passed
     assert judged(curves, ratio=2)[1].order == pytest.approx(2 * np.log2(3), abs=0.05)
+
+
+def test_a_terminal_shows_the_verdict_on_convergence():
+    verdicts, found = judged([curve(n) for n in CELLS])
+    with StringIO() as screen:
+        print_verdicts(verdicts, Console(file=screen, width=200))
+        assert f"p: {WORDS[found.status]}: {found.text}" in screen.getvalue()
 
 
 def test_convergence_to_something_else_fails():
