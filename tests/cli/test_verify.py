@@ -18,6 +18,9 @@ from rich.progress import Progress, TextColumn, TimeRemainingColumn
 
 from weakforms import api, terminal, tube
 from weakforms.errors import ConvergenceError
+from weakforms.verification.audit.any_parameters.outcome import NAME as AUDIT
+from weakforms.verification.audit.coverage.outcome import NAME as COVERAGE
+from weakforms.verification.audit.faults.outcome import RANDOM
 from weakforms.verification.cases import catalogue, discovery
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.run import runner, solving
@@ -137,6 +140,15 @@ def test_report_is_rebuilt_without_solving(weakforms, tiny, tmp_path, monkeypatc
     assert "PASSED" in called.out
     assert (tmp_path / "again" / "index.html").read_bytes() == page
     assert weakforms("report", out / "report").status == 0
+
+
+@pytest.mark.parametrize("name", [RANDOM, AUDIT, COVERAGE])
+def test_a_report_elsewhere_has_the_audits_of_the_run(weakforms, tiny, tmp_path, name):
+    out, again = tmp_path / "out", tmp_path / "again"
+    weakforms("check", "paper2.tiny", "--out", out)
+    (out / name).write_text("{}")
+    weakforms("report", out, "--out", again)
+    assert (again / name).read_text() == "{}"
 
 
 def test_report_as_pdf_needs_a_browser(weakforms, tiny, tmp_path, monkeypatch):

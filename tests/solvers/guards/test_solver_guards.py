@@ -182,15 +182,21 @@ def test_round_off_of_a_stiff_bordered_system_is_accepted():
     assert bordered.solve(load, np.zeros(0))[0] == pytest.approx(1.0, rel=STIFF_LIMIT)
 
 
-@pytest.mark.parametrize(("stiffness", "left"), [(1.0, 1e-4), (1e15, 2 * STIFF_LIMIT)])
-def test_only_round_off_of_a_stiff_matrix_excuses_a_residual(monkeypatch, stiffness, left):
-    """A residual beyond round-off in the forces is refused, and so is a large one of a stiff matrix."""
+@pytest.mark.parametrize(
+    ("stiffness", "left", "size"),
+    [(1.0, 1e-4, 1.0), (1e15, 2 * STIFF_LIMIT, 1.0), (1e10, STIFF_LIMIT / 2, 1e-9)],
+)
+def test_only_round_off_of_a_stiff_matrix_excuses_a_residual(monkeypatch, stiffness, left, size):
+    """A residual beyond round-off in the forces is refused, and so is a large one of a stiff matrix.
+
+    The forces of a small solution are small, however stiff the matrix is.
+    """
     system = system_of(lambda u, v, p: stiffness * u.dx(0) * v.dx(0) + u * v, "Lagrange", 1, 4)
     factor = Factorization(system)
     with system.at(system.initial):
         factor.update()
     load = np.ones(system.size)
-    monkeypatch.setattr(BorderedMatrix, "_refined", lambda self, f, g: (load, [0.0] * len(g), left))
+    monkeypatch.setattr(BorderedMatrix, "_refined", lambda self, f, g: (size * load, [0.0] * len(g), left))
     with pytest.raises(ConvergenceError, match="singular"):
         BorderedMatrix(factor, [], [], np.zeros((0, 0))).solve(load, np.zeros(0))
 
