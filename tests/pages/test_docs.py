@@ -23,11 +23,12 @@ from weakforms.verification.report.pdf import browser
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """The pages, with the picture of one problem that is solved in no time."""
+    """The pages, with pictures of two problems: one branch, and the lines of a diagram."""
     folder = tmp_path_factory.mktemp("docs")
     with pytest.MonkeyPatch.context() as patch:
         right = site.pictures
-        patch.setattr(site, "pictures", lambda at, jobs, names, tell: right(at, jobs, ["sphere"], tell))
+        drawn = ["sphere", "diagram"]
+        patch.setattr(site, "pictures", lambda at, jobs, names, tell: right(at, jobs, drawn, tell))
         patch.setattr(site, "gallery", lambda at, names, tell: gallery(at, ["balloon"], tell))
         assert site.write_docs(folder) == folder / "index.html"
     return folder
@@ -47,6 +48,19 @@ def test_there_is_a_page_for_everything(readers, folder):
     assert set(readers) == wanted
     assert all(reader.open == [] for reader in readers.values())
     assert not [path for path in folder.rglob(".*")]
+
+
+def test_a_picture_has_all_lines_of_a_diagram(folder):
+    page = (folder / "problems" / "diagram.html").read_text("utf-8")
+    picture = page[page.index('id="picture-diagram') :] if 'id="picture-diagram' in page else page
+    assert "No picture" not in page
+    assert all(name in picture for name in ("fold", "end", "cusp point"))
+
+
+@pytest.mark.parametrize("about", registry.abouts().values(), ids=lambda about: about.name)
+def test_the_code_of_an_example_asks_for_a_branch_that_there_is(about):
+    asked = re.findall(r'result\.branch\("(\w+)"\)', examples.code(about)[-1])
+    assert set(asked) <= set(about.branches)
 
 
 def test_links_arrive_and_nothing_is_loaded(readers, folder):

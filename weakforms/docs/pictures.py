@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from weakforms.problems.about import Example
 from weakforms.problems.registry import abouts
-from weakforms.results import Result
+from weakforms.results import Branch, Result
 from weakforms.terminal import WorkProgress
 from weakforms.verification.cases import examples
 from weakforms.verification.cases.specs import Spec
@@ -58,26 +58,32 @@ def _caption(shown: Example) -> str:
 
 
 def _panel(name: str, shown: Example, specs: list[Spec], results: list[Result]) -> PanelOutcome:
-    """The branch with its special points, or the quantity over the parameter."""
-    markers = []
+    """Branches with their special points, or the quantity over the parameter."""
     if shown.values:
-        x, unstable = list(shown.values), []
+        x = list(shown.values)
         y = [float(result.quantities[shown.y].value) for result in results]
         markers = [Marker("solution", "", a, b) for a, b in zip(x, y, strict=True)]
+        curves = [CurveOutcome(name, name, x, y, [])]
     else:
-        columns = results[0].branch("primary").columns
-        x, y = (columns[column].tolist() for column in (shown.x, shown.y))
-        unstable = [count > 0 for count in columns["n_negative"]] if "n_negative" in columns else []
+        (result,) = results
+        drawn = [branch for branch in result.branches if {shown.x, shown.y} <= set(branch.columns)]
+        named = {branch.name: branch.name if len(drawn) > 1 else str(specs[0]) for branch in drawn}
+        curves = [_curve(name, named[branch.name], branch, shown) for branch in drawn]
         markers = [
             Marker(point.kind, point.kind.replace("_", " "), point.values[shown.x], point.values[shown.y])
-            for point in results[0].special_points
-            if point.branch == "primary" and {shown.x, shown.y} <= set(point.values)
+            for point in result.special_points
+            if point.branch in named and {shown.x, shown.y} <= set(point.values)
         ]
-    curve = CurveOutcome(name, str(specs[0]) if not shown.values else name, x, y, unstable)
-    ranges = [_range(values) for values in (x, y)]
+    ranges = [_range([v for curve in curves for v in getattr(curve, axis)]) for axis in "xy"]
     return PanelOutcome(
-        name, f"{shown.y} over {shown.x}", shown.x, shown.y, shown.x, shown.y, *ranges, [curve], markers
+        name, f"{shown.y} over {shown.x}", shown.x, shown.y, shown.x, shown.y, *ranges, curves, markers
     )
+
+
+def _curve(name: str, label: str, branch: Branch, shown: Example) -> CurveOutcome:
+    x, y = (branch.columns[column].tolist() for column in (shown.x, shown.y))
+    unstable = [count > 0 for count in branch.columns["n_negative"]] if "n_negative" in branch.columns else []
+    return CurveOutcome(name, label, x, y, unstable)
 
 
 def _range(values: list[float]) -> tuple[float, float]:

@@ -70,13 +70,3 @@ def harmonic_width(lam1: Expr, f2: Expr) -> Expr:
     .. math:: \lambda_2 = \frac{3 - 1/f_2 - \lambda_1}{2 - \lambda_1/f_2}
     """
     return max_value(3 - 1 / f2 - lam1, FLAT) / max_value(2 - lam1 / f2, FLAT)
-
-
-def harmonic_sheet(lam1: Expr, lam2: Expr, shear: Expr, g2: Expr) -> Expr:
-    r"""Harmonic energy of the two-dimensional theory (equation 3.26) with a quadratic ``g``.
-
-    .. math:: w = 2\mu\,[g(\lambda_1 + \lambda_2) - \lambda_1\lambda_2], \qquad
-              g(i) = 1 + (i - 2) + \tfrac12 g_2 (i - 2)^2
-    """
-    more = lam1 + lam2 - 2
-    return 2 * shear * (1 + more + g2 * more**2 / 2 - lam1 * lam2)

@@ -37,9 +37,8 @@ def code(about: About) -> list[str]:
     words = "".join(f", {name}={value!r}" for name, value in given.parameters.items()) if given else ""
     last = "print(result.branches, result.quantities)"
     if given:
-        columns = (
-            f'result.branch("primary").columns["{given.x}"], result.branch("primary").columns["{given.y}"]'
-        )
+        branch = 'result.branch("primary")' if "primary" in about.branches else "result.branches[0]"
+        columns = f'{branch}.columns["{given.x}"], {branch}.columns["{given.y}"]'
         last = f'print(result.quantities["{given.y}"])' if given.values else f"print({columns})"
     return ["import weakforms", f'result = weakforms.solve("{about.name}"{words})', last]
 
