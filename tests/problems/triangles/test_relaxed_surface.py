@@ -263,6 +263,27 @@ def test_wrinkled_cylinder_of_uniform_thickness_is_exact(model):
         assert np.abs(even.system.residual()).max() < 1e-12
 
 
+@pytest.mark.parametrize(
+    ("width", "length", "expected"), [(1.1, 1.0, {1.0}), (0.6, 1.3, {0.0, 1.0}), (0.5, 0.6, {-1.0})]
+)
+def test_stretches_and_states_of_triangles_are_those_of_their_corners(model, width, length, expected):
+    """From the edges of each triangle by linear algebra, at a tube that was narrowed or widened unevenly."""
+    given = model.body.triangles
+    x = given.points * np.array([width, width, length]) * (1 + 0.3 * given.points[:, 2:] / 8)
+    with model.system.at(State(model.owned_of(x), {"p": 0.0, "zw": 0.0})):
+        found = model.by_triangle()
+    squares = []
+    for nodes in given.triangles:
+        before, after = (np.diff(points[nodes], axis=0) for points in (given.points, x))
+        squares.append(np.linalg.eigvals(np.linalg.solve(before @ before.T, after @ after.T)).real)
+    small, large = np.sqrt(np.sort(squares, axis=1)).T
+    assert found["lam1"] == pytest.approx(large, abs=1e-9)
+    assert found["lam2"] == pytest.approx(small, abs=1e-9)
+    states = np.where(small * np.sqrt(large) > 1, 1.0, np.where(large > 1, 0.0, -1.0))
+    assert found["state"].tolist() == states.tolist()
+    assert set(states) == expected
+
+
 @pytest.fixture(scope="module")
 def unstable():
     """A tube with 48 columns of triangles that becomes unstable at a level inside the range."""
