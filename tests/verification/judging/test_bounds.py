@@ -59,6 +59,7 @@ def test_scale_is_the_largest_magnitude_or_what_is_given():
     assert found.error == pytest.approx([0.125, 1.25])
     assert found.bound == pytest.approx([0.05, 0.05])
     assert compare(1.0, 0.1, 2.0, 0.0, scale=10).error == pytest.approx(0.1)
+    assert compare(1e-3, 0.1, 0.0, 0.0).scale == 1.0, "the errors of a column of zeros are absolute"
 
 
 @pytest.mark.parametrize(
