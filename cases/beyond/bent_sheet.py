@@ -32,7 +32,7 @@ YOUNG = 6.0
 
 
 def limit(found: list[decide.Number]) -> decide.Number:
-    """A number at vanishing strain by a polynomial, which that of one degree less judges."""
+    """A number at vanishing strain by the parabola through three strains; the line through two judges it."""
     values = [x.value for x in found]
     all_of, fewer = (Polynomial.fit(STRAINS[:n], values[:n], n - 1)(0.0) for n in (3, 2))
     return decide.Number(all_of, abs(all_of - fewer)) + decide.Number(0.0, max(x.uncertainty for x in found))

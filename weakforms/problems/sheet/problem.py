@@ -88,7 +88,6 @@ class SheetParameters(MaterialChoice):
     )
     gam_end: float = Field(1.0, gt=0.1, le=5, description="shear at which the branch ends")
     lam_end: float = Field(2.0, gt=1.1, le=10, description="stretch in X at which the branch ends")
-
     kap_end: float = Field(0.5, ge=0.01, le=2, description="curvature at which the branch ends")
 
     @model_validator(mode="after")

@@ -78,7 +78,11 @@ def _rate(alpha: float, l1: float | np.ndarray, l2: float | np.ndarray, which: i
 
 
 def _slopes(sheet: Sheet, kap: float, offsets: np.ndarray, integral: float, first: float) -> np.ndarray:
-    """Slopes at offsets at which the first integral has its value, by the secants of Newton's method."""
+    """Slopes at offsets at which the first integral has its value, by Newton's method with differences.
+
+    Raises:
+        RuntimeError: If it does not converge.
+    """
     l1, slopes, h = sheet.lam0 + kap * offsets, np.full(len(offsets), first), 1e-6
 
     def excess(q: np.ndarray) -> np.ndarray:
@@ -89,8 +93,8 @@ def _slopes(sheet: Sheet, kap: float, offsets: np.ndarray, integral: float, firs
         step = value * 2 * h / (excess(slopes + h) - excess(slopes - h))
         slopes = slopes - step
         if np.max(np.abs(step)) < 1e-14:
-            break
-    return slopes
+            return slopes
+    raise RuntimeError(f"{sheet}, kap = {kap:g}: Newton's last step is {np.max(np.abs(step)):.1e}")
 
 
 def _gauss(begin: float, end: float, nodes: int) -> tuple[np.ndarray, np.ndarray]:
