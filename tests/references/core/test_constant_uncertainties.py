@@ -18,7 +18,7 @@ FOLDERS = ("reference_data/solvers", "weakforms/problems", "weakforms/solvers")
 SMALL = 1e-3  # larger numbers are factors, not errors
 MAKERS = {
     *("Column", "Estimate", "Levels", "Pair", "Quantity", "Slow"),
-    *("_on_all", "columns_of", "refined", "round_up", "shifted"),
+    *("_on_all", "columns_of", "refined", "round_up", "rounded", "shifted"),
 }
 """Functions that take an uncertainty or return one."""
 NAMES = re.compile(r"floor|uncertain|^left$|^loose$|^rest$|rounding")
