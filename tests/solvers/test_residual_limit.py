@@ -8,7 +8,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium import newton
 from weakforms.solvers.equilibrium.balance import OF_FORCES, RESIDUAL_LIMIT, residual_limit
 from weakforms.solvers.equilibrium.constraints import MonitorPlane
-from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.equilibrium.newton import OF_TERMS, ExtendedNewton
 
 SIZES = [1e-9, 1.0, 1e9]
 
@@ -121,3 +121,21 @@ def test_the_distance_from_a_plane_is_measured_along_its_normal():
     assert values[0] == pytest.approx((1e3 / 7 + 3 / 7 - 1) / np.sqrt(2), rel=1e-10)
     assert rows[0][0] == pytest.approx(rows[1][0], rel=1e-14)
     assert rows[0][1] == pytest.approx({"load": 1 / np.sqrt(2)}, rel=1e-14)
+
+
+@pytest.mark.parametrize("part", [0.5, 20.0])
+def test_a_constraint_is_met_to_the_round_off_of_its_terms(part, monkeypatch):
+    """With round-off of part of what is allowed, which differs in every evaluation."""
+    size = 1e12 / 7
+    system, plane = system_of(lambda u, v, p: (u - 1e12 * p) * v), MonitorPlane({"u": 1.0}, size)
+    right, calls = MonitorPlane.value, iter(range(10_000))
+    shift = part * OF_TERMS * size
+    assert shift > RESIDUAL_LIMIT
+    monkeypatch.setattr(MonitorPlane, "value", lambda *at: right(*at) + shift * (-1) ** next(calls))
+    solver = ExtendedNewton(system, ["load"])
+    if part < 1:
+        state, _ = solver.solve(system.initial, [plane])
+        assert state.loads["load"] == pytest.approx(1 / 7, rel=1e-13)
+    else:
+        with pytest.raises(ConvergenceError, match="CONVERGED_SNORM_RELATIVE"):
+            solver.solve(system.initial, [plane])

@@ -33,6 +33,10 @@ NEARLY = 100.0
 """A state whose last step is small is improved by one more run if its residual is below so many limits. A
 larger one shows that the Jacobian is not that of the residual, or that there is no state."""
 
+OF_TERMS = 1e-14
+"""Part of the sum of a constraint's terms, ``|∂g/∂U| |U| + |∂g/∂λ| |λ|``, that is round-off: about 45 units in
+the last place. It counts where a law locks and the forces are in the millions."""
+
 AT_ROUND_OFF = 10, 1e-8
 """Near a bifurcation point, round-off in the forces alone may cause steps above the tolerance. A state is
 then accepted if this number of residuals in a row were round-off (the smallest limit), and the last relative
@@ -41,7 +45,7 @@ step is below the second number."""
 STOPPING = (
     "relative Newton step 1e-10 (1e-8 if the residual is round-off); residual norm below 1e-8, but not below "
     "1e-15 nor above 1e-10 of the nodal forces before they balance, |K| |U|, or "
-    "below 1e-15 of the forces of a load"
+    "below 1e-15 of the forces of a load; scalar conditions to 1e-8, or to 1e-14 of their terms"
 )
 """Text on these tolerances in results."""
 
@@ -295,7 +299,17 @@ class ExtendedNewton:
         left = sqrt(self.system.dot(forces, forces))
         within = left <= times * residual_limit(self.system, left / times)
         within = within or left <= times * self._round_off_of_loads()
-        return within and all(abs(value) < times * RESIDUAL_LIMIT for value in missed)
+        pairs = zip(self.constraints, missed, strict=True)
+        return within and all(self._is_met(constraint, abs(value) / times) for constraint, value in pairs)
+
+    def _is_met(self, constraint: Constraint, missed: float) -> bool:
+        """Whether a constraint is missed by less than its limit, or by the round-off of its own terms."""
+        if missed < RESIDUAL_LIMIT:
+            return True
+        row, rates = constraint.gradient(self)
+        size = self.system.dot(abs(row), abs(self.system.owned()))
+        size += sum(abs(rate * self.system.load(name)) for name, rate in rates.items())
+        return missed <= OF_TERMS * size
 
 
 class _BorderedOperator:
