@@ -1,12 +1,14 @@
 """Formulas in plain characters as a reader of a page sees them."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from weakforms.problems.registry import abouts
 from weakforms.verification.report.formulas import html_formula, svg_formula
 
+ROOT = Path(__file__).resolve().parents[2]
 RAW = re.compile(
     r"[\^_]|<=|>=|\b(int|oint|sqrt|pi|alpha|beta|gamma|delta|eta|kappa|lam|mu|rho|Pi|Theta)\b|\blam"
 )
@@ -53,3 +55,9 @@ def test_an_index_in_a_drawing_returns_to_the_line():
     drawn = svg_formula("radius R_f of")
     assert drawn.count("<tspan") == 4
     assert re.findall(r'dy="(-?\d)"', drawn) == ["3", "-3"]
+
+
+def test_no_formula_of_a_docstring_is_beyond_mathtext():
+    """The docs would show its TeX: matplotlib draws no matrices and no cases."""
+    texts = {path: path.read_text("utf-8") for path in (ROOT / "weakforms").rglob("*.py")}
+    assert [str(path) for path, text in texts.items() if "\\begin{" in text] == []

@@ -47,8 +47,7 @@ def revolution_stretches(
 def polar_metric(ratio: Expr, r: Expr, r_slope: Expr, turn_slope: Expr) -> Expr:
     r"""Right Cauchy-Green tensor, 2 x 2, of a flat sheet: ``r(R)``, ``theta = Theta + w(R)`` in its plane.
 
-    .. math:: C = \begin{pmatrix} r_{,R}^2 + r^2 w_{,R}^2 & r^2 w_{,R}/R \\ r^2 w_{,R}/R & r^2/R^2
-              \end{pmatrix}
+    .. math:: C_{11} = r_{,R}^2 + r^2 w_{,R}^2, \qquad C_{12} = r^2 w_{,R}/R, \qquad C_{22} = r^2/R^2
 
     Args:
         ratio: ``r/R``.

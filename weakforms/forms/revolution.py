@@ -30,7 +30,7 @@ ANGLES = ((1.0, 0.0), (0.0, 1.0))
 def gradient_tensor(at: Surface, radius: Expr, scales: tuple[Expr | float, Expr | float]) -> Expr:
     r"""Right Cauchy-Green tensor of a surface in the orthonormal frame of its reference, 2 x 2.
 
-    .. math:: C = \begin{pmatrix} a^2 g_{11} & a b\, g_{12}/R \\ a b\, g_{12}/R & b^2 g_{22}/R^2 \end{pmatrix}
+    .. math:: C_{11} = a^2 g_{11}, \qquad C_{12} = a b\, g_{12}/R, \qquad C_{22} = b^2 g_{22}/R^2
 
     Args:
         at: The deformed surface.
@@ -117,8 +117,8 @@ def second_order(energy: Callable[[Expr], Expr], zero: Expr) -> Expr:
 def hoop_bending(base: Surface, parts: tuple[Expr, ...], slopes: tuple[Expr, ...], n: Expr) -> Expr:
     r"""Change of the circumferential curvature to first order, over the reference metric.
 
-    .. math:: k_{22} = \frac{ z_0'\big[-(n^2+1)u - 2nq + \tfrac{r_0 r_0'}{j^2} u'\big]
-              - r_0'\big[-n^2 w + \tfrac{r_0 r_0'}{j^2} w'\big] }{j}, \qquad j = \lambda_1
+    .. math:: j k_{22} = z_0'[-(n^2+1)u - 2nq + r_0 r_0' u'/j^2] - r_0'[-n^2 w + r_0 r_0' w'/j^2],
+              \qquad j = \lambda_1
 
     times :math:`\cos n\Theta / R^2`, the factor :math:`R^{-2}` left to the caller. It contains first
     derivatives only. A sheet with the energy :math:`\tfrac12\int D k_{22}^2` of this *incremental* curvature
@@ -144,10 +144,9 @@ def meridional_bending(
 ) -> tuple[Expr, Expr, Expr]:
     r"""Changes of meridional curvature and twist to first order, and the meridian's rotation.
 
-    .. math:: k_{11} = \frac{z_0'(u'' - \tfrac{j'}{j} u') - r_0'(w'' - \tfrac{j'}{j} w')}{j}, \quad
-              R\,k_{12} = \frac{z_0'\big[-n u' - q' + \tfrac{r_0'}{r_0}(n u + q)\big]
-              - r_0'\big[-n w' + \tfrac{r_0'}{r_0} n w\big]}{j}, \quad
-              \varphi = \frac{z_0' u' - r_0' w'}{j}
+    .. math:: j k_{11} = z_0'(u'' - j' u'/j) - r_0'(w'' - j' w'/j), \quad
+              j R\,k_{12} = z_0'[-n u' - q' + (r_0'/r_0)(n u + q)] - r_0'[-n w' + (r_0'/r_0)\,n w], \quad
+              j \varphi = z_0' u' - r_0' w'
 
     times ``cos``, ``sin`` and ``cos`` of ``n Theta``; the factor ``1/R`` of the twist is left to the caller.
 

@@ -4,7 +4,7 @@ Both edges are held: ``r = s R``, and the inner one is turned by ``psi``. A mate
 moves to the radius ``r(R)`` and the angle ``Theta + w(R)``. Over the outer radius and ``C1 h``
 
 .. math:: \frac{U}{2\pi} = \int_a^1 W(C)\, R\, \mathrm{d}R, \qquad
-          C = \begin{pmatrix} r'^2 + r^2 w'^2 & r^2 w'/R \\ r^2 w'/R & r^2/R^2 \end{pmatrix}
+          C_{11} = r'^2 + r^2 w'^2, \quad C_{12} = r^2 w'/R, \quad C_{22} = r^2/R^2
 
 with the relaxed energy where the sheet is wrinkled: inside of the front, with the sheet taut outside of it.
 The torque :math:`M = \partial U/\partial\psi = -2\pi R\, W_{,w'}` is the same at every radius.

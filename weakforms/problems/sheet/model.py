@@ -11,12 +11,12 @@ A strip is pulled by its ends, which slide along themselves; its long edge is fr
 A sheet is bent by guides along its long edges, concentric arcs at the distance ``s``, whose ends turn by
 :math:`\kappa c` towards each other. Its points move along the arcs by ``u_x`` and across them by ``u_y``:
 
-.. math:: r = \lambda_0/\kappa + w, \quad \varphi = \kappa\,(X + u_x), \quad w = s\,(Y - 1/2) + u_y, \qquad
-          F = \begin{pmatrix} (\lambda_0 + \kappa w)\,\nabla(X + u_x) \\ \nabla w \end{pmatrix}
+.. math:: r = \lambda_0/\kappa + w, \quad \varphi = \kappa\,(X + u_x), \quad w = s\,(Y - 1/2) + u_y
 
-in the directions of the arc and of its radius. The state is the same at every ``X``, not at every ``Y``. The
-mean force along the arcs, and its moment about the arc of the stretch :math:`\lambda_0`, are the derivatives
-of the energy in :math:`\lambda_0` and in :math:`\kappa` over the length.
+with the deformation gradient :math:`(\lambda_0 + \kappa w)\,\nabla(X + u_x)` along the arc and
+:math:`\nabla w` along its radius. The state is the same at every ``X``, not at every ``Y``. The mean force
+along the arcs, and its moment about the arc of the stretch :math:`\lambda_0`, are the derivatives of the
+energy in :math:`\lambda_0` and in :math:`\kappa` over the length.
 """
 
 from __future__ import annotations

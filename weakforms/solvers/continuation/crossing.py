@@ -8,9 +8,8 @@ the curve. With a force ``μ b`` in its direction, ``b = M φ₀``, and a condit
 every state is regular, and on the curve ``μ = 0``. The two numbers ``x, β`` follow from two conditions (the
 first of which is that of :class:`Singular`)
 
-.. math:: \begin{pmatrix} K & b \\ b^T & 0 \end{pmatrix}
-          \begin{pmatrix} \varphi \\ g \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}, \qquad
-          g = 0, \qquad h = \varphi^T \sum_i R_{λ_i} \dot λ_i = 0
+.. math:: K \varphi + g\,b = 0, \qquad b^T \varphi = 1, \qquad g = 0, \qquad
+          h = \varphi^T \sum_i R_{λ_i} \dot λ_i = 0
 
 with the rates of the loads along the curve. Both conditions together are regular at a simple crossing, with
 and without symmetry (Govaerts 2000, chapter 7).

@@ -135,7 +135,7 @@ class Factorization:
 
 
 class BorderedMatrix:
-    r"""Solves with :math:`\begin{pmatrix} K & B \\ C^T & D \end{pmatrix}` by block elimination.
+    r"""Solves with the matrix ``[K, B; C^T, D]`` by block elimination.
 
     ``K`` may be nearly singular, as at a limit point, if the whole matrix is not. Iterative refinement with
     the whole matrix follows the elimination, and the residual is checked. If it does not converge because

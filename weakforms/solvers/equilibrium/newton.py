@@ -34,8 +34,8 @@ NEARLY = 100.0
 larger one shows that the Jacobian is not that of the residual, or that there is no state."""
 
 OF_TERMS = 1e-14
-"""Part of the sum of a constraint's terms, ``|∂g/∂U| |U| + |∂g/∂λ| |λ|``, that is round-off: about 45 units in
-the last place. It counts where a law locks and the forces are in the millions."""
+"""Part of the sum of a constraint's terms, ``|∂g/∂U| |U| + |∂g/∂λ| |λ|``, that is round-off: about 45 units
+in the last place. It counts where a law locks and the forces are in the millions."""
 
 AT_ROUND_OFF = 10, 1e-8
 """Near a bifurcation point, round-off in the forces alone may cause steps above the tolerance. A state is

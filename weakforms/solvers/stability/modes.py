@@ -253,8 +253,7 @@ class Singular:
 
     With a fixed vector ``c`` the bordered system
 
-    .. math:: \begin{pmatrix} K & c \\ c^T & 0 \end{pmatrix}
-              \begin{pmatrix} \varphi \\ g \end{pmatrix} = \begin{pmatrix} 0 \\ 1 \end{pmatrix}
+    .. math:: K \varphi + g\,c = 0, \qquad c^T \varphi = 1
 
     gives ``g``, which is proportional to the eigenvalue near ``K φ = 0`` and vanishes there. It follows the
     mode that ``c`` selects, not a position in an ordered spectrum. By the symmetry of ``K``,

@@ -4,8 +4,8 @@ The pressure has a kink where the membrane leaves the liquid, along a curve :mat
 with the kink inside lose their order. The mesh over ``(X, Theta)`` is therefore fixed, and the material point
 is a function on it,
 
-.. math:: Z = \begin{cases} Z_0 + (X - Z_0)\,\frac{Z_f(\Theta) - Z_0}{X_f - Z_0}, & Z_0 \le X \le X_f \\
-          Z_1 - (Z_1 - X)\,\frac{Z_1 - Z_f(\Theta)}{Z_1 - X_f}, & X_f \le X \le Z_1 \end{cases}
+.. math:: Z = Z_0 + (X - Z_0)\,\frac{Z_f(\Theta) - Z_0}{X_f - Z_0}, \qquad Z_0 \le X \le X_f \\
+          Z = Z_1 - (Z_1 - X)\,\frac{Z_1 - Z_f(\Theta)}{Z_1 - X_f}, \qquad X_f \le X \le Z_1
 
 and ``Z = X`` elsewhere. The row of edges ``X = X_f`` lies on the free surface; rows at and beyond ``Z_0`` and
 ``Z_1`` do not move. ``Z_f`` is a cosine polynomial, whose coefficients belong to the state. A row that is off
