@@ -60,6 +60,24 @@ def test_the_table_of_symbols_has_those_that_columns_declare_and_else_typesets_t
     assert symbol("delta1") != wording.symbol("delta1")
 
 
+@pytest.mark.parametrize(
+    ("problem", "given", "sketch"),
+    [
+        ("sheet", [{"loading": "bend"}], "bent"),
+        ("sheet", [{"loading": "shear"}], "sheet"),
+        ("sheet", [{"loading": "bend"}, {"loading": "shear"}], "sheet"),
+        ("diagram", [{"body": "infinite_tube"}], "cylinder"),
+        ("diagram", [{"body": "tube"}, {"body": "circular"}], "tube"),
+    ],
+)
+def test_a_sketch_shows_the_only_loading_or_body_of_a_case(problem, given, sketch):
+    case = passing_case()
+    case.solutions = [{"problem": problem, "parameters": parameters} for parameters in given]
+    (entry,) = manual.manual(case)
+    assert entry["sketch"] == sketch
+    assert f"macro {sketch}()" in (TEMPLATES / "sketches.html").read_text("utf-8")
+
+
 def test_no_picture_shows_a_raw_name():
     labels = list(shown())
     assert len(labels) > 250

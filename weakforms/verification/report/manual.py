@@ -26,11 +26,12 @@ SKETCHES = {
     "membrane": "outline",
     "annulus": "annulus",
     "sheet": "sheet",
+    "sheet_bend": "bent",
     "torus": "torus",
     "homogeneous": "piece",
     "material": "piece",
 }
-"""Sketch by a problem's name, or by the first word of it."""
+"""Sketch by a problem's name, by the first word of it, or by the name and a loading."""
 
 KINDS = {
     "exact": "a closed form",
@@ -74,10 +75,11 @@ def sketch(problem: str) -> str:
 
 
 def _drawn_as(problem: str, data: list[dict[str, Any]]) -> str:
-    """What is sketched of a problem: the only body that has lines in a diagram, if that is a problem too."""
-    bodies = {str(of.get("body", "")) for of in data}
-    body = bodies.pop() if len(bodies) == 1 else ""
-    return body if body in SKETCHES or body.partition("_")[0] in SKETCHES else problem
+    """What is sketched of a problem: its only loading, or the only body of a diagram, if it is a problem."""
+    kinds = {str(of.get("body", of.get("loading", ""))) for of in data}
+    kind = kinds.pop() if len(kinds) == 1 else ""
+    names = f"{problem}_{kind}", kind, kind.partition("_")[0]
+    return next((name for name in names if name in SKETCHES), problem)
 
 
 def references(case: CaseOutcome) -> dict[str, list[str]]:
