@@ -28,7 +28,7 @@ def test_a_diagram_ends_where_the_law_of_its_disk_takes_no_more():
     """Branches went on to states without meaning, on which first wrinkling was looked for."""
     law = {"model": "gent", "shear": 8.909, "jm": 19.49}
     given = law | {"body": "circular", "beta": 2.9, "low": 2.8, "high": 3.0, "kind": "wrinkling"}
-    result = solve("diagram", **given, l=0.15, t_end=3.1, numerics={"cells": 8, "levels": 2})
+    result = solve("diagram", **given, l=0.15, t_end=3.1, numerics={"cells": 8, "levels": 2, "step": 0.2})
     assert result.failures == []
     assert "or to where the law is at its limit" in result.absent[0].reason
     with pytest.raises(InputError, match=r"diagram: high = 4: model = 'gent' .* lower high"):

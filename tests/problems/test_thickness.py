@@ -127,8 +127,8 @@ def numbers(
 @pytest.mark.parametrize(
     ("problem", "built_in", "text", "at"),
     [
-        ("circular", {"M": 0.5, "beta": 1.25}, "0.5 + X", ("t0", 0.5)),
-        ("circular", {}, "1", ("t0", 0.5)),
+        ("circular", {"M": 0.5, "beta": 1.25, "t_end": 0.6}, "0.5 + X", ("t0", 0.5)),
+        ("circular", {"t_end": 0.6}, "1", ("t0", 0.5)),
         ("wrinkled_tube", {"M": 0.5, "load_end": 3.0, "n": [5]}, "0.5 + Z/L", ("zw", 2.5)),
         ("hemisphere", {"low_end": -0.8, "n": [5]}, "1", ("zw", -0.7)),
     ],
@@ -144,8 +144,8 @@ def test_the_expression_of_a_built_in_thickness_gives_its_numbers(problem, built
 
 
 def test_twice_the_thickness_carries_twice_the_pressure():
-    plain = numbers("circular", {}, "t0", 0.5, {"cells": 12, "levels": 2})
-    thick = numbers("circular", {"thickness": "2"}, "t0", 0.5, {"cells": 12, "levels": 2})
+    plain = numbers("circular", {"t_end": 0.6}, "t0", 0.5, {"cells": 12, "levels": 2})
+    thick = numbers("circular", {"t_end": 0.6, "thickness": "2"}, "t0", 0.5, {"cells": 12, "levels": 2})
     for name, factor in (("p", 2), ("Pi", 2), ("t_min", 2), ("V", 1), ("lam_pole", 1), ("eigenvalue_1", 1)):
         assert thick[name] == pytest.approx(factor * plain[name], rel=1e-9), name
 
@@ -153,7 +153,7 @@ def test_twice_the_thickness_carries_twice_the_pressure():
 def test_the_resultants_of_a_disk_are_those_of_its_thickness_there():
     """At the pole both stretches are equal, t = H w_1/lam; the law is neo-Hookean."""
     wanted = [StateRequest("t0", 0.5, profile=())]
-    given = {"M": 0.5, "alpha": 0.0}
+    given = {"M": 0.5, "alpha": 0.0, "t_end": 0.6}
     state = solve_requests("circular", given, {"levels": 2}, wanted, branch_uncertainty=False).states[0]
     lam, t1 = (state.fields[0].columns[name][0] for name in ("lam1", "t1"))
     assert t1 == pytest.approx(0.5 * 2 * (lam - lam**-5) / lam, rel=1e-6)

@@ -6,25 +6,39 @@ import numpy as np
 import pytest
 
 from weakforms import solve
+from weakforms.api import solve_requests
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems import registry
 from weakforms.problems.diagram.lines import LinesOnMesh
 from weakforms.problems.diagram.parameters import DiagramParameters
+from weakforms.problems.problem import StateRequest
 
 COARSE = {"cells": 24, "levels": 2}
 MESH = {"cells": 48, "levels": 2}
+LONG_STEPS = MESH | {"step": 0.2}
+AT = 0.07
+"""A value of ``alpha`` at which a line of mirror breaking has states."""
 
 
 @pytest.fixture(scope="module")
 def alpha_plane():
-    return solve("diagram", x="alpha", kind="fold,mirror", numerics=MESH)
+    wanted = [StateRequest("alpha", AT, "all", "mirror"), StateRequest("alpha", AT, 1, "fold")]
+    return solve_requests("diagram", {"x": "alpha", "kind": "fold,mirror"}, MESH, wanted)
 
 
 @pytest.fixture(scope="module")
 def onsets():
-    return solve(
-        "diagram", alpha=0.0, kind="wrinkling,contact", high=1.6, numerics={"cells": 48, "levels": 2}
-    )
+    wanted = [
+        StateRequest("u_max", 2.0, 1, "wrinkling", profile=()),
+        StateRequest("delta1", 1.2, 1, "contact"),
+    ]
+    given = {"alpha": 0.0, "kind": "wrinkling,contact", "high": 1.6}
+    return solve_requests("diagram", given, MESH, wanted)
+
+
+def on(result, branch):
+    """The states of a branch that were asked for."""
+    return [state for state in result.states if state.branch == branch]
 
 
 def near(a, b, uncertainty):
@@ -32,8 +46,8 @@ def near(a, b, uncertainty):
 
 
 def test_folds_over_the_pre_stretch_are_those_of_tube_fold():
-    line = solve("diagram", alpha=0.1, kind="fold", high=3.0, numerics=MESH)
-    own = solve("tube_fold", alpha=0.1, numerics={"cells": 48, "levels": 2})
+    line = solve("diagram", alpha=0.1, kind="fold", high=3.0, numerics=LONG_STEPS)
+    own = solve("tube_fold", alpha=0.1, numerics=LONG_STEPS)
     (cusp,), (other,) = line.points("cusp_point"), own.points("cusp_point")
     for name in ("delta1", "p", "u_max", "V"):
         both = np.hypot(cusp.uncertainty[name], other.uncertainty[name])
@@ -50,32 +64,20 @@ def test_both_lines_have_the_same_coincidence(alpha_plane):
 
 def test_limit_points_and_mirror_breaking_are_those_of_a_single_tube(alpha_plane):
     """The whole tube finds where its mirror symmetry breaks by itself, in the space of both symmetries."""
-    at = 0.07
-    tube = solve("tube", alpha=at, extent="full", u_end=2.6, numerics={"cells": 48, "levels": 2})
+    tube = solve("tube", alpha=AT, extent="full", u_end=2.6, numerics=LONG_STEPS)
     (limit,), breaking = tube.points("limit_point")[:1], tube.points("bifurcation_point")
-    lines = solve(
-        "diagram",
-        x="alpha",
-        kind="fold,mirror",
-        numerics=MESH,
-        at={"alpha": at},
-        crossing="all",
-        branch="mirror",
-    )
-    found = sorted(s.quantities["p"].value for s in lines.states)
+    found = sorted(s.quantities["p"].value for s in on(alpha_plane, "mirror"))
     for point in breaking:
         gap = min(abs(p - point.values["p"]) for p in found)
         assert gap <= 1e-7
     assert len(breaking) >= 1
-    folds = solve("diagram", x="alpha", kind="fold", numerics=MESH, at={"alpha": at}, branch="fold")
-    assert folds.states[0].quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-8)
+    (fold,) = on(alpha_plane, "fold")
+    assert fold.quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-8)
 
 
-def test_states_on_a_line_of_limit_points_have_a_zero_eigenvalue(alpha_plane):
-    states = solve(
-        "diagram", x="alpha", kind="fold", numerics=COARSE, at={"u_max": 1.2}, branch="fold"
-    ).states
-    (state,) = states
+def test_states_on_a_line_of_limit_points_have_a_zero_eigenvalue():
+    given = {"x": "alpha", "kind": "fold", "u_end": 1.4, "numerics": COARSE}
+    (state,) = solve("diagram", **given, at={"u_max": 1.2}, branch="fold").states
     assert abs(state.quantities["eigenvalue_1"].value) < 1e-8
     assert state.quantities["n_negative"].value == 0
 
@@ -83,7 +85,7 @@ def test_states_on_a_line_of_limit_points_have_a_zero_eigenvalue(alpha_plane):
 def test_a_state_on_a_line_of_another_kind_is_refused():
     said = "diagram at these parameters has no branch 'mirror'; it has fold, end"
     with pytest.raises(InputError, match=said):
-        solve("diagram", x="alpha", kind="fold", numerics=COARSE, at={"u_max": 1.2}, branch="mirror")
+        solve("diagram", x="alpha", kind="fold", u_end=1.4, numerics=COARSE, at={"u_max": 1.2}, branch="mirror")
 
 
 def test_the_parameter_falls_like_a_square_root_of_the_distance_from_a_tip(alpha_plane):
@@ -106,11 +108,9 @@ def test_first_wrinkling_is_at_the_disk_for_pre_stretched_tubes_and_inside_other
     assert np.abs(line["t_min"]).max() < 1e-6
 
 
-def test_the_least_resultant_of_a_profile_on_the_line_is_zero():
+def test_the_least_resultant_of_a_profile_on_the_line_is_zero(onsets):
     """At a disk ``lam2 = delta1^-1/2``, so that ``T2 = 0`` if and only if ``lam1 = delta1`` there."""
-    numerics = {"cells": 48, "levels": 2}
-    given = {"alpha": 0.0, "kind": "wrinkling", "high": 1.6}
-    (state,) = solve("diagram", **given, numerics=numerics, at={"u_max": 2.0}, branch="wrinkling").states
+    (state,) = on(onsets, "wrinkling")
     assert state.quantities["S_least"].value == 1.0
     assert state.quantities["at_end"].value == 1
     fields = state.fields[0].columns
@@ -119,10 +119,8 @@ def test_the_least_resultant_of_a_profile_on_the_line_is_zero():
 
 
 def test_first_contact_is_that_of_the_tube_against_its_substrate(onsets):
-    (state,) = solve(
-        "diagram", alpha=0.0, kind="contact", high=1.6, numerics=MESH, at={"delta1": 1.2}, branch="contact"
-    ).states
-    tube = solve("tube", alpha=0.0, delta1=1.2, contact="frictionless", numerics={"cells": 48, "levels": 2})
+    (state,) = on(onsets, "contact")
+    tube = solve("tube", alpha=0.0, delta1=1.2, contact="frictionless", p_end=2.0, numerics=LONG_STEPS)
     (onset,) = tube.points("contact_onset")
     assert state.quantities["p"].value == pytest.approx(onset.values["p"], abs=1e-8)
     assert np.all(onsets.branch("contact").columns["u_max"] == pytest.approx(0.3))
@@ -134,20 +132,20 @@ def test_lines_of_the_disk_are_those_of_the_single_disk():
         body="circular",
         x="alpha",
         kind="fold",
-        numerics=MESH,
+        numerics=LONG_STEPS,
         at={"alpha": 0.02},
         branch="fold",
     )
-    disk = solve("circular", alpha=0.02, t_end=2.5, numerics={"cells": 48, "levels": 2})
+    disk = solve("circular", alpha=0.02, t_end=2.5, numerics=LONG_STEPS)
     limits = disk.points("limit_point")
     assert lines.states[0].quantities["p"].value == pytest.approx(limits[0].values["p"], abs=1e-8)
     assert len(lines.points("cusp_point")) == 1
 
 
 def test_a_line_over_the_length_is_that_of_tubes_of_that_length():
-    given = {"alpha": 0.05, "x": "lf", "kind": "fold,mirror", "low": 5.0, "high": 7.0}
-    (state,) = solve("diagram", **given, numerics=MESH, at={"lf": 6.5}, branch="fold").states
-    (limit,) = solve("tube", alpha=0.05, lf=6.5, u_end=1.2, numerics={"cells": 48}).points("limit_point")
+    given = {"alpha": 0.05, "x": "lf", "kind": "fold", "low": 6.0, "high": 7.0, "u_end": 1.2}
+    (state,) = solve("diagram", **given, numerics=LONG_STEPS, at={"lf": 6.5}, branch="fold").states
+    (limit,) = solve("tube", alpha=0.05, lf=6.5, u_end=1.2, numerics=LONG_STEPS).points("limit_point")
     assert state.quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-8)
 
 
@@ -238,7 +236,7 @@ def test_a_plane_has_a_usual_range_of_each_parameter(given, ends):
 
 
 def test_a_plane_without_a_line_says_what_was_searched():
-    plane = {"alpha": 0.25, "x": "alpha", "low": 0.2, "kind": "mirror", "numerics": COARSE}
+    plane = {"alpha": 0.25, "x": "alpha", "low": 0.2, "kind": "mirror", "numerics": COARSE | {"step": 0.2}}
     result = solve("diagram", **plane)
     assert result.branches == []
     (absence,) = result.absent
@@ -272,7 +270,7 @@ def test_a_search_that_fails_costs_only_its_own_lines(monkeypatch):
             raise ConvergenceError("SNES ended")
         return right(self, kind, at)
 
-    plane = {"alpha": 0.1, "kind": "fold,contact", "low": 1.0, "high": 1.4, "numerics": COARSE}
+    plane = {"alpha": 0.1, "kind": "fold,contact", "low": 1.0, "high": 1.4, "u_end": 1.6} | {"numerics": COARSE}
     whole = solve("diagram", **plane)
     monkeypatch.setattr(LinesOnMesh, "starts", starts)
     found = solve("diagram", **plane)

@@ -9,7 +9,7 @@ from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.problems.tube.waves import EVEN, ODD
 
 MESH = {"cells": 48, "levels": 2}
-OVER_LENGTH = {"x": "lf", "alpha": 0.0, "low": 5.0, "high": 10.0, "u_end": 2.5}
+OVER_LENGTH = {"x": "lf", "alpha": 0.0, "low": 5.5, "high": 8.2, "u_end": 2.0}
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +20,7 @@ def over_length():
 @pytest.fixture(scope="module")
 def tube():
     """One tube of length 8 in its own discretisation, with the eigenvalues of both parities."""
-    fine = {"cells": 96, "levels": 2}
+    fine = {"cells": 96, "levels": 2, "step": 0.2}
     return solve("tube", alpha=0.0, lf=8.0, u_end=1.5, n=(0, 1), numerics=fine, at={"u_max": 1.0})
 
 
@@ -93,9 +93,9 @@ def test_points_past_the_largest_displacement_start_no_line():
 
 
 def test_two_waves_become_neutral_far_out_on_a_stretched_tube():
-    given = {"alpha": 0.0, "delta1": 2.0, "low": 1.9, "high": 2.1, "kind": "n2"}
-    line = solve("diagram", **given, numerics=MESH, at={"delta1": 2.0}, branch="n2")
+    given = {"alpha": 0.0, "delta1": 2.0, "low": 1.95, "high": 2.05, "kind": "n2"}
+    line = solve("diagram", **given, numerics=MESH | {"step": 0.2}, at={"delta1": 2.0}, branch="n2")
     single = {"alpha": 0.0, "delta1": 2.0, "u_end": 4.0, "n": 2}
-    tube = solve("tube", **single, numerics={"cells": 48, "levels": 2})
+    tube = solve("tube", **single, numerics=MESH | {"step": 0.2})
     (point,) = tube.points("bifurcation_n2")
     assert line.states[0].quantities["p"].value == pytest.approx(point.values["p"], abs=1e-7)

@@ -16,7 +16,7 @@ from weakforms.problems.problem import validated
 from weakforms.solvers.equilibrium.state import State
 
 FAR = {"alpha": 0.8089, "beta": 9.496, "k": 88.36, "l": 1.084, "p_end": 0.3871}
-DISK = {"cells": 16, "levels": 2}
+DISK = {"cells": 16, "levels": 2, "step": 0.3}
 
 
 @pytest.mark.parametrize(

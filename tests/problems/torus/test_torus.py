@@ -71,7 +71,7 @@ def test_a_slender_torus_is_nearly_a_long_tube():
 
 
 def test_a_law_that_locks_ends_the_branch():
-    found = solve("torus", model="gent", jm=2.0, b=0.3, v_end=20.0, numerics=COARSE)
+    found = solve("torus", model="gent", jm=2.0, b=0.3, v_end=20.0, numerics=COARSE | {"step": 0.3})
     (absent,) = found.absent
     assert absent.what == "rest of branch primary"
     assert "lower v_end" in absent.reason
@@ -79,7 +79,7 @@ def test_a_law_that_locks_ends_the_branch():
 
 
 def test_the_pressure_is_in_proportion_to_the_stiffness_of_the_law():
-    given = {"b": 0.3, "v_end": 1.5, "numerics": COARSE, "at": {"r_out": 1.32}}
+    given = {"b": 0.3, "v_end": 1.5, "numerics": COARSE | {"step": 0.3}, "at": {"r_out": 1.32}}
     stiff, soft = (
         solve("torus", model="rivlin", c10=7.0, **NONE, **given),
         solve("torus", alpha=0.0, **given),
