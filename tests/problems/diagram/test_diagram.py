@@ -85,7 +85,7 @@ def test_states_on_a_line_of_limit_points_have_a_zero_eigenvalue():
 def test_a_state_on_a_line_of_another_kind_is_refused():
     said = "diagram at these parameters has no branch 'mirror'; it has fold, end"
     with pytest.raises(InputError, match=said):
-        solve("diagram", x="alpha", kind="fold", u_end=1.4, numerics=COARSE, at={"u_max": 1.2}, branch="mirror")
+        solve("diagram", x="alpha", kind="fold", u_end=1.4, numerics=COARSE, at={"p": 1.5}, branch="mirror")
 
 
 def test_the_parameter_falls_like_a_square_root_of_the_distance_from_a_tip(alpha_plane):
@@ -270,7 +270,7 @@ def test_a_search_that_fails_costs_only_its_own_lines(monkeypatch):
             raise ConvergenceError("SNES ended")
         return right(self, kind, at)
 
-    plane = {"alpha": 0.1, "kind": "fold,contact", "low": 1.0, "high": 1.4, "u_end": 1.6} | {"numerics": COARSE}
+    plane = {"alpha": 0.1, "kind": "fold,contact", "low": 1.0, "high": 1.4, "u_end": 1.6, "numerics": COARSE}
     whole = solve("diagram", **plane)
     monkeypatch.setattr(LinesOnMesh, "starts", starts)
     found = solve("diagram", **plane)

@@ -35,7 +35,7 @@ def test_each_mesh_is_announced(problem):
 
 
 def test_limit_points_merge_in_a_constant():
-    result = solve("sphere", alpha=0.15, vary="alpha", vary_end=0.3)
+    result = solve("sphere", alpha=0.15, vary="alpha", vary_end=0.3, numerics={"step": 0.1})
     (merged,) = result.points("cusp_point")
     assert merged.branch == "fold"
     assert merged.values["alpha"] == pytest.approx(0.2144583510, abs=5e-11)
@@ -76,7 +76,7 @@ def test_an_axial_force_counts():
 )
 @pytest.mark.parametrize("end", [2.0, 0.5])
 def test_test_pieces_have_their_closed_forms(loading, stress, end):
-    result = solve("homogeneous", model="neo_hookean", loading=loading, lam_end=end)
+    result = solve("homogeneous", model="neo_hookean", loading=loading, lam_end=end, numerics={"step": 0.2})
     columns = result.branch().columns
     inside = slice(0, -1)
     assert np.allclose(columns["T"][inside], stress(columns["lam"][inside]), rtol=1e-9, atol=1e-9)

@@ -10,6 +10,7 @@ from scipy.linalg import eigh
 
 import weakforms.problems.liquid_tube.model as fluid_module
 from weakforms import InputError, reference, solve
+from weakforms.api import solve_requests
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems import registry
 from weakforms.problems.liquid_tube.branch import FluidPath
@@ -348,11 +349,13 @@ def test_a_law_that_gives_way_without_liquid_has_no_branch():
 
 def test_states_are_found_at_any_column():
     wanted = [("zw", 8.2), ("V", 30.0), ("r_mid", 1.5), ("Lambda_n1", 0.3), ("r_front", 0.9)]
-    result = solve("fluid_tube", L=8, delta=2, at=wanted, numerics=COARSE)
-    for state, (name, value) in zip(result.states, wanted, strict=True):
+    requests = [*(StateRequest(name, value) for name, value in wanted), StateRequest("zw", 8.2, crossing=2)]
+    given = {"L": 8, "delta": 2, "n_max": 1}
+    *states, after = solve_requests("fluid_tube", given, COARSE, requests, branch_uncertainty=False).states
+    for state, (name, value) in zip(states, wanted, strict=True):
         assert state.quantities[name].value == pytest.approx(value, abs=1e-9)
-    after = solve("fluid_tube", L=8, delta=2, at={"zw": 8.2}, crossing=2, numerics=COARSE)
-    assert after.states[0].quantities["n_negative"].value == 1
+    assert after.quantities["zw"].value == pytest.approx(8.2, abs=1e-9)
+    assert after.quantities["n_negative"].value == 1
 
 
 def test_states_and_modes_can_be_read_by_others():
@@ -488,4 +491,4 @@ def test_bad_input_is_refused_before_anything_is_solved(given, message):
 
 def test_a_level_above_the_highest_is_refused_with_the_range():
     with pytest.raises(InputError, match=r"zw = 8.5 is not taken .* ranges over \[0, 8.37"):
-        solve("fluid_tube", at={"zw": 8.5}, numerics=COARSE)
+        solve("fluid_tube", n_max=1, at={"zw": 8.5}, numerics={"cells": 16, "levels": 2})

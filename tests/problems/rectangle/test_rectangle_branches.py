@@ -174,7 +174,7 @@ def test_bad_input_is_one_line(given, words):
 
 def test_a_load_beyond_the_limit_is_refused_with_the_range():
     with pytest.raises(InputError, match=r"p = 5 is not taken .* ranges over"):
-        solve("rectangle", load="gas", alpha=0.0, at={"p": 5.0}, numerics=COARSE)
+        solve("rectangle", load="gas", alpha=0.0, at={"p": 5.0}, numerics={"cells": 4, "levels": 2})
 
 
 def test_each_class_is_counted_by_its_own_operator():

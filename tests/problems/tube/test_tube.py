@@ -204,6 +204,7 @@ def test_a_tube_without_limit_points_says_where_they_were_looked_for():
 
 # -- seeded faults ---------------------------------------------------------------------------------
 
+ENOUGH = {"levels": 2, "step": 0.2}
 SENTINEL = Case(
     title="sentinel",
     source="tests",
@@ -212,14 +213,14 @@ SENTINEL = Case(
             "a",
             x=Axis("p", 0, 3),
             y=Axis("u_max", 0, 5),
-            curves=(Curve(tube(alpha=0.1, delta1=1.5), "1.5", reference="fig02b_delta1_1.5"),),
+            curves=(Curve(tube(alpha=0.1, delta1=1.5).on(**ENOUGH), "1.5", reference="fig02b_delta1_1.5"),),
         ),
     ),
     checks=(
         Points(
             "limit_point",
             reference="limit_points_off",
-            base=tube(),
+            base=tube().on(**ENOUGH),
             parameters=("alpha", "delta1", "lf"),
             asked={"p": 1e-8},
         ),

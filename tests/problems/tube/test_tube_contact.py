@@ -48,7 +48,8 @@ def test_contact_begins_where_free_inflation_touches(run):
 
 
 def test_frictionless_contact_keeps_both_first_integrals():
-    result = solve("tube", contact="frictionless", p_end=2.6, at={"p": 2.5}, numerics={"cells": 96, "step": 0.3})
+    numerics = {"cells": 96, "step": 0.3}
+    result = solve("tube", contact="frictionless", p_end=2.6, at={"p": 2.5}, numerics=numerics)
     field = result.states[0].fields[0]
     for name in ("F_axial", "H"):
         values = field.columns[name]
@@ -148,7 +149,7 @@ def test_the_first_patch_against_a_stiff_spring_is_found_by_way_of_soft_ones():
     """Newton's method led from the free membrane to stretches beyond the longest chain."""
     law = Chosen("three_chain", (("nkt", 0.3411), ("links", 368.7)))
     far = replace(data(delta1=1.507, lf=39.8, k=1778.0, s=14.81), law=law, cells=48)
-    run = TubePhases(MPI.COMM_SELF, far, p_end=11.0, step=0.4)
+    run = TubePhases(MPI.COMM_SELF, far, p_end=11.0, step=0.08)
     solver = ExtendedNewton(run.slip.system, ["p", "front"])
     conditions = [Held("gap", 0.0), Held("front", run.first_front * far.length)]
     with pytest.raises(ConvergenceError):
@@ -196,7 +197,8 @@ def test_a_substrate_that_is_never_touched_is_told_with_the_largest_radius_that_
 
 
 def test_a_pressure_that_is_not_reached_is_told():
-    given = {"model": "varga", "lf": 20.0, "delta1": 1.4, "s": 1.4, "k": 8.0, "p_end": 10.0} | {"numerics": LONG_STEPS}
+    given = {"model": "varga", "lf": 20.0, "delta1": 1.4, "s": 1.4, "k": 8.0, "p_end": 10.0}
+    given["numerics"] = LONG_STEPS
     told = r"followed up to p = .*, not p_end = 10.*lower p_end"
     result = solve("tube", **given, contact="frictionless")
     assert result.failures == []

@@ -16,7 +16,7 @@ LAW = {"semismooth": "frictionless", "pressure_steps": "adhesive", "front_nodes"
 @pytest.fixture(scope="module")
 def tracked():
     """The state at ``p = 3`` by the law of contact."""
-    coarse = {"cells": 32, "levels": 2}
+    coarse = {"cells": 32, "levels": 2, "step": 0.3}
     return {
         law: solve("tube", alpha=0.1, contact=law, at={"p": 3.0}, numerics=coarse).states[0].quantities
         for law in set(LAW.values())

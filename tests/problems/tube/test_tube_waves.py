@@ -17,6 +17,7 @@ from weakforms.solvers.stability.spectra import Stability
 
 pytestmark = pytest.mark.paper2
 MESH = {"cells": 48, "levels": 2}
+LONG_STEPS = MESH | {"step": 0.2}
 NEO = {"alpha": 0.0, "delta1": 1.0, "lf": 6.0}
 
 
@@ -105,7 +106,7 @@ def test_compression_begins_inside(neo):
 
 
 def test_a_whole_tube_has_the_waves_of_both_parities(neo):
-    whole = solve("tube", **NEO, n=(0, 1), extent="full", u_end=1.4, at={"u_max": 1.2}, numerics=MESH)
+    whole = solve("tube", **NEO, n=(0, 1), extent="full", u_end=1.4, at={"u_max": 1.2}, numerics=LONG_STEPS)
     kinds = [point.kind for point in whole.special_points]
     assert kinds == ["limit_point", "bifurcation_n1", "bifurcation_point"]
     for kind, other in (("bifurcation_n1", "bifurcation_n1"), ("bifurcation_point", "mirror_breaking")):
@@ -153,14 +154,14 @@ def test_operators_are_symmetric_with_exact_derivatives(branch, wave):
     ids=str,
 )
 def test_long_tubes_bend_before_their_limit_point(given, first):
-    result = solve("tube", **given, n=1, numerics=MESH)
+    result = solve("tube", **given, n=1, numerics=LONG_STEPS)
     assert result.special_points[0].kind == first
     assert result.failures == []
 
 
 def test_without_wave_numbers_nothing_changes():
-    plain = solve("tube", alpha=0.1, delta1=1.1, u_end=1.6, numerics=MESH)
-    waves = solve("tube", alpha=0.1, delta1=1.1, u_end=1.6, n=(1,), numerics=MESH)
+    plain = solve("tube", alpha=0.1, delta1=1.1, u_end=1.6, numerics=LONG_STEPS)
+    waves = solve("tube", alpha=0.1, delta1=1.1, u_end=1.6, n=(1,), numerics=LONG_STEPS)
     assert set(plain.branch().columns) < set(waves.branch().columns)
     assert "t_min" not in plain.branch().columns
     one, other = (r.points("limit_point")[0].values for r in (plain, waves))
@@ -168,7 +169,7 @@ def test_without_wave_numbers_nothing_changes():
 
 
 def test_another_law_bends_too():
-    result = solve("tube", model="ogden", lf=10.0, u_end=1.2, n=(1,), numerics=MESH)
+    result = solve("tube", model="ogden", lf=10.0, u_end=1.2, n=(1,), numerics=LONG_STEPS)
     assert result.special_points[0].kind in ("bifurcation_n1", "limit_point")
     assert result.points("bifurcation_n1")
 

@@ -7,7 +7,7 @@ from weakforms.api import solve_requests
 from weakforms.problems.problem import StateRequest
 
 pytestmark = pytest.mark.paper4
-TUBE = {"M": 1.5, "delta": 2.0, "Af": 0.6, "load_end": 5.3, "numerics": {"cells": 8, "levels": 2}}
+TUBE = {"M": 1.5, "delta": 2.0, "Af": 0.6, "load_end": 5.3, "numerics": {"cells": 6, "levels": 2}}
 
 
 def with_states(problem, given, *wanted):
@@ -51,7 +51,7 @@ def test_a_value_that_an_eigenvalue_never_has_is_refused_with_its_range():
 
 
 def test_a_hemisphere_at_the_value_of_an_eigenvalue_is_that_at_its_level():
-    given = {"n": [2], "low_end": -0.85, "numerics": {"cells": 8, "levels": 2}}
+    given = {"n": [2], "low_end": -0.85, "numerics": {"cells": 4, "levels": 2, "step": 0.2}}
     (level,) = with_states("hemisphere", given, ("zw", -0.6)).states
     eigenvalue = level.quantities["Lambda_n2_1"].value
     (state,) = with_states("hemisphere", given, ("Lambda_n2_1", eigenvalue)).states

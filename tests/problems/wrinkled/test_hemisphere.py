@@ -15,7 +15,7 @@ from weakforms.problems.wrinkled.hemisphere import (
 )
 from weakforms.problems.wrinkled.readings import Readings
 
-COARSE = {"cells": 8}
+COARSE = {"cells": 8, "levels": 2}
 
 
 def test_level_at_the_limit_point_is_where_the_membrane_has_that_height():
@@ -38,7 +38,7 @@ def test_the_full_energy_is_unstable_against_waves_where_a_wrinkled_hemisphere_i
     found = {}
     for energy in ("relaxed", "modified_gradient", "standard"):
         given = {"energy": energy, "low_end": -0.8, "n": (10,)}
-        coarse = {"cells": 4, "levels": 2}
+        coarse = {"cells": 4, "levels": 2, "step": 0.2}
         (state,) = solve_requests("hemisphere", given, coarse, wanted, branch_uncertainty=False).states
         found[energy] = {name: q.value for name, q in state.quantities.items()}
     assert found["modified_gradient"] == pytest.approx(found["relaxed"], rel=1e-9)
@@ -53,7 +53,7 @@ def test_the_full_energy_is_unstable_against_waves_where_a_wrinkled_hemisphere_i
 )
 def test_a_gas_inflates_the_hemisphere_of_any_law(law, limits):
     """Virtual work on the branch, a taut membrane, and the limit point where n_negative changes."""
-    coarse = {"cells": 4, "levels": 2}
+    coarse = {"cells": 4, "levels": 2, "step": 0.2}
     wanted = [StateRequest("p", 0.5, profile=())]
     result = solve_requests("hemisphere", {"load": "gas"} | law, coarse, wanted, branch_uncertainty=False)
     columns = result.branch().columns

@@ -49,7 +49,7 @@ def test_a_change_of_stability_is_a_state_one_can_ask_for():
 
 
 def test_no_waves_set_in_where_the_hemispheres_level_is_largest():
-    result = solve("hemisphere", n=0, low_end=-0.85, numerics=COARSE)
+    result = solve("hemisphere", n=0, low_end=-0.85, numerics=COARSE | {"step": 0.2})
     (limit,), (change,) = (result.points(kind) for kind in ("limit_point", "stability_change"))
     assert limit.values["zw"] == pytest.approx(-0.47834625, abs=1e-6)
     assert change.values["zw"] == pytest.approx(limit.values["zw"], abs=1e-9)
