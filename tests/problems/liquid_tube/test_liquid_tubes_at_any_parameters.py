@@ -127,7 +127,7 @@ def test_a_bent_state_that_is_far_is_reached_by_steps():
         "amplitude": 0.1056,
         "uneven": 0.1351,
     }
-    result = solve("fluid_tube_surface", **given, numerics={"cells": 12})
+    result = solve("fluid_tube_surface", **given, numerics={"cells": 16})
     assert result.failures == []
     numbers = result.quantities
     assert numbers["zw_bent"].value < numbers["zw_bifurcation"].value
