@@ -55,7 +55,8 @@ def stretch(rho: Any, force: Any, tube: Data) -> Any:
     a, b, n = 2 * (1 + tube.alpha * l2**2), 2 * (l2**-2 + tube.alpha), force / tube.r0
     l1 = n / a + (b / a) ** 0.25
     for _ in range(ROOTS):
-        l1 = l1 - (a * l1**4 - n * l1**3 - b) / (4 * a * l1**3 - 3 * n * l1**2)
+        cube = l1**3
+        l1 = l1 - (a * l1**4 - n * cube - b) / (4 * a * cube - 3 * n * l1**2)
     return l1
 
 

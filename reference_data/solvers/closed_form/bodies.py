@@ -7,34 +7,54 @@ derivatives by :func:`by_hand` and by :func:`by_contour` it computes the same nu
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq, fsolve
 
-from reference_data.solvers.core.contour import derivative, six
+from reference_data.solvers.core.contour import derivative, six, two
 
-Derivatives = Callable[[float, float], tuple[float, ...]]
 FINE = 4 * np.finfo(float).eps
 GAUSS = np.polynomial.legendre.leggauss(48)
 
 
+@dataclass(frozen=True)
+class Derivatives:
+    """Derivatives of a law: all up to the second, and the first ones alone, which roots need often.
+
+    Attributes:
+        whole: To ``(w, w1, w2, w11, w12, w22)``.
+        slopes: To ``(w1, w2)``.
+    """
+
+    whole: Callable[[float, float], tuple[float, ...]]
+    slopes: Callable[[float, float], tuple[float, float]]
+
+    def __call__(self, l1: float, l2: float) -> tuple[float, ...]:
+        """All of them."""
+        return self.whole(l1, l2)
+
+
 def by_hand(law: Any) -> Derivatives:
     """Derivatives that the law gives in closed form."""
-    return lambda a, b: (
-        law.energy(a, b),
-        law.slope(a, b),
-        law.slope(b, a),
-        law.curvature(a, b),
-        law.mixed(a, b),
-        law.curvature(b, a),
+    return Derivatives(
+        lambda a, b: (
+            law.energy(a, b),
+            law.slope(a, b),
+            law.slope(b, a),
+            law.curvature(a, b),
+            law.mixed(a, b),
+            law.curvature(b, a),
+        ),
+        lambda a, b: (law.slope(a, b), law.slope(b, a)),
     )
 
 
 def by_contour(law: Any) -> Derivatives:
     """Derivatives from the law's energy alone."""
-    return lambda a, b: six(law.energy, a, b)
+    return Derivatives(lambda a, b: six(law.energy, a, b), lambda a, b: two(law.energy, a, b))
 
 
 def roots(f: Callable[[float], float], low: float, high: float, steps: int) -> list[float]:
@@ -106,7 +126,7 @@ def axial(d: Derivatives, l2: float) -> float:
     """Axial stretch at a hoop stretch: ``2 lam1 w1 = lam2 w2``."""
 
     def balance(l1: float) -> float:
-        _, w1, w2, *_ = d(l1, l2)
+        w1, w2 = d.slopes(l1, l2)
         return 2 * l1 * w1 - l2 * w2
 
     low = 0.5 * l2**-0.5  # less than the width in uniaxial hoop tension

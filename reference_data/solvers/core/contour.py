@@ -38,3 +38,8 @@ def six(energy: Energy, l1: float, l2: float) -> tuple[float, ...]:
     along = derivative(lambda s: energy(l1 * s, l2 * s), 1.0, 2)
     mixed = (along - l1**2 * first[2] - l2**2 * second[2]) / (2 * l1 * l2)
     return first[0], first[1], second[1], first[2], mixed, second[2]
+
+
+def two(energy: Energy, l1: float, l2: float) -> tuple[float, float]:
+    """``w_1, w_2``, as :func:`six` finds them."""
+    return derivative(lambda x: energy(x, l2), l1, 1), derivative(lambda x: energy(l1, x), l2, 1)

@@ -103,7 +103,7 @@ def limit_point(guess: State, control: str) -> State:
 
 def limit_points(found: Branch) -> list[list[State]]:
     """Every limit point between the states of a branch, each on the two meshes."""
-    rate = np.array([eq.slopes(s, found.control)[0] for s in found.states])
+    rate = np.array([eq.slope(s, found.control) for s in found.states])
     out = []
     for i in np.nonzero(rate[:-1] * rate[1:] < 0)[0]:
         near = found.states[i if abs(rate[i]) < abs(rate[i + 1]) else i + 1]
@@ -129,7 +129,7 @@ def fold_at(guess: State, u: float) -> State:
     """The limit point with u_max = u: root of dp/du in delta1, starting at the guess's."""
     at = float(guess.tube.delta1)
     there = lambda d: solve(replace(guess, tube=replace(guess.tube, delta1=d)), u_max=u)  # noqa: E731
-    return there(secant(lambda d: eq.slopes(there(d), "u_max")[0], at, at + 1e-3, 0.1)[0])
+    return there(secant(lambda d: eq.slope(there(d), "u_max"), at, at + 1e-3, 0.1)[0])
 
 
 def fold_top(limit: State, step: float = 0.05) -> State:

@@ -184,16 +184,25 @@ def solve(guess: State, **held: Any) -> State:
     return replace(guess, y=y, c=c)
 
 
+def slope(state: State, control: str) -> float:
+    """The first one of :func:`slopes`, which costs a fraction of both."""
+    return float(_along(state, control).linearised(state.y, state.c).response()[1][0])
+
+
 def slopes(state: State, control: str) -> tuple[float, float]:
     """First and second derivative of p along the branch, with respect to u_max or V.
 
     With Y(s) = Y0 + s Y1 + s^2 Y2 + ... the residual's Taylor coefficients of order 1 and 2 vanish: A Y1 =
     (0, 1), A Y2 = -(quadratic terms in Y1), A being the bordered matrix, which is regular at a limit point.
     """
-    held = problem(state, **{control: state.u_max if control == "u_max" else state.volume})
+    held = _along(state, control)
     system = held.linearised(state.y, state.c)
     dy, dc = system.response()
     return float(dc[0]), 2 * float(system.solve(*held.bent(state.y, state.c, dy, dc))[1][0])
+
+
+def _along(state: State, control: str) -> Problem:
+    return problem(state, **{control: state.u_max if control == "u_max" else state.volume})
 
 
 def places(mesh: Mesh, left: Any, right: Any) -> Array:
