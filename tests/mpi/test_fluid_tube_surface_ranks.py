@@ -14,7 +14,8 @@ def test_full_circle(same_on_ranks):
 
 
 def test_secondary_branch(same_on_ranks):
-    coarse = {"cells": 24, "levels": 2, "secondary_cells": 12, "secondary_levels": 2}
+    coarse = {"cells": 24, "levels": 2, "step": 1}
+    surface = {"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 3, "secondary_step": 0.3}
     bent = {
         "problem": "fluid_tube",
         "secondary": True,
@@ -22,10 +23,12 @@ def test_secondary_branch(same_on_ranks):
         "zw_end": 0.93,
         "at": [("zw", 7.75)],
         "branch": "secondary",
-        "numerics": coarse | {"secondary_end": 0.97},
+        "numerics": coarse | surface | {"secondary_end": 0.97},
     }
     # Least certain are the slopes: differences of states that lie 0.02 apart.
     (found,) = same_on_ranks([bent])
+    kinds = [point.kind for point in found.special_points]
+    assert kinds == ["limit_point", "bifurcation_point", "bifurcation_point"]
     (state,) = found.states
     assert state.branch == "secondary"
     assert state.quantities["n_negative"].value == 1

@@ -7,7 +7,7 @@ pytestmark = [pytest.mark.mpi]
 
 def test_other_laws(same_on_ranks):
     tube = {"problem": "fluid_tube", "model": "ogden", "n_max": 1, "zw_end": 0.97}
-    tube["numerics"] = {"cells": 24, "levels": 2}
+    tube |= {"at": [("zw", 5.4), ("r_mid", 1.0)], "numerics": {"cells": 24, "levels": 2, "step": 1}}
     folded = {
         "problem": "wrinkled_tube",
         "model": "gent",

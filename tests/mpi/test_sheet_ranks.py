@@ -6,7 +6,7 @@ pytestmark = pytest.mark.mpi
 
 
 def test_sheets(same_on_ranks):
-    coarse = {"cells": 8, "levels": 2}
+    coarse = {"cells": 4, "levels": 2, "step": 0.3}
     sheared = {"problem": "sheet", "s": 1.1, "gam_end": 0.5, "at": [("gam", 0.4)]}
     strip = {"problem": "sheet", "loading": "strip", "lam_end": 1.4, "at": [("lam", 1.2)]}
     bent = {"problem": "sheet", "loading": "bend", "c": 0.5, "kap_end": 0.8, "at": [("kap", 0.7)]}

@@ -7,10 +7,9 @@ MESH = {"cells": 4, "levels": 2, "step": 1}
 
 
 def test_wrinkled_tube(same_on_ranks):
-    fluid = {"problem": "wrinkled_tube", "M": 1.5, "load_end": 7, "at": [("zw", 6.0)]}
-    gas = {"problem": "wrinkled_tube", "load": "gas", "load_end": 0.1, "at": [("p", 0.05)]}
+    fluid = {"problem": "wrinkled_tube", "M": 1.5, "load_end": 6, "at": [("zw", 6.0)]}
     # A zone opens at a flat minimum, whose place is the least certain number of all.
-    same_on_ranks([item | {"numerics": MESH} for item in (fluid, gas)])
+    same_on_ranks([fluid | {"numerics": MESH}])
 
 
 def test_threshold_and_sheet(same_on_ranks):
