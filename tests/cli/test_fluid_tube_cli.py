@@ -5,8 +5,9 @@ import json
 import pytest
 
 pytestmark = pytest.mark.paper3
-COARSE = ("--mesh", "cells=32", "--mesh", "levels=2")
+COARSE = ("--mesh", "cells=32", "--mesh", "levels=2", "--mesh", "step=1")
 SOLVE = ("solve", "fluid_tube", *COARSE)
+ONE = ("--set", "n_max=1")
 
 
 @pytest.mark.parametrize(
@@ -34,7 +35,7 @@ def test_bad_input_is_refused_before_anything_is_solved(weakforms, solves, words
 
 
 def test_a_level_the_branch_never_reaches_is_refused_with_its_range(weakforms):
-    called = weakforms(*SOLVE, "--at", "zw=9")
+    called = weakforms(*SOLVE, *ONE, "--set", "zw_end=0.7", "--at", "zw=9")
     assert (called.status, called.out) == (2, "")
     assert "zw = 9 is not taken" in called.err
     assert "8.37" in called.err
@@ -42,7 +43,7 @@ def test_a_level_the_branch_never_reaches_is_refused_with_its_range(weakforms):
 
 def test_a_state_before_and_after_the_limit_point(weakforms):
     for crossing, negative in ((1, 0), (2, 1)):
-        called = weakforms(*SOLVE, "--at", "zw=8.2", "--crossing", crossing)
+        called = weakforms(*SOLVE, *ONE, "--at", "zw=8.2", "--crossing", crossing)
         assert called.status == 0
         (state,) = json.loads(called.out)["states"]
         assert state["quantities"]["zw"]["value"] == pytest.approx(8.2, abs=1e-12)

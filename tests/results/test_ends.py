@@ -8,7 +8,8 @@ from weakforms.problems import registry
 from weakforms.problems.problem import End, ended
 from weakforms.results import Absence, Branch, Ended, Failure, Result
 
-FEW = {"cells": 16, "levels": 2}
+FEW = {"cells": 16, "levels": 2, "step": 0.3}
+SPHERE = {"step": 0.08}
 TOUCHING = {"contact": "frictionless", "p_end": 2.5}
 ADHESIVE = {"contact": "adhesive"}
 
@@ -23,19 +24,19 @@ def end_of(problem: str, branch: str = "primary", **given: object) -> Ended | No
     [
         ("tube", {"u_end": 1.5, "numerics": FEW}, "u_end", "u_max", 1.5),
         ("tube", TOUCHING | {"numerics": FEW}, "p_end", "p", 2.5),
-        ("tube_fold", {"numerics": {"cells": 32, "levels": 2}}, "unstretched", "delta1", 1.0),
-        ("circular", {"t_end": 0.8, "numerics": {"levels": 2, "cells": 32}}, "t_end", "t0", 0.8),
+        ("tube_fold", {"numerics": FEW}, "unstretched", "delta1", 1.0),
+        ("circular", {"t_end": 0.8, "numerics": FEW}, "t_end", "t0", 0.8),
         (
             "circular",
-            {"phase": "peeling", "p": 3, "numerics": {"cells": 48}},
+            {"phase": "peeling", "p": 3, "numerics": FEW | {"cells": 48}},
             "inflation",
             "X_contact",
             pytest.approx(0.37, abs=0.05),
         ),
         ("wrinkled_patch", {"e_end": 0.03}, "e_end", "e", 0.03),
-        ("sphere", {"lam_end": 3.0}, "lam_end", "lam", 3.0),
-        ("infinite_tube", {"lam_end": 3.0}, "lam_end", "lam2", 3.0),
-        ("homogeneous", {"lam_end": 0.5}, "lam_end", "lam", 0.5),
+        ("sphere", {"lam_end": 3.0, "numerics": SPHERE}, "lam_end", "lam", 3.0),
+        ("infinite_tube", {"lam_end": 3.0, "numerics": SPHERE}, "lam_end", "lam2", 3.0),
+        ("homogeneous", {"lam_end": 0.5, "numerics": SPHERE}, "lam_end", "lam", 0.5),
     ],
 )
 def test_a_branch_names_the_parameter_that_ends_it(problem, given, by, column, value):
@@ -44,7 +45,7 @@ def test_a_branch_names_the_parameter_that_ends_it(problem, given, by, column, v
 
 
 def test_a_fold_line_that_returns_says_so():
-    assert end_of("sphere", "fold", vary="alpha", vary_end=0.3).by == "start"
+    assert end_of("sphere", "fold", vary="alpha", vary_end=0.3, numerics=SPHERE).by == "start"
 
 
 @pytest.mark.parametrize("name", [name for name, about in registry.abouts().items() if about.columns])
@@ -113,7 +114,7 @@ def test_a_state_beyond_the_end_is_refused_before_anything_is_solved(problem, gi
     ],
 )
 def test_a_branch_with_its_default_end_is_followed_to_a_state_beyond_it(problem, given, at, end):
-    numerics = {} if problem == "sphere" else FEW
+    numerics = SPHERE if problem == "sphere" else FEW
     with pytest.warns(UserWarning, match="the branch was followed further"):
         result = solve(problem, at=at, numerics=numerics, **given)
     ((name, value),) = end.items()
@@ -135,7 +136,7 @@ def test_a_branch_with_its_default_end_is_followed_to_a_state_beyond_it(problem,
 def test_a_branch_is_not_followed_beyond_a_range_or_an_end_that_was_set(problem, given, at, said):
     """Deflation begins at ``p_end``: from a higher pressure it would be another history."""
     with pytest.raises(InputError, match=said):
-        solve(problem, at=at, numerics={} if problem == "sphere" else FEW, **given)
+        solve(problem, at=at, numerics=SPHERE if problem == "sphere" else FEW, **given)
 
 
 @pytest.mark.parametrize(
@@ -147,7 +148,7 @@ def test_a_branch_is_not_followed_beyond_a_range_or_an_end_that_was_set(problem,
     ],
 )
 def test_a_branch_that_ends_before_a_limit_point_says_so(problem, given, reason):
-    result = solve(problem, numerics={} if problem == "sphere" else FEW, **given)
+    result = solve(problem, numerics=SPHERE if problem == "sphere" else FEW, **given)
     assert result.branches[0].ended.reason == reason
 
 
@@ -167,16 +168,16 @@ def test_a_branch_that_ends_before_a_limit_point_says_so(problem, given, reason)
 )
 def test_a_state_that_is_not_on_the_branch_is_answered_with_its_end(problem, given, at, said):
     with pytest.raises(InputError, match=said):
-        solve(problem, at=at, numerics=FEW if problem == "tube" else {}, **given)
+        solve(problem, at=at, numerics=FEW if problem == "tube" else SPHERE, **given)
 
 
 @pytest.mark.parametrize(
     ("problem", "given", "idle", "needed"),
     [
-        ("tube", {"k": 3}, {"k": 30}, "contact = frictionless or adhesive"),
-        ("tube", {"s": 3}, {"s": 4}, "contact = frictionless or adhesive"),
-        ("tube", {"p_end": 3}, {"p_end": 1}, "contact = frictionless or adhesive"),
-        ("tube", {"spring": "unilateral"}, {"spring": "bilateral"}, "phase = deflation"),
+        ("tube", {"k": 3, "u_end": 0.3}, {"k": 30}, "contact = frictionless or adhesive"),
+        ("tube", {"s": 3, "u_end": 0.3}, {"s": 4}, "contact = frictionless or adhesive"),
+        ("tube", {"p_end": 3, "u_end": 0.3}, {"p_end": 1}, "contact = frictionless or adhesive"),
+        ("tube", {"spring": "unilateral", "u_end": 0.3}, {"spring": "bilateral"}, "phase = deflation"),
         ("tube", TOUCHING | {"u_end": 1}, {"u_end": 4}, "contact = none"),
         ("circular", {"k": 3, "t_end": 0.6}, {"k": 30}, "adhesive or phase = peeling"),
         ("circular", {"l": 3, "t_end": 0.6}, {"l": 0.4}, "adhesive or phase = peeling"),
@@ -187,7 +188,7 @@ def test_a_state_that_is_not_on_the_branch_is_answered_with_its_end(problem, giv
     ],
 )
 def test_a_parameter_without_effect_is_a_warning_and_changes_no_number(problem, given, idle, needed):
-    few = {} if problem == "sphere" else FEW
+    few = SPHERE if problem == "sphere" else FEW
     name = next(iter(idle))
     with pytest.warns(UserWarning, match=rf"{problem}: {name} = .* has no effect here; it needs .*{needed}"):
         first = solve(problem, numerics=few, **given)
@@ -230,7 +231,7 @@ def test_parameters_left_at_their_defaults_are_no_warning():
 
 
 def test_every_crossing_of_a_value_is_solved_for_when_asked():
-    found = solve("tube", delta1=1.1, at={"p": 1.9}, crossing="all", numerics={"cells": 32, "levels": 2})
+    found = solve("tube", delta1=1.1, at={"p": 1.9}, crossing="all", numerics=FEW)
     assert [(s.crossing, s.crossings) for s in found.states] == [(1, 3), (2, 3), (3, 3)]
     heights = [s.quantities["u_max"].value for s in found.states]
     assert heights == sorted(heights)
@@ -238,9 +239,9 @@ def test_every_crossing_of_a_value_is_solved_for_when_asked():
 
 
 def test_a_single_crossing_says_how_many_there_are():
-    found = solve("tube", delta1=1.1, at={"p": 1.9}, numerics={"cells": 32, "levels": 2})
+    found = solve("tube", delta1=1.1, at={"p": 1.9}, numerics=FEW)
     assert [(s.crossing, s.crossings) for s in found.states] == [(1, 3)]
-    at_point = solve("tube", delta1=1.1, at={"limit_point": 1}, numerics={"cells": 32, "levels": 2})
+    at_point = solve("tube", delta1=1.1, at={"limit_point": 1}, numerics=FEW)
     assert at_point.states[0].crossings is None
 
 

@@ -135,7 +135,7 @@ def test_ranks_answer_a_batch_as_one_process_does(requests, tmp_path):
 def test_ranks_check_a_case(tmp_path):
     """The ranks that solve must not wait for each other: rank 0 imports the solvers later than they do."""
     words = ["mpirun", "--oversubscribe", "-n", "3", sys.executable, "-m", "weakforms"]
-    words += ["check", "closed_form.test_pieces", "--executor", "mpi", "--out", str(tmp_path / "out")]
+    words += ["check", "closed_form.infinite_tube", "--executor", "mpi", "--out", str(tmp_path / "out")]
     done = subprocess.run(words, capture_output=True, text=True, timeout=240, check=False)
     assert done.returncode == 0, done.stderr
     report = json.loads((tmp_path / "out" / "report" / "report.json").read_text("utf-8"))
