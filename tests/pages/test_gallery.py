@@ -4,8 +4,11 @@ import importlib.util
 import json
 import os
 import re
+import runpy
 import subprocess
 import sys
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -42,15 +45,31 @@ def test_the_picture_of_the_readme_is_that_of_the_solved_states(tmp_path):
 
 
 def ran(name, tmp_path, *words):
-    """What a script prints; its picture must be there, with two curves or more."""
+    """What a script prints; its picture must be there, with two curves or more.
+
+    It runs in this process, which has the imports behind it, in a folder of its own.
+    """
+    path = tmp_path / f"{name}.svg"
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(StringIO()) as said:
+        patch.chdir(tmp_path)
+        patch.setattr(sys, "argv", [str(GALLERY / f"{name}.py"), str(path), *words])
+        runpy.run_path(sys.argv[0], run_name="__main__")
+    return drawn(path, said.getvalue())
+
+
+def ran_alone(name, tmp_path, *words):
+    """The same in a process of its own, for what would be left behind in this one."""
     path = tmp_path / f"{name}.svg"
     command = [sys.executable, GALLERY / f"{name}.py", path, *words]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
     assert done.returncode == 0, done.stderr
-    drawn = path.read_text("utf-8")
-    assert len(re.findall(r'<path d="[^"]{60,}" clip-path=', drawn)) >= 2
-    return done.stdout
+    return drawn(path, done.stdout)
+
+
+def drawn(path, said):
+    assert len(re.findall(r'<path d="[^"]{60,}" clip-path=', path.read_text("utf-8"))) >= 2
+    return said
 
 
 def numbers(text, pattern):
@@ -79,7 +98,7 @@ def test_the_tube_has_the_limit_points_and_the_cusp_of_the_tables(tmp_path):
 
 
 def test_a_law_of_ones_own(tmp_path):
-    text = ran("own_law", tmp_path)
+    text = ran_alone("own_law", tmp_path)
     assert "b = 0.1: limit points at P = none" in text
     assert "tube, b = 0.05: 2 limit points" in text
 
