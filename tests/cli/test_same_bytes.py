@@ -9,20 +9,21 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SMALL = ["--mesh", "cells=16", "--mesh", "levels=2"]
-FLUID = ["--mesh", "cells=24", "--mesh", "levels=2"]
+SMALL = ["--mesh", "cells=16", "--mesh", "levels=2", "--mesh", "step=0.3"]
+FLUID = ["--mesh", "cells=24", "--mesh", "levels=2", "--mesh", "step=1"]
 BLOCKS = ["--mesh", "cells=4", "--mesh", "levels=2"]
+STEP = ["--mesh", "step=0.3"]
 REQUESTS = {
     "tube": [*SMALL, "--set", "u_end=2"],
     "tube_fold": [*SMALL, "--set", "delta1_end=1.3"],
     "circular": [*SMALL, "--set", "t_end=1"],
     "fluid_tube": [*FLUID, "--set", "n_max=1", "--set", "zw_end=0.7"],
     "wrinkled_tube": [*BLOCKS, "--set", "load=gas", "--set", "load_end=0.1"],
-    "hemisphere": [*BLOCKS, "--set", "low_end=-0.9"],
+    "hemisphere": [*BLOCKS, "--set", "low_end=-0.82"],
     "wrinkled_patch": [],
-    "sphere": [],
-    "infinite_tube": [],
-    "homogeneous": [],
+    "sphere": STEP,
+    "infinite_tube": STEP,
+    "homogeneous": STEP,
 }
 """Every problem with branches that takes seconds."""
 TIMES = ("seconds", "wall_s", "started")
