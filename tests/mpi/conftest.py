@@ -11,18 +11,18 @@ from weakforms.verification.audit.same import differences
 
 
 @pytest.fixture(scope="session")
-def two_ranks(launcher):
-    """Asks two ranks, which are started once for all tests, and again if a test ended them."""
-    started = [Ranks(2)]
+def on_two_ranks(launcher):
+    """Solves requests on two ranks, which are started once for all tests, and again if a test ended them."""
+    started: list[Ranks] = []
 
-    def asked(requests: list[dict]) -> list:
-        if not started[-1].running:
+    def solved(requests: list[dict]) -> list[Result]:
+        if not started or not started[-1].running:
             started.append(Ranks(2))
-        *found, size = started[-1].ask(requests)
+        *found, size = started[-1].solve(requests)
         assert size == 2
-        return found
+        return [Result.from_json(item) for item in found]
 
-    yield asked
+    yield solved
     for ranks in started:
         ranks.end()
 
@@ -44,12 +44,12 @@ def launcher():
 
 
 @pytest.fixture
-def same_on_ranks(two_ranks):
+def same_on_ranks(on_two_ranks):
     """Solves serially, in this process, and on two ranks; every number must agree."""
 
     def check(requests: list[dict]) -> list[Result]:
         serial = [Result.from_json(solve(**request).to_json()) for request in requests]
-        split = [Result.from_json(found) for found in two_ranks(requests)]
+        split = on_two_ranks(requests)
         for a, b in zip(serial, split, strict=True):
             assert a.failures == b.failures == []
             assert beyond(a, b) == []

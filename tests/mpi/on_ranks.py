@@ -29,13 +29,6 @@ import itertools, json, os, sys, time
 from pathlib import Path
 from mpi4py import MPI
 from weakforms import solve
-from weakforms.cli import app
-from weakforms.terminal import guarded
-
-def answered(request):
-    if "words" in request:
-        return guarded(lambda: app(request["words"], standalone_mode=False))
-    return solve(**{**request, "at": [tuple(item) for item in request.get("at", [])]}).to_json()
 
 folder, comm = Path(sys.argv[1]), MPI.COMM_WORLD
 cores = sorted(os.sched_getaffinity(0))
@@ -44,7 +37,8 @@ for number in itertools.count():
     asked = folder / f"{number}.json"
     while not asked.exists():  # a rank that waits in MPI would keep a core busy
         time.sleep(0.02)
-    found = [answered(request) for request in json.loads(asked.read_text())]
+    requests = json.loads(asked.read_text())
+    found = [solve(**{**r, "at": [tuple(item) for item in r.get("at", [])]}).to_json() for r in requests]
     if comm.rank == 0:
         done = folder / f"{number}.done"
         done.with_suffix(".part").write_text(json.dumps([*found, comm.size]))
@@ -90,7 +84,7 @@ def start(arguments: list[str], ranks: int, timeout: float = 900) -> str:
 
 
 class Ranks:
-    """Several ranks that answer one list of requests after the other.
+    """Several ranks that solve one list of requests after the other.
 
     Starting them for each test, with all imports and forms, would take longer than most solves.
 
@@ -115,11 +109,8 @@ class Ranks:
         """Whether they wait for requests."""
         return self._process.poll() is None
 
-    def ask(self, requests: list[dict], timeout: float = 900) -> list:
-        """Results of :func:`weakforms.solve` as JSON, and the number of ranks after them.
-
-        A request with the ``words`` of a command is answered with its exit status.
-        """
+    def solve(self, requests: list[dict], timeout: float = 900) -> list[dict]:
+        """Results of :func:`weakforms.solve` as JSON, and the number of ranks after them."""
         done = Path(self._folder.name) / f"{self._asked}.done"
         part = done.with_suffix(".asked")
         part.write_text(json.dumps(requests))

@@ -208,6 +208,7 @@ def test_formulas_and_docstrings():
     assert text.count("<dt>") == 3
     assert "<dd>Number" in text
     assert "formula-line" in text
+    assert "∂<i>U</i>/∂<i>ψ</i>" in docstring(r":math:`\partial U/\partial\psi`")
     assert "<script" not in markdown("a <script>x</script> | b")
     assert 'href="other.html#x"' in markdown("[t](other.md#x)")
 

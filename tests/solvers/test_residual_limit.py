@@ -6,9 +6,9 @@ from small_systems import system_of
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium import newton
-from weakforms.solvers.equilibrium.balance import OF_FORCES, RESIDUAL_LIMIT, residual_limit
+from weakforms.solvers.equilibrium.balance import OF_FORCES, OF_TERMS, RESIDUAL_LIMIT, residual_limit
 from weakforms.solvers.equilibrium.constraints import MonitorPlane
-from weakforms.solvers.equilibrium.newton import OF_TERMS, ExtendedNewton
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 
 SIZES = [1e-9, 1.0, 1e9]
 

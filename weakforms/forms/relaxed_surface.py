@@ -73,8 +73,8 @@ def relaxed_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:
     r"""Relaxed Mooney-Rivlin energy over ``C1`` per reference volume, for all states of the sheet.
 
     .. math:: W = I + 1/D - 3 + c_2 (I/D + D - 3), \qquad \lambda_1 \lambda_2^2 > 1 \mathrm{\ (taut)} \\
-        W = \lambda_1^2 + 2/\lambda_1 - 3 + c_2 (2\lambda_1 + \lambda_1^{-2} - 3), \qquad \lambda_1 > 1
-        \mathrm{\ (wrinkled)} \\
+        W = \lambda_1^2 + 2/\lambda_1 - 3 + c_2 (2\lambda_1 + \lambda_1^{-2} - 3), \qquad
+        \lambda_1 > 1 \ge \lambda_1 \lambda_2^2 \mathrm{\ (wrinkled)} \\
         W = 0 \mathrm{\ otherwise\ (slack)}
 
     with :math:`I = \mathrm{tr}\,C`, :math:`D = \det C` and :math:`\lambda_1 \ge \lambda_2`, for any direction

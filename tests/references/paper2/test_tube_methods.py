@@ -1,6 +1,7 @@
 """Both reference codes of the freely inflated tube, and the tables written by them."""
 
 import tomllib
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -194,7 +195,7 @@ def test_regenerated_table_equals_the_committed_one(name, tmp_path):
         assert new_about[key] == about[key]
 
 
-def partly(name: str, rows: np.ndarray, *args: object) -> None:
+def partly(name: str, rows: Callable[[dict], np.ndarray], *args: object) -> None:
     """Assert that a table's builder finds some of its rows with other arguments behind the name."""
     builder = tables_free.TABLES[name]
     table = builder.func(name, *args)

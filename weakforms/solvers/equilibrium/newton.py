@@ -17,7 +17,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.equilibrium.balance import OF_FORCES, RESIDUAL_LIMIT, residual_limit
+from weakforms.solvers.equilibrium.balance import OF_FORCES, OF_TERMS, RESIDUAL_LIMIT, residual_limit
 from weakforms.solvers.equilibrium.callbacks import Deferred
 from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.snes import SolveRecord, run_snes, solve_record
@@ -32,10 +32,6 @@ the last step."""
 NEARLY = 100.0
 """A state whose last step is small is improved by one more run if its residual is below so many limits. A
 larger one shows that the Jacobian is not that of the residual, or that there is no state."""
-
-OF_TERMS = 1e-14
-"""Part of the sum of a constraint's terms, ``|∂g/∂U| |U| + |∂g/∂λ| |λ|``, that is round-off: about 45 units
-in the last place. It counts where a law locks and the forces are in the millions."""
 
 AT_ROUND_OFF = 10, 1e-8
 """Near a bifurcation point, round-off in the forces alone may cause steps above the tolerance. A state is

@@ -177,8 +177,8 @@ class Stability:
     def bordered(self, state: State, border: np.ndarray, compliance: float, shift: float = 0.0) -> Spectrum:
         r"""Lowest eigenvalue of :math:`K + b b^T/c`, or for ``c = 0`` of ``K`` on :math:`b^T x = 0`.
 
-        Solves go through the bordered matrix ``[K, b; b^T, -c]``, whose inertia, less one
-        negative eigenvalue, equals the inertia of the operator.
+        Solves go through the bordered matrix ``[K, b; b^T, -c]``, whose inertia, less one negative
+        eigenvalue, equals the inertia of the operator.
 
         Args:
             state: An equilibrium.

@@ -113,7 +113,7 @@ def _symbols(tex: str) -> str:
     tex = re.sub(r"\\(mathrm|text|mathit)\{([^{}]*)\}", r"\2", tex)
     tex = re.sub(r"\\[,;: ]|~", "\u2009", re.sub(r"\\(mathrm|text|mathit|left|right)\b", "", tex))
     tex = re.sub(r"\\[td]?frac\s*(\{[^{}]*\}|\w)\s*(\{[^{}]*\}|\w)\s*", "\\1/\\2\u2009", tex)
-    tex = tex.replace("\\sqrt", "√")
+    tex = re.sub(r"\\partial ?", "∂", tex.replace("\\sqrt", "√"))
     named = re.sub(r"\\([A-Za-z]+)", lambda hit: html.unescape(f"&{hit[1]};").strip("&;"), tex)
     return named.replace("\\", "")
 

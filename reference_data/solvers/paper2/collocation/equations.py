@@ -185,7 +185,7 @@ def solve(guess: State, **held: Any) -> State:
 
 
 def slope(state: State, control: str) -> float:
-    """The first one of :func:`slopes`, which costs a fraction of both."""
+    """First derivative of p along the branch, as :func:`slopes` finds it, without the second one."""
     return float(_along(state, control).linearised(state.y, state.c).response()[1][0])
 
 
