@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, pi
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -16,6 +16,7 @@ from weakforms.problems.problem import Needs
 
 USUAL = {
     **{"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)},
+    "angle": (0.4, 2.0),
     **{"force": (0.0, 3.0), "lam1": (1.05, 3.0)},
 }
 """Ranges of the parameters of a plane, if none are given."""
@@ -24,7 +25,7 @@ LONGEST_MIRRORED = 12.0
 """Length up to which lines of broken mirror symmetry are looked for. The force that holds a bulge in the
 middle falls exponentially with the length: at 18 its eigenvalue is 1e-10 where others are 1, on any mesh."""
 
-ONLY = {"tube": ({"body": ("tube",)},), "circular": ({"body": ("circular",)},)}
+ONLY = {name: ({"body": (name,)},) for name in ("tube", "circular", "hemisphere")}
 LONG = {"body": ("infinite_tube",)}
 
 
@@ -40,12 +41,13 @@ class DiagramParameters(MaterialChoice):
     ratio: ClassVar[str] = "alpha"
     needs: ClassVar[Needs] = {
         **dict.fromkeys(("delta1", "lf", "s", "u_end"), ONLY["tube"]),
-        **dict.fromkeys(("beta", "l", "t_end"), ONLY["circular"]),
+        **dict.fromkeys(("beta", "l"), ONLY["circular"]),
+        **{"angle": ONLY["hemisphere"], "t_end": ({"body": ("circular", "hemisphere")},)},
         **{"ends": (LONG,), "force": (LONG | {"ends": ("free",)},), "lam1": (LONG | {"ends": ("held",)},)},
         "lam_end": ({"body": ("sphere", "infinite_tube")},),
     }
 
-    body: Literal["tube", "circular", "sphere", "infinite_tube"] = Field("tube", description="membrane")
+    body: Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube"] = Field("tube", description="membrane")
     x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
     y: str = Field("p", description="second axis; one of both is p")
     kind: str = Field(
@@ -62,7 +64,12 @@ class DiagramParameters(MaterialChoice):
     u_end: float = Field(5.0, gt=0.05, le=10, description="largest u_max of the tube")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch of the disk")
     l: float = Field(0.5, gt=0.06, le=5, description="height L/R_f of a substrate")  # noqa: E741
-    t_end: float = Field(3.0, gt=0.06, le=10, description="largest pole height of the disk")
+    angle: float = Field(
+        pi / 2, ge=0.2, le=2.6, description="angle from the pole to the clamp, rad; pi/2: the hemisphere"
+    )
+    t_end: float = Field(
+        3.0, gt=0.06, le=10, description="largest pole height of the disk or the hemisphere"
+    )
     ends: Literal["free", "held"] = Field("free", description="ends of the infinite tube")
     force: float = Field(0.0, ge=-5, le=100, description="axial force of free ends over 2 pi R_o h_o C1")
     lam1: float = Field(1.2, ge=1, le=10, description="axial stretch at which ends are held")

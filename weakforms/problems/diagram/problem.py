@@ -48,6 +48,12 @@ class Diagram(BranchProblem):
                 values |= {"low": parameters.window.low, "high": parameters.window.high}
             for name, value in values.items():
                 subject.require(self.name, parameters.material, value, name)
+                rest = subject.rest(value)
+                if rest >= parameters.window.end:
+                    raise InputError(
+                        f"diagram: {name} = {value:g}: at rest {subject.depth} is {rest:.4g} already; raise "
+                        f"{subject.end} = {parameters.window.end:g} or change {name}"
+                    )
 
     def _check_axes(self, given: DiagramParameters) -> None:
         x, y = given.axes
@@ -125,7 +131,7 @@ class Diagram(BranchProblem):
         meshes = [_lines_on(cells, task) for cells in numerics.meshes]
         names, missing = self._seeds(given, meshes[0])
         caps = {"t_min": MOVING}
-        if given.body == "circular":
+        if given.subject.pole:
             caps |= dict.fromkeys(POLE, order_at_pole(numerics.degree))
         found = {}
         for k, (name, seed) in enumerate(names.items()):

@@ -10,6 +10,7 @@ from mpi4py import MPI
 from weakforms.problems.diagram.about import WAVES
 from weakforms.problems.diagram.balloon import VariedSphere
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
+from weakforms.problems.diagram.cap import VariedCap, rest_height
 from weakforms.problems.diagram.followed import Followed
 from weakforms.problems.diagram.long_tube import FreeTube, HeldTube
 from weakforms.problems.homogeneous.material import require_borne
@@ -17,7 +18,7 @@ from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.pre_stretch import require_stretched, require_taut
 
 GRADING = 0.6
-"""Concentration of cells at the disks of a tube."""
+"""Concentration of cells at the disks of a tube, and at the clamp of a hemisphere."""
 
 Values = Mapping[str, float]
 
@@ -42,6 +43,10 @@ class Subject:
     """Parameter with the position of a substrate."""
     touch: Callable[[float], float] = lambda height: height
     """Value of ``depth`` at first contact."""
+    rest: Callable[[float], float] = lambda _first: 0.0
+    """Value of ``depth`` at rest, of its first parameter."""
+    pole: bool = False
+    """Whether the membrane has a pole."""
     without: Mapping[str, str] = field(default_factory=dict)
     """Why there is no line of a kind, and what to change."""
     uniform: bool = False
@@ -83,9 +88,25 @@ SUBJECTS = {
         ("fold", "wrinkling", "contact"),
         require_taut,
         obstacle="l",
+        pole=True,
         without={
             "mirror": NO_MIRROR,
             "localisation": NO_LONG_WAVES,
+            **dict.fromkeys(WAVES, "has no lines of waves around its axis" + ONLY_TUBE),
+        },
+    ),
+    "hemisphere": Subject(
+        lambda comm, law, values, cells, degree: VariedCap(comm, law, values, cells, degree, GRADING),
+        VariedCap.depth,
+        ("angle",),
+        "t_end",
+        ("fold", "wrinkling"),
+        rest=rest_height,
+        pole=True,
+        without={
+            "mirror": NO_MIRROR,
+            "localisation": NO_LONG_WAVES,
+            "contact": NO_OBSTACLE,
             **dict.fromkeys(WAVES, "has no lines of waves around its axis" + ONLY_TUBE),
         },
     ),

@@ -1,0 +1,1 @@
+"""Solvers of limit points of parts of spheres under gas."""
