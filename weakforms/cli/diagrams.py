@@ -26,6 +26,7 @@ def _bodies() -> list[str]:
         "weakforms diagram tube --plane lf p --set alpha=0.05 --set low=5 --set high=9",
         "weakforms diagram tube --plane lf p --kind fold,n1 --set alpha=0 --set u_end=2.5",
         "weakforms diagram circular --plane alpha p",
+        "weakforms diagram hemisphere --plane angle p --set alpha=0 --kind fold",
         "weakforms diagram sphere --plane mu2 p model=ogden low=0.0005 high=0.02 --kind fold,n1",
         "weakforms diagram infinite_tube --plane lam1 p ends=held --kind localisation,n1",
     )
@@ -33,7 +34,7 @@ def _bodies() -> list[str]:
 def diagram(
     problem: Annotated[
         str,
-        typer.Argument(help="tube, circular, sphere or infinite_tube.", autocompletion=_bodies),
+        typer.Argument(help="tube, circular, hemisphere, sphere or infinite_tube.", autocompletion=_bodies),
     ],
     plane: Annotated[
         tuple[str, str], typer.Option(metavar="X Y", help="The two parameters; one of them is p.")

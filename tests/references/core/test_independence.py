@@ -12,12 +12,14 @@ FIRST = (
     *("paper3/bent/equations", "paper3/bent/newton", "paper3/bent/states", "paper4/methods/differences"),
     *("paper4/methods/shooting", "paper4/methods/shooting_newton"),
     *("paper5/waves/transfer", "paper5/waves/shots", "paper5/bloch", "beyond/tube_waves/ritz"),
+    "beyond/caps/shooting",
 )
 """Differences, shooting, Galerkin's method and transfer matrices."""
 SECOND = (
     *("paper1/collocation/*", "paper2/collocation/*", "paper3/collocation", "paper3/canonical"),
     *("paper3/strong/*", "paper4/methods/collocation", "paper4/methods/states"),
     *("paper5/waves/second_variation", "paper5/bloch_metric", "beyond/tube_waves/strong"),
+    "beyond/caps/energy",
 )
 """Collocation, and what is derived from it."""
 INTERPOLATION = {"lagrange", "differentiation", "Array"}

@@ -30,16 +30,20 @@ DIAGRAM = About(
     name="diagram",
     title="Lines of critical points in a plane of two parameters",
     paper="beyond",
-    source="the membranes of papers 1 and 2, balloons and long tubes of any law; extended systems: Govaerts "
-    "(2000), chapters 3, 4 and 7; long waves: Haughton & Ogden (1979), Fu, Pearce & Liu (2008)",
-    energy="that of tube or circular without a substrate, of a sphere or a long tube, with all parameters as "
-    "loads",
+    source="the membranes of papers 1, 2 and 5, balloons and long tubes of any law; extended systems: "
+    "Govaerts (2000), chapters 3, 4 and 7; long waves: Haughton & Ogden (1979), Fu, Pearce & Liu (2008)",
+    energy="that of tube or circular without a substrate, of a hemisphere (or a shallower or deeper part of "
+    "a sphere) under gas, of a sphere or a long tube, with all parameters as loads",
     control="the parameter that varies besides p (past a cusp or tip compare over u_max, t0, lam or lam2)",
-    unknown="(rho, eta) as of tube or circular, or the stretches of a sphere or a long tube, with p and "
-    "another parameter, and a null vector",
+    unknown="(rho, eta) as of tube, circular or hemisphere, or the stretches of a sphere or a long tube, "
+    "with p and another parameter, and a null vector",
     forms=(
         *("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
-        *("problems.diagram.balloon:VariedSphere", "problems.diagram.long_tube:HeldTube"),
+        *(
+            "problems.diagram.cap:VariedCap",
+            "problems.diagram.balloon:VariedSphere",
+            "problems.diagram.long_tube:HeldTube",
+        ),
     ),
     units=Units("R_f", "C1", "h_o", 2 * math.pi),
     columns=(
@@ -59,8 +63,8 @@ DIAGRAM = About(
         Column("force", "axial force of free ends, besides the pressure, over {axial}"),
         Column(
             "V",
-            "enclosed volume of the half tube, of the sphere, under the disk, or of a piece of a long tube "
-            "that is as long at rest as its radius, over {volume}",
+            "enclosed volume of the half tube, of the sphere, under the disk or hemisphere, or of a piece "
+            "of a long tube that is as long at rest as its radius, over {volume}",
             "V",
         ),
         Column("Pi", "total potential of the same over {energy}"),
@@ -93,7 +97,8 @@ DIAGRAM = About(
             l="L/R_f, height of a substrate above the disk",
             S_least="place of the least resultant as a fraction of the meridian, of states",
             S="fraction of the meridian from the mid-plane or the pole",
-            eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 R dS",
+            eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 R dS (a "
+            "hemisphere: against that of the flat disk, R = S)",
         ),
         column.RHO,
         Column("eta", "deformed axial position, or height, over {length}", r"\eta"),
@@ -140,6 +145,14 @@ DIAGRAM = About(
             at=(("lam", 2.2),),
             branch="n1",
             label="pears",
+        ),
+        Family(
+            {"alpha": (0.0, 0.03)},
+            **LINE,
+            fixed={"body": "hemisphere", "kind": "fold"},
+            at=(("angle", 1.7),),
+            branch="fold",
+            label="parts of spheres",
         ),
         Family(
             {"alpha": (0.02, 0.2)},

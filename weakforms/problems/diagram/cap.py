@@ -36,10 +36,8 @@ FIRST_P = 0.25
 Without pressure a membrane that is not stretched does not resist a change of its shape; at a small one there
 is a layer of width ``sqrt(p/12)`` at the clamp."""
 
-
 HIGHER = 0.02
-"""By which fraction the pole of the first guess is higher than at rest: with no displacement its tangent would
-be that of a shape without tension."""
+"""By which fraction the pole of the first guess is higher than at rest, so that the guess is in tension."""
 
 
 def _rest(s: Expr, q: Values) -> tuple[float, Expr]:

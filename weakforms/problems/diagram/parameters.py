@@ -47,7 +47,9 @@ class DiagramParameters(MaterialChoice):
         "lam_end": ({"body": ("sphere", "infinite_tube")},),
     }
 
-    body: Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube"] = Field("tube", description="membrane")
+    body: Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube"] = Field(
+        "tube", description="membrane"
+    )
     x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
     y: str = Field("p", description="second axis; one of both is p")
     kind: str = Field(
@@ -67,9 +69,7 @@ class DiagramParameters(MaterialChoice):
     angle: float = Field(
         pi / 2, ge=0.2, le=2.6, description="angle from the pole to the clamp, rad; pi/2: the hemisphere"
     )
-    t_end: float = Field(
-        3.0, gt=0.06, le=10, description="largest pole height of the disk or the hemisphere"
-    )
+    t_end: float = Field(3.0, gt=0.06, le=10, description="largest pole height of the disk or the hemisphere")
     ends: Literal["free", "held"] = Field("free", description="ends of the infinite tube")
     force: float = Field(0.0, ge=-5, le=100, description="axial force of free ends over 2 pi R_o h_o C1")
     lam1: float = Field(1.2, ge=1, le=10, description="axial stretch at which ends are held")

@@ -68,7 +68,7 @@ def _files(root: Path) -> list[tuple[Path, int | str]]:
     of_groups = [
         (path, group)
         for group in GROUPS
-        for path in sorted((part("cases", root) / group).glob("*.py"))
+        for path in sorted((part("cases", root) / group).rglob("*.py"), key=lambda path: path.stem)
         if not path.stem.startswith("_")
     ]
     return sorted(of_papers, key=lambda item: (item[1], _id(*item))) + of_groups

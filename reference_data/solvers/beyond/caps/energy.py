@@ -120,9 +120,7 @@ def slopes(at: Point, q: Array, p: Any, mu: Any) -> Array:
     f2 = 1 - 1 / (x2 * x2 * x1) + alpha * (x1 - 1 / (x2 * x2))
     by_a, by_b = 2 * c * radius * a * f1, 2 * c * radius * b * f1
     direct = 2 * c * radius * hoop * f2 + p * radius**2 * hoop * q[2]
-    return np.array(
-        [direct + by_a * radius_s / c, by_a * radius / c, by_b / c + p * radius**2 * hoop**2 / 2]
-    )
+    return np.array([direct + by_a * radius_s / c, by_a * radius / c, by_b / c + p * radius**2 * hoop**2 / 2])
 
 
 def gradient(at: Point, u: Array, p: Any, mu: Any) -> Array:
@@ -201,7 +199,11 @@ def limit(at: Point, **held: float) -> Point:
         return float(np.abs(step).max()), lambda share: x - share * step
 
     x = newton(
-        np.concatenate([at.u, at.v, [at.p, at.mu]]), correct, f"limit point at {held}", longest=0.5, close=1e-9
+        np.concatenate([at.u, at.v, [at.p, at.mu]]),
+        correct,
+        f"limit point at {held}",
+        longest=0.5,
+        close=1e-9,
     )
     return replace(at, u=x[:m], v=x[m : 2 * m], p=float(x[-2]), mu=float(x[-1]))
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -90,7 +91,7 @@ def shot(l0: Array, of: Data, how: Accuracy) -> Array:
     length = of.angle / np.sin(of.angle)
     left = (1 - np.arange(how.steps + 1) / how.steps) ** SHORTER * np.log(how.piece)
     y = np.array([l0, meridional(l0, l0, of.alpha), 0 * l0])
-    for begin, end in zip(left[:-1], left[1:], strict=True):
+    for begin, end in pairwise(left.tolist()):
         table = [_midpoint(y, np.log(length) + begin, of, end - begin, n) for n in SUBSTEPS]
         for j in range(1, len(table)):  # Neville's scheme in the square of the substep
             for i in range(len(table) - 1, j - 1, -1):

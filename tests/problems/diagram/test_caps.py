@@ -1,0 +1,89 @@
+"""Lines of limit points of parts of spheres: against the problems of their ends, and what is refused."""
+
+from math import cos, pi, sin, tan
+
+import numpy as np
+import pytest
+from mpi4py import MPI
+
+from weakforms import solve
+from weakforms.errors import InputError
+from weakforms.problems.diagram import cap
+from weakforms.problems.diagram.cap import VariedCap
+from weakforms.problems.diagram.parameters import DiagramParameters
+
+MESH = {"cells": 16, "levels": 2, "step": 0.2}
+FOLDS = {"body": "hemisphere", "kind": "fold", "numerics": MESH}
+
+
+AT = {"alpha": 0.02}
+
+
+def model(angle: float) -> VariedCap:
+    law = DiagramParameters(body="hemisphere", alpha=0.0).material
+    return VariedCap(MPI.COMM_WORLD, law, {"angle": angle}, 8, 6, 0.6)
+
+
+@pytest.mark.parametrize("angle", [0.3, pi / 2, 2.4])
+def test_a_part_of_a_sphere_at_rest_has_its_volume_and_no_tension(angle):
+    found = model(angle)
+    with found.system.at(found.system.initial):
+        at = found.system.monitors()
+    volume = (2 + cos(angle)) * (1 - cos(angle)) ** 2 / (6 * sin(angle) ** 3)
+    assert at["V"] == pytest.approx(volume, rel=1e-10)
+    assert at["t0"] == pytest.approx(tan(angle / 2), rel=1e-12) == cap.rest_height(angle)
+    assert at["lam_pole"] == 1.0
+    assert at["t_min"] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_lines_of_hemispheres_are_those_of_the_problem_hemisphere(monkeypatch):
+    """Wherever the branches begin."""
+    (limit,) = solve("hemisphere", load="gas", c2=0.02, numerics={"levels": 2, "step": 0.2}).points(
+        "limit_point"
+    )
+    for first in (cap.FIRST_P, 1.0):
+        monkeypatch.setattr(cap, "FIRST_P", first)
+        (state,) = solve("diagram", x="alpha", low=0.01, high=0.03, **FOLDS, at=AT, branch="fold").states
+        for name in ("p", "V", "Pi", "lam_pole"):
+            assert state.quantities[name].value == pytest.approx(limit.values[name], abs=1e-8), name
+        assert state.quantities["t0"].value == pytest.approx(-limit.values["z_pole"], abs=1e-8)
+        assert state.quantities["eigenvalue_1"].value == pytest.approx(0.0, abs=1e-8)
+
+
+def test_shallow_parts_differ_from_the_flat_disk_by_the_square_of_their_angle():
+    (flat,) = solve("circular", alpha=0.0, t_end=1.4, numerics={"levels": 2}).points("limit_point")
+    line = solve("diagram", angle=0.2, alpha=0.0, low=0.2, high=0.4, **FOLDS).branch("fold").columns
+    assert line["angle"][[0, -1]] == pytest.approx([0.2, 0.4], abs=1e-12)
+    less = flat.values["p"] - line["p"][[0, -1]]
+    assert less[0] > 0
+    assert less[1] / less[0] == pytest.approx(4.0, rel=0.05)
+
+
+def test_deep_parts_approach_the_whole_balloon():
+    """Its largest pressure ``4 (1/lam - 1/lam^7)`` is at ``lam = 7^(1/6)``, over the radius of the sphere."""
+    lam = 7 ** (1 / 6)
+    line = solve("diagram", alpha=0.0, low=2.5, high=2.6, t_end=6.0, **FOLDS).branch("fold").columns
+    over = line["p"] / np.sin(line["angle"]) - 4 * (1 / lam - 1 / lam**7)
+    assert line["angle"][[0, -1]] == pytest.approx([2.5, 2.6], abs=1e-12)
+    assert 0 < over[-1] < over[0] < 0.15
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"kind": "contact"}, "body = 'hemisphere' touches nothing"),
+        ({"kind": "mirror"}, "body = 'hemisphere' has no mirror"),
+        ({"kind": "n1"}, "body = 'hemisphere' has no lines of waves around its axis"),
+        ({"kind": "localisation"}, "body = 'hemisphere' is not long"),
+        ({"x": "beta"}, "x = 'beta' is no parameter of hemisphere"),
+        ({"high": 2.7}, "between 0.2 and 2.6"),
+        ({"angle": 3.0}, "angle = 3.0"),
+        ({"high": 2.6}, "high = 2.6: at rest t0 is 3.602 already; raise t_end = 3 or change high"),
+        ({"angle": 2.5, "x": "alpha"}, "angle = 2.5: at rest t0 is 3.01 already"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(given, message):
+    with pytest.raises(InputError, match="diagram") as refused:
+        solve("diagram", body="hemisphere", **given)
+    assert message in str(refused.value)
+    assert "\n" not in str(refused.value)
