@@ -2,8 +2,8 @@
 
 The hemisphere is the part up to a right angle. Limit points vanish in cusps: in one over C2/C1, where the law
 has become stiff enough, and in one over the angle, where the part has become shallow enough. The lines pass
-through the limit point of the problem ``hemisphere``, and lie between that of the flat disk of ``circular``
-and that of the whole balloon of ``sphere``.
+through the limit point of the problem hemisphere, and lie between that of the flat disk of circular
+and that of the whole balloon of sphere.
 """
 
 from math import sin
