@@ -36,6 +36,17 @@ def test_a_part_of_a_sphere_at_rest_has_its_volume_and_no_tension(angle):
     assert at["t_min"] == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("angle", [0.3, 2.4])
+def test_the_mass_is_that_of_the_flat_disk_at_every_angle(angle):
+    """``int (S^2 u^2 + w^2) S dS`` with ``1 - S^2`` for either displacement."""
+    found = model(angle).system
+    shape = 1 - np.repeat(model(angle).nodes(), 2) ** 2
+    for first, exact in ((0, 1 / 24), (1, 1 / 6)):
+        moved = np.zeros_like(shape)
+        moved[first::2] = shape[first::2]
+        assert moved @ found.mass_times(moved) == pytest.approx(exact, rel=1e-12)
+
+
 def test_lines_of_hemispheres_are_those_of_the_problem_hemisphere(monkeypatch):
     """Wherever the branches begin."""
     (limit,) = solve("hemisphere", load="gas", c2=0.02, numerics={"levels": 2, "step": 0.2}).points(
