@@ -11,6 +11,7 @@ from weakforms.errors import InputError
 from weakforms.problems.diagram import cap
 from weakforms.problems.diagram.cap import VariedCap
 from weakforms.problems.diagram.parameters import DiagramParameters
+from weakforms.problems.diagram.problem import ROOM
 
 MESH = {"cells": 16, "levels": 2, "step": 0.2}
 FOLDS = {"body": "hemisphere", "kind": "fold", "numerics": MESH}
@@ -79,6 +80,15 @@ def test_deep_parts_approach_the_whole_balloon():
     assert 0 < over[-1] < over[0] < 0.15
 
 
+@pytest.mark.parametrize("angle", [0.2, 2.0])
+def test_first_states_are_lower_than_the_least_end(angle):
+    rest = cap.rest_height(angle)
+    first = model(angle).primary(rest + ROOM * max(1.0, rest), 0.1).points
+    assert first[0].monitors["t0"] < rest + 0.8 * ROOM * max(1.0, rest)
+    assert first[-1].monitors["t0"] >= rest + ROOM * max(1.0, rest)
+    assert first[0].n_negative == 0
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
@@ -89,8 +99,9 @@ def test_deep_parts_approach_the_whole_balloon():
         ({"x": "beta"}, "x = 'beta' is no parameter of hemisphere"),
         ({"high": 2.7}, "between 0.2 and 2.6"),
         ({"angle": 3.0}, "angle = 3.0"),
-        ({"high": 2.6}, "high = 2.6: at rest t0 is 3.602 already; raise t_end = 3 or change high"),
-        ({"angle": 2.5, "x": "alpha"}, "angle = 2.5: at rest t0 is 3.01 already"),
+        ({"high": 2.6}, "high = 2.6: t_end = 3 must be at least 3.962, because t0 is 3.602 at rest"),
+        ({"high": 1.2, "t_end": 0.7}, "high = 1.2: t_end = 0.7 must be at least 0.7841"),
+        ({"angle": 2.5, "x": "alpha"}, "angle = 2.5: t_end = 3 must be at least 3.311"),
     ],
 )
 def test_bad_input_is_refused_in_one_line(given, message):

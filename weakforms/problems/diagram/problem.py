@@ -20,6 +20,10 @@ from weakforms.results import Absence, Failure, Result
 SCANNED = 9
 """Number of values of the parameter at which a critical point is searched, if there is none at the first."""
 
+ROOM = 0.1
+"""Least rise of the last state from rest, or, if that is higher than 1, the same fraction of its height. The
+first state, at a small pressure, has risen less."""
+
 MOVING = 2.0
 """Order of values at a place that moves through the cells."""
 
@@ -48,11 +52,15 @@ class Diagram(BranchProblem):
                 values |= {"low": parameters.window.low, "high": parameters.window.high}
             for name, value in values.items():
                 subject.require(self.name, parameters.material, value, name)
-                rest = subject.rest(value)
-                if rest >= parameters.window.end:
+            # Over the first parameter, lines start within the range, wherever its own value is.
+            for name in ("low", "high") if parameters.vary == own else (own,):
+                rest = subject.rest(values[name])
+                least = rest + ROOM * max(1.0, rest)
+                if parameters.window.end < least:
                     raise InputError(
-                        f"diagram: {name} = {value:g}: at rest {subject.depth} is {rest:.4g} already; raise "
-                        f"{subject.end} = {parameters.window.end:g} or change {name}"
+                        f"diagram: {name} = {values[name]:g}: {subject.end} = {parameters.window.end:g} must "
+                        f"be at least {least:.4g}, because {subject.depth} is {rest:.4g} at rest; change one "
+                        "of both"
                     )
 
     def _check_axes(self, given: DiagramParameters) -> None:

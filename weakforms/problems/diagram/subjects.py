@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import inf
 
 from mpi4py import MPI
 
@@ -43,8 +44,8 @@ class Subject:
     """Parameter with the position of a substrate."""
     touch: Callable[[float], float] = lambda height: height
     """Value of ``depth`` at first contact."""
-    rest: Callable[[float], float] = lambda _first: 0.0
-    """Value of ``depth`` at rest, of its first parameter."""
+    rest: Callable[[float], float] = lambda _first: -inf
+    """Value of ``depth`` at rest, of its first parameter, if branches begin near it."""
     pole: bool = False
     """Whether the membrane has a pole."""
     without: Mapping[str, str] = field(default_factory=dict)
