@@ -22,12 +22,10 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from importlib.machinery import EXTENSION_SUFFIXES
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
-import cffi
 import ufl
 from dolfinx import default_scalar_type
 from dolfinx import jit as dolfinx_jit
@@ -40,7 +38,7 @@ from ufl.core.expr import Expr
 from ufl.corealg.traversal import traverse_unique_terminals
 
 from weakforms.errors import EnvironmentLackError
-from weakforms.solvers.support import kernels
+from weakforms.solvers.support import kernels, libraries
 
 PATIENCE = 180
 """Seconds for which a process waits for another one that compiles the same form, if files cannot be locked.
@@ -60,7 +58,7 @@ def install() -> None:
     kernels.install()
     defaults = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS
     usual, about = defaults["cffi_extra_compile_args"]
-    defaults["cffi_extra_compile_args"] = ([*usual, kernels.MARK], about)
+    defaults["cffi_extra_compile_args"] = ([*usual, kernels.MARK, libraries.MARK], about)
     _, about = defaults["timeout"]
     defaults["timeout"] = (PATIENCE, about)
     # Files in the current folder, written by anybody, must not change how forms are compiled: neither the
@@ -69,7 +67,9 @@ def install() -> None:
         options._load_options = lambda: ({}, {})
     signature.compute_expression_signature = _counting_from_zero(signature.compute_expression_signature)
     jit.get_cached_module = _finding(jit.get_cached_module)
+    jit.cffi = SimpleNamespace(FFI=libraries.Library)
     jit._compile_objects = _compiling(jit._compile_objects)
+    jit._load_objects = lambda folder, name, objects: _loaded(Path(folder), name, tuple(objects))
     for name in ("compile_forms", "compile_expressions"):
         setattr(jit, name, _releasing(getattr(jit, name)))
     jit.compile_forms = _looking(jit.compile_forms)
@@ -146,19 +146,12 @@ def _finding(find: Callable) -> Callable:
 
 @functools.cache
 def _loaded(cache_dir: Path, name: str, objects: tuple[str, ...]) -> tuple[list, Any]:
-    """Load a finished form, once in each process.
+    """Load finished forms, once in each process.
 
-    It is loaded by its full name. ffcx would list the whole folder for each form, which is slow with
+    They are loaded by their full name. ffcx would list the whole folder each time, which is slow with
     thousands of files.
     """
-    paths = (cache_dir / f"{name}{suffix}" for suffix in EXTENSION_SUFFIXES)
-    path = next((path for path in paths if path.exists()), None)
-    if path is None:
-        raise ImportError(f"{name} is marked complete but does not exist")
-    spec = spec_from_file_location(name, path)
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return [getattr(module.lib, name) for name in objects], module
+    return libraries.load(cache_dir / f"{name}{libraries.SUFFIX}", objects)
 
 
 def _lock(path: Path) -> bool:
@@ -200,7 +193,7 @@ def _compiling(compile_one: Callable) -> Callable:
             with tempfile.TemporaryDirectory(prefix=f".{module}.", dir=cache_dir) as folder:
                 code = compile_one(decl, forms, names, module, options, Path(folder), *rest, **more)
                 _publish(Path(folder), module, Path(cache_dir))
-        except (OSError, cffi.VerificationError) as error:
+        except (OSError, EnvironmentLackError) as error:
             raise _lack(cache_dir, error) from error
         return code
 

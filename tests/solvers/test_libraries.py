@@ -1,0 +1,64 @@
+"""Forms are compiled to shared libraries; what cannot be compiled or loaded is said."""
+
+import shutil
+
+import pytest
+import ufl
+from dolfinx import fem, mesh
+from mpi4py import MPI
+
+from weakforms.errors import EnvironmentLackError
+from weakforms.solvers.support import libraries
+
+
+def compiled(tmp_path, power=5):
+    """A form that no other test has, in a cache of its own."""
+    x = ufl.SpatialCoordinate(mesh.create_unit_interval(MPI.COMM_SELF, 3))[0]
+    return fem.form(x**power * ufl.dx, jit_options={"cache_dir": tmp_path})
+
+
+def test_a_library_needs_nothing_of_python(tmp_path):
+    form = compiled(tmp_path)
+    assert fem.assemble_scalar(form) == pytest.approx(1 / 6, rel=1e-14)
+    (source,) = tmp_path.glob("*.c")
+    assert "Python.h" not in source.read_text()
+
+
+@pytest.mark.parametrize("compiler", ["false", "no-such-compiler"])
+def test_a_compiler_that_fails_is_named(tmp_path, monkeypatch, compiler):
+    monkeypatch.setenv("CC", compiler)
+    with pytest.raises(
+        EnvironmentLackError, match=rf"cannot be compiled .*{compiler}.* a C compiler and room"
+    ):
+        compiled(tmp_path, power=6)
+    assert not list(tmp_path.glob("*.so"))
+
+
+def test_the_first_error_of_the_compiler_is_kept(tmp_path):
+    library = libraries.Library()
+    library.set_source(
+        "broken", "int f(void) { return g; }", include_dirs=[], extra_compile_args=[], libraries=[]
+    )
+    with pytest.raises(EnvironmentLackError, match=r"C compiler .* fails: .*error: .g. undeclared"):
+        library.compile(tmp_path)
+
+
+def test_a_damaged_library_or_one_without_the_form_is_no_library(tmp_path):
+    (tmp_path / "cut.so").write_bytes(b"\x7fELF")
+    with pytest.raises(ImportError, match=r"cut\.so"):
+        libraries.load(tmp_path / "cut.so", ())
+    compiled(tmp_path)
+    (path,) = tmp_path.glob("libffcx*.so")
+    with pytest.raises(ImportError, match="form_missing"):
+        libraries.load(path, ("form_missing",))
+
+
+def test_a_damaged_library_in_the_cache_is_compiled_again(tmp_path):
+    """A crash of the machine can leave a file that is marked complete but cut short."""
+    whole, damaged = tmp_path / "whole", tmp_path / "damaged"
+    compiled(whole)
+    shutil.copytree(whole, damaged)
+    (path,) = damaged.glob("*.so")
+    path.write_bytes(b"\x7fELF")
+    assert fem.assemble_scalar(compiled(damaged)) == pytest.approx(1 / 6, rel=1e-14)
+    assert path.stat().st_size > 4
