@@ -136,6 +136,15 @@ def test_a_state_is_solved_for_at_the_value_of_its_lowest_eigenvalue():
     assert same.quantities["eigenvalue_1"].value == pytest.approx(4.0, abs=1e-9)
 
 
+def test_a_limit_point_that_is_a_point_of_the_branch_is_found_by_its_eigenvalue():
+    """There the eigenvalue has the sign of round-off, so that neither interval beside it has a change of sign."""
+    given = {"alpha": 0, "u_end": 1.3, "n": [1], "numerics": {"cells": 12, "levels": 2, "step": 0.5}}
+    result = solve("tube", at={"eigenvalue_1": 0.0}, **given)
+    (limit,), (state,) = result.points("limit_point"), result.states
+    assert state.quantities["p"].value == pytest.approx(limit.values["p"], abs=1e-10)
+    assert state.quantities["u_max"].value == pytest.approx(limit.values["u_max"], abs=1e-6)
+
+
 # -- laws that give way, laws that lock, and fold lines that begin elsewhere --------------------------
 
 

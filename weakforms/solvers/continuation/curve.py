@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -21,9 +22,11 @@ from weakforms.solvers.support.roots import root
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
 """Columns that describe the solve; they cannot be prescribed."""
 
-
 FAR = 0.1
 """Distance along a curve, relative to its length, within which a point of another mesh's curve is sought."""
+
+AT_END = 1e-10
+"""Value at one end of an interval, over that at the other, which counts as a zero there, up to round-off."""
 
 BISECTIONS = 6
 """Number of bisections of an interval before a change of stability is solved for in it."""
@@ -246,17 +249,20 @@ class SolutionCurve:
 
     def _root(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
         """Solve for the state between two neighbours where a function is zero, over planes across it."""
-        tangent = self.points[i].tangent
-        last: list[Solved] = []
+        tangent, what = self.points[i].tangent, f"{kind} in {self.control}"
 
-        def value(fraction: float) -> float:
-            guess = self.between(i, fraction)
-            last.append(self._solve(guess, self.continuation.plane(guess, tangent), kind))
-            return function(last[-1])
+        @functools.cache
+        def solved(at: float) -> Solved:
+            guess = self.between(i, at)
+            return self._solve(guess, self.continuation.plane(guess, tangent), kind)
 
-        value(root(value, 0.0, 1.0, f"{kind} in {self.control}", xtol=1e-13, rtol=1e-13))
-        self.require_within(i, last[-1], f"{kind} in {self.control}")
-        return last[-1]
+        value = functools.cache(lambda at: function(solved(at)))
+        small, large = sorted((0.0, 1.0), key=lambda end: abs(value(end)))
+        if abs(value(small)) <= AT_END * abs(value(large)):
+            return solved(small)
+        found = solved(root(value, 0.0, 1.0, what, xtol=1e-13, rtol=1e-13))
+        self.require_within(i, found, what)
+        return found
 
     def direction(self, point: CurvePoint, names: tuple[str, ...]) -> dict[str, float]:
         """Rates of some columns along the branch at a point of the trace."""
@@ -331,15 +337,12 @@ class SolutionCurve:
 
     def _turn(self, i: int) -> Solved:
         """The turn after a point: the zero of the control's rate along the curve."""
-        return self._root(i, self._control_rate(i), "limit_point")
-
-    def _control_rate(self, i: int) -> Callable[[Solved], float]:
         along = self.points[i].tangent
 
         def rate(solved: Solved) -> float:
             return self.continuation.direction(solved.state, along).loads[self.control]
 
-        return rate
+        return self._root(i, rate, "limit_point")
 
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))

@@ -79,7 +79,7 @@ class ModalBranch(FittedBranch):
         """
         for i in reversed(self.turns().tolist()):
             before = self.points[i]
-            limit = self._root(i, self._control_rate(i), "limit_point")
+            limit = self._turn(i)
             plane = self.continuation.plane(limit.state, before.tangent)
             state, record = self.solver.solve(limit.state, [*self.continuation.fixed, plane])
             with self.system.at(state):
