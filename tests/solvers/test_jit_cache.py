@@ -3,10 +3,13 @@
 import os
 
 import basix.ufl
+import ffcx
 import numpy as np
 import pytest
 import ufl
-from dolfinx import fem, mesh
+from dolfinx import default_scalar_type, fem, mesh
+from dolfinx import jit as dolfinx_jit
+from ffcx.codegeneration import jit as ffcx_jit
 from ffcx.naming import compute_signature
 from mpi4py import MPI
 
@@ -71,6 +74,33 @@ def test_forms_compiled_together_are_one_module_and_are_found_alone_on_every_mes
     assert [fem.assemble_scalar(form) for form in (one, two)] == pytest.approx([2.0, 1.5])
     alone = fem.form(2.0 * ufl.dx(mesh.create_unit_interval(MPI.COMM_SELF, 2)))  # no constant: another form
     assert alone.module is not one.module
+
+
+def test_a_form_of_another_module_is_not_compiled_again(tmp_path, monkeypatch):
+    """Neither alone nor with others, in this process or in another one."""
+    here = mesh.create_unit_interval(MPI.COMM_SELF, 2)
+    x = ufl.SpatialCoordinate(here)[0]
+    shared, first, second = x**3 * ufl.dx, x**5 * ufl.dx, x**6 * ufl.dx
+    options = (
+        ffcx.get_options({"scalar_type": default_scalar_type}),
+        {**dolfinx_jit.get_options(), "cache_dir": tmp_path},
+    )
+
+    def together(*forms):
+        found, _, _ = ffcx_jit.compile_forms(list(forms), options=options[0], **options[1])
+        return [fem.form(form, jit_options={"cache_dir": tmp_path}) for form in forms], found
+
+    (one, _), _ = together(shared, first)
+    monkeypatch.setattr(jit_cache, "_known", {})  # as in another process
+    (two, three), compiled = together(shared, second)
+    assert [fem.assemble_scalar(form) for form in (one, two, three)] == pytest.approx([1 / 4, 1 / 4, 1 / 7])
+    assert len(compiled) == 2
+    places = [path.read_text().split()[0] for path in tmp_path.glob("*.form")]
+    assert sorted(places.count(path.stem) for path in tmp_path.glob("*.so")) == [1, 2]
+    next(path for path in tmp_path.glob("*.form")).write_text("cut short by a crash")
+    monkeypatch.setattr(jit_cache, "_known", {})
+    (again, _), _ = together(shared, first)
+    assert fem.assemble_scalar(again) == pytest.approx(1 / 4)
 
 
 def test_no_form_is_locked_once_it_is_compiled(tmp_path):

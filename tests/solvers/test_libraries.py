@@ -43,14 +43,14 @@ def test_the_first_error_of_the_compiler_is_kept(tmp_path):
         library.compile(tmp_path)
 
 
-def test_a_damaged_library_or_one_without_the_form_is_no_library(tmp_path):
+def test_a_damaged_library_or_one_without_the_form_is_not_used(tmp_path):
     (tmp_path / "cut.so").write_bytes(b"\x7fELF")
     with pytest.raises(ImportError, match=r"cut\.so"):
-        libraries.load(tmp_path / "cut.so", ())
+        libraries.Loaded(tmp_path / "cut.so")
     compiled(tmp_path)
     (path,) = tmp_path.glob("libffcx*.so")
     with pytest.raises(ImportError, match="form_missing"):
-        libraries.load(path, ("form_missing",))
+        libraries.Loaded(path).form("form_missing")
 
 
 def test_a_damaged_library_in_the_cache_is_compiled_again(tmp_path):

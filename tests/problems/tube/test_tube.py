@@ -137,7 +137,7 @@ def test_a_state_is_solved_for_at_the_value_of_its_lowest_eigenvalue():
 
 
 def test_a_limit_point_that_is_a_point_of_the_branch_is_found_by_its_eigenvalue():
-    """There the eigenvalue has the sign of round-off, so that neither interval beside it has a change of sign."""
+    """The eigenvalue there has the sign of round-off: it may change its sign in no interval beside it."""
     given = {"alpha": 0, "u_end": 1.3, "n": [1], "numerics": {"cells": 12, "levels": 2, "step": 0.5}}
     result = solve("tube", at={"eigenvalue_1": 0.0}, **given)
     (limit,), (state,) = result.points("limit_point"), result.states

@@ -6,7 +6,9 @@ in vain. Here the process that compiles holds a lock, which the system releases 
 compiles in a separate folder and then moves the finished files.
 
 A separate module for each form costs more than the form, because of the compiler's start, its headers and the
-linker. :func:`compile_together` makes one module of all forms that a system needs.
+linker. :func:`compile_together` makes one module of all forms that a system needs. A form is compiled once:
+a file ``KEY.form`` names its module. Systems with the same forms, such as two phases of a contact history,
+share them.
 
 ffcx names an expression by the number of variables (``ufl.variable``) that the process has made before. It
 would compile the same expression again on another mesh, or after another solve. Here the numbers start from
@@ -19,6 +21,7 @@ import fcntl
 import functools
 import os
 import shutil
+import sysconfig
 import tempfile
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -31,6 +34,7 @@ from dolfinx import default_scalar_type
 from dolfinx import jit as dolfinx_jit
 from ffcx import options as ffcx_options
 from ffcx.codegeneration import jit
+from ffcx.naming import compute_signature, form_name
 from mpi4py import MPI
 from ufl.algorithms import signature
 from ufl.classes import Label
@@ -47,8 +51,11 @@ dolfinx's default of 10 is too small for our forms."""
 _held: list[int] = []
 """The lock of the form that this process is compiling."""
 
-_together: dict[str, tuple[Any, Any]] = {}
-"""Compiled forms that share a module with others, and the module, by their signatures."""
+_known: dict[tuple[Path, str], tuple[Any, Any]] = {}
+"""Compiled forms and their modules, by the folder of the cache and the key of the form."""
+
+_together: set[str] = set()
+"""Signatures of the forms that this process has asked for together."""
 
 
 def install() -> None:
@@ -69,7 +76,7 @@ def install() -> None:
     jit.get_cached_module = _finding(jit.get_cached_module)
     jit.cffi = SimpleNamespace(FFI=libraries.Library)
     jit._compile_objects = _compiling(jit._compile_objects)
-    jit._load_objects = lambda folder, name, objects: _loaded(Path(folder), name, tuple(objects))
+    jit._load_objects = lambda folder, name, objects: _forms(Path(folder), name, objects)
     for name in ("compile_forms", "compile_expressions"):
         setattr(jit, name, _releasing(getattr(jit, name)))
     jit.compile_forms = _looking(jit.compile_forms)
@@ -81,30 +88,57 @@ def compile_together(comm: MPI.Intracomm, forms: Iterable[ufl.Form]) -> None:
     Collective. Signatures do not depend on the mesh, so that forms on the next mesh use the same module.
     """
     missing = {form.signature(): form for form in forms}
-    if not missing.keys() <= _together.keys():
+    if not missing.keys() <= _together:
         _compile_module(comm, list(missing.values()))
+        _together.update(missing)
 
 
 @dolfinx_jit.mpi_jit_decorator
 def _compile_module(forms: list[ufl.Form]) -> None:
     options = ffcx_options.get_options({"scalar_type": default_scalar_type})
-    objects, module, _ = jit.compile_forms(forms, options=options, **dolfinx_jit.get_options())
-    for form, compiled in zip(forms, objects, strict=True):
-        _together[form.signature()] = compiled, module
+    jit.compile_forms(forms, options=options, **dolfinx_jit.get_options())
 
 
 def _looking(compile_forms: Callable) -> Callable:
-    """Wrap the function that compiles forms, so that a form in a shared module is taken from there."""
+    """Wrap the function that compiles forms, so that it takes those that any module has from there.
+
+    The module that it returns is that of the first form.
+    """
 
     @functools.wraps(compile_forms)
-    def compiled(forms: list[ufl.Form], *args: Any, **kwargs: Any) -> Any:
-        found = _together.get(forms[0].signature()) if len(forms) == 1 else None
-        if found is None:
-            return compile_forms(forms, *args, **kwargs)
-        one, module = found
-        return [one], module, (None, None)
+    def compiled(forms: list[ufl.Form], options: dict, cache_dir: Path, **how: Any) -> Any:
+        machine = sysconfig.get_config_var("SOABI")
+        tag = repr((sorted(options.items()), how["cffi_extra_compile_args"], machine))
+        keys = [(Path(cache_dir), compute_signature([form], tag)) for form in forms]
+        left = {key: form for key, form in zip(keys, forms, strict=True) if not _is_known(*key)}
+        if left:
+            made, module, _ = compile_forms(list(left.values()), options=options, cache_dir=cache_dir, **how)
+            for i, (key, form) in enumerate(left.items()):
+                _known[key] = made[i], module
+                _note(*key, f"{module.name} {form_name(form, i, module.name)}")
+        return [_known[key][0] for key in keys], _known[keys[0]][1], (None, None)
 
     return compiled
+
+
+def _is_known(cache_dir: Path, key: str) -> bool:
+    """Whether a form is compiled; if another process did it, its library is loaded."""
+    if (cache_dir, key) not in _known:
+        try:
+            name, form = (cache_dir / f"{key}.form").read_text().split()
+            (one,), module = _forms(cache_dir, name, [form])
+        except (OSError, ValueError, ImportError):  # not there, or cut short by a crash of the machine
+            return False
+        _known[cache_dir, key] = one, module
+    return True
+
+
+def _note(cache_dir: Path, key: str, place: str) -> None:
+    """Write where a form is compiled. Without the file another process compiles it again."""
+    with suppress(OSError), tempfile.NamedTemporaryFile("w", dir=cache_dir, delete=False) as file:
+        file.write(place)
+        file.close()
+        os.replace(file.name, cache_dir / f"{key}.form")
 
 
 def _counting_from_zero(compute: Callable) -> Callable:
@@ -127,7 +161,7 @@ def _finding(find: Callable) -> Callable:
         ready = Path(cache_dir) / f"{name}.c.cached"
         if ready.exists():
             try:
-                return _loaded(ready.parent, name, tuple(objects))
+                return _forms(ready.parent, name, objects)
             except ImportError:  # cut short by a crash of the machine
                 ready.unlink(missing_ok=True)
         try:
@@ -144,14 +178,20 @@ def _finding(find: Callable) -> Callable:
     return found
 
 
-@functools.cache
-def _loaded(cache_dir: Path, name: str, objects: tuple[str, ...]) -> tuple[list, Any]:
-    """Load finished forms, once in each process.
+def _forms(cache_dir: Path, name: str, forms: list[str]) -> tuple[list[Any], Any]:
+    """Forms of a finished module by their names, and the module."""
+    module = _loaded(cache_dir, name)
+    return [module.form(one) for one in forms], module
 
-    They are loaded by their full name. ffcx would list the whole folder each time, which is slow with
-    thousands of files.
+
+@functools.cache
+def _loaded(cache_dir: Path, name: str) -> libraries.Loaded:
+    """Load a finished module, once in each process.
+
+    It is loaded by its full name. ffcx would list the whole folder each time, which is slow with thousands of
+    files.
     """
-    return libraries.load(cache_dir / f"{name}{libraries.SUFFIX}", objects)
+    return libraries.Loaded(cache_dir / f"{name}{libraries.SUFFIX}")
 
 
 def _lock(path: Path) -> bool:

@@ -15,7 +15,6 @@ import shlex
 import subprocess
 import sysconfig
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import cffi
@@ -65,21 +64,32 @@ class Library:
             raise EnvironmentLackError(f"the C compiler {command[0]} fails: {first}")
 
 
-def load(path: Path, names: tuple[str, ...]) -> tuple[list[Any], Any]:
-    """The forms of a compiled library by their names, and what stands for their module.
+class Loaded:
+    """A compiled library, as DOLFINx sees the module of a form.
 
     Raises:
-        ImportError: If the library is damaged or lacks a form.
+        ImportError: If the library is damaged.
     """
-    types = _types()
-    try:
-        library = ctypes.CDLL(str(path))
-        addresses = [ctypes.addressof(ctypes.c_char.in_dll(library, name)) for name in names]
-    except (OSError, ValueError) as error:
-        raise ImportError(f"{path.name} is no library with these forms: {error}") from error
-    kinds = ["ufcx_expression" if name.startswith("expression") else "ufcx_form" for name in names]
-    forms = [types.cast(f"{kind} *", at)[0] for kind, at in zip(kinds, addresses, strict=True)]
-    return forms, SimpleNamespace(ffi=types, library=library)
+
+    def __init__(self, path: Path) -> None:
+        self.name, self.ffi = path.stem, _types()
+        try:
+            self._library = ctypes.CDLL(str(path))
+        except OSError as error:
+            raise ImportError(f"{path.name} is no library: {error}") from error
+
+    def form(self, name: str) -> Any:
+        """A form or expression by its name.
+
+        Raises:
+            ImportError: If the library lacks it.
+        """
+        try:
+            address = ctypes.addressof(ctypes.c_char.in_dll(self._library, name))
+        except ValueError as error:
+            raise ImportError(f"{self.name} has no such form: {error}") from error
+        kind = "ufcx_expression" if name.startswith("expression") else "ufcx_form"
+        return self.ffi.cast(f"{kind} *", address)[0]
 
 
 @functools.cache
