@@ -135,10 +135,10 @@ def _is_known(cache_dir: Path, key: str) -> bool:
 
 def _note(cache_dir: Path, key: str, place: str) -> None:
     """Write where a form is compiled. Without the file another process compiles it again."""
-    with suppress(OSError), tempfile.NamedTemporaryFile("w", dir=cache_dir, delete=False) as file:
-        file.write(place)
-        file.close()
-        os.replace(file.name, cache_dir / f"{key}.form")
+    partial = cache_dir / f".{key}.{os.getpid()}"
+    with suppress(OSError):
+        partial.write_text(place)
+        os.replace(partial, cache_dir / f"{key}.form")
 
 
 def _counting_from_zero(compute: Callable) -> Callable:
