@@ -8,13 +8,13 @@ from dolfinx import fem, mesh
 from mpi4py import MPI
 
 from weakforms.errors import EnvironmentLackError
-from weakforms.solvers.support import libraries
+from weakforms.solvers.support import jit_cache, libraries
 
 
-def compiled(tmp_path, power=5):
+def compiled(tmp_path, power=5, **options):
     """A form that no other test has, in a cache of its own."""
     x = ufl.SpatialCoordinate(mesh.create_unit_interval(MPI.COMM_SELF, 3))[0]
-    return fem.form(x**power * ufl.dx, jit_options={"cache_dir": tmp_path})
+    return fem.form(x**power * ufl.dx, jit_options={"cache_dir": tmp_path, **options})
 
 
 def test_a_library_needs_nothing_of_python(tmp_path):
@@ -62,3 +62,30 @@ def test_a_damaged_library_in_the_cache_is_compiled_again(tmp_path):
     path.write_bytes(b"\x7fELF")
     assert fem.assemble_scalar(compiled(damaged)) == pytest.approx(1 / 6, rel=1e-14)
     assert path.stat().st_size > 4
+
+
+@pytest.mark.parametrize("locks", [True, False])
+def test_what_another_process_compiles_meanwhile_is_used(tmp_path, monkeypatch, locks):
+    """With locks it has ended when the lock is there; without, its file without a mark says that it works."""
+    other, here = tmp_path / "other", tmp_path / "here"
+    compiled(other)
+
+    def finished(_):
+        shutil.copytree(other, here, ignore=shutil.ignore_patterns("*.form"), dirs_exist_ok=True)
+        return locks
+
+    monkeypatch.setattr(jit_cache, "_lock", finished)
+    monkeypatch.setattr(libraries.Library, "compile", lambda *_, **__: pytest.fail("it is compiled again"))
+    assert fem.assemble_scalar(compiled(here)) == pytest.approx(1 / 6, rel=1e-14)
+
+
+def test_a_process_that_does_not_finish_is_not_waited_for_for_ever(tmp_path, monkeypatch):
+    compiled(tmp_path)
+    for path in [*tmp_path.glob("*.form"), *tmp_path.glob("*.cached")]:
+        path.unlink()
+    monkeypatch.setattr(jit_cache, "_known", {})
+    monkeypatch.setattr(jit_cache, "_lock", lambda _: False)
+    with pytest.raises(
+        TimeoutError, match=r"has not finished libffcx_forms_\w+ in 1 s; if none runs, delete .*\.c"
+    ):
+        compiled(tmp_path, timeout=1)

@@ -23,6 +23,7 @@ import os
 import shutil
 import sysconfig
 import tempfile
+import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
@@ -60,7 +61,7 @@ _together: set[str] = set()
 
 def install() -> None:
     """Make ffcx use this cache; repeated calls have no effect."""
-    if getattr(jit.get_cached_module, "shared", False):
+    if jit.get_cached_module is _find:
         return
     kernels.install()
     defaults = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS
@@ -73,7 +74,7 @@ def install() -> None:
     for options in (dolfinx_jit, ffcx_options):
         options._load_options = lambda: ({}, {})
     signature.compute_expression_signature = _counting_from_zero(signature.compute_expression_signature)
-    jit.get_cached_module = _finding(jit.get_cached_module)
+    jit.get_cached_module = _find
     jit.cffi = SimpleNamespace(FFI=libraries.Library)
     jit._compile_objects = _compiling(jit._compile_objects)
     jit._load_objects = lambda folder, name, objects: _forms(Path(folder), name, objects)
@@ -153,29 +154,36 @@ def _counting_from_zero(compute: Callable) -> Callable:
     return computed
 
 
-def _finding(find: Callable) -> Callable:
-    """Wrap the search in the cache; if it finds nothing, it returns with the lock held."""
+def _find(name: str, forms: list[str], cache_dir: Path, timeout: int) -> tuple[list[Any] | None, Any]:
+    """Forms of a finished module, and the module; without it nothing, and then the lock is held.
 
-    @functools.wraps(find)
-    def found(name: str, objects: list[str], cache_dir: Path, timeout: int) -> Any:
-        ready = Path(cache_dir) / f"{name}.c.cached"
-        if ready.exists():
-            try:
-                return _forms(ready.parent, name, objects)
-            except ImportError:  # cut short by a crash of the machine
-                ready.unlink(missing_ok=True)
+    Raises:
+        TimeoutError: If another process does not finish the module in time, where files cannot be locked.
+    """
+    source = Path(cache_dir) / f"{name}.c"
+    ready = source.with_suffix(".c.cached")
+    if ready.exists():
         try:
-            ready.parent.mkdir(parents=True, exist_ok=True)
-            if _lock(ready.with_name(f"{name}.lock")) and not ready.exists():
-                ready.with_name(f"{name}.c").unlink(missing_ok=True)  # the process that made it has ended
-                for left in ready.parent.glob(f".{name}.*"):
-                    shutil.rmtree(left, ignore_errors=True)
-        except OSError as error:
-            raise _lack(ready.parent, error) from error
-        return find(name, objects, cache_dir, timeout)
-
-    found.shared = True
-    return found
+            return _forms(ready.parent, name, forms)
+        except ImportError:  # cut short by a crash of the machine
+            ready.unlink(missing_ok=True)
+    try:
+        ready.parent.mkdir(parents=True, exist_ok=True)
+        if _lock(ready.with_name(f"{name}.lock")) and not ready.exists():
+            source.unlink(missing_ok=True)  # the process that made it has ended
+            for left in ready.parent.glob(f".{name}.*"):
+                shutil.rmtree(left, ignore_errors=True)
+        with suppress(FileExistsError), open(source, "x"):
+            return None, None
+    except OSError as error:
+        raise _lack(ready.parent, error) from error
+    for _ in range(timeout):
+        if ready.exists():
+            return _forms(ready.parent, name, forms)
+        time.sleep(1)
+    raise TimeoutError(
+        f"another process has not finished {name} in {timeout} s; if none runs, delete {source}"
+    )
 
 
 def _forms(cache_dir: Path, name: str, forms: list[str]) -> tuple[list[Any], Any]:
