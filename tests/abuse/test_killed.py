@@ -243,9 +243,11 @@ def test_compiled_forms(tmp_path):
     assert len(values) == 1
     (ready,) = made(tmp_path, ".c.cached")
     (library,) = made(tmp_path, ".so")
+    (place,) = made(tmp_path, ".form")
     assert {path.name for path in (tmp_path / "fenics").iterdir()} == {
         ready.name,
         library.name,
+        place.name,
         ready.name.removesuffix(".cached"),
     }, "nothing else is left"
 
