@@ -15,8 +15,6 @@ from weakforms.problems.diagram.problem import ROOM
 
 MESH = {"cells": 16, "levels": 2, "step": 0.2}
 FOLDS = {"body": "hemisphere", "kind": "fold", "numerics": MESH}
-
-
 AT = {"alpha": 0.02}
 
 

@@ -84,7 +84,7 @@ def install() -> None:
 
 
 def compile_together(comm: MPI.Intracomm, forms: Iterable[ufl.Form]) -> None:
-    """Compile forms into one module, in which :func:`dolfinx.fem.form` finds each of them.
+    """Compile those forms that no module has yet into one; :func:`dolfinx.fem.form` finds all of them.
 
     Collective. Signatures do not depend on the mesh, so that forms on the next mesh use the same module.
     """
@@ -101,9 +101,9 @@ def _compile_module(forms: list[ufl.Form]) -> None:
 
 
 def _looking(compile_forms: Callable) -> Callable:
-    """Wrap the function that compiles forms, so that it takes those that any module has from there.
+    """Wrap the function that compiles forms, so that it compiles only those that no module has yet.
 
-    The module that it returns is that of the first form.
+    The module that it returns is the one with the first form.
     """
 
     @functools.wraps(compile_forms)

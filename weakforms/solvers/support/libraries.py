@@ -36,7 +36,7 @@ class Library:
         self.name, self.source, self.options = name, source, options
 
     def cdef(self, declarations: str) -> None:
-        """Declarations are those of :func:`_types`, for every form."""
+        """Do nothing: :func:`_types` has the declarations for all forms."""
 
     def compile(self, tmpdir: Path, **_about_the_messages: Any) -> None:
         """Write ``NAME.c`` into a folder, and compile it to ``NAME.so``.
