@@ -113,6 +113,10 @@ SOLVES: dict[str, dict[str, Any]] = {
 LEFT_OUT = {"schema", "scales", "provenance", "residual", "iterations", "order"}
 """Entries that say where and when, or that are round-off or its quotients."""
 
+PLACES = {"Z_t_min", "X_least", "Y_least", "Z_least"}
+"""Places of a smallest resultant. In a uniform state, and at two places that mirror each other, round-off
+chooses among equal ones."""
+
 
 def sections() -> dict[str, Any]:
     """Titles with functions that give the texts."""
@@ -133,7 +137,7 @@ def outline(result: Result) -> str:
 def _entries(place: str, value: Any) -> Iterator[tuple[str, str]]:
     if isinstance(value, Mapping):
         for name, item in value.items():
-            if name not in LEFT_OUT:
+            if name not in LEFT_OUT | PLACES:
                 yield from _entries(f"{place}/{name}" if place else str(name), item)
     elif isinstance(value, np.ndarray) or (isinstance(value, list) and _are_numbers(value)):
         yield place, _numbers(np.array(value, dtype=float))

@@ -14,15 +14,16 @@ NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*(?:e[-+]?\d+)?|nan|inf)(?![\w.]
 RELATIVE, ABSOLUTE = 1e-7, 1e-9
 """Differences between numbers that another processor or release may make."""
 
-OF_UNCERTAINTY = 1e-3
-"""The same for uncertainties, relative: they are differences of numbers."""
+OF_DIFFERENCES = 1e-3
+"""The same for uncertainties and orders, relative: they are made of differences of nearly equal numbers."""
 
 
 def unlike(line: str, was: str) -> bool:
     """Whether two lines differ by more than round-off."""
     if NUMBER.sub("#", line) != NUMBER.sub("#", was):
         return True
-    relative = OF_UNCERTAINTY if "uncertainty" in line.partition(":")[0] else RELATIVE
+    of_differences = {"uncertainty", "orders"} & set(line.partition(":")[0].split("/"))
+    relative = OF_DIFFERENCES if of_differences else RELATIVE
     pairs = zip(NUMBER.findall(line), NUMBER.findall(was), strict=True)
     return any(float(a) != pytest.approx(float(b), relative, ABSOLUTE, nan_ok=True) for a, b in pairs)
 
