@@ -119,4 +119,5 @@ CASE = Case(
         ),
     ),
     asked=dict.fromkeys(("p", "V", "U"), ASKED),
+    slow=True,
 )

@@ -87,4 +87,5 @@ CASE = Case(
         ),
     ),
     asked=dict.fromkeys(("p", "zw", "V", "V_f", "U"), TAUT),
+    slow=True,
 )

@@ -154,4 +154,5 @@ CASE = Case(
             alike,
         ),
     ),
+    slow=True,
 )

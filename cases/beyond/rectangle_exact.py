@@ -177,4 +177,5 @@ CASE = Case(
             work,
         ),
     ),
+    slow=True,
 )

@@ -235,4 +235,5 @@ CASE = Case(
         Count("bifurcation_n2", {spec: int(spec == STRETCHED[0, 2]) for spec in ALL}, "two waves around"),
         Count("wrinkling_onset", {spec: 0 for spec in (SOFT, SHORT, *STRETCHED.values())}, "no compression"),
     ),
+    slow=True,
 )

@@ -114,4 +114,5 @@ CASE = Case(
         "lam1_rim": 1e-5,
         "G": 1e-6,
     },
+    slow=True,
 )

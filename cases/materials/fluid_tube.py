@@ -141,4 +141,5 @@ CASE = Case(
         "T2_mid": 1e-6,
         **dict.fromkeys(EIGENVALUES, 2e-9),
     },
+    slow=True,
 )

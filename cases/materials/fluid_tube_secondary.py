@@ -92,4 +92,5 @@ CASE = Case(
         **dict.fromkeys(("r_mid", "r_mid_pi", *(f"x_quarter_{side}" for side in SIDES)), 2e-7),
         **{f"{name}_quarter_{side}": 1e-6 for name in ("z", "T1", "T2") for side in SIDES},
     },
+    slow=True,
 )

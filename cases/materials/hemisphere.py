@@ -73,4 +73,5 @@ CASE = Case(
         ),
     ),
     asked=dict.fromkeys(("z_pole", "V", "lam_pole", "t_level", "t_front_1", "t_front_2"), 5e-9),
+    slow=True,
 )

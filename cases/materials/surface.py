@@ -61,4 +61,5 @@ CASE = Case(
         ),
         Claim("stable", "the equilibria are stable at these levels", tuple((s, None) for s in ALL), stable),
     ),
+    slow=True,
 )

@@ -51,4 +51,5 @@ CASE = Case(
             more_waves_earlier,
         ),
     ),
+    slow=True,
 )

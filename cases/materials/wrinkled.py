@@ -109,4 +109,5 @@ CASE = Case(
             stable,
         ),
     ),
+    slow=True,
 )

@@ -105,4 +105,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 1e-7, "lf": 1e-7, "delta1": 1e-7},
+    slow=True,
 )

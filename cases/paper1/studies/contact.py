@@ -136,4 +136,5 @@ CASE = Case(
         "sigma_pole": 1e-6,
         "V": 1e-6,
     },
+    slow=True,
 )

@@ -60,4 +60,5 @@ CASE = Case(
         )
         for kind, statement in STATEMENTS.items()
     ),
+    slow=True,
 )

@@ -88,4 +88,5 @@ CASE = Case(
             same_as_free,
         ),
     ),
+    slow=True,
 )

@@ -122,4 +122,5 @@ CASE = Case(
         "gw_min": 5e-9,
         "wrinkled_fraction": 1e-6,
     },
+    slow=True,
 )

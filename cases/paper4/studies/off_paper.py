@@ -69,4 +69,5 @@ CASE = Case(
         "gw_max": 2e-6,
         "wrinkled_fraction": 1e-7,
     },
+    slow=True,
 )

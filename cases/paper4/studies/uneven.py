@@ -132,4 +132,5 @@ CASE = Case(
         "lam_pole": 1e-6,
         "lam1_rim": 1e-6,
     },
+    slow=True,
 )

@@ -192,4 +192,5 @@ CASE = Case(
             resolved_waves,
         ),
     ),
+    slow=True,
 )

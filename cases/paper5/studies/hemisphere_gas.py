@@ -191,4 +191,5 @@ CASE = Case(
         ),
     ),
     asked={"gw": 5e-8, "z_pole": 5e-8, "V": 5e-8, "lam_pole": 5e-8, "p": 5e-9},
+    slow=True,
 )

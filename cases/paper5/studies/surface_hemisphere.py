@@ -94,4 +94,5 @@ CASE = Case(
             "stable", "the equilibria are stable at these levels", tuple((s, None) for s in MESHES), stable
         ),
     ),
+    slow=True,
 )
