@@ -28,6 +28,9 @@ def seed_of(text: str) -> int:
     return zlib.crc32(text.encode())
 
 
+ROUND_OFF = 1e-11
+"""A smaller value is none: with it, the points would depend on the processor and on the number of ranks."""
+
 AT = 1e-6
 """Relative to the range of each column, how near a point of a trace is to a special point that is meant."""
 
@@ -84,7 +87,7 @@ def draw(branch: Branch, columns: Sequence[str], seed: int, without: Container[i
 
 
 def _has_value(value: float) -> bool:
-    return bool(np.isfinite(value) and value != 0)
+    return bool(np.isfinite(value) and abs(value) > ROUND_OFF)
 
 
 def _separates(values: np.ndarray, i: int) -> bool:

@@ -47,6 +47,15 @@ def test_a_trace_that_is_its_states_passes():
     assert [v.check for v in TRACE.judge(2, stored())] == TRACE.names(2)
 
 
+def test_round_off_does_not_decide_which_points_are_drawn():
+    """A traction of Mooney-Rivlin's patch that is zero was 0 or 3e-15, by the number of ranks."""
+    noise = 3e-15 * np.random.default_rng(7).integers(0, 2, len(U))
+    quiet, noisy = (Branch("primary", "p", COLUMNS | {"sigma": sigma}) for sigma in (0 * U, noise))
+    for seed in range(10):
+        drawn = [list(islice(draw(branch, ["u_max"], seed), 5)) for branch in (quiet, noisy)]
+        assert drawn[0] == drawn[1]
+
+
 @pytest.mark.parametrize("name", COLUMNS)
 @pytest.mark.parametrize("factor", [1.01, -1.0, np.nan])
 def test_a_column_that_is_off_all_along_fails(name, factor):
