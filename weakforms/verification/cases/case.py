@@ -25,7 +25,8 @@ class Case:
     quick: bool = False
     """Whether it belongs to the quick profile, whose cases take three minutes together."""
     slow: bool = False
-    """Whether it takes minutes, so that only ``verify`` and the tests marked slow run it."""
+    """Whether only ``verify`` and the tests marked slow run it: it takes half a minute or more, and shows no
+    figure or table of a paper."""
     tags: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
