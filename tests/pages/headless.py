@@ -41,6 +41,10 @@ CONTRASTS = """(() => {
 """The least contrasts of text with what is behind it, after WCAG 2."""
 
 
+class PageLeftError(Exception):
+    """The browser went on to another page while a script ran."""
+
+
 class Browser:
     """One browser with one page; use it in a ``with`` statement."""
 
@@ -87,6 +91,8 @@ class Browser:
             message["sessionId"] = self._session
         os.write(self._write, json.dumps(message).encode() + b"\0")
         answer = self._until(lambda heard: heard.get("id") == self._number)
+        if "navigated" in answer.get("error", {}).get("message", ""):
+            raise PageLeftError(method)
         assert "error" not in answer, (method, answer["error"])
         return answer["result"]
 
