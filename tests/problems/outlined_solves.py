@@ -5,6 +5,7 @@ each column, where a branch ends, how many points its trace has, uncertainties, 
 rebuild that is to change no number changes none of them.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any
@@ -113,9 +114,9 @@ SOLVES: dict[str, dict[str, Any]] = {
 LEFT_OUT = {"schema", "scales", "provenance", "residual", "iterations", "order"}
 """Entries that say where and when, or that are round-off or its quotients."""
 
-PLACES = {"Z_t_min", "X_least", "Y_least", "Z_least"}
-"""Places of a smallest resultant. In a uniform state, and at two places that mirror each other, round-off
-chooses among equal ones."""
+UNDECIDED = re.compile(r"/[XYZ]_least|branches.*/Z_t_min")
+"""Places of a smallest resultant that are left out too. In a uniform state, and where two places mirror each
+other, the resultants are equal and round-off chooses the place."""
 
 
 def sections() -> dict[str, Any]:
@@ -137,8 +138,9 @@ def outline(result: Result) -> str:
 def _entries(place: str, value: Any) -> Iterator[tuple[str, str]]:
     if isinstance(value, Mapping):
         for name, item in value.items():
-            if name not in LEFT_OUT | PLACES:
-                yield from _entries(f"{place}/{name}" if place else str(name), item)
+            inner = f"{place}/{name}" if place else str(name)
+            if name not in LEFT_OUT and not UNDECIDED.search(inner):
+                yield from _entries(inner, item)
     elif isinstance(value, np.ndarray) or (isinstance(value, list) and _are_numbers(value)):
         yield place, _numbers(np.array(value, dtype=float))
     elif isinstance(value, list | tuple):

@@ -11,7 +11,7 @@ from weakforms.solvers.support.sampling import Peak, lowest_on_grid
 DENSE = np.linspace(0.0, 1.0, 200_001)
 
 ROUND_OFF = 1e-14
-"""Of a polynomial of the sixth degree, evaluated at two places of the same value near 1."""
+"""Two evaluations of the same polynomial of the sixth degree, near 1, may differ by this much."""
 
 
 def peak_of(function, cells: int, degree: int) -> tuple[float, float]:

@@ -29,7 +29,8 @@ def seed_of(text: str) -> int:
 
 
 ROUND_OFF = 1e-11
-"""A smaller value is none: with it, the points would depend on the processor and on the number of ranks."""
+"""A column whose value is smaller counts as zero. Round-off, which depends on the processor and on the number
+of ranks, must not choose the points."""
 
 AT = 1e-6
 """Relative to the range of each column, how near a point of a trace is to a special point that is meant."""
