@@ -242,6 +242,26 @@ def test_copies_of_an_eigenvalue_that_were_missed_are_looked_for(monkeypatch):
     assert max(looks) > 0, "it looked again, apart from those found"
 
 
+def test_each_search_for_copies_starts_elsewhere():
+    """A search finds the part of its start in an eigenspace; apart from that, the same start has nothing."""
+    lowest = Lowest(system_of(lambda u, v, _p: u.dx(0) * v.dx(0), "Lagrange", 2, 20, ends=True))
+    first, second, again = (lowest._start(seed).array for seed in (0, 1, 0))
+    assert np.abs(first - again).max() == 0.0
+    assert abs(first @ second) < 0.5 * np.linalg.norm(first) * np.linalg.norm(second)
+
+
+def test_targets_of_many_negative_eigenvalues_are_few(monkeypatch):
+    """A column beyond its 30th buckling load: the counts say how far below zero the lowest eigenvalue is."""
+    load = (30.5 * np.pi) ** 2
+    system = system_of(lambda u, v, _p: u.dx(0) * v.dx(0) - load * u * v, "Lagrange", 2, 200, ends=True)
+    lowest = Lowest(system)
+    right, targets = lowest._below, []
+    monkeypatch.setattr(lowest, "_below", lambda target: targets.append(target) or right(target))
+    assert lowest(system.initial, 1)[0].eigenvalue == pytest.approx(np.pi**2 - load, rel=1e-6)
+    below = [target for target in targets if target <= np.pi**2 - load]
+    assert targets.index(below[0]) < 5
+
+
 def test_the_mode_of_a_double_eigenvalue_is_the_same_whichever_copies_are_found(monkeypatch):
     system = system_of(lambda u, v, _p: ufl.inner(u.dx(0), v.dx(0)), "Lagrange", 2, 20, ends=True, shape=(2,))
     first = Lowest(system)(system.initial, 2)[0].vector

@@ -225,7 +225,7 @@ class SurfaceRun:
                 "iterations": point.record.iterations,
             }
         if count and f"Lambda_{count}" not in point.values:
-            modes = self._lowest(point.state, count)
+            modes = self._lowest(point.state, count, point.n_negative)
             point.lowest = modes[0]
             point.values |= {f"Lambda_{i}": mode.eigenvalue for i, mode in enumerate(modes, 1)}
         return point.values

@@ -18,18 +18,29 @@ from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.eigensolver import by_inverse, give_back, shift_and_invert
 from weakforms.solvers.stability.spectra import LOWEST, Mode
 
-ROUGH, SHARP = 1e-3, 1e-11
+ROUGH, SHARP = 1e-2, 1e-11
 """Relative residuals of the first search and of the returned modes."""
 
-BELOW = (1e-3, 0.02)
-"""Distances of the target below the lowest eigenvalue, relative to its magnitude, the nearest first: the
-eigenvalues next to the lowest are as close to it, and only a target that is as near separates them."""
+CLOSE = 1e-3
+"""Distance of the target below the lowest eigenvalue, relative to its magnitude: the eigenvalues next to the
+lowest are as close to it, and only a target that is as near separates them."""
+
+SHARES = (0.01, 0.1)
+"""Distances of a nearer target below the estimate of the lowest eigenvalue, relative to that of the last one.
+The first is several times the error of the estimate; the second is tried if eigenvalues lie below it."""
+
+ESTIMATES = 3
+"""Largest number of estimates of the lowest eigenvalue."""
 
 APART = 1e-8
 """Eigenvalues closer together than this relative distance are copies of one."""
 
-BEYOND = 1.25
-"""Ratio of the first target to the last lowest eigenvalue, if that was negative."""
+BEYOND, REACH = 1.25, 1.5
+"""Ratio of a target to the last lowest eigenvalue, if that was negative, and of its distance from the target
+before to where the counts at both would let the lowest one be."""
+
+STRIDES = (2.0, 16.0)
+"""Smallest and largest ratio of a target to the one before, while eigenvalues lie below."""
 
 ATTEMPTS = 6
 """Number of searches for missing copies."""
@@ -60,8 +71,10 @@ class Lowest:
         self._last: float | None = None
         """The last lowest eigenvalue; the next one is searched near it first."""
 
-    def __call__(self, state: State, count: int) -> list[Mode]:
+    def __call__(self, state: State, count: int, n_negative: int = 0) -> list[Mode]:
         """The ``count`` lowest eigenvalues in ascending order, multiple ones repeated, with their modes.
+
+        ``n_negative`` is the number of negative ones, if it is known and not zero.
 
         The first mode is the same on any number of ranks, also in sign and, for a multiple eigenvalue, in
         direction: it is the projection of a generic displacement.
@@ -71,7 +84,9 @@ class Lowest:
         """
         with self.system.at(state):
             self.system.tangent()
-            self._factorise(0.0, anew=True)
+            self._target, self._count = 0.0, n_negative
+            if not n_negative:
+                self._factorise(0.0, anew=True)
             try:
                 modes = self._lowest(count)
             finally:
@@ -80,15 +95,8 @@ class Lowest:
         return modes
 
     def _lowest(self, count: int) -> list[Mode]:
-        self._go_below()
-        target = self._target
-        (first,) = self._solve(1, target, ROUGH, [])[:1]
-        for share in BELOW:
-            near = first[0] - share * max(abs(first[0]), 1e-3)
-            if near > target and not self._below(near):
-                target = near
-                break
-        found = self._solve(count, target, SHARP, [])
+        target = self._nearest_target()
+        found = self._solve(count + 1, target, SHARP, [])  # one more often is a copy
         for _ in range(ATTEMPTS):
             found = sorted(found, key=lambda pair: pair[0])
             last = found[count - 1][0]
@@ -97,6 +105,22 @@ class Lowest:
                 return self._directed([self._mode(*pair) for pair in found])[:count]
             found += self._solve(count, target, SHARP, [vector for _, vector in found])
         raise ConvergenceError("stability: SLEPc finds fewer lowest eigenvalues than the inertia counts")
+
+    def _nearest_target(self) -> float:
+        """A target just below the lowest eigenvalue, estimated anew from nearer ones while that helps."""
+        self._go_below()
+        target = self._target
+        for _ in range(ESTIMATES):
+            lowest = self._solve(1, target, ROUGH, [])[0][0]
+            close = CLOSE * max(abs(lowest), 1e-3)
+            near = [lowest - max(close, share * (lowest - target)) for share in SHARES]
+            nearer = next((one for one in near if one > target and not self._below(one)), None)
+            if nearer is None:
+                break
+            target = nearer
+            if lowest - target < 4 * close:
+                break
+        return target
 
     def _shift(self, target: float) -> None:
         """Make the matrix ``K - target M``."""
@@ -117,12 +141,18 @@ class Lowest:
         return self._count
 
     def _go_below(self) -> None:
-        """Factorise at zero, or at the first target of a growing series, below all eigenvalues."""
+        """Factorise at zero, or at the first target of a growing series, below all eigenvalues.
+
+        The counts at the last two targets say where none would be left if they fell evenly.
+        """
         if not self._count:
             return
+        before, higher = self._count, 0.0
         target = BEYOND * self._last if self._last is not None and self._last < 0 else -1.0
-        while self._below(target):
-            target *= 2
+        while count := self._below(target):
+            reach = REACH * count * (higher - target) / max(before - count, 1)
+            least, most = (ratio * target for ratio in STRIDES)
+            before, higher, target = count, target, min(least, max(most, target - reach))
             if target < LOWEST:
                 raise ConvergenceError(f"stability: there are eigenvalues below {LOWEST:g}")
 
@@ -136,6 +166,8 @@ class Lowest:
         eps.setTarget(0.0)  # the matrix is shifted
         eps.setDimensions(nev=wanted)
         eps.setTolerances(tol=tolerance, max_it=300)
+        # A search finds the part of its start in each eigenspace: further copies need another start.
+        eps.setInitialSpace([self._start(len(apart_from))])
         if apart_from:
             eps.setDeflationSpace(apart_from)
         by_inverse(eps, self._callbacks).solve = self.factor.solve
@@ -156,6 +188,14 @@ class Lowest:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
         finally:
             give_back(eps)
+
+    def _start(self, seed: int) -> PETSc.Vec:
+        """A random vector, another one for each seed."""
+        vector = self.system.matrix.createVecRight()
+        vector.array_w[:] = np.random.default_rng((seed, self.system.comm.rank)).standard_normal(
+            self.system.size
+        )
+        return vector
 
     def _mode(self, eigenvalue: float, vector: PETSc.Vec) -> Mode:
         array = vector.array.copy()
