@@ -12,10 +12,17 @@ from rich.table import Table
 from weakforms.terminal import WorkProgress
 
 ROWS, COLUMNS = 40, 96
-"""Quadrilaterals along and around on the first mesh; each further mesh doubles one of them in turn."""
+"""Quadrilaterals along and around on the first mesh; each further mesh doubles one of them in turn, and the
+last one has as many along as the number of unknowns allows, if that is worth another mesh."""
+
+WORTH = 1.25
+"""Ratio of unknowns by which one mesh exceeds the mesh before at least."""
 
 LEVELS = (0.5, 3.0, 4.0)
 """Loads of the states; the last one is measured."""
+
+EIGENVALUES = 3
+"""Number of lowest eigenvalues."""
 
 
 def run_surface_bench(unknowns: int, progress: WorkProgress | None = None) -> dict[str, Any]:
@@ -41,6 +48,9 @@ def run_surface_bench(unknowns: int, progress: WorkProgress | None = None) -> di
     while 3 * (meshes[-1][0] + 1) * meshes[-1][1] < unknowns / 2:
         rows, columns = meshes[-1]
         meshes.append((2 * rows, columns) if len(meshes) % 2 else (rows, 2 * columns))
+    rows, columns = unknowns // (3 * meshes[-1][1]) - 1, meshes[-1][1]
+    if rows > WORTH * meshes[-1][0]:
+        meshes.append((rows, columns))
     table, progress = [], progress or WorkProgress()
     for i, (rows, columns) in enumerate(meshes):
         progress(f"{rows} x {columns}", i, len(meshes))
@@ -64,10 +74,11 @@ def run_surface_bench(unknowns: int, progress: WorkProgress | None = None) -> di
             run.stability.factor.update()
         point.n_negative = run.stability.factor.negative_count()
         lap("inertia_s")
-        values = run.columns(point, 1)
+        values = run.columns(point, EIGENVALUES)
         lap("lowest_s")
         row |= {name: values[name] for name in ("n_negative", "Lambda_1", "V", "residual")}
         row["peak_mib"] = comm.allreduce(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) / 1024
+        del run, point  # before the next mesh needs the memory
         table.append(row)
         progress.line(
             ", ".join(f"{name} {text}" for name, text in zip(HEADINGS.values(), _texts(row), strict=True))
@@ -76,7 +87,12 @@ def run_surface_bench(unknowns: int, progress: WorkProgress | None = None) -> di
 
 
 HEADINGS = {"mesh": "mesh", "unknowns": "unknowns", "set_up_s": "set up", "states_s": "states"}
-HEADINGS |= {"inertia_s": "inertia", "lowest_s": "lowest", "peak_mib": "memory", "n_negative": "negative"}
+HEADINGS |= {
+    "inertia_s": "inertia",
+    "lowest_s": f"lowest {EIGENVALUES}",
+    "peak_mib": "memory",
+    "n_negative": "negative",
+}
 HEADINGS |= {"Lambda_1": "Lambda_1"}
 DIGITS = {"Lambda_1": 6, "peak_mib": 4}
 
