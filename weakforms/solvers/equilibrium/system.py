@@ -55,10 +55,9 @@ class System(Lendable):
         fem_petsc.set_bc(self._sums.petsc_vec, formulation.bcs)
         self._bc_values = self._assembled[self.bc_dofs]
         self._fixed = len(self.bc_dofs)
-        self.matrix = fem_petsc.create_matrix(self._form("tangent"))
+        self.matrix = self._unfilled_matrix()
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
-        self._mass_entries: PETSc.Mat | None = None
         self._update_mass()
         self._give_up()
 
@@ -81,14 +80,18 @@ class System(Lendable):
         """``∂R/∂λ``, compiled when needed, because few of these derivatives are used."""
         return ufl.diff(self.formulation.residual, self.formulation.loads[load][1])
 
+    def _unfilled_matrix(self) -> PETSc.Mat:
+        """A matrix for the tangent, which has the entries of every form on this space."""
+        return fem_petsc.create_matrix(self._form("tangent"))
+
     def _mass_matrix(self) -> PETSc.Mat:
         """Mass matrix with *zero* Dirichlet rows, which add no finite eigenvalue."""
-        if self._mass_entries is None:
-            self._mass_entries = fem_petsc.create_matrix(self._form("mass"))
-        self._mass_entries.zeroEntries()
-        fem_petsc.assemble_matrix(self._mass_entries, self._form("mass"), self.formulation.bcs, 0.0)
-        self._mass_entries.assemble()
-        return without_zeros(self._mass_entries)
+        entries = self.matrix.duplicate()
+        fem_petsc.assemble_matrix(entries, self._form("mass"), self.formulation.bcs, 0.0)
+        entries.assemble()
+        compact = without_zeros(entries)
+        entries.destroy()  # it is as large as the tangent
+        return compact
 
     @property
     def mass(self) -> PETSc.Mat:

@@ -152,6 +152,10 @@ class HalfSystem(System):
         self._weighed = -1
         super().__init__(formulation)
 
+    def _unfilled_matrix(self) -> PETSc.Mat:
+        """That of the system with the same unknown, if there is one: its entries take long to find."""
+        return self._beside.matrix.duplicate() if self._beside else super()._unfilled_matrix()
+
     @property
     def is_lent(self) -> bool:
         """Whether the forms, or those of the system with the same unknown, belong to a state."""
