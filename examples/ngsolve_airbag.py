@@ -2,9 +2,9 @@
 
 A quarter of one of two sheets is solved, with Saint Venant and Kirchhoff's law in plane stress and without
 resistance to compression. Relaxed energy and volume of the gas are functions of the position; NGSolve makes
-forces and tangent from them, and steps on which the potential falls lead to a minimum. The table has one row,
-so that there is no curve for ``weakforms.compare``: each number is judged by the rule of the project's cases.
-Its uncertainty is its difference between two meshes.
+forces and tangent from them, and steps on which the potential falls lead to a minimum. It is one state, at
+the printed pressure: each number is judged by the rule of the project's cases, and its uncertainty is its
+difference between two meshes. (``weakforms.compare`` judges a curve, by the table ``airbag_pressures``.)
 Run: ``python examples/ngsolve_airbag.py`` (needs ngsolve and weakforms; no DOLFINx).
 """
 

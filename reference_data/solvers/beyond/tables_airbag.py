@@ -19,6 +19,9 @@ CUBIC, QUADRATIC = (3, (4, 8)), (2, (8, 16))
 PRINTED = 5e3 * (1.2 / 8**0.5) / (588e6 * 0.6e-3)
 """``P a/(E h)`` with 5 kPa, a diagonal of 1.2 m, 588 MPa and 0.6 mm."""
 
+PRESSURES = (0.004, PRINTED, 0.009, 0.013, 0.018, 0.024)
+"""The printed one and others, for a curve."""
+
 SERIES = Series(
     paper="beyond",
     source="Square airbag; set-up of a published finite element model (COMSOL)",
@@ -50,26 +53,33 @@ SCATTER = (
 )
 
 
-def state(name: str) -> Table:
-    """One state by both families, each on two meshes whose difference is the uncertainty.
+def states(name: str, title: str, pressures: tuple[float, ...]) -> Table:
+    """Minima at the pressures by both families, each on two meshes whose difference is the uncertainty.
 
     The height of the centre has a further uncertainty, its scatter.
     """
     found = {}
     for key, (degree, counts) in {"a": QUADRATIC, "b": CUBIC}.items():
-        coarse, fine = (Bag(count, degree, NU).least(PRINTED) for count in counts)
+        coarse, fine = ([Bag(count, degree, NU).least(p) for p in pressures] for count in counts)
         found[key] = {
-            n: Levels([coarse[n]], [fine[n]], floor=PLEATS if n == "w_c" else 0.0)
+            n: Levels([x[n] for x in coarse], [x[n] for x in fine], floor=PLEATS if n == "w_c" else 0.0)
             for n in SERIES.columns
             if n != "p"
         }
-    columns = SERIES.keys(p=np.array([PRINTED]))
+    columns = SERIES.keys(p=np.array(pressures))
     columns += [
         agreed(name, n, found["a"][n], first, SERIES.columns[n], "biquadratic", "bicubic")
         for n, first in found["b"].items()
     ]
     facts = {"mesh": "airbag", "model": "saint_venant_kirchhoff", "poisson": NU, "delta": 1.0}
-    return SERIES.table(name, "Square airbag at the printed pressure", "", facts, columns, notes=SCATTER)
+    return SERIES.table(name, title, "", facts, columns, notes=SCATTER)
 
 
-TABLES: dict[str, Builder] = {"airbag": partial(state, "airbag")}
+TABLES: dict[str, Builder] = {
+    name: partial(states, name, *chosen)
+    for name, chosen in {
+        "airbag": ("Square airbag at the printed pressure", (PRINTED,)),
+        "airbag_pressures": ("Square airbag at several pressures", PRESSURES),
+    }.items()
+}
+"""A square airbag: least energy of one sheet on quadrilateral elements."""
