@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from reference_data.solvers.beyond.tables_torus import USUAL, _largest
 from reference_data.solvers.beyond.torus.fourier import Series
 from reference_data.solvers.beyond.torus.shooting import Shooting
+from reference_data.solvers.beyond.torus.tables import USUAL, _largest
 from reference_data.solvers.core.mooney_rivlin import energy, slope
 
 VOLUME = round(1.05 * USUAL.volume, 6)
