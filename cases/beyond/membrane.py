@@ -27,6 +27,12 @@ DELTA = 1.1
 DISK = membrane(alpha=0.0, delta=DELTA, w_end=1.3)
 POLYGON = membrane(alpha=0.0, delta=DELTA, w_end=0.7).on(degree=1)
 SQUARE = membrane(mesh="square", alpha=0.0, delta=DELTA, w_end=1.5).on(cells=12)
+KIRCHHOFF = membrane(
+    **{"mesh": "square", "delta": DELTA, "w_end": 0.8},
+    **{"model": "saint_venant_kirchhoff", "shear": 1 / 2.8, "poisson": 0.4},
+).on(cells=12)
+"""Another law, over Young's modulus, which many codes have."""
+
 REVOLVED = circular(alpha=0.0, beta=DELTA, l=5)
 ASKED = 1e-4
 """Asked of taut states, degree 2 with curved triangles; the meshes are coarser than those of rectangle."""
@@ -89,6 +95,13 @@ CASE = Case(
                 Curve(SQUARE, "square", reference="rectangle_gas_neo_hookean"),
                 Curve(DISK, "disk"),
             ),
+        ),
+        Panel(
+            "kirchhoff",
+            x=Axis("w_c", 0, 0.8, "$w_c$"),
+            y=Axis("p", 0, 1.4, "$p$"),
+            note="Not a figure of the thesis. Pressures are over E h/a.",
+            curves=(Curve(KIRCHHOFF, "square, Saint Venant and Kirchhoff", reference="square_kirchhoff"),),
         ),
     ),
     checks=(

@@ -44,8 +44,9 @@ def test_a_code_that_cannot_be_installed_keeps_no_other_from_its_verdict(started
     assert status == 1
     assert "not run: sfepy could not be installed" in said
     felupe, scikit = ["felupe>=10.2", "felupe_balloon.py"], ["scikit-fem", "scikit_fem_disk.py"]
+    kratos = ["KratosStructuralMechanicsApplication>=10.4", "kratos_square.py"]
     ngsolve = ["ngsolve", "ngsolve_airbag.py", "ngsolve", "ngsolve_square.py"]
-    assert log == ["tree", *felupe, *ngsolve, *scikit, "scipy_tube.py", "sfepy"]
+    assert log == ["tree", *felupe, *kratos, *ngsolve, *scikit, "scipy_tube.py", "sfepy"]
 
 
 def test_decks_need_the_codes_named_only(started):
@@ -57,4 +58,7 @@ def test_decks_need_the_codes_named_only(started):
 def test_a_program_that_there_is_not_is_refused_before_anything_is_installed(started):
     status, said, log = started("scipy")
     assert (status, log) == (2, [])
-    assert "there are felupe_balloon ngsolve_airbag ngsolve_square scikit_fem_disk scipy_tube" in said
+    assert (
+        "there are felupe_balloon kratos_square ngsolve_airbag ngsolve_square scikit_fem_disk scipy_tube"
+        in said
+    )

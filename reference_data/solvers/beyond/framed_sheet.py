@@ -1,7 +1,8 @@
 """A framed rectangular sheet at points: stresses, their derivatives, and the load, for both methods.
 
 Mooney-Rivlin, ``W = t + 1/d - 3 + alpha (d + t/d - 3)`` with ``t = c1 + c2`` and ``d = c1 c2 - c3^2``, a
-function of ``c = (x_X.x_X, x_Y.x_Y, x_X.x_Y)``. The sheet must be taut.
+function of ``c = (x_X.x_X, x_Y.x_Y, x_X.x_Y)``; or the law of Saint Venant and Kirchhoff in plane stress. The
+sheet must be taut.
 """
 
 from __future__ import annotations
@@ -17,16 +18,39 @@ Array = np.ndarray
 
 
 @dataclass(frozen=True)
+class Kirchhoff:
+    """``W = [e1^2 + e2^2 + 2 nu e1 e2 + (1 - nu) c3^2/2]/(2 (1 - nu^2))`` with ``e = (c - 1)/2``.
+
+    It is over Young's modulus and the thickness; ``nu`` is Poisson's ratio.
+    """
+
+    nu: float
+
+    def energy(self, c: Array) -> Array:
+        """``W`` for ``c`` of shape (3, q)."""
+        e1, e2 = (c[0] - 1) / 2, (c[1] - 1) / 2
+        both = e1**2 + e2**2 + 2 * self.nu * e1 * e2 + (1 - self.nu) * c[2] ** 2 / 2
+        return both / (2 * (1 - self.nu**2))
+
+    def derivatives(self, c: Array) -> tuple[Array, Array]:
+        """Gradient (3, q) and Hessian (3, 3, q) of ``W`` in ``c``."""
+        nu = self.nu
+        hessian = np.array([[1, nu, 0], [nu, 1, 0], [0, 0, 2 * (1 - nu)]]) / (4 * (1 - nu**2))
+        gradient = hessian @ np.array([c[0] - 1, c[1] - 1, c[2]])
+        return gradient, np.repeat(hessian[:, :, None], c.shape[1], axis=2)
+
+
+@dataclass(frozen=True)
 class Framed:
     """The sheet [-1, 1] x [-1, 1] with its frame at ``delta (X, Y)``, and its load.
 
     Attributes:
-        alpha: C2/C1.
+        alpha: C2/C1, or another law.
         delta: Pre-stretch.
         gamma: Weight of the liquid on top; 0 for gas from below.
     """
 
-    alpha: float
+    alpha: float | Kirchhoff
     delta: float = 1.1
     gamma: float = 0.0
 
@@ -47,14 +71,18 @@ class Framed:
         return np.maximum(load - z, 0.0) if self.gamma else z
 
 
-def energy(c: Array, alpha: float) -> Array:
+def energy(c: Array, alpha: float | Kirchhoff) -> Array:
     """``W`` for ``c`` of shape (3, q)."""
+    if isinstance(alpha, Kirchhoff):
+        return alpha.energy(c)
     t, d = c[0] + c[1], c[0] * c[1] - c[2] ** 2
     return t + 1 / d - 3 + alpha * (d + t / d - 3)
 
 
-def derivatives(c: Array, alpha: float) -> tuple[Array, Array]:
+def derivatives(c: Array, alpha: float | Kirchhoff) -> tuple[Array, Array]:
     """Gradient (3, q) and Hessian (3, 3, q) of ``W`` in ``c``."""
+    if isinstance(alpha, Kirchhoff):
+        return alpha.derivatives(c)
     t, d = c[0] + c[1], c[0] * c[1] - c[2] ** 2
     one, none = np.ones_like(t), np.zeros_like(t)
     dt, dd = np.array([one, one, none]), np.array([c[1], c[0], -2 * c[2]])
@@ -68,7 +96,7 @@ def derivatives(c: Array, alpha: float) -> tuple[Array, Array]:
     return w_t * dt + w_d * dd, hessian
 
 
-def stresses(x1: Array, x2: Array, alpha: float) -> tuple[Array, Array]:
+def stresses(x1: Array, x2: Array, alpha: float | Kirchhoff) -> tuple[Array, Array]:
     """First Piola stresses (2, 3, q) over the tangents ``x_X, x_Y`` (3, q), and their derivative.
 
     The derivative has the shape (2, 3, 2, 3, q): by direction and component of stress and of tangent.

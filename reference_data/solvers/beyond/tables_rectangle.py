@@ -10,7 +10,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import Chebyshev
 
 from reference_data.solvers.beyond.collocated_sheet import CollocatedSheet
-from reference_data.solvers.beyond.framed_sheet import Array, Found, Framed, follow, limit, solve
+from reference_data.solvers.beyond.framed_sheet import Array, Found, Framed, Kirchhoff, follow, limit, solve
 from reference_data.solvers.beyond.ritz_sheet import RitzSheet
 from reference_data.solvers.core.tables import (
     TWO_GRIDS,
@@ -72,10 +72,15 @@ class Inflated:
     @property
     def facts(self) -> dict[str, object]:
         """Parameters of the problem."""
+        law = self.sheet.alpha
+        if isinstance(law, Kirchhoff):  # a law of membrane, not of rectangle
+            facts = {"mesh": "square", "model": "saint_venant_kirchhoff", "poisson": law.nu}
+            return facts | {"delta": self.sheet.delta}
         liquid = {"load": "liquid", "gamma": self.sheet.gamma} if self.sheet.gamma else {"load": "gas"}
-        return {**liquid, "alpha": self.sheet.alpha, "delta": self.sheet.delta, "c": 1.0}
+        return {**liquid, "alpha": law, "delta": self.sheet.delta, "c": 1.0}
 
 
+GAS_KIRCHHOFF = Inflated(Framed(Kirchhoff(0.4)), 0.025)
 GAS_NEO_HOOKEAN, GAS = Inflated(Framed(0.0), 0.12), Inflated(Framed(0.1), 0.13)
 LIGHT_NEO_HOOKEAN = Inflated(Framed(0.0, gamma=1.0), 0.08)
 LIGHT, HEAVY = Inflated(Framed(0.1, gamma=1.0), 0.1), Inflated(Framed(0.1, gamma=5.0), -0.006)
@@ -184,6 +189,7 @@ TABLES: dict[str, Builder] = {
             *("rectangle_gas_neo_hookean", curve, "Neo-Hookean square sheet under gas", GAS_NEO_HOOKEAN),
             steps(0.1, 1.5, 0.1),
         ),
+        ("square_kirchhoff", curve, "Square sheet under gas, C1 = E", GAS_KIRCHHOFF, steps(0.1, 0.8, 0.05)),
         ("rectangle_liquid", curve, "Square sheet under a light liquid", LIGHT, steps(0.1, 1.4, 0.1)),
         ("rectangle_heavy", curve, "Square sheet under a heavy liquid", HEAVY, steps(0.5, 1.0, 0.1)),
         (

@@ -6,6 +6,7 @@ import pytest
 from reference_data.solvers.beyond.collocated_sheet import CollocatedSheet, chebyshev
 from reference_data.solvers.beyond.framed_sheet import (
     Framed,
+    Kirchhoff,
     derivatives,
     energy,
     follow,
@@ -32,7 +33,7 @@ def metric(x1, x2):
     return np.array([np.sum(x1 * x1, 0), np.sum(x2 * x2, 0), np.sum(x1 * x2, 0)])
 
 
-@pytest.mark.parametrize("alpha", [0.0, 0.1])
+@pytest.mark.parametrize("alpha", [0.0, 0.1, Kirchhoff(0.4)])
 def test_gradient_and_hessian_are_those_of_the_energy(alpha):
     c, h = metric(*tangents()), 1e-20
     gradient, hessian = derivatives(c, alpha)
