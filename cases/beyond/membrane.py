@@ -2,7 +2,7 @@
 
 The disk is that of Paper 1 before contact, with lengths over the stress-free radius: p and V are those of
 circular times 1/beta and 2 pi beta^3. The square is that of rectangle, whose tables come from spectral
-methods.
+methods; so does the table of a square of Saint Venant and Kirchhoff's law.
 """
 
 import numpy as np

@@ -1,8 +1,9 @@
 """A clamped rubber disk under gas: the thin limit of a benchmark of finite elements, by two problems.
 
 Oden (1972) and Hughes & Carnoy (1983) inflate a disk of radius 7.5 in, 0.5 in thick, of Mooney and Rivlin's
-law with 80 and 20 psi. A thickness of a fifteenth of the radius is not that of a membrane: their curves lie
-beside this one and are not compared. Here P = 5.333 p psi, and heights are 7.5 t0 in.
+law with 80 and 20 pounds per square inch. A thickness of a fifteenth of the radius is not that of a membrane:
+their curves lie beside this one and are not compared. Pressures are 5.333 p pounds per square inch, heights
+7.5 t0 in.
 """
 
 import numpy as np
@@ -58,7 +59,7 @@ CASE = Case(
         Panel(
             "pressure",
             x=Axis("t0", 0, 4),
-            y=Axis("p", 0, 20),
+            y=Axis("p", 0, 14),
             note="Not a figure of the thesis. The published disk is thick: R = 7.5 in, h = 0.5 in.",
             curves=(Curve(LINE, r"$\alpha = 0.25$", reference="rubber_disk"),),
         ),
