@@ -1,4 +1,4 @@
-"""Finds tables: every module ``tables*`` in a folder of a paper or a group has a dictionary of them."""
+"""Finds tables: every module ``tables*`` in or below a folder of a paper or a group has a dictionary."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ def tables() -> dict[str, tuple[int | str, Builder]]:
     for folder in solvers_folders():
         group = int(folder.removeprefix("paper")) if folder.startswith("paper") else folder
         package = importlib.import_module(f"{solvers.__name__}.{folder}")
-        for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda i: i.name):
-            if not info.name.startswith("tables"):
+        below = pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+        for info in sorted(below, key=lambda i: i.name):
+            if not info.name.rpartition(".")[2].startswith("tables"):
                 continue
-            module = importlib.import_module(f"{package.__name__}.{info.name}")
-            for name, builder in module.TABLES.items():
+            for name, builder in importlib.import_module(info.name).TABLES.items():
                 if name in found:
                     raise ValueError(f"table {name} is defined twice")
                 found[name] = (group, builder)

@@ -11,7 +11,6 @@ import numpy as np
 from reference_data.solvers.beyond import lines_collocation as col
 from reference_data.solvers.beyond import lines_energy as energy
 from reference_data.solvers.beyond import lines_shooting as shoot
-from reference_data.solvers.beyond.caps import tables as caps
 from reference_data.solvers.beyond.lines_energy import FAMILIES
 from reference_data.solvers.core import mooney_rivlin as mat
 from reference_data.solvers.core.mooney_rivlin import Tube
@@ -303,5 +302,4 @@ TABLES: dict[str, Builder] = {
         (Tube(0.0, 1.0, 7.92), Tube(0.05, 1.0, 8.19), Tube(0.1, 1.0, 8.5)), "lf",
         ((0.8, 0.8054), (0.895, 0.89976), (1.005, 1.0103)),
     ),
-    **caps.TABLES,
 }  # fmt: skip

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from reference_data.solvers.beyond.lopsided import tables as lopsided
 from reference_data.solvers.beyond.tube_waves import ritz, strong
 from reference_data.solvers.beyond.tube_waves.family import FAMILIES, Family
 from reference_data.solvers.core.collocation import Array
@@ -268,5 +267,4 @@ TABLES: dict[str, Builder] = {
     "tube_waves": partial(waves, "tube_waves", FAMILIES),
     "tube_waves_limits": partial(limit_points, "tube_waves_limits"),
     "tube_waves_wrinkling": partial(wrinkling, "tube_waves_wrinkling"),
-    **lopsided.TABLES,
 }
