@@ -118,6 +118,11 @@ def state(c: Expr, law: SurfaceLaw | None = None) -> Expr:
     return conditional(gt(l2, width(l1)) if width else gt(det(c) * l2**2, 1), TAUT, lax)
 
 
+def depth(z: Expr | float, zw: Expr) -> Expr:
+    r"""Depth :math:`(z_w - z)_+` of a liquid above a height."""
+    return conditional(gt(zw, z), zw - z, 0.0)
+
+
 def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
     r"""Potential :math:`\Phi` of a pressure that depends on the height, :math:`\Phi' = -P`.
 

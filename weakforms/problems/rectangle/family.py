@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from weakforms.problems.rectangle.branch import RectangleBranch
 from weakforms.problems.triangles.shape import Shape
 from weakforms.results import Field, State
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.stability.surface_family import SurfaceFamily
+from weakforms.solvers.stability.surface_family import FilledBranch, SurfaceFamily
 
 ORDER_AT_EDGE = 2.0
 """Order of the errors if the pressure has a kink inside of elements. Their signs change from mesh to mesh."""
@@ -23,7 +22,7 @@ MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))
 class RectangleFamily(SurfaceFamily):
     """As for any modal branch; a state with a profile also has the sheet on the finest mesh."""
 
-    fine: RectangleBranch
+    fine: FilledBranch
     _last: Solved | None = None
 
     def smooth_order(self, values: Mapping[str, float]) -> float:

@@ -14,8 +14,7 @@ quarter with other conditions on the mirrors. Together they are all displacement
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +24,7 @@ from dolfinx import mesh as dmesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
-from weakforms.forms.relaxed_surface import SLACK, WRINKLED, least_stress, state
+from weakforms.forms.relaxed_surface import SLACK, WRINKLED, depth, least_stress, state
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.triangles.readings import corner_weight
@@ -120,7 +119,7 @@ class RectangleModel:
         self.scalars = scalars(self.mesh, ("p", "zw", "delta", "delta_y"))
         for name in ("delta", "delta_y"):
             self.scalars[name][0].value = getattr(sheet, name)
-        self._weight = fem.Constant(self.mesh, -sheet.gamma if sheet.load == "liquid" else 0.0)
+        self.weight = fem.Constant(self.mesh, -sheet.gamma if sheet.load == "liquid" else 0.0)
         self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": RULE[sheet.degree]})
         self.membrane = self._at(self.unknown)
         self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
@@ -140,16 +139,6 @@ class RectangleModel:
         out.interpolate(shape)
         return out.x.array[: self.system.size].copy()
 
-    @contextmanager
-    def weighing(self, share: float) -> Iterator[None]:
-        """Make the liquid lighter inside of this context: it has a share of its weight ``gamma``."""
-        own = self._weight.value.copy()
-        self._weight.value = share * own
-        try:
-            yield
-        finally:
-            self._weight.value = own
-
     # -- form ----------------------------------------------------------------------------------
 
     def _at(self, displacement: Expr) -> Membrane:
@@ -161,7 +150,7 @@ class RectangleModel:
             self.mesh,
             self.law,
             self.scalars,
-            self._weight,
+            self.weight,
             relaxed=self.sheet.relaxed,
             edge=0.0,
         )
@@ -194,7 +183,7 @@ class RectangleModel:
         z, mode = at.position[2], state(at.cauchy_green)
         area = 4 * self.sheet.c
         gas = self.sheet.load == "gas"
-        amount = {"V" if gas else "V_f": (z if gas else self._depth(z)) * at.normal[2]}
+        amount = {"V" if gas else "V_f": (z if gas else depth(z, self.scalars["zw"][1])) * at.normal[2]}
 
         def share(value: float) -> ufl.Form:
             return copies / area * ufl.conditional(ufl.eq(mode, value), 1.0, 0.0) * self.dx
@@ -207,18 +196,6 @@ class RectangleModel:
             "f_w": share(WRINKLED),
             "f_s": share(SLACK),
         }
-
-    def _depth(self, z: Expr) -> Expr:
-        """Depth of the liquid above a height."""
-        zw = self.scalars["zw"][1]
-        return ufl.conditional(ufl.gt(zw, z), zw - z, 0.0)
-
-    @property
-    def wet_area(self) -> ufl.Form:
-        """Horizontal area of the liquid's surface: ``dV_f/dzw`` of a rigid sheet."""
-        at, zw = self.membrane, self.scalars["zw"][1]
-        wet = ufl.conditional(ufl.gt(zw, at.position[2]), 1.0, 0.0)
-        return self.sheet.copies * wet * at.normal[2] * self.dx
 
     def _centre(self) -> fem.Function:
         r"""The weight ``g`` on one triangle with :math:`\int g\, v\,\mathrm dA = v(0, 0)` on any element."""

@@ -4,27 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
-from weakforms.problems.meridian.pre_stretch import has_bounded_force, require_low, require_taut
+from weakforms.problems.meridian.pre_stretch import require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.rectangle.about import RECTANGLE
-from weakforms.problems.rectangle.branch import RectangleBranch, traced
+from weakforms.problems.rectangle.branch import traced
 from weakforms.problems.rectangle.family import RectangleFamily
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.parameters import RectangleNumerics, RectangleParameters
-
-LOAD = {"gas": ("p", "V"), "liquid": ("zw", "V_f")}
-"""The load and the amount of each medium."""
+from weakforms.problems.triangles.limits import MEDIA, require_light, require_own_load
+from weakforms.solvers.stability.surface_family import FilledBranch
 
 CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y_least", "f_w", "f_s"), 1.0)}
 """Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
 deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
-
-BOUNDED = {"gamma": 1.0, "delta": 2.0, "delta_y": 2.0}
-"""Largest weight of a liquid and largest stretches of the frame for a law of bounded force. Beyond, the
-places where its sheets give way, and with them the special points, depend on the mesh."""
 
 SLACK, SLACK_START = 1.05, 0.2
 """Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
@@ -49,14 +43,10 @@ class Rectangle(BranchProblem):
         require_low(self.name, parameters.material, parameters.w_end, parameters.energy == "relaxed")
         for name, value in (("delta", parameters.delta), ("delta_y", parameters.stretch_y)):
             require_taut(self.name, parameters.material, value, name)
-        require_light(parameters)
-        absent = LOAD["gas" if parameters.load == "liquid" else "liquid"]
-        for wanted in requests.states:
-            if wanted.name in absent:
-                raise InputError(
-                    f"rectangle: with load = {parameters.load!r} there is no {wanted.name}; allowed: "
-                    f"{', '.join(LOAD[parameters.load])}"
-                )
+        if parameters.load == "liquid":
+            stretches = {"delta": parameters.delta, "delta_y": parameters.stretch_y}
+            require_light(self.name, parameters.material, parameters.gamma, stretches)
+        require_own_load(self.name, parameters.load, requests)
 
     def computed(self, _parameters: RectangleParameters) -> tuple[str, ...]:
         """The least stress, which is zero where the first wrinkle appears."""
@@ -70,13 +60,13 @@ class Rectangle(BranchProblem):
         """The branch of states with both mirrors, on all meshes."""
         parameters, numerics = task.parameters, task.numerics
 
-        def make(level: int) -> RectangleBranch:
+        def make(level: int) -> FilledBranch:
             task.progress("branch", level, numerics.levels)
             sheet = parameters.sheet(numerics.meshes[level], numerics.degree)
             model = RectangleModel(task.comm, sheet)
             return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
 
-        across = LOAD[parameters.load][0], "w_c"
+        across = MEDIA[parameters.load][0], "w_c"
         return {"primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
 
     def points(self, _parameters: RectangleParameters) -> np.ndarray:
@@ -91,21 +81,3 @@ def begins(parameters: RectangleParameters, numerics: RectangleNumerics) -> floa
     """
     slack = min(parameters.delta, parameters.stretch_y) < SLACK
     return max(numerics.start, SLACK_START) if slack and parameters.load == "liquid" else numerics.start
-
-
-def require_light(parameters: RectangleParameters) -> None:
-    """Refuse a heavy liquid on, and a much stretched frame for, a law of bounded force.
-
-    Raises:
-        InputError: With a message that names the value and what is allowed.
-    """
-    if parameters.load == "gas" or not has_bounded_force(parameters.material):
-        return
-    given = {"gamma": parameters.gamma, "delta": parameters.delta, "delta_y": parameters.stretch_y}
-    for name, value in given.items():
-        if value > BOUNDED[name]:
-            raise InputError(
-                f"rectangle: {name} = {value:g}: the force of model = {parameters.model!r} is bounded, and a "
-                "sheet of it gives way at one place under a liquid; allowed with load = 'liquid': "
-                f"{name} up to {BOUNDED[name]:g}"
-            )

@@ -10,6 +10,12 @@ from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
+from weakforms.solvers.equilibrium.linear import Factorization
+from weakforms.solvers.equilibrium.system import System
+
+ZERO = 1e-6
+"""Eigenvalues above minus this do not count as negative: at a limit load one is zero."""
+
 ALIKE = 1e-9
 """Difference of stresses, over the larger of the stress and the law's modulus, at points that are images of
 each other: near a slack state stresses are small and their round-off is that of the modulus."""
@@ -48,6 +54,36 @@ class LeastStress:
 
 def _order(row: list[float]) -> tuple[float, ...]:
     return tuple(round(x, 9) for x in row[1:])
+
+
+class AmountHeld:
+    r"""Negative eigenvalues of the tangent ``K``, with the load or with the amount of gas or liquid held.
+
+    The amount ``V`` changes with the load :math:`\ell` by :math:`\mathrm dV/\mathrm d\ell = V_{,\ell} -
+    V_{,u} K^{-1} R_{,\ell}`. With the amount held there is one negative eigenvalue less where this is
+    negative: a liquid's level then falls while it is filled in.
+
+    Args:
+        system: The equations in the space whose displacements keep the symmetry of the states.
+        load: The load.
+        amount: The functional whose derivative is conjugate to it.
+    """
+
+    def __init__(self, system: System, load: str, amount: str) -> None:
+        self._system, self._load, self._amount = system, load, amount
+        self._factor = Factorization(system)
+
+    def counts(self) -> tuple[int, int]:
+        """Both counts at the state that the system is lent to."""
+        system = self._system
+        system.tangent()
+        system.shift(ZERO)
+        self._factor.refactor()
+        b, own = system.monitor_gradient(self._amount, (self._load,))
+        turned = self._factor.solve(system.load_derivative(self._load))
+        rate = own[self._load] - system.dot(b, turned)
+        count = self._factor.negative_count()
+        return count, count - (rate < 0)
 
 
 def corner_weight(mesh: Mesh, degree: int, here: np.ndarray) -> fem.Function:

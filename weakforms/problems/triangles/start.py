@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from math import sqrt
 
 import numpy as np
+from dolfinx import fem
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.constraints import Held
@@ -16,6 +19,9 @@ TAUT_START = 1.15
 
 FIRST_SHARE, LEAST_SHARE = 0.25, 1e-3
 """First and smallest step of that approach, as a fraction of it."""
+
+LIGHTER, LIGHTEST = 0.5, 1 / 64
+"""Factor by which the liquid is made lighter to find a first state, and the smallest share of its weight."""
 
 
 def first_state(
@@ -56,3 +62,52 @@ def first_state(
             if step < LEAST_SHARE:
                 raise
     return State(state.u, state.loads | wanted)
+
+
+def first_under_load(
+    solver: ExtendedNewton,
+    height: float,
+    wanted: Mapping[str, float],
+    guess: np.ndarray,
+    weight: fem.Constant,
+) -> State:
+    """As :func:`first_state`; under a heavy liquid by way of lighter ones.
+
+    A liquid heavier than the critical one wets a part of the sheet only, whose edge Newton's method does not
+    find from a guess that is wet all over.
+
+    Args:
+        solver: Solves for displacement and load.
+        height: The height.
+        wanted: Stretches of the supports, by the names of these loads.
+        guess: Displacement, owned degrees of freedom.
+        weight: Weight of the liquid in the form; zero for gas.
+
+    Raises:
+        ConvergenceError: If it is found under no liquid, or is lost while the weight is raised.
+    """
+    share, state = 1.0, None
+    while state is None:
+        try:
+            with _lighter(weight, share):
+                state = first_state(solver, height, wanted, guess)
+        except ConvergenceError:
+            if not weight.value or share <= LIGHTEST:
+                raise
+            share *= LIGHTER
+    while share < 1.0:
+        share = min(1.0, share / sqrt(LIGHTER))
+        with _lighter(weight, share):
+            state = solver.solve(state, [Held("w_c", height)])[0]
+    return state
+
+
+@contextmanager
+def _lighter(weight: fem.Constant, share: float) -> Iterator[None]:
+    """Let the liquid have a share of its weight inside of this context."""
+    own = weight.value.copy()
+    weight.value = share * own
+    try:
+        yield
+    finally:
+        weight.value = own

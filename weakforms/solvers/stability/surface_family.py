@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.continuation.continuation import Tangent
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
@@ -45,6 +47,29 @@ class SurfaceBranch(ModalBranch):
             solved = Crossing(self, i).located()
             found.append((self._arclength(i, solved), replace(solved, values=solved.values | own)))
         return super()._placed() + found
+
+
+class FilledBranch(SurfaceBranch):
+    """States over a load; folds of the amount of gas or liquid, ``modes.amount``, are special points.
+
+    They are the ends of what can be reached by filling.
+    """
+
+    def _placed(self) -> list[tuple[float, Solved]]:
+        """Besides, the folds of the amount."""
+        amount = self.modes.amount
+        rates = np.array([self.direction(point, (amount,))[amount] for point in self.points])
+
+        def rate(solved: Solved, along: Tangent) -> float:
+            tangent = self.continuation.direction(solved.state, along)
+            with self.system.at(solved.state):
+                return self.continuation.rate(amount, tangent)
+
+        found = super()._placed()
+        for i in np.flatnonzero(rates[:-1] * rates[1:] < 0).tolist():
+            solved = self._root(i, partial(rate, along=self.points[i].tangent), "volume_fold")
+            found.append((self._arclength(i, solved), solved))
+        return found
 
 
 class SurfaceFamily(ModalFamily):
