@@ -6,22 +6,29 @@ from weakforms.problems.column import Column, Units, derived, numbers
 
 MEMBRANE = About(
     name="membrane",
-    title="Membrane of any shape on the user's triangles under gas",
+    title="Membrane of any shape on the user's triangles under gas or a liquid",
     paper="beyond",
     source="Patil (2016), section 6.4, future work",
     energy="Pi/(C1 h a^2) = int W(C) dA - p V,  V = int z N_z dA less that of the reference surface "
-    "stretched by delta;  W = I1 - 3 + alpha (I2 - 3) where taut, and with energy = relaxed "
-    "lam1^2 + 2/lam1 - 3 + alpha (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another model w "
+    "stretched by delta, or under a liquid - int gamma max(zw - z, 0)^2/2 N_z dA alike for - p V;  "
+    "W = I1 - 3 + alpha (I2 - 3) where taut, and with energy = relaxed lam1^2 + 2/lam1 - 3 + "
+    "alpha (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another model w "
     "and w(lam1, n(lam1)) with its natural width n, its S for C1",
-    control="p (compare over V, which increases past limit points)",
+    control="p (load = gas; compare over V, which increases past limit points) or zw (liquid; over w_c)",
     unknown="the displacement from the reference surface stretched by delta, zero on held edges, zero across "
     "planes of symmetry and planes in which edges slide",
     forms=("forms.relaxed_surface:relaxed_energy", "forms.relaxed_surface:pressure_potential"),
     units=Units("a", "C1", "h"),
     columns=(
         column.PRESSURE,
-        Column("w_c", "deflection along the normal at the point (X_c, Y_c, Z_c) over {length}", "w_c"),
+        Column("zw", "level of the liquid, in the coordinate Z, over {length}", "z_w"),
+        Column(
+            "w_c",
+            "deflection along the normal at the point (X_c, Y_c, Z_c) over {length}; against it for a liquid",
+            "w_c",
+        ),
         Column("V", "volume between the membrane and its stretched reference surface over {volume}", "V"),
+        Column("V_f", "liquid over the membrane between vertical walls over {volume}", "V_f"),
         column.POTENTIAL,
         Column("U", "strain energy over {energy}", "U"),
         Column(
@@ -40,6 +47,7 @@ MEMBRANE = About(
                 "quadrature, over {stress}; negative where the membrane would be compressed",
             ),
             *(Column(f"{x}_least", f"{x} of that stress over {{length}}") for x in "XYZ"),
+            *numbers(n_held="negative eigenvalues, the volume of the gas or liquid held"),
         ),
         *column.DIAGNOSTICS,
     ),
@@ -47,6 +55,7 @@ MEMBRANE = About(
         *numbers(
             length="a: unit of the file; disk: radius, square: half the side of the stress-free sheet",
             alpha="C2/C1",
+            gamma="rho g a^2/(C1 h)",
             delta="stretch of the supports about the centroid, or about a point on the planes of symmetry",
             X_c="X of the point where a shallow sheet rises most over {length}, for w_c; Y_c, Z_c alike",
             eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 dA",
@@ -58,7 +67,7 @@ MEMBRANE = About(
         ),
         *(Column(name, dimension="length") for name in ("Y_c", "Z_c", "X", "Y", "Z", "x", "y", "z")),
     ),
-    special_points=("limit_point", "bifurcation_point"),
+    special_points=("limit_point", "bifurcation_point", "volume_fold"),
     example=Example("w_c", "p", {"mesh": "square", "alpha": 0.0}, numerics={"cells": 8}),
     tuned=(
         Family(
@@ -67,6 +76,16 @@ MEMBRANE = About(
             {"cells": 24, "levels": 2},
             fixed={"mesh": "disk"},
             at=(("w_c", 0.4), ("w_c", 0.9)),
+        ),
+    ),
+    held_out=(
+        Family(
+            {"alpha": (0.0, 0.1), "gamma": (0.5, 6.0)},
+            {"cells": 8},
+            {"cells": 24, "levels": 2},
+            fixed={"mesh": "disk", "load": "liquid"},
+            at=(("w_c", 0.4), ("w_c", 0.9)),
+            label="liquid",
         ),
     ),
     audit_numerics={"cells": 8},

@@ -11,15 +11,15 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.membrane.descent import least_energy
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.readings import Highest
-from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
-from weakforms.problems.triangles.readings import LeastStress
-from weakforms.problems.triangles.start import first_state
+from weakforms.problems.triangles.limits import GIVES_WAY, MEDIA, gives_way
+from weakforms.problems.triangles.readings import AmountHeld, LeastStress
+from weakforms.problems.triangles.start import begins, first_under_load
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import SecondVariation
-from weakforms.solvers.stability.surface_family import SurfaceBranch
+from weakforms.solvers.stability.surface_family import FilledBranch
 
 HEIGHT = 0.3
 """Height, over the size of the surface, of the guess of the first state of a membrane whose edges slide."""
@@ -32,19 +32,22 @@ class Start:
     w_c: float
     """Deflection of a membrane with held edges."""
     p: float
-    """Pressure of a membrane whose edges slide: up to some deflection it has no stiffness."""
+    """Pressure of a membrane whose edges slide, of a liquid at its top: up to some deflection it has no
+    stiffness."""
 
 
 class Readings:
-    """What is computed at a state besides its functionals: largest deflection, least stress and its place."""
+    """What is computed at a state besides its functionals: largest deflection, least stress, a count."""
 
     wave_numbers: tuple[int, ...] = ()
-    columns = ("w_max", "S_least", "X_least", "Y_least", "Z_least")
+    columns = ("w_max", "S_least", "X_least", "Y_least", "Z_least", "n_held")
 
     def __init__(self, model: MembraneModel) -> None:
         self.model = model
         self.highest = Highest(model)
         self._stress = LeastStress(model.mesh, model.least_stress, model.rule)
+        self.amount = MEDIA[model.body.load][1]
+        self._held = AmountHeld(model.system, model.body.control, self.amount)
 
     def variation(self, n: int) -> SecondVariation:
         """None: all displacements are those of the states.
@@ -57,12 +60,13 @@ class Readings:
     def observe(self) -> dict[str, float]:
         """The columns at the state that the system is lent to."""
         place, least = self._stress.least()
-        return dict(zip(self.columns, (self.highest(), least, *place), strict=True))
+        _, held = self._held.counts()
+        return dict(zip(self.columns, (self.highest(), least, *place, float(held)), strict=True))
 
 
 def traced(
     model: MembraneModel, start: Start, end: float, step: float, progress: Callable[[float], None]
-) -> SurfaceBranch:
+) -> FilledBranch:
     """The branch from a small deflection to a larger one.
 
     Args:
@@ -75,7 +79,8 @@ def traced(
     Raises:
         ConvergenceError: If there is no first state.
     """
-    solver = ExtendedNewton(model.system, ["p"])
+    control = model.body.control
+    solver = ExtendedNewton(model.system, [control])
     continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
     begin = _begun(model, continuation, start)
     readings = Readings(model)
@@ -89,7 +94,7 @@ def traced(
         progress(highest)
         return highest > end or yields(point.state)
 
-    branch = SurfaceBranch(continuation, "p", begin, ends, readings)
+    branch = FilledBranch(continuation, control, begin, ends, readings)
     branch.end_before(yields, GIVES_WAY)
     return branch
 
@@ -101,19 +106,23 @@ def _begun(model: MembraneModel, continuation: Continuation, start: Start) -> Cu
         ConvergenceError: If there is none.
     """
     system, body = model.system, model.body
+    control, gas = body.control, body.load == "gas"
     if body.reference.slides:
-        guess = State(model.raised(HEIGHT * body.reference.size), system.initial.loads | {"p": start.p})
+        head = start.p if gas else start.p / body.gamma
+        load = head if gas else body.top + head
+        guess = State(model.raised(HEIGHT * body.reference.size), system.initial.loads | {control: load})
         try:
-            first = least_energy(system, guess)
+            first = least_energy(system, guess, control, head)
         except ConvergenceError as error:
             raise ConvergenceError(f"no first state: {error}; choose another numerics p_start") from error
-        return continuation.start(first, Held("p", start.p), towards={"p": 1.0})
+        return continuation.start(first, Held(control, load), towards={control: 1.0})
+    height = begins(start.w_c, body.delta, body.load)
+    guess = np.zeros(system.size) if gas else model.raised(height)  # a level needs a sheet below it
     try:
-        solver = continuation.solver
-        first = first_state(solver, start.w_c, {"delta": body.delta}, np.zeros(system.size))
+        wanted = {"delta": body.delta}
+        first = first_under_load(continuation.solver, height, wanted, guess, model.weight)
     except ConvergenceError as error:
         raise ConvergenceError(
-            f"no first state at w_c = {start.w_c:g}: {error}; choose another numerics start, "
-            "or a larger delta"
+            f"no first state at w_c = {height:g}: {error}; choose another numerics start, or a larger delta"
         ) from error
-    return continuation.start(first, Held("w_c", start.w_c), towards={"w_c": 1.0})
+    return continuation.start(first, Held("w_c", height), towards={"w_c": 1.0})

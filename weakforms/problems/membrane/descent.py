@@ -25,7 +25,7 @@ ROUNDING = 1e-14
 """Relative round-off of an energy, by which it may rise."""
 
 
-def least_energy(system: System, guess: State) -> State:
+def least_energy(system: System, guess: State, load: str = "p", head: float | None = None) -> State:
     r"""A minimum of the potential energy at the loads of a guess.
 
     Steps solve :math:`(K + \mu M)\,\Delta U = -R`. A step is taken if the matrix is positive definite, by its
@@ -33,8 +33,10 @@ def least_energy(system: System, guess: State) -> State:
     here: wrinkled parts have no stiffness across the wrinkles, slack ones none at all.
 
     Args:
-        system: With a monitor ``Pi``, the potential energy, and a load ``p``.
+        system: With a monitor ``Pi``, the potential energy, and the load.
         guess: Displacement and loads.
+        load: Name of the load.
+        head: Part of the load that pushes: of a level, its height above the edges; by default all of it.
 
     Returns:
         A state at which the tangent is positive definite.
@@ -42,11 +44,11 @@ def least_energy(system: System, guess: State) -> State:
     Raises:
         ConvergenceError: If none is reached.
     """
-    factor, p = Factorization(system), guess.loads["p"]
+    factor, at = Factorization(system), guess.loads[load]
     u, weight = guess.u, FIRST
     energy, forces = _at(system, guess)
     with system.at(guess):
-        pushed = p * _size(system, system.load_derivative("p"))
+        pushed = (at if head is None else head) * _size(system, system.load_derivative(load))
     for _ in range(MOST):
         state = State(u, guess.loads)
         with system.at(state):
@@ -64,7 +66,7 @@ def least_energy(system: System, guess: State) -> State:
                 continue
         weight = max(RISE * weight, RISE * LEAST)
     raise ConvergenceError(
-        f"the energy at p = {p:g} has not reached its minimum after {MOST} steps; its forces are "
+        f"the energy at {load} = {at:g} has not reached its minimum after {MOST} steps; its forces are "
         f"{_size(system, forces) / pushed:.1e} of those of the pressure"
     )
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache
 from itertools import combinations
 from pathlib import Path
@@ -13,7 +12,7 @@ import numpy as np
 
 from weakforms.errors import InputError, not_among
 from weakforms.problems.membrane.planes import Surface, keys, rigid_motions
-from weakforms.problems.membrane.reference import AXES, Reference, quadratics
+from weakforms.problems.membrane.reference import AXES, PLANE, Reference, quadratics
 from weakforms.problems.triangles.checks import at, edges_of, require_manifold
 from weakforms.problems.triangles.files import compact, read_mesh
 
@@ -107,8 +106,20 @@ def _read(
     else:
         fixed = open_edges[~np.isin(keys(open_edges), moving)]
     given = Reference(points, cells, fixed, mirrored, slides=sliding)
+    if "Z" in mirrored and "Z" in sliding:
+        _require_one_height(given, refuse)
     _require_supported(given, open_edges, [*groups], refuse)
-    return _upwards(given)
+    return given.upwards() if given.is_flat else given
+
+
+def _require_one_height(given: Reference, refuse: Refusal) -> None:
+    """Refuse edges that move in horizontal planes of two heights: the load has no potential there."""
+    heights = [given.points[edges["Z"][0, 0], 2] for edges in (given.mirrors, given.slides)]
+    if abs(heights[1] - heights[0]) > PLANE * given.size:
+        refuse(
+            f"edges of mirror lie in Z = {heights[0]:.6g}, edges of slide in Z = {heights[1]:.6g}; a load on "
+            "edges that move at two heights has no potential; allowed: one height; hold one of these groups"
+        )
 
 
 def _groups(read: meshio.Mesh) -> dict[str, np.ndarray]:
@@ -188,11 +199,3 @@ def _require_supported(given: Reference, open_edges: np.ndarray, groups: list[st
             refuse(
                 f"{len(wrong)} triangles of the flat sheet are turned over, the first {place}; allowed: none"
             )
-
-
-def _upwards(given: Reference) -> Reference:
-    """A flat sheet with its normal upwards; any other surface keeps the orientation of the file."""
-    if not given.is_flat or given.normals[:, 2].sum() >= 0:
-        return given
-    turned = [0, 2, 1, 3, 5, 4][: given.cells.shape[1]]
-    return replace(given, cells=given.cells[:, turned])

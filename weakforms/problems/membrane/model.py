@@ -1,12 +1,16 @@
-r"""Weak form of a membrane of any shape under gas, on straight or curved triangles in space.
+r"""Weak form of a membrane of any shape under gas or a liquid, on straight or curved triangles in space.
 
-.. math:: \Pi = \int W(C)\,\mathrm dA - p\,V, \qquad V = \int (z - z_e)\, N_z\,\mathrm dA - V_0
+.. math:: \Pi = \int W(C)\,\mathrm dA - \int [\varphi(z) - \varphi(z_e)]\, N_z\,\mathrm dA - \Pi_0, \qquad
+          \varphi = p\,z \quad\mathrm{or}\quad \varphi = \tfrac12 \gamma (z_w - z)_+^2
 
-with the stress-free surface as reference. ``V`` is the volume between the membrane and its reference
-surface, stretched by ``delta`` about a point; ``V_0`` is the integral over that surface. Held edges are on
-it. Edges on a plane of symmetry, and edges that slide in a plane, stay in the plane; ``z_e`` is the height of
-a horizontal one, at which the edges of the membrane then carry no load. The unknown is the displacement from
-the stretched surface.
+with the stress-free surface as reference, for gas on the side from which the normals ``N`` point, or a liquid
+of level ``z_w`` on the side to which they point. ``Pi_0`` is the load's integral over the reference surface,
+stretched by ``delta`` about a point. Held edges are on that surface. Edges on a plane of symmetry, and edges
+that slide in a plane, stay in the plane; ``z_e`` is the height of a horizontal one, at which the edges of the
+membrane then carry no load. Conjugate to ``p`` is the volume ``V`` between the membrane and its stretched
+reference surface, to ``gamma z_w`` the liquid ``V_f`` between vertical walls at the edges; above edges that
+move in their plane the walls are those of the reference surface. The unknown is the displacement from the
+stretched surface.
 """
 
 from __future__ import annotations
@@ -19,9 +23,10 @@ from dolfinx import fem
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
-from weakforms.forms.relaxed_surface import SLACK, WRINKLED, least_stress, state
+from weakforms.forms.relaxed_surface import SLACK, WRINKLED, depth, least_stress, state
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.membrane.reference import AXES, Reference
+from weakforms.problems.triangles.limits import MEDIA
 from weakforms.problems.triangles.meshes import in_space
 from weakforms.problems.triangles.readings import corner_weight
 from weakforms.problems.triangles.weak_form import RULE, Membrane, scalars
@@ -42,14 +47,35 @@ class Body:
     """Whether the membrane bears no compression."""
     degree: int = 2
     """Of the elements, 1 or 2."""
+    load: str = "gas"
+    """``gas``, which pushes along the normals, or ``liquid``, which pushes against them."""
+    gamma: float = 1.0
+    """Weight of the liquid."""
+
+    @property
+    def control(self) -> str:
+        """Name of the load: ``p`` or ``zw``."""
+        return MEDIA[self.load][0]
+
+    @property
+    def sign(self) -> float:
+        """Direction of the deflection: 1 along the normals, -1 against them."""
+        return 1.0 if self.load == "gas" else -1.0
+
+    @property
+    def top(self) -> float:
+        """Largest height of the stretched reference surface: a level below it wets a part only."""
+        given = self.reference
+        return float((given.middle + self.delta * (given.points - given.middle))[:, 2].max())
 
 
 class MembraneModel:
-    """The discrete equations on one mesh. Loads: ``p``, and the stretch ``delta`` of the supports.
+    """The discrete equations on one mesh. Loads: ``p`` or ``zw``, and the stretch ``delta`` of the supports.
 
     Attributes:
         system: Residual, tangent and columns.
         direction: Unit vector along which deflections are measured.
+        weight: Weight of the liquid in the form, with its sign.
         deflection: The displacement in this direction.
         rule: Degree of the quadrature, with which the load of the gas is exact.
         node: Node of the reference surface that each vertex of this rank's mesh is.
@@ -64,10 +90,14 @@ class MembraneModel:
         self.law = body.law.surface_law(self.mesh)
         self.scalars = scalars(self.mesh, ("p", "zw", "delta"))
         self.scalars["delta"][0].value = body.delta
+        liquid = body.load == "liquid"
+        self.weight = fem.Constant(self.mesh, -body.gamma if liquid else 0.0)
+        if liquid:
+            self.scalars["zw"][0].value = body.top  # of the first guess
         # On curved triangles the position is quadratic, whatever the degree of the displacement.
         self.rule = RULE[max(body.degree, self.mesh.geometry.cmap.degree)]
         self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": self.rule})
-        self.direction = body.reference.direction
+        self.direction = body.sign * body.reference.direction
         self.deflection = ufl.dot(self.unknown, ufl.as_vector(self.direction.tolist()))
         self.membrane = self._at(self.unknown)
         self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
@@ -94,7 +124,7 @@ class MembraneModel:
 
     def _at(self, displacement: Expr | None) -> Membrane:
         start = self.stretched()
-        given = (self.mesh, self.law, self.scalars, fem.Constant(self.mesh, 0.0))
+        given = (self.mesh, self.law, self.scalars, self.weight)
         position = start if displacement is None else start + displacement
         edge = self.body.reference.edge
         return Membrane.at(position, *given, relaxed=self.body.relaxed, edge=edge)
@@ -103,8 +133,6 @@ class MembraneModel:
         at, start = self.membrane, self._at(None)
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         energy = (at.strain + at.load) * self.dx
-        # Gas alone: the load's potential is -p times the volume.
-        volume = -ufl.diff(at.load - start.load, self.scalars["p"][1])
         mode = state(at.cauchy_green, self.law)
 
         def share(value: float) -> ufl.Form:
@@ -119,12 +147,12 @@ class MembraneModel:
         return Formulation(
             unknown=self.unknown,
             residual=ufl.derivative(energy, self.unknown, test),
-            loads={name: self.scalars[name] for name in ("p", "delta")},
+            loads={name: self.scalars[name] for name in (self.body.control, "delta")},
             bcs=self._conditions(),
             mass=ufl.inner(trial, test) * self.dx,
             monitors={
                 "w_c": self.deflection * self._at_node(given.centre) * reads,
-                "V": volume * self.dx,
+                MEDIA[self.body.load][1]: self._amount(at, start) * self.dx,
                 "Pi": (at.strain + at.load - start.load) * self.dx,
                 "U": at.strain * self.dx,
                 **{name: value * reads for name, value in slid.items()},
@@ -132,6 +160,14 @@ class MembraneModel:
                 "f_s": share(SLACK),
             },
         )
+
+    def _amount(self, at: Membrane, start: Membrane) -> Expr:
+        """The volume under gas, or the liquid, per reference area."""
+        if self.body.load == "gas":  # the load's potential is -p times the volume
+            return -ufl.diff(at.load - start.load, self.scalars["p"][1])
+        zw = self.scalars["zw"][1]
+        over = depth(self.body.reference.edge, zw)
+        return (depth(at.position[2], zw) - over) * at.normal[2] + over * start.normal[2]
 
     def _at_node(self, node: int) -> fem.Function:
         """The weight that reads a displacement at a corner of the reference surface."""

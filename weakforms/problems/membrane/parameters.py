@@ -38,15 +38,25 @@ class MembraneNumerics(MeshNumerics):
         16, ge=4, le=512, description="disk, square: triangles along the radius or half a side, finest mesh"
     )
     step: float = Field(0.2, ge=0.01, le=0.5, description="largest arc-length step")
-    start: float = Field(0.02, ge=1e-4, le=0.3, description="w_c of the first point")
-    p_start: float = Field(5e-3, ge=1e-4, le=1, description="p of the first point if edges slide")
+    start: float = Field(
+        0.02,
+        ge=1e-4,
+        le=0.3,
+        description="w_c of the first point; under a liquid at least 0.2 if delta is below 1.05",
+    )
+    p_start: float = Field(
+        5e-3, ge=1e-4, le=1, description="p of the first point, of a liquid at its top, if edges slide"
+    )
 
 
 class MembraneParameters(MaterialChoice):
     """The membrane, its supports and its load."""
 
     ratio: ClassVar[str] = "alpha"
-    needs: ClassVar[Needs] = {name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide")}
+    needs: ClassVar[Needs] = {
+        **{name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide")},
+        "gamma": [{"load": ("liquid",)}],
+    }
     movable: ClassVar = {"w_end": "le"}
 
     mesh: Annotated[str, AfterValidator(_known)] = Field(
@@ -64,6 +74,10 @@ class MembraneParameters(MaterialChoice):
     slide: str = Field(
         "", max_length=1000, description="file: groups of edges that slide in a plane X, Y or Z = constant"
     )
+    load: Literal["gas", "liquid"] = Field(
+        "gas", description="gas along the normals, or a liquid that stands on the surface"
+    )
+    gamma: float = Field(1.0, gt=0, le=30, description="rho g a^2/(C1 h), weight of the liquid")
     delta: float = Field(1.1, ge=1, le=3, description="pre-stretch: stretch of the supports about a point")
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     energy: Literal["relaxed", "full"] = Field(
@@ -113,4 +127,7 @@ class MembraneParameters(MaterialChoice):
             reference = self.given()
             for _ in range(level):
                 reference = reference.refined()
-        return Body(reference, self.material, self.delta, self.energy == "relaxed", degree)
+        if self.load == "liquid":
+            reference = reference.upwards()
+        about = self.material, self.delta, self.energy == "relaxed", degree, self.load, self.gamma
+        return Body(reference, *about)

@@ -1,4 +1,4 @@
-"""Problem ``membrane``: a membrane of any shape, given by its triangles, under gas."""
+"""Problem ``membrane``: a membrane of any shape, given by its triangles, under gas or a liquid."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
 from weakforms.problems.meridian.pre_stretch import require_low, require_taut
 from weakforms.problems.problem import End, Requests, Task
+from weakforms.problems.triangles.limits import require_light, require_own_load
 from weakforms.results import Quantity, Result
-from weakforms.solvers.stability.surface_family import SurfaceBranch
+from weakforms.solvers.stability.surface_family import FilledBranch
 
 CAPS = dict.fromkeys(("S_least", "X_least", "Y_least", "Z_least", "f_w", "f_s"), 1.0)
 """Highest assumed orders: of a stress and a place among the points of quadrature, of an area."""
@@ -25,6 +26,10 @@ KIRCHHOFF = "saint_venant_kirchhoff"
 
 LARGEST = 2_000_000
 """Largest number of unknowns on the finest mesh."""
+
+
+LEVEL = 0.05
+"""Least horizontal area that the open edges of a surface under a liquid span, over its area."""
 
 
 class Membrane(BranchProblem):
@@ -55,6 +60,11 @@ class Membrane(BranchProblem):
                 f"membrane: delta = {parameters.delta:g}: no edge is held, and edges that slide keep no "
                 "pre-stretch; allowed: delta = 1"
             )
+        require_own_load(self.name, parameters.load, requests)
+        if parameters.load == "liquid":
+            stretches = {"delta": parameters.delta}
+            require_light(self.name, parameters.material, parameters.gamma, stretches)
+            _require_basin(parameters)
 
     def computed(self, _parameters: MembraneParameters) -> tuple[str, ...]:
         """The largest deflection, and the least stress, which is zero where the first wrinkle appears."""
@@ -81,7 +91,7 @@ class Membrane(BranchProblem):
                     f"refinements; allowed: {LARGEST}; choose a coarser mesh, or numerics levels = 2"
                 )
 
-        def make(level: int) -> SurfaceBranch:
+        def make(level: int) -> FilledBranch:
             body = parameters.body(numerics, level)
             model = MembraneModel(task.comm, body)
 
@@ -94,7 +104,8 @@ class Membrane(BranchProblem):
                 model, Start(numerics.start, numerics.p_start), parameters.w_end, numerics.step, passed
             )
 
-        return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, ("p", "V"), caps=CAPS)}
+        across = ("p", "V") if parameters.load == "gas" else ("zw", "w_c")
+        return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, across, caps=CAPS)}
 
     def fill(self, result: Result, task: Task) -> None:
         """As for any branch; also where the deflection is read, and the numbers of triangles."""
@@ -108,3 +119,30 @@ class Membrane(BranchProblem):
     def points(self, _parameters: MembraneParameters) -> np.ndarray:
         """None along a line: fields are the corners and triangles of the surface."""
         return np.zeros(1)
+
+
+def _require_basin(parameters: MembraneParameters) -> None:
+    """Refuse surfaces on which a liquid has no potential, or of which no side is the upper one.
+
+    Raises:
+        InputError: With what to change.
+    """
+    if parameters.is_loose:
+        raise InputError(
+            f"membrane: load = 'liquid': no edge of mesh = {parameters.mesh} is held; allowed: a surface "
+            "with held edges, or load = 'gas'"
+        )
+    if not parameters.is_file:
+        return
+    given = parameters.given()
+    if "Z" in given.mirrors:
+        raise InputError(
+            "membrane: load = 'liquid': a horizontal plane is no plane of symmetry of a liquid, whose "
+            "pressure grows with depth; name that group in slide or held instead of mirror"
+        )
+    if abs(given.slope) < LEVEL:
+        raise InputError(
+            f"membrane: load = 'liquid': the open edges of mesh = {parameters.mesh} span a horizontal area "
+            f"of {abs(given.slope):.1g} times that of the surface, so that no side of it is the upper one; "
+            f"allowed: from {LEVEL:g} on, such as sheets and bowls"
+        )

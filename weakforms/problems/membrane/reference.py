@@ -115,6 +115,19 @@ class Reference:
         return out / out.max()
 
     @property
+    def slope(self) -> float:
+        """Vertical part of the area that the open edges span, over the area of the surface."""
+        normals = self.normals
+        return float(normals[:, 2].sum() / np.linalg.norm(normals, axis=1).sum())
+
+    def upwards(self) -> Reference:
+        """The same surface with normals whose sum points upwards."""
+        if self.slope >= 0:
+            return self
+        turned = [0, 2, 1, 3, 5, 4][: self.cells.shape[1]]
+        return replace(self, cells=self.cells[:, turned])
+
+    @property
     def edge(self) -> float:
         """Height of the edges that move in a horizontal plane, at which they bear no load; 0 without any."""
         horizontal = self.mirrors.get("Z", self.slides.get("Z"))

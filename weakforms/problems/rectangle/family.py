@@ -10,10 +10,7 @@ import numpy as np
 from weakforms.problems.triangles.shape import Shape
 from weakforms.results import Field, State
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.stability.surface_family import FilledBranch, SurfaceFamily
-
-ORDER_AT_EDGE = 2.0
-"""Order of the errors if the pressure has a kink inside of elements. Their signs change from mesh to mesh."""
+from weakforms.solvers.stability.surface_family import ORDER_AT_EDGE, FilledBranch, SurfaceFamily
 
 MIRRORS = ((1, 1), (-1, 1), (1, -1), (-1, -1))
 """Signs of ``X`` and ``Y`` of the quarters that make the whole sheet."""

@@ -14,14 +14,12 @@ from weakforms.problems.rectangle.family import RectangleFamily
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.parameters import RectangleNumerics, RectangleParameters
 from weakforms.problems.triangles.limits import MEDIA, require_light, require_own_load
+from weakforms.problems.triangles.start import begins
 from weakforms.solvers.stability.surface_family import FilledBranch
 
 CAPS = {"lam1_c": 2.0, **dict.fromkeys(("lam1", "lam2", "S_least", "X_least", "Y_least", "f_w", "f_s"), 1.0)}
 """Highest assumed orders of derivatives: at the centre, and over the diagonal with the corner, where the
 deflection contains ``r^2 ln r``; of a place among the points of quadrature; of an area."""
-
-SLACK, SLACK_START = 1.05, 0.2
-"""Stretch below which a frame counts as slack; height from which its states under a liquid are followed."""
 
 
 class Rectangle(BranchProblem):
@@ -64,7 +62,9 @@ class Rectangle(BranchProblem):
             task.progress("branch", level, numerics.levels)
             sheet = parameters.sheet(numerics.meshes[level], numerics.degree)
             model = RectangleModel(task.comm, sheet)
-            return traced(model, begins(parameters, numerics), parameters.w_end, numerics.step)
+            slackest = min(parameters.delta, parameters.stretch_y)
+            start = begins(numerics.start, slackest, parameters.load)
+            return traced(model, start, parameters.w_end, numerics.step)
 
         across = MEDIA[parameters.load][0], "w_c"
         return {"primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}
@@ -72,12 +72,3 @@ class Rectangle(BranchProblem):
     def points(self, _parameters: RectangleParameters) -> np.ndarray:
         """41 points of the diagonal, from the centre to the corner, by their ``X``."""
         return np.linspace(0.0, 1.0, 41)
-
-
-def begins(parameters: RectangleParameters, numerics: RectangleNumerics) -> float:
-    """Height of the centre at the first point.
-
-    A small pond on a slack sheet wets only the neighbourhood of the centre, which no mesh resolves.
-    """
-    slack = min(parameters.delta, parameters.stretch_y) < SLACK
-    return max(numerics.start, SLACK_START) if slack and parameters.load == "liquid" else numerics.start

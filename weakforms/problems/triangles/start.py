@@ -20,8 +20,24 @@ TAUT_START = 1.15
 FIRST_SHARE, LEAST_SHARE = 0.25, 1e-3
 """First and smallest step of that approach, as a fraction of it."""
 
+SLACK, SLACK_START = 1.05, 0.2
+"""Stretch below which a sheet counts as slack; first height of its states under a liquid."""
+
 LIGHTER, LIGHTEST = 0.5, 1 / 64
 """Factor by which the liquid is made lighter to find a first state, and the smallest share of its weight."""
+
+
+def begins(start: float, stretch: float, load: str) -> float:
+    """Height at the first point: the one asked for, or a larger one.
+
+    A small pond on a slack sheet wets only the neighbourhood of the centre, which no mesh resolves.
+
+    Args:
+        start: The height asked for.
+        stretch: Least stretch of the supports.
+        load: ``gas`` or ``liquid``.
+    """
+    return max(start, SLACK_START) if stretch < SLACK and load == "liquid" else start
 
 
 def first_state(

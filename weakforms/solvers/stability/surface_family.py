@@ -17,6 +17,9 @@ from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
 STEPS = 4
 """Number of steps beyond its end by which a mesh is followed for a special point of other meshes."""
 
+ORDER_AT_EDGE = 2.0
+"""Order of the errors if the pressure has a kink inside of elements. Their signs change from mesh to mesh."""
+
 FEWEST = 2
 """Number of meshes that special points must be on, in the same order, for an uncertainty."""
 

@@ -316,7 +316,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         _over(work("kap", lambda r, c: r.parameters["c"] * c["M"]), _bent, "bending"),
     ),
     # Traces over a level that turns twice are too coarse for its work; a claim integrates it by polynomials.
-    "membrane": (work("p", lambda _, c: -c["V"]),),
+    "membrane": (_over(work("p", lambda _, c: -c["V"]), _gas),),
     "rectangle": (_over(work("p", lambda _, c: -c["V"]), _gas),),
     "surface": tuple(
         _over(identity, lambda given: given.get("geometry", "tube") == "tube")
