@@ -20,5 +20,6 @@ def test_membrane(same_on_ranks):
     bag |= {"shear": 0.357, "poisson": 0.4, "at": [("p", 0.06)]}
     bag["numerics"] = {**coarse, "degree": 1, "p_start": 0.05}
     pond = {"problem": "membrane", "load": "liquid", "gamma": 5.0, "w_end": 1.2, "at": [("zw", 0.03)]}
+    pond |= {"thickness": "1 + 0.2*X"}
     found = same_on_ranks([disk, slack, bag, pond | {"numerics": coarse}])
     assert [len(result.special_points) for result in found] == [1, 0, 0, 2]

@@ -9,7 +9,7 @@ MEMBRANE = About(
     title="Membrane of any shape on the user's triangles under gas or a liquid",
     paper="beyond",
     source="Patil (2016), section 6.4, future work",
-    energy="Pi/(C1 h a^2) = int W(C) dA - p V,  V = int z N_z dA less that of the reference surface "
+    energy="Pi/(C1 h a^2) = int H W(C) dA - p V,  V = int z N_z dA less that of the reference surface "
     "stretched by delta, or under a liquid - int gamma max(zw - z, 0)^2/2 N_z dA alike for - p V;  "
     "W = I1 - 3 + alpha (I2 - 3) where taut, and with energy = relaxed lam1^2 + 2/lam1 - 3 + "
     "alpha (2 lam1 + 1/lam1^2 - 3) where wrinkled, 0 where slack; or another model w "

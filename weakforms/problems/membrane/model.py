@@ -1,16 +1,16 @@
 r"""Weak form of a membrane of any shape under gas or a liquid, on straight or curved triangles in space.
 
-.. math:: \Pi = \int W(C)\,\mathrm dA - \int [\varphi(z) - \varphi(z_e)]\, N_z\,\mathrm dA - \Pi_0, \qquad
+.. math:: \Pi = \int H\, W(C)\,\mathrm dA - \int [\varphi(z) - \varphi(z_e)]\, N_z\,\mathrm dA - \Pi_0, \qquad
           \varphi = p\,z \quad\mathrm{or}\quad \varphi = \tfrac12 \gamma (z_w - z)_+^2
 
-with the stress-free surface as reference, for gas on the side from which the normals ``N`` point, or a liquid
-of level ``z_w`` on the side to which they point. ``Pi_0`` is the load's integral over the reference surface,
-stretched by ``delta`` about a point. Held edges are on that surface. Edges on a plane of symmetry, and edges
-that slide in a plane, stay in the plane; ``z_e`` is the height of a horizontal one, at which the edges of the
-membrane then carry no load. Conjugate to ``p`` is the volume ``V`` between the membrane and its stretched
-reference surface, to ``gamma z_w`` the liquid ``V_f`` between vertical walls at the edges; above edges that
-move in their plane the walls are those of the reference surface. The unknown is the displacement from the
-stretched surface.
+with the stress-free surface as reference, ``H`` its thickness over ``h``, for gas on the side from which the
+normals ``N`` point, or a liquid of level ``z_w`` on the side to which they point. ``Pi_0`` is the load's
+integral over the reference surface, stretched by ``delta`` about a point. Held edges are on that surface.
+Edges on a plane of symmetry, and edges that slide in a plane, stay in the plane; ``z_e`` is the height of a
+horizontal one, at which the edges of the membrane then carry no load. Conjugate to ``p`` is the volume ``V``
+between the membrane and its stretched reference surface, to ``gamma z_w`` the liquid ``V_f`` between vertical
+walls at the edges; above edges that move in their plane the walls are those of the reference surface. The
+unknown is the displacement from the stretched surface.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from ufl.core.expr import Expr
 from weakforms.forms.relaxed_surface import SLACK, WRINKLED, depth, least_stress, state
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.membrane.reference import AXES, Reference
+from weakforms.problems.meridian.thickness import Thickness
 from weakforms.problems.triangles.limits import MEDIA
 from weakforms.problems.triangles.meshes import in_space
 from weakforms.problems.triangles.readings import corner_weight
@@ -51,6 +52,8 @@ class Body:
     """``gas``, which pushes along the normals, or ``liquid``, which pushes against them."""
     gamma: float = 1.0
     """Weight of the liquid."""
+    thickness: Thickness | None = None
+    """Thickness over ``h``, by the place in the reference surface; by default 1."""
 
     @property
     def control(self) -> str:
@@ -126,8 +129,10 @@ class MembraneModel:
         start = self.stretched()
         given = (self.mesh, self.law, self.scalars, self.weight)
         position = start if displacement is None else start + displacement
-        edge = self.body.reference.edge
-        return Membrane.at(position, *given, relaxed=self.body.relaxed, edge=edge)
+        edge, own = self.body.reference.edge, self.body.thickness
+        x, y, z = ufl.SpatialCoordinate(self.mesh)
+        thick = own(x, {"Y": y, "Z": z}) if own else 1.0
+        return Membrane.at(position, *given, thickness=thick, relaxed=self.body.relaxed, edge=edge)
 
     def _formulation(self) -> Formulation:
         at, start = self.membrane, self._at(None)

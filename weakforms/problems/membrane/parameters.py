@@ -13,6 +13,7 @@ from weakforms.problems.membrane.files import from_file
 from weakforms.problems.membrane.model import Body
 from weakforms.problems.membrane.reference import Reference
 from weakforms.problems.membrane.shapes import airbag, disk, square
+from weakforms.problems.meridian.thickness import Thickness, text_over
 from weakforms.problems.problem import Needs
 from weakforms.problems.triangles.files import SUFFIXES
 
@@ -80,6 +81,9 @@ class MembraneParameters(MaterialChoice):
     gamma: float = Field(1.0, gt=0, le=30, description="rho g a^2/(C1 h), weight of the liquid")
     delta: float = Field(1.1, ge=1, le=3, description="pre-stretch: stretch of the supports about a point")
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
+    thickness: text_over("X", "Y", "Z") = Field(  # type: ignore[valid-type]
+        None, description="thickness over h by the place X, Y, Z over a, such as '1 + 0.2*cos(pi*X)*Y**2'"
+    )
     energy: Literal["relaxed", "full"] = Field(
         "relaxed", description="relaxed: the membrane bears no compression; full: it bears compression"
     )
@@ -110,24 +114,37 @@ class MembraneParameters(MaterialChoice):
         """
         return from_file(self.mesh, self.unit, names(self.held), names(self.mirror), names(self.slide))
 
+    @property
+    def own_thickness(self) -> Thickness | None:
+        """The thickness, if one is given."""
+        return None if self.thickness is None else Thickness(self.thickness, "X", ("Y", "Z"))
+
+    def surface(self, cells: int, degree: int, level: int) -> Reference:
+        """The reference surface on one mesh: a built-in one by its cells, that of a file by the level.
+
+        Raises:
+            InputError: If the mesh is a file that is not suitable.
+        """
+        if self.mesh == "disk":
+            return disk(cells, degree)
+        if self.mesh == "square":
+            return square(cells)
+        if self.mesh == "airbag":
+            return airbag(cells)
+        reference = self.given()
+        for _ in range(level):
+            reference = reference.refined()
+        return reference
+
     def body(self, numerics: MembraneNumerics, level: int) -> Body:
         """The membrane on one mesh.
 
         Raises:
             InputError: If the mesh is a file that is not suitable.
         """
-        cells, degree = numerics.meshes[level], numerics.degree
-        if self.mesh == "disk":
-            reference = disk(cells, degree)
-        elif self.mesh == "square":
-            reference = square(cells)
-        elif self.mesh == "airbag":
-            reference = airbag(cells)
-        else:
-            reference = self.given()
-            for _ in range(level):
-                reference = reference.refined()
+        reference = self.surface(numerics.meshes[level], numerics.degree, level)
         if self.load == "liquid":
             reference = reference.upwards()
-        about = self.material, self.delta, self.energy == "relaxed", degree, self.load, self.gamma
+        relaxed, load = self.energy == "relaxed", (self.load, self.gamma)
+        about = self.material, self.delta, relaxed, numerics.degree, *load, self.own_thickness
         return Body(reference, *about)

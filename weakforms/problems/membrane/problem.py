@@ -13,6 +13,7 @@ from weakforms.problems.membrane.family import MembraneFamily
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
 from weakforms.problems.meridian.pre_stretch import require_low, require_taut
+from weakforms.problems.meridian.thickness import require_thickness
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.triangles.limits import require_light, require_own_load
 from weakforms.results import Quantity, Result
@@ -27,6 +28,10 @@ KIRCHHOFF = "saint_venant_kirchhoff"
 LARGEST = 2_000_000
 """Largest number of unknowns on the finest mesh."""
 
+
+LOOKED_AT = 64
+"""Triangles along the radius or half a side at whose nodes a thickness is looked at; of a file its mesh, once
+refined."""
 
 LEVEL = 0.05
 """Least horizontal area that the open edges of a surface under a liquid span, over its area."""
@@ -60,6 +65,9 @@ class Membrane(BranchProblem):
                 f"membrane: delta = {parameters.delta:g}: no edge is held, and edges that slide keep no "
                 "pre-stretch; allowed: delta = 1"
             )
+        if parameters.thickness is not None:
+            x, y, z = parameters.surface(LOOKED_AT, 2, 1).points.T
+            require_thickness(self.name, parameters.own_thickness, x, Y=y, Z=z)
         require_own_load(self.name, parameters.load, requests)
         if parameters.load == "liquid":
             stretches = {"delta": parameters.delta}

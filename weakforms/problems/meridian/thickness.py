@@ -40,7 +40,7 @@ LONGEST = 200
 """Largest number of characters."""
 
 PLACES = 2001
-"""Number of places along the meridian at which the thickness is looked at."""
+"""Number of places along a meridian at which the thickness is looked at."""
 
 LEAST, MOST = 0.01, 100.0
 """Range of the thickness over ``h``: beyond it no mesh resolves the stretches, or units are wrong."""
@@ -48,13 +48,13 @@ LEAST, MOST = 0.01, 100.0
 
 @dataclass(frozen=True)
 class Thickness:
-    """A thickness over ``h`` as a function of the coordinate along the meridian, an immutable value."""
+    """A thickness over ``h`` as a function of the coordinate along the meridian, or of several ones."""
 
     text: str
     coordinate: str
     """Name of the coordinate."""
     others: tuple[str, ...] = ()
-    """Names of parameters of the body that may occur."""
+    """Names of further coordinates, and of parameters of the body, that may occur."""
 
     def __post_init__(self) -> None:
         """Refuse a text with anything that is not allowed.
@@ -98,36 +98,41 @@ class Thickness:
         names = {self.coordinate: s, "pi": math.pi} | {name: values[name] for name in self.others}
         return _evaluated(_parsed(self.text), names, 1)
 
-    def at(self, s: np.ndarray, **others: float) -> np.ndarray:
-        """Its values at places of the meridian, refused where one is no thickness.
+    def at(self, s: np.ndarray, **others: np.ndarray | float) -> np.ndarray:
+        """Its values at places of the body, refused where one is no thickness.
 
         Args:
             s: The coordinate.
-            **others: Values of the other names.
+            **others: Values of the other names, at these places or everywhere.
 
         Raises:
             ValueError: If a number of the expression is not finite, or the thickness is out of range.
         """
-        given = {self.coordinate: s, "pi": np.full_like(s, math.pi)}
-        given |= {name: np.full_like(s, value) for name, value in others.items()}
+        places = {self.coordinate: s} | {name: np.full_like(s, value) for name, value in others.items()}
+        given = places | {"pi": np.full_like(s, math.pi)}
         with np.errstate(all="ignore"):
-            found = np.broadcast_to(_evaluated(_parsed(self.text), given, 0, self._finite(s)), s.shape)
+            found = np.broadcast_to(_evaluated(_parsed(self.text), given, 0, self._finite(places)), s.shape)
         k = int(np.argmin(found) if found.min() < LEAST else np.argmax(found))
         if not LEAST <= found[k] <= MOST:
-            where = f"at {self.coordinate} = {s[k]:.4g}"
+            where = self._where(places, k)
             raise ValueError(f"is {found[k]:.4g} {where}; allowed: from {LEAST:g} to {MOST:g} everywhere")
         return found
 
-    def _finite(self, s: np.ndarray) -> Callable[[Any, ast.expr], None]:
+    def _where(self, places: Mapping[str, np.ndarray], k: int) -> str:
+        """A place in a message: the coordinate, and the others that differ from place to place."""
+        named = {name: x[k] for name, x in places.items() if name == self.coordinate or np.ptp(x) > 0}
+        return "at " + ", ".join(f"{name} = {value:.4g}" for name, value in named.items())
+
+    def _finite(self, places: Mapping[str, np.ndarray]) -> Callable[[Any, ast.expr], None]:
         """A check of every number that occurs."""
 
         def check(value: Any, node: ast.expr) -> None:
-            wrong = np.flatnonzero(~np.isfinite(np.broadcast_to(value, s.shape)))
+            shape = places[self.coordinate].shape
+            wrong = np.flatnonzero(~np.isfinite(np.broadcast_to(value, shape)))
             if len(wrong):
                 part = ast.get_source_segment(self.text, node)
-                raise ValueError(
-                    f"{part!r} {_place(node)} is not finite at {self.coordinate} = {s[wrong[0]]:.4g}"
-                )
+                where = self._where(places, wrong[0])
+                raise ValueError(f"{part!r} {_place(node)} is not finite {where}")
 
         return check
 
@@ -146,14 +151,18 @@ def text_over(coordinate: str, *others: str) -> Any:
 
 
 def require_thickness(
-    problem: str, given: Thickness | None, length: float, replaced: bool = False, **others: float
+    problem: str,
+    given: Thickness | None,
+    places: float | np.ndarray,
+    replaced: bool = False,
+    **others: np.ndarray | float,
 ) -> None:
-    """Refuse a thickness that is not positive and finite along the whole meridian.
+    """Refuse a thickness that is not positive and finite along a whole meridian, or at many places.
 
     Args:
         problem: Name of the problem, for the message.
         given: The thickness, if it is given as text.
-        length: The coordinate at the last end.
+        places: The coordinate at the last end of a meridian, or at each place.
         replaced: Whether the parameter ``M``, which it replaces, is given too.
         **others: Values of the other names in it.
 
@@ -163,7 +172,7 @@ def require_thickness(
     if given is None:
         return
     try:
-        given.at(np.linspace(0.0, length, PLACES), **others)
+        given.at(places if np.ndim(places) else np.linspace(0.0, places, PLACES), **others)
     except ValueError as error:
         raise InputError(f"{problem}: thickness = {given.text!r}: {error}") from None
     if replaced:
