@@ -1,5 +1,7 @@
 """The membrane of any shape: the same branches, states and fields serially and on two ranks."""
 
+import meshio
+import numpy as np
 import pytest
 
 pytestmark = pytest.mark.mpi
@@ -23,3 +25,24 @@ def test_membrane(same_on_ranks):
     pond |= {"thickness": "1 + 0.2*X"}
     found = same_on_ranks([disk, slack, bag, pond | {"numerics": coarse}])
     assert [len(result.special_points) for result in found] == [1, 0, 0, 2]
+
+
+def test_moved_supports(same_on_ranks, tmp_path):
+    """A ring of a file whose inner edge is turned and raised."""
+    sides, rows = 12, 4
+    angle, radius = np.meshgrid(2 * np.pi * np.arange(sides) / sides, np.linspace(0.4, 1.0, rows))
+    points = np.column_stack([(radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel()])
+    a = np.arange((rows - 1) * sides)
+    b = a // sides * sides + (a + 1) % sides
+    cells = np.vstack([np.column_stack([a, b + sides, b]), np.column_stack([a, a + sides, b + sides])])
+    hole, last = np.column_stack([a, b])[:sides], (rows - 1) * sides
+    blocks = [("triangle", cells[:, [0, 2, 1]]), ("line", hole), ("line", hole + last)]
+    tags = [np.full(len(block), k + 1) for k, (_, block) in enumerate(blocks)]
+    mesh = meshio.Mesh(np.column_stack([points, 0 * points[:, 0]]), blocks)
+    mesh.cell_data = {"gmsh:physical": tags, "gmsh:geometrical": tags}
+    mesh.field_data = {"hole": np.array([2, 1]), "rim": np.array([3, 1])}
+    mesh.write(tmp_path / "ring.msh", file_format="gmsh22")
+    ring = {"problem": "membrane", "mesh": str(tmp_path / "ring.msh"), "moved": "hole", "turn": 10.0}
+    ring |= {"shift_z": 0.2, "load": "liquid", "w_end": 0.31, "numerics": {"levels": 2, "p_start": 0.1}}
+    (found,) = same_on_ranks([ring])
+    assert found.failures == []

@@ -68,6 +68,15 @@ def round_sheet(hole: bool = False) -> dict[str, list[int]]:
     return {"rim": [rim]} | ({"hole": [inner]} if hole else {})
 
 
+def ring() -> dict[str, list[int]]:
+    """A unit disk with a hole of radius 0.4 in its middle."""
+    occ = gmsh.model.occ
+    rim, hole = occ.addCircle(0, 0, 0, 1), occ.addCircle(0, 0, 0, 0.4)
+    occ.addPlaneSurface([occ.addCurveLoop([rim]), occ.addCurveLoop([hole])])
+    occ.synchronize()
+    return {"rim": [rim], "hole": [hole]}
+
+
 def quarter_disk() -> dict[str, list[int]]:
     """A quarter of the unit disk."""
     geo = gmsh.model.geo

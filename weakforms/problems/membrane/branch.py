@@ -22,7 +22,7 @@ from weakforms.solvers.stability.modes import SecondVariation
 from weakforms.solvers.stability.surface_family import FilledBranch
 
 HEIGHT = 0.3
-"""Height, over the size of the surface, of the guess of the first state of a membrane whose edges slide."""
+"""Height, over the size of the surface, of the guess of the first state if edges slide or are moved."""
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,8 @@ class Start:
     w_c: float
     """Deflection of a membrane with held edges."""
     p: float
-    """Pressure of a membrane whose edges slide, of a liquid at its top: up to some deflection it has no
-    stiffness."""
+    """Pressure, of a liquid at the top, if edges slide or are moved: up to some deflection a membrane whose
+    edges slide has no stiffness."""
 
 
 class Readings:
@@ -107,7 +107,7 @@ def _begun(model: MembraneModel, continuation: Continuation, start: Start) -> Cu
     """
     system, body = model.system, model.body
     control, gas = body.control, body.load == "gas"
-    if body.reference.slides:
+    if body.reference.slides or body.motion:
         head = start.p if gas else start.p / body.gamma
         load = head if gas else body.top + head
         guess = State(model.raised(HEIGHT * body.reference.size), system.initial.loads | {control: load})

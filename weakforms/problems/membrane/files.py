@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from itertools import combinations
 from pathlib import Path
@@ -45,7 +46,12 @@ class Refusal:
 
 
 def from_file(
-    path: str, unit: float, held: Sequence[str], mirrors: Sequence[str], slides: Sequence[str] = ()
+    path: str,
+    unit: float,
+    held: Sequence[str],
+    mirrors: Sequence[str],
+    slides: Sequence[str] = (),
+    moved: Sequence[str] = (),
 ) -> Reference:
     """The surface in a file; read again only if the file has changed.
 
@@ -56,6 +62,7 @@ def from_file(
             not slide.
         mirrors: Names of groups of edges on planes of symmetry.
         slides: Names of groups of edges that slide in a plane.
+        moved: Names of groups of held edges that are moved as a rigid body.
 
     Raises:
         InputError: If it cannot be read, is no suitable surface, or is not supported everywhere.
@@ -63,12 +70,16 @@ def from_file(
     file = Path(path)
     status = file.stat() if file.is_file() else None
     seen = (status.st_mtime_ns, status.st_size) if status else None
-    return _read(path, unit, (tuple(held), tuple(mirrors), tuple(slides)), seen)
+    return _read(path, unit, (tuple(held), tuple(mirrors), tuple(slides)), tuple(moved), seen)
 
 
 @lru_cache(maxsize=8)
 def _read(
-    path: str, unit: float, named: tuple[tuple[str, ...], ...], _seen: tuple[int, int] | None
+    path: str,
+    unit: float,
+    named: tuple[tuple[str, ...], ...],
+    moved: tuple[str, ...],
+    _seen: tuple[int, int] | None,
 ) -> Reference:
     refuse = Refusal(path)
     read = read_mesh(Path(path), refuse.named, ("triangle", "triangle6"))
@@ -90,7 +101,7 @@ def _read(
     for (one, names), (other, others) in combinations(zip(KINDS, named, strict=True), 2):
         for name in {*names} & {*others}:
             refuse(f"group {name!r} is both in {one} and in {other}; allowed: in one of them")
-    for name in (*held, *mirrors, *slides):
+    for name in (*held, *mirrors, *slides, *moved):
         if name not in groups:
             refuse(f"no group of edges is called {name!r}{not_among(name, [*groups] or ['none'])}")
         if not np.isin(keys(groups[name]), known).all():
@@ -109,7 +120,29 @@ def _read(
     if "Z" in mirrored and "Z" in sliding:
         _require_one_height(given, refuse)
     _require_supported(given, open_edges, [*groups], refuse)
+    if moved:
+        given = _moving(given, {name: groups[name] for name in moved}, refuse)
     return given.upwards() if given.is_flat else given
+
+
+def _moving(given: Reference, groups: Mapping[str, np.ndarray], refuse: Refusal) -> Reference:
+    """The same surface with groups of edges that are moved, about the middle of their length."""
+    held = keys(given.held)
+    for name, edges in groups.items():
+        if not np.isin(keys(edges), held).all():
+            refuse(f"group {name!r} of moved is not held; allowed: groups of edges that are held")
+    moved = np.vstack([*groups.values()])
+    rest = given.held[~np.isin(held, keys(moved))]
+    others = np.vstack([rest, *given.mirrors.values(), *given.slides.values()])
+    shared = np.intersect1d(moved, others)
+    if len(shared):
+        refuse(
+            f"edges of moved meet edges with another support {at(given.points[shared[0]])}; allowed: whole "
+            "edges of the surface, such as a ring"
+        )
+    ends = given.points[moved]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    return replace(given, moved=moved, pivot=length @ ends.mean(axis=1) / length.sum())
 
 
 def _require_one_height(given: Reference, refuse: Refusal) -> None:

@@ -16,6 +16,7 @@ unknown is the displacement from the stretched surface.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import cos, sin
 
 import numpy as np
 import ufl
@@ -37,6 +38,17 @@ from weakforms.solvers.support import compat
 
 
 @dataclass(frozen=True)
+class Motion:
+    """A rigid motion of held edges: a turn about a line through :attr:`Reference.pivot`, and a shift."""
+
+    shift: tuple[float, float, float]
+    turn: float
+    """Angle, counter-clockwise about the line."""
+    axis: int
+    """The coordinate along the line."""
+
+
+@dataclass(frozen=True)
 class Body:
     """The membrane on one mesh."""
 
@@ -54,6 +66,8 @@ class Body:
     """Weight of the liquid."""
     thickness: Thickness | None = None
     """Thickness over ``h``, by the place in the reference surface; by default 1."""
+    motion: Motion | None = None
+    """Motion of the edges :attr:`Reference.moved`."""
 
     @property
     def control(self) -> str:
@@ -69,7 +83,8 @@ class Body:
     def top(self) -> float:
         """Largest height of the stretched reference surface: a level below it wets a part only."""
         given = self.reference
-        return float((given.middle + self.delta * (given.points - given.middle))[:, 2].max())
+        highest = (given.middle + self.delta * (given.points - given.middle))[:, 2].max()
+        return float(highest + (max(self.motion.shift[2], 0.0) if self.motion else 0.0))
 
 
 class MembraneModel:
@@ -101,7 +116,9 @@ class MembraneModel:
         self.rule = RULE[max(body.degree, self.mesh.geometry.cmap.degree)]
         self.dx = ufl.Measure("dx", self.mesh, metadata={"quadrature_degree": self.rule})
         self.direction = body.sign * body.reference.direction
-        self.deflection = ufl.dot(self.unknown, ufl.as_vector(self.direction.tolist()))
+        self._lifted = self._lift() if body.motion else []
+        moved = sum(self._lifted, self.unknown)
+        self.deflection = ufl.dot(moved, ufl.as_vector(self.direction.tolist()))
         self.membrane = self._at(self.unknown)
         self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
         self.area = comm.allreduce(fem.assemble_scalar(fem.form(ufl.as_ufl(1.0) * self.dx)), op=MPI.SUM)
@@ -125,10 +142,32 @@ class MembraneModel:
         middle = ufl.as_vector(self.body.reference.middle.tolist())
         return middle + self.scalars["delta"][1] * (ufl.SpatialCoordinate(self.mesh) - middle)
 
+    def _lift(self) -> list[Expr]:
+        r"""A displacement that is the motion on the edges that are moved, and vanishes on other held ones.
+
+        With the reference place ``v`` from the pivot, a unit vector ``a`` and the angle ``t`` it is
+        :math:`\delta\,[(1 - \cos t)\, a\times(a\times v) + \sin t\; a\times v]` and the shift, times a share.
+        """
+        motion, given = self.body.motion, self.body.reference
+        share = self._linear(given.follows)
+        pivot, a, shift, back, along = (
+            fem.Constant(self.mesh, value)
+            for value in (
+                given.pivot,
+                np.eye(3)[motion.axis],
+                motion.shift,
+                1 - cos(motion.turn),
+                sin(motion.turn),
+            )
+        )
+        across = ufl.cross(a, ufl.SpatialCoordinate(self.mesh) - pivot)
+        turned = self._interpolated(share * (back * ufl.cross(a, across) + along * across))
+        return [self.scalars["delta"][1] * turned, self._interpolated(share * shift)]
+
     def _at(self, displacement: Expr | None) -> Membrane:
         start = self.stretched()
         given = (self.mesh, self.law, self.scalars, self.weight)
-        position = start if displacement is None else start + displacement
+        position = start if displacement is None else sum(self._lifted, start + displacement)
         edge, own = self.body.reference.edge, self.body.thickness
         x, y, z = ufl.SpatialCoordinate(self.mesh)
         thick = own(x, {"Y": y, "Z": z}) if own else 1.0
@@ -182,16 +221,26 @@ class MembraneModel:
 
     def raised(self, height: float) -> np.ndarray:
         """Displacement in the direction of deflections by :attr:`Reference.rise` times a height."""
-        space = fem.functionspace(self.mesh, ("Lagrange", 1))
-        rise = fem.Function(space)
-        cells = self.mesh.topology.connectivity(2, 0).array.reshape(-1, 3)
-        rise.x.array[space.dofmap.list[: len(cells)]] = self.body.reference.rise[self.node[cells]]
-        lifted = ufl.as_vector((height * self.direction).tolist()) * rise
-        out = fem.Function(self.space)
-        out.interpolate(fem.Expression(lifted, compat.interpolation_points(self.space.element)))
+        rise = self._linear(self.body.reference.rise)
+        out = self._interpolated(ufl.as_vector((height * self.direction).tolist()) * rise)
         values = out.x.array[: self.system.size].copy()
         values[self.system.bc_dofs] = 0.0
         return values
+
+    def _linear(self, values: np.ndarray) -> fem.Function:
+        """A function that is linear on the triangles, by its values at nodes of the reference surface."""
+        space = fem.functionspace(self.mesh, ("Lagrange", 1))
+        out = fem.Function(space)
+        cells = self.mesh.topology.connectivity(2, 0).array.reshape(-1, 3)
+        out.x.array[space.dofmap.list[: len(cells)]] = values[self.node[cells]]
+        return out
+
+    def _interpolated(self, vector: Expr) -> fem.Function:
+        """A vector in the space of the displacements."""
+        out = fem.Function(self.space)
+        out.interpolate(fem.Expression(vector, compat.interpolation_points(self.space.element)))
+        out.x.scatter_forward()
+        return out
 
     # -- supports --------------------------------------------------------------------------------
 

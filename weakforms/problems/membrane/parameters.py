@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
+import numpy as np
 from pydantic import AfterValidator, Field
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.membrane.files import from_file
-from weakforms.problems.membrane.model import Body
-from weakforms.problems.membrane.reference import Reference
+from weakforms.problems.membrane.model import Body, Motion
+from weakforms.problems.membrane.reference import AXES, Reference
 from weakforms.problems.membrane.shapes import airbag, disk, square
 from weakforms.problems.meridian.thickness import Thickness, text_over
 from weakforms.problems.problem import Needs
@@ -46,7 +47,10 @@ class MembraneNumerics(MeshNumerics):
         description="w_c of the first point; under a liquid at least 0.2 if delta is below 1.05",
     )
     p_start: float = Field(
-        5e-3, ge=1e-4, le=1, description="p of the first point, of a liquid at its top, if edges slide"
+        5e-3,
+        ge=1e-4,
+        le=1,
+        description="p of the first point, of a liquid at its top, if edges slide or are moved",
     )
 
 
@@ -55,7 +59,9 @@ class MembraneParameters(MaterialChoice):
 
     ratio: ClassVar[str] = "alpha"
     needs: ClassVar[Needs] = {
-        **{name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide")},
+        **{name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide", "moved")},
+        **{name: [{"moved": ()}] for name in ("shift_x", "shift_y", "shift_z", "turn")},
+        "axis": [{"turn": ()}],
         "gamma": [{"load": ("liquid",)}],
     }
     movable: ClassVar = {"w_end": "le"}
@@ -75,6 +81,14 @@ class MembraneParameters(MaterialChoice):
     slide: str = Field(
         "", max_length=1000, description="file: groups of edges that slide in a plane X, Y or Z = constant"
     )
+    moved: str = Field(
+        "", max_length=1000, description="file: held groups of edges that are moved as one rigid body first"
+    )
+    shift_x: float = Field(0.0, ge=-3, le=3, description="displacement of these in X over a")
+    shift_y: float = Field(0.0, ge=-3, le=3, description="displacement of these in Y over a")
+    shift_z: float = Field(0.0, ge=-3, le=3, description="displacement of these in Z over a")
+    turn: float = Field(0.0, ge=-90, le=90, description="turn of these, degrees, about their middle")
+    axis: Literal["X", "Y", "Z"] = Field("Z", description="axis of this turn")
     load: Literal["gas", "liquid"] = Field(
         "gas", description="gas along the normals, or a liquid that stands on the surface"
     )
@@ -112,7 +126,16 @@ class MembraneParameters(MaterialChoice):
         Raises:
             InputError: If it is not suitable.
         """
-        return from_file(self.mesh, self.unit, names(self.held), names(self.mirror), names(self.slide))
+        groups = map(names, (self.held, self.mirror, self.slide, self.moved))
+        return from_file(self.mesh, self.unit, *groups)
+
+    @property
+    def motion(self) -> Motion | None:
+        """The motion of held edges, if any are moved."""
+        if not (self.is_file and names(self.moved)):
+            return None
+        shift = self.shift_x, self.shift_y, self.shift_z
+        return Motion(shift, float(np.radians(self.turn)), AXES.index(self.axis))
 
     @property
     def own_thickness(self) -> Thickness | None:
@@ -146,5 +169,5 @@ class MembraneParameters(MaterialChoice):
         if self.load == "liquid":
             reference = reference.upwards()
         relaxed, load = self.energy == "relaxed", (self.load, self.gamma)
-        about = self.material, self.delta, relaxed, numerics.degree, *load, self.own_thickness
+        about = self.material, self.delta, relaxed, numerics.degree, *load, self.own_thickness, self.motion
         return Body(reference, *about)

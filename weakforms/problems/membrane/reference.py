@@ -45,6 +45,10 @@ class Reference:
     slides: Mapping[str, np.ndarray] = field(default_factory=dict)
     """Edges that slide in a plane to which the surface need not be normal, by the coordinate that is constant
     there."""
+    moved: np.ndarray = field(default_factory=lambda: np.empty((0, 2), int))
+    """Held edges that are moved as a rigid body, among :attr:`held`."""
+    pivot: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    """The point about which these are turned."""
 
     @property
     def corners(self) -> np.ndarray:
@@ -98,7 +102,16 @@ class Reference:
         any, on planes of symmetry. It is zero at nodes that are no corners.
         """
         lowest = np.vstack([self.held, *self.slides.values()])
-        edges = lowest if len(lowest) else np.vstack([*self.mirrors.values()])
+        out = self._drum(lowest if len(lowest) else np.vstack([*self.mirrors.values()]), 1.0)
+        return out / out.max()
+
+    @property
+    def follows(self) -> np.ndarray:
+        """Share of the motion of :attr:`moved` at each corner: harmonic, 1 on these edges, 0 on other."""
+        return self._drum(np.vstack([self.held, *self.slides.values()]), 0.0)
+
+    def _drum(self, edges: np.ndarray, source: float) -> np.ndarray:
+        """``div grad w = -source``; zero on edges, but without a source 1 on :attr:`moved`."""
         nodes, inverse = np.unique(self.corners, return_inverse=True)
         cells = inverse.reshape(-1, 3)
         sides = np.stack(
@@ -108,11 +121,13 @@ class Reference:
         stiffness = np.einsum("imd,jmd->mij", sides, sides) / (2 * twice[:, None, None])
         rows, columns = np.repeat(cells, 3, axis=1).ravel(), np.tile(cells, 3).ravel()
         matrix = csr_matrix((stiffness.ravel(), (rows, columns)), shape=(len(nodes),) * 2)
-        load = np.bincount(cells.ravel(), np.repeat(twice / 6, 3), len(nodes))
+        load = source * np.bincount(cells.ravel(), np.repeat(twice / 6, 3), len(nodes))
+        given = np.isin(nodes, self.moved) * (1.0 - source)
         free = np.flatnonzero(~np.isin(nodes, edges))
         out = np.zeros(len(self.points))
-        out[nodes[free]] = spsolve(matrix[free][:, free].tocsc(), load[free])
-        return out / out.max()
+        out[nodes] = given
+        out[nodes[free]] = spsolve(matrix[free][:, free].tocsc(), (load - matrix @ given)[free])
+        return out
 
     @property
     def slope(self) -> float:
@@ -174,6 +189,7 @@ class Reference:
             points=points,
             cells=cells,
             held=_halved(self.held, chains),
+            moved=_halved(self.moved, chains),
             mirrors=mirrors,
             slides=slides,
             point=self.centre,
