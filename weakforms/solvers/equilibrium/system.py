@@ -329,7 +329,7 @@ class System(Lendable):
 def without_zeros(matrix: PETSc.Mat) -> PETSc.Mat:
     """A copy without stored zeros, which are two thirds of a mass matrix of three components."""
     starts, columns, values = matrix.getValuesCSR()
-    kept = values != 0
-    starts = np.append(0, np.cumsum(kept))[starts].astype(starts.dtype)
+    kept = np.flatnonzero(values)
+    starts = np.searchsorted(kept, starts).astype(starts.dtype)
     parts = starts, columns[kept], values[kept]
     return PETSc.Mat().createAIJ(matrix.getSizes(), csr=parts, comm=matrix.comm)
