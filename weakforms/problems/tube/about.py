@@ -103,8 +103,12 @@ CURVATURES = numbers(
     V_2="the same of its volume: V = V_c + V_2 w_mid^2",
     A1="coefficient of (p - p_c) w_mid in the equation of the amplitude, from the third variation of Pi",
     A3="coefficient of w_mid^3 in it, from the third and fourth variation; p_2 = -A3/A1",
+    B="coefficient of uneven in it: the force of a thickness 1 + uneven Z/(lf/2) on the mode",
+    p_s="coefficient of |uneven|^(2/3) in the difference of an uneven tube's limit point from p_c, p scaled "
+    "as p is: Koiter's law, 3 p_2 |B/(2 A1 p_2)|^(2/3)",
+    V_s="the same of the extremum of the volume: 3 V_2 |V' B/(2 A1 V_2)|^(2/3), V' = dV/dp of free inflation",
 )
-"""Values of the mirror-breaking point at which the secondary branch begins."""
+"""Values of the mirror-breaking point at which the secondary branch of an even tube begins."""
 
 SHARED = {
     "paper": 2,
@@ -134,7 +138,10 @@ TUBE = About(
     ),
     columns=(*FREE, *LOPSIDED, *STABILITY, *CONTACT, *column.DIAGNOSTICS),
     numbers=(*NUMBERS, *WAVES, *CURVATURES),
-    special_points=("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset", *BIFURCATIONS),
+    special_points=(
+        *("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset"),
+        *(*BIFURCATIONS, "volume_fold"),
+    ),
     branches=("primary", "secondary"),
     example=Example("p", "u_max", {"alpha": 0.1, "delta1": 1.1}, numerics={"cells": 32, "levels": 2}),
     tuned=(

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from weakforms.errors import AbsentError, ConvergenceError
-from weakforms.problems.tube.model import STEEPEST, USUAL_LOAD, TubeModel, yielding, yields
+from weakforms.problems.tube.model import STEEPEST, UNEVEN, USUAL_LOAD, TubeModel, yielding, yields
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.results.wording import counted
@@ -57,6 +57,15 @@ class WholeTube(TubeModel):
         return replace(given, monitors={**given.monitors, AMPLITUDE: self.at_middle(self.expressions["z"])})
 
 
+def expanded(solver: ExtendedNewton, crossing: Solved) -> Expansion:
+    """What leaves a crossing, with the force of an uneven thickness.
+
+    Raises:
+        ConvergenceError: If the crossing has no symmetry.
+    """
+    return Expansion.at(solver, crossing.state, "p", AMPLITUDE, UNEVEN)
+
+
 class LopsidedBranch(TubeBranch):
     """The branch on one mesh.
 
@@ -65,6 +74,7 @@ class LopsidedBranch(TubeBranch):
         crossings: The points at which it loses, or regains, its symmetry.
         begin: Index of the one at which the branch begins.
         step: Largest step.
+        side: Sign of the amplitude.
 
     Raises:
         ConvergenceError: If no lopsided state is found beside the crossing.
@@ -76,20 +86,21 @@ class LopsidedBranch(TubeBranch):
         crossings: Sequence[Solved],
         begin: int,
         step: float,
+        side: float = 1.0,
     ) -> None:
-        system = primary.system
+        self.side, system = side, primary.system
         self.crossed = [crossings[begin]]
         """The crossings at which the branch begins and, if it joins free inflation again, ends."""
         self._others = [solved for i, solved in enumerate(crossings) if i != begin]
         solver = ExtendedNewton(system, [primary.control])
-        self.expansion = Expansion.at(solver, crossings[begin].state, primary.control, AMPLITUDE)
+        self.expansion = expanded(solver, crossings[begin])
         steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
         continuation = Continuation(solver, control=steps)
         most = primary.points[-1].monitors["V"]
 
         def stop(point: CurvePoint) -> bool:
             columns, steep = point.monitors, point.tangent.loads[primary.control] > STEEPEST
-            return columns["V"] > most or columns[AMPLITUDE] < 0 or yields(point) or steep
+            return columns["V"] > most or side * columns[AMPLITUDE] < 0 or yields(point) or steep
 
         start = self._first_beside(continuation)
         super().__init__(continuation, primary.control, start, stop, primary.modes)
@@ -100,7 +111,7 @@ class LopsidedBranch(TubeBranch):
     def _insert_limits(self) -> None:
         """As for any branch, between its ends: the pressure turns at a crossing too."""
         self._begin()
-        if self.points[-1].monitors[AMPLITUDE] < 0:
+        if self.side * self.points[-1].monitors[AMPLITUDE] < 0:
             self._join()
         super()._insert_limits()
 
@@ -108,9 +119,12 @@ class LopsidedBranch(TubeBranch):
         """The first lopsided state, near enough to the crossing for its expansion to be a good guess."""
         amplitude = FIRST
         for _ in range(HALVINGS):
-            guess = self.expansion.predicted(amplitude)
+            guess, held = (
+                self.expansion.predicted(self.side * amplitude),
+                Held(AMPLITUDE, self.side * amplitude),
+            )
             try:
-                return continuation.start(guess, Held(AMPLITUDE, amplitude), towards={AMPLITUDE: 1.0})
+                return continuation.start(guess, held, towards={AMPLITUDE: self.side})
             except ConvergenceError:
                 amplitude /= 2
         raise ConvergenceError(f"no lopsided state with w_mid from {amplitude * 2:g} to {FIRST:g} was found")
@@ -134,7 +148,7 @@ class LopsidedBranch(TubeBranch):
         length = self.continuation.distance(first.state, self.crossed[0].state)
         for point in self.points:
             point.arclength += length
-        self.points.insert(0, self._crossing(self.crossed[0], self.expansion.mode, 0.0, first))
+        self.points.insert(0, self._crossing(self.crossed[0], self.side * self.expansion.mode, 0.0, first))
 
     def _join(self) -> None:
         """Replace the last point, beyond the mirror symmetry, by the crossing where the branch arrives."""
@@ -148,9 +162,9 @@ class LopsidedBranch(TubeBranch):
             self.ended = "the branch becomes symmetric where free inflation has no located crossing"
             return
         found = self._others[int(np.argmin(gaps))]
-        mode = Expansion.at(self.solver, found.state, self.control, AMPLITUDE).mode
+        mode = expanded(self.solver, found).mode
         length = self.continuation.distance(found.state, before.state)
-        self.points[-1] = self._crossing(found, -mode, before.arclength + length, before)
+        self.points[-1] = self._crossing(found, -self.side * mode, before.arclength + length, before)
         self.crossed.append(found)
 
     @property
@@ -208,14 +222,14 @@ class LopsidedFamily(TubeFamily):
         return [first, *others]
 
     def curvatures(self) -> Mapping[str, Quantity]:
-        """``p_2``, ``V_2`` and the coefficients of the amplitude's equation, from all meshes."""
+        """``p_2``, ``V_2``, coefficients of the amplitude's equation, of two-thirds laws, on all meshes."""
         found = [level.expansion for level in self.levels]
-        parts = {"p_2": "load_2", "V_2": "conjugate_2", "A1": "linear", "A3": "cubic"}
-        out = {}
-        for name, part in parts.items():
-            both = estimate([getattr(expansion, part) for expansion in found], self.cap)
-            out[name] = Quantity(float(both.value), float(both.uncertainty))
-        return out
+        parts = {"p_2": "load_2", "V_2": "conjugate_2", "A1": "linear", "A3": "cubic", "B": "push"}
+        rows = {name: [getattr(expansion, part) for expansion in found] for name, part in parts.items()}
+        for name, part in {"p_s": "load", "V_s": "conjugate"}.items():
+            rows[name] = [expansion.two_thirds[part] for expansion in found]
+        both = {name: estimate(row, self.cap) for name, row in rows.items()}
+        return {name: Quantity(float(b.value), float(b.uncertainty)) for name, b in both.items()}
 
 
 def lopsided_family(

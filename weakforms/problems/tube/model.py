@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import ufl
@@ -31,6 +32,7 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.line import CriticalLine, fold_line
+from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -46,6 +48,9 @@ FIRST_U = 0.02
 
 TAUT = 1.02
 """Pre-stretch above which the branch starts at ``p = 0`` (the layer at the disk is then resolved)."""
+
+UNEVEN, EVENLY = "uneven", 0.025
+"""The load that makes the thickness uneven, and the largest step of it."""
 
 USUAL_LOAD = 20.0
 """Pressure above which steps grow with it: it dominates the arc length of laws that stiffen."""
@@ -93,12 +98,13 @@ class TubeModel(MeridianModel):
     ) -> None:
         # At the mid-plane eta = 0 by symmetry; a whole tube has a disk at either end.
         disk, middle = (1.0, half), (None, 0.0)
+        self.half = half
         body = Body(
             name="tube",
             parameters=(),
             length=lambda _q: half,
             radius=lambda _s, _q: 1.0,
-            thickness=lambda _s, q: 1 / ufl.sqrt(q["delta1"]),
+            thickness=lambda s, q: self.thickness(s, q) / ufl.sqrt(q["delta1"]),
             held=((1.0, -half) if mesh.breaks[0] < 0 else middle, disk),
             scales=lambda q: (q["delta1"], 1 / ufl.sqrt(q["delta1"])),
         )
@@ -107,15 +113,34 @@ class TubeModel(MeridianModel):
         self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), self.material(x[0], z)]))
 
     @classmethod
-    def free(cls, comm: MPI.Intracomm, material: Chosen, delta1: float, lf: float, at: TubeMesh) -> TubeModel:
-        """The tube without a substrate: half of it, or the whole."""
+    def free(
+        cls,
+        comm: MPI.Intracomm,
+        material: Chosen,
+        delta1: float,
+        lf: float,
+        at: TubeMesh,
+        uneven: float | None = None,
+    ) -> TubeModel:
+        """The tube without a substrate: half of it, or the whole, which may be thicker at one disk."""
         half, disk = lf / 2, one_end(at.grading)
         grading, breaks = [disk], [0.0, half]
         if at.full:
             grading, breaks = [mirrored(disk), disk], [-half, 0.0, half]
-        values = {"p": 0.0, "delta1": delta1}
+        values = {"p": 0.0, "delta1": delta1} | ({} if uneven is None else {UNEVEN: uneven})
         mesh = Blocks(breaks, at.cells, at.degree, 2 * at.degree + 2, grading=grading)
         return cls(comm, material, values, half, mesh)
+
+    def thickness(self, s: Expr, q: Mapping[str, Expr]) -> Expr | float:
+        """Thickness of the stress-free tube over its mean ``h_o``, ``1 + uneven Z/(lf/2)``."""
+        return 1 + q[UNEVEN] * s / self.half if UNEVEN in q else 1.0
+
+    @cached_property
+    def resultants(self) -> tuple[Expr, Expr]:
+        """Cauchy resultants ``t1, t2`` over ``C1 h_o``, of the local thickness."""
+        t1, t2 = super().resultants
+        own = self.thickness(self.expressions["S"], self.q)
+        return own * t1, own * t2
 
     def mass(self) -> ufl.Form:
         """``int |dx|^2 dZ``."""
@@ -146,11 +171,14 @@ class TubeModel(MeridianModel):
     def formulation(self) -> Formulation:
         r"""The weak form, with columns and with fields that include both first integrals of free inflation.
 
+        ``H`` is one of an even thickness only.
+
         .. math:: F = r_0 w_{,1}\cos\beta - \tfrac12 p\rho^2, \qquad H = w - \lambda_1 w_{,1}
         """
         e, given = self.expressions, super().formulation()
         rho, lam1, lam2 = e["r"], e["lam1"], e["lam2"]
         t1, _ = self.resultants
+        thick = self.thickness(e["S"], self.q)
         return replace(
             given,
             monitors={
@@ -164,7 +192,7 @@ class TubeModel(MeridianModel):
             profile={
                 **given.profile,
                 "F_axial": self.axial_force() - self.q["p"] * rho**2 / 2,
-                "H": self.law(lam1, lam2) - lam1 * t1 * lam2,
+                "H": self.law(lam1, lam2) - lam1 * t1 / thick * lam2,
             },
         )
 
@@ -172,13 +200,17 @@ class TubeModel(MeridianModel):
 def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
     """First state of the branch and its condition: unloaded if the tube is taut, else slightly inflated.
 
-    The latter is reached from a taut tube by decreasing the pre-stretch in steps.
+    The latter is reached from a taut tube by decreasing the pre-stretch in steps. An uneven tube is reached
+    from an even one.
 
     Raises:
         InputError: If the pre-stretch is beyond the largest stretch of the law.
     """
     system = solver.system
     state = system.initial.copy()
+    uneven = state.loads.get(UNEVEN, 0.0)
+    if uneven:
+        state.loads[UNEVEN] = 0.0
     if delta1 >= TAUT:
         with system.at(state):
             forces = system.residual()
@@ -187,12 +219,26 @@ def first_state(solver: ExtendedNewton, delta1: float) -> tuple[State, Held]:
                 f"delta1 = {delta1:g} alone stretches the membrane beyond what its law allows; lower delta1 "
                 "(delta1_end of tube_fold), or choose a law, or constants, that allow more"
             )
-        return state, Held("p", 0.0)
-    inflated = Held("u_max", FIRST_U)
-    for stretch in np.linspace(START_STRETCH, delta1, 7):
-        state.loads["delta1"] = float(stretch)
-        state, _ = solver.solve(state, [inflated])
-    return state, inflated
+        held = Held("p", 0.0)
+    else:
+        held = Held("u_max", FIRST_U)
+        for stretch in np.linspace(START_STRETCH, delta1, 7):
+            state.loads["delta1"] = float(stretch)
+            state, _ = solver.solve(state, [held])
+    return (made_uneven(solver, state, held, uneven) if uneven else state), held
+
+
+def made_uneven(solver: ExtendedNewton, state: State, held: Held, uneven: float) -> State:
+    """The state of an uneven tube that is followed from one of an even tube, while one number is held.
+
+    Raises:
+        ConvergenceError: If it is lost on the way.
+    """
+
+    def solve(state: State, value: float) -> State:
+        return solver.solve(replace(state, loads=state.loads | {UNEVEN: value}), [held])[0]
+
+    return walk(solve, state, state.loads[UNEVEN], uneven, EVENLY)
 
 
 def free_branch(

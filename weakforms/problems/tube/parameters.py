@@ -48,6 +48,7 @@ class TubeParameters(MaterialChoice):
         "u_end": [{"contact": ("none",)}],
         "n": [{"contact": ("none",)}],
         "secondary_from": [{"secondary": (True,)}],
+        "uneven": [{"extent": ("full",), "contact": ("none",)}],
     }
     movable: ClassVar = {"u_end": "le", "p_end": "le"}
 
@@ -78,6 +79,13 @@ class TubeParameters(MaterialChoice):
     )
     secondary_from: int = Field(
         1, ge=1, le=9, description="which of the points where the mirror symmetry breaks they begin at"
+    )
+    uneven: float = Field(
+        0.0,
+        ge=-0.5,
+        le=0.5,
+        description="uneven thickness, 1 + uneven Z/(lf/2) over its mean h_o; free inflation of the whole "
+        "tube (extent = full). Lopsided states are then those whose bulge is at the other end",
     )
 
     @property

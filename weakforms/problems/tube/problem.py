@@ -17,6 +17,7 @@ from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
+from weakforms.problems.tube.imperfect import LEAST, detached_family, largest_step
 from weakforms.problems.tube.lopsided import AMPLITUDE, WholeTube, lopsided_family
 from weakforms.problems.tube.model import FIRST_U, TubeMesh, TubeModel, fold_line_between, free_branch
 from weakforms.problems.tube.parameters import (
@@ -66,6 +67,11 @@ class Tube(BranchProblem):
                 "tube: frictionless contact has no history, it deflates as it inflates; "
                 "phase = 'deflation' is allowed with contact = 'adhesive'"
             )
+        if 0 < abs(parameters.uneven) < LEAST:
+            raise InputError(
+                f"tube: uneven = {parameters.uneven:g} is too small for its branches to be told apart; "
+                f"allowed: 0, or a magnitude from {LEAST:g} to 0.5"
+            )
         if parameters.extent == "full" and parameters.lf > LONGEST_WHOLE:
             raise InputError(
                 f"tube: lf = {parameters.lf:g} with extent = 'full': nothing that can be computed holds a "
@@ -79,6 +85,10 @@ class Tube(BranchProblem):
 
     def ends(self, parameters: TubeParameters, branch: str) -> list[End]:
         """Where free inflation, its lopsided states, contact and deflation end."""
+        if branch == "secondary" and parameters.uneven:
+            begun = "it begins at half the amplitude that Koiter's law has at its smallest volume"
+            first = End("begin", AMPLITUDE, None, begun, begins=True)
+            return [first, End("u_end", "V", None, "its volume is that at which free inflation ends")]
         if branch == "secondary":
             joined = End("primary", AMPLITUDE, 0.0, "it joins free inflation again")
             return [joined, End("u_end", "V", None, "its volume is that at the end of free inflation")]
@@ -107,8 +117,14 @@ class Tube(BranchProblem):
         """Free inflation with its stability, and the lopsided states if there are any."""
         parameters, numerics, progress = task.parameters, task.numerics, task.progress
         primary = _with_stability(branch_maker(parameters, numerics, task.comm, progress), numerics)
+        number, step = parameters.secondary_from, numerics.step
         try:
-            secondary = lopsided_family(primary, parameters.secondary_from, numerics.step, progress)
+            if parameters.uneven:
+                even = parameters.model_copy(update={"uneven": 0.0})
+                crossed = _with_stability(branch_maker(even, numerics, task.comm, progress), numerics)
+                secondary = detached_family(crossed, parameters.uneven, number, step, progress)
+            else:
+                secondary = lopsided_family(primary, number, step, progress)
         except AbsentError as error:
             if any(wanted.branch == "secondary" for wanted in task.requests.states):
                 raise
@@ -176,14 +192,17 @@ def branch_maker(
             numerics.grading,
             full=parameters.extent == "full",
         )
-        tube = WholeTube if parameters.secondary else TubeModel
-        model = tube.free(comm, parameters.material, parameters.delta1, parameters.lf, at)
+        whole = parameters.secondary or parameters.uneven
+        tube, uneven = (WholeTube, parameters.uneven) if whole else (TubeModel, None)
+        model = tube.free(comm, parameters.material, parameters.delta1, parameters.lf, at, uneven)
         kind: Callable[..., SolutionCurve] = EquilibriumBranch
         if parameters.stability:
-            modes, hidden = TubeModes(model, parameters.stability, at.full), tube.hidden
+            modes = TubeModes(model, parameters.stability, at.full)
+            hidden = () if parameters.uneven else tube.hidden
             kind = partial(TubeBranch, modes=modes, hidden=hidden)
         limit = limit_along(model)
-        branch = free_branch(model.system, parameters.delta1, parameters.u_end, numerics.step, kind, limit)
+        step = largest_step(numerics.step, parameters.uneven)
+        branch = free_branch(model.system, parameters.delta1, parameters.u_end, step, kind, limit)
         if isinstance(branch, TubeBranch):
             branch.end, branch.limit = parameters.u_end, limit
         if branch.ended is not None:

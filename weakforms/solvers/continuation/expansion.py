@@ -15,6 +15,15 @@ The equation of the amplitude is ``A1 (λ - λ_c) ξ + A2 ξ² + A3 ξ³ = 0`` w
 
 where a symmetry that ``φ`` breaks makes ``A2`` zero (Koiter 1945; Budiansky 1974, Adv. Appl. Mech. 14). What
 is conjugate to the load, ``V = -Π_λ`` (of gas: the volume), follows ``V - V_c = V_2 ξ²``.
+
+A small imperfection ``ε`` adds ``ε B`` to that equation, with ``B = Π_ε'[φ]``. The states then are
+
+.. math:: λ - λ_c = λ_2 ξ^2 - \frac{ε B}{A_1 ξ}, \qquad V - V_c = V_2 ξ^2 - \frac{\dot V ε B}{A_1 ξ}
+
+with ``Vdot`` the rate of ``V`` along the crossed branch. Both have an extremum, which follows Koiter's
+two-thirds law:
+
+.. math:: λ_s - λ_c = 3 λ_2 \left|\frac{ε B}{2 A_1 λ_2}\right|^{2/3} \text{ at } ξ^3 = -\frac{ε B}{2 A_1 λ_2}
 """
 
 from __future__ import annotations
@@ -50,9 +59,15 @@ class Expansion:
     load_2: float
     conjugate_2: float
     """``λ_2`` and ``V_2``."""
+    conjugate_rate: float
+    """``Vdot``, for a load that the potential is linear in."""
+    push: float
+    """``B``; zero without an imperfection."""
 
     @classmethod
-    def at(cls, solver: ExtendedNewton, state: State, load: str, amplitude: str) -> Self:
+    def at(
+        cls, solver: ExtendedNewton, state: State, load: str, amplitude: str, imperfection: str = ""
+    ) -> Self:
         """The expansion at a state that was located.
 
         Args:
@@ -60,6 +75,7 @@ class Expansion:
             state: The state.
             load: The load ``λ``.
             amplitude: The functional whose gradient is ``c``.
+            imperfection: The load ``ε``, zero at the state, if there is one.
 
         Raises:
             ConvergenceError: If the crossing has no symmetry (``A2`` is not zero).
@@ -76,6 +92,7 @@ class Expansion:
             curvature, _ = bordered.solve(-third / 2, [0.0])
             linear = system.dot(third, along) + rates[load]
             cubic = system.quartic(mode) / 6 + system.dot(third, curvature)
+            push = system.dot(mode, system.load_derivative(imperfection)) if imperfection else 0.0
         quadratic = system.dot(third, mode) / 2
         if not abs(quadratic) <= ASYMMETRIC * abs(cubic):
             raise ConvergenceError(
@@ -83,8 +100,25 @@ class Expansion:
             )
         load_2 = -cubic / linear
         conjugate_2 = -system.dot(force, curvature + load_2 * along) - rates[load] / 2
-        vectors = mode, curvature, along
-        return cls(state, load, *vectors, linear, quadratic, cubic, load_2, conjugate_2)
+        conjugate_rate = -system.dot(force, along)
+        vectors, amplitudes = (mode, curvature, along), (linear, quadratic, cubic)
+        return cls(
+            state, load, *vectors, *amplitudes, load_2, conjugate_2, conjugate_rate=conjugate_rate, push=push
+        )
+
+    @property
+    def two_thirds(self) -> dict[str, float]:
+        """Coefficients of ``|ε|^(2/3)`` in the extrema of the load and of its conjugate, by their names."""
+        found = {"load": (self.load_2, 1.0), "conjugate": (self.conjugate_2, self.conjugate_rate)}
+        return {
+            name: 3 * second * abs(rate * self.push / (2 * self.linear * second)) ** (2 / 3)
+            for name, (second, rate) in found.items()
+        }
+
+    def amplitude_of_extremum(self, imperfection: float) -> float:
+        """Amplitude at which the conjugate of the load has its extremum, to first order."""
+        force = self.conjugate_rate * imperfection * self.push
+        return float(np.cbrt(-force / (2 * self.linear * self.conjugate_2)))
 
     def predicted(self, amplitude: float) -> State:
         """The state of the branch with an amplitude, to second order."""

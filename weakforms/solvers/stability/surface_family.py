@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
 from weakforms.errors import ConvergenceError
-from weakforms.solvers.continuation.continuation import Tangent
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
@@ -60,19 +58,7 @@ class FilledBranch(SurfaceBranch):
 
     def _placed(self) -> list[tuple[float, Solved]]:
         """Besides, the folds of the amount."""
-        amount = self.modes.amount
-        rates = np.array([self.direction(point, (amount,))[amount] for point in self.points])
-
-        def rate(solved: Solved, along: Tangent) -> float:
-            tangent = self.continuation.direction(solved.state, along)
-            with self.system.at(solved.state):
-                return self.continuation.rate(amount, tangent)
-
-        found = super()._placed()
-        for i in np.flatnonzero(rates[:-1] * rates[1:] < 0).tolist():
-            solved = self._root(i, partial(rate, along=self.points[i].tangent), "volume_fold")
-            found.append((self._arclength(i, solved), solved))
-        return found
+        return super()._placed() + self._folds(self.modes.amount)
 
 
 class SurfaceFamily(ModalFamily):
