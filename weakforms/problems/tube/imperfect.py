@@ -117,8 +117,8 @@ def _first(
         raise AbsentError(
             "secondary branch",
             f"tube: uneven = {uneven:g}: the states with the bulge at the thick end would have their "
-            f"smallest volume near |w_mid| = {extremum:.3g}, but those of the even tube reach {most:.3g} only; "
-            "choose a smaller magnitude of uneven, or a larger u_end",
+            f"smallest volume near |w_mid| = {extremum:.3g}, but those of the even tube reach {most:.3g} "
+            "only; choose a smaller magnitude of uneven, or a larger u_end",
         )
     held = Held(AMPLITUDE, beyond)
     near = abs(beyond) <= side * lopsided.points[1].monitors[AMPLITUDE]

@@ -60,6 +60,13 @@ class State(ritz.State):
     """One state of the whole tube; its volume is the whole one."""
 
     basis: Whole
+    uneven: float = 0.0
+    """``e`` of the thickness ``1 + e s``, s from -1 to 1 along the tube."""
+
+    @property
+    def thickening(self) -> Array:
+        """Thickness at the Gauss points, less 1."""
+        return self.uneven * self.basis.rule[0]
 
     @property
     def u_max(self) -> float:
@@ -113,7 +120,8 @@ def solve(guess: State, held: str, value: float) -> State:
 
         def advance(share: Any) -> State:
             moved = float(share) * step
-            return State(at.tube, at.basis, at.r + moved[:n], at.z + moved[n : 2 * n], at.p + moved[-1])
+            r, z = at.r + moved[:n], at.z + moved[n : 2 * n]
+            return State(at.tube, at.basis, r, z, at.p + moved[-1], at.uneven)
 
         return float(np.abs(step).max()), advance
 
@@ -123,7 +131,16 @@ def solve(guess: State, held: str, value: float) -> State:
 def at(tube: Tube, basis: Whole, near: Any, held: str, value: float) -> State:
     """The state near one of the other method, which is the guess."""
     r, z = near.meridian(basis.nodes)
-    return solve(State(tube, basis, r, z, near.p), held, value)
+    return solve(State(tube, basis, r, z, near.p, near.uneven), held, value)
+
+
+def rates_of(state: State) -> tuple[float, float]:
+    """dp/dw and dV/dw along the branch."""
+    n = len(state.r)
+    matrix, right = bordered(state, "w")
+    right[:], right[-1] = 0.0, 1.0
+    step = np.linalg.solve(matrix, right)
+    return float(step[-1]), float(-ritz.linear(state)[2] @ step[: 2 * n])
 
 
 def rate(state: State) -> float:

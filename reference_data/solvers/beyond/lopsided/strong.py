@@ -4,6 +4,9 @@ Two zones lead from the middle to both disks, y = (rho, eta, l1, b, v) in each: 
 meridional stretch, slope angle, and the volume counted from the middle. All of y but v is continuous at the
 middle, v is zero there, and rho = 1, eta = -l_f/2 or l_f/2 at the disks. The pressure is unknown; the volume
 or the axial position w of the middle is given. No symmetry enters.
+
+With a thickness h = 1 + e s, s from -1 to 1 along the tube, the tangential balance (r_0 h w_1)' = h w_2 sin b
+adds -(h'/h) w_1/w_11 to l1', and the pressure acts on h: p/h in place of p.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from scipy.optimize import brentq
 
 from reference_data.solvers.core.collocation import Array, Ends, Linearised, Mesh, Problem
 from reference_data.solvers.core.collocation import Zone as Part
-from reference_data.solvers.core.mooney_rivlin import Tube, plain_pressure
+from reference_data.solvers.core.mooney_rivlin import Tube, curvature, plain_pressure, slope
 from reference_data.solvers.paper2.collocation import equations as symmetric
 from reference_data.solvers.paper2.collocation.critical import start
 
@@ -39,6 +42,8 @@ class State:
     mesh: Mesh
     y: tuple[Array, Array]
     c: Array
+    uneven: float = 0.0
+    """``e`` of the thickness."""
 
     @property
     def p(self) -> float:
@@ -67,12 +72,17 @@ class State:
         return found[:, 0], found[:, 1]
 
 
-def problem(tube: Tube, mesh: Mesh, held: str, value: float) -> Problem:
+def problem(tube: Tube, mesh: Mesh, held: str, value: float, uneven: float = 0.0) -> Problem:
     """The equations, with the volume (V) or the axial position of the middle (w) given."""
     base = symmetric.State(tube, (), (), np.zeros(1))
 
-    def rates(side: float, y: list[Any], _s: Array, c: list[Any]) -> list[Any]:
-        found = symmetric.free(base, y, None, lambda rho: plain_pressure(rho, c[0]))
+    def rates(side: float, y: list[Any], s: Array, c: list[Any]) -> list[Any]:
+        h = 1 + uneven * side * s
+        found = symmetric.free(base, y, None, lambda rho: plain_pressure(rho, c[0]) / h)
+        if uneven:
+            l1, l2 = y[2], y[0] / tube.r0
+            thinning = uneven / (tube.length * h)
+            found[2] = found[2] - thinning * slope(l1, l2, tube.alpha) / curvature(l1, l2, tube.alpha)
         return [side * tube.length * f for f in found]
 
     def conditions(left: Ends, right: Ends, _c: list[Any]) -> list[Any]:
@@ -92,13 +102,14 @@ def solve(guess: State, held: str, value: float) -> State:
         RuntimeError: If Newton's method does not converge.
     """
     what = f"lopsided states of {guess.tube} by collocation"
-    y, c = problem(guess.tube, guess.mesh, held, value).solve(guess.y, guess.c, what, close=1e-7)
+    equations = problem(guess.tube, guess.mesh, held, value, guess.uneven)
+    y, c = equations.solve(guess.y, guess.c, what, close=1e-7)
     return replace(guess, y=y, c=c)
 
 
 def linearised(state: State, held: str) -> Linearised:
     """The equations about a state."""
-    return problem(state.tube, state.mesh, held, 0.0).linearised(state.y, state.c)
+    return problem(state.tube, state.mesh, held, 0.0, state.uneven).linearised(state.y, state.c)
 
 
 def moved(state: State, held: str, step: float) -> State:
@@ -178,6 +189,23 @@ def again(state: State, mesh: Mesh, held: str, value: float) -> State:
 def mesh_values(old: Mesh, new: Mesh, y: Array) -> Array:
     """Nodal values on another mesh."""
     return old.evaluate(y, symmetric.places(new, 0.0, 1.0))
+
+
+def rates_of(state: State) -> tuple[float, float]:
+    """dp/dw and dV/dw along the branch."""
+    (above, below), c = linearised(state, "w").response()
+    return float(c[0]), float(above[-1, -1, 4] - below[-1, -1, 4])
+
+
+def extremum(state: State, which: int, between: tuple[float, float]) -> State:
+    """The state between two positions of the middle at which dp/dw (0) or dV/dw (1) is zero."""
+    here = [follow(state, np.array([between[0]]), "w")[0]]
+
+    def slope_at(w: float) -> float:
+        here[0] = follow(here[0], np.array([w]), "w")[0]
+        return rates_of(here[0])[which]
+
+    return follow(here[0], np.array([brentq(slope_at, *between, xtol=1e-10)]), "w")[0]
 
 
 def limit(state: State, between: tuple[float, float]) -> State:

@@ -121,6 +121,11 @@ class State:
         return self.basis.rule[1] * self.tube.length
 
     @property
+    def thickening(self) -> Array | float:
+        """Thickness at the Gauss points over that of the stress-free tube, less 1."""
+        return 0.0
+
+    @property
     def volume(self) -> float:
         """Volume of the half tube per 2 pi."""
         r, _, _, z1 = self.fields()
@@ -149,12 +154,14 @@ def linear(state: State) -> tuple[Array, Array, Array]:
     _, _, phi, dphi = state.basis.rule
     slope, w = dphi / state.tube.length, state.weights
     at = state.surface()
-    gx, ga, gb = gradient(state.tube, state.p, *at)
+    stacked = np.concatenate(gradient(state.tube, state.p, *at))
     pull = np.concatenate(gradient(state.tube, 1.0, *at)) - np.concatenate(gradient(state.tube, 0.0, *at))
     # A change of r moves x and x_z along e_r and turns into x_theta along e_theta; one of z moves along e_z.
     parts = ((phi, 0), (slope, 3), (phi, 7)), ((phi, 2), (slope, 5))
-    stacked = np.concatenate([gx, ga, gb])
     second = hessian(state.tube, state.p, *at)
+    if np.any(state.thickening):  # the strain energy is in proportion to the thickness
+        stacked = stacked + state.thickening * np.concatenate(gradient(state.tube, 0.0, *at))
+        second = second + state.thickening * hessian(state.tube, 0.0, *at)
     residual = np.concatenate([sum((w * stacked[i]) @ f for f, i in own) for own in parts])
     by_p = np.concatenate([sum((w * pull[i]) @ f for f, i in own) for own in parts])
     blocks = [
