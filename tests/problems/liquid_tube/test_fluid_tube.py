@@ -104,7 +104,7 @@ def typed_form(model, n, u, beta, w):
     h22 = (u + n * beta) ** 2 + (n * u + beta) ** 2 + n**2 * w**2
     j1 = r**2 * g11 + lam1 * g22
     j2 = r**2 * h11 + lam1 * h22 + g11 * g22 - g12**2
-    wet, gamma = model._wet(), model._fixed["gamma"]
+    wet, gamma = model._wet(), model.q["gamma"]
     pressure = gamma * wet * (model.loads["zw"][1] - z)
     swelling = z_z * (u**2 + beta**2 + 2 * n * u * beta) - r_z * (u * w + 2 * n * beta * w)
     swelling += r * (u * w_z - w * u_z)
@@ -423,10 +423,8 @@ def load_stiffness_dropped(monkeypatch):
     """If the pressure ignores the displacement, equilibria are correct and eigenvalues are wrong."""
 
     def work(self, at, v):
-        pressure = fluid_module.hydrostatic(
-            self.height, self.loads["zw"][1], self._fixed["gamma"], self._wet()
-        )
-        elastic = fluid_module.membrane_work(at, v, self._fixed["alpha"])
+        pressure = fluid_module.hydrostatic(self.height, self.loads["zw"][1], self.q["gamma"], self._wet())
+        elastic = fluid_module.membrane_work(at, v, self.surface_law)
         return elastic + fluid_module.pressure_work(at, v, pressure)
 
     right = fluid_module.TubeModel._variation

@@ -59,6 +59,7 @@ class FluidPath:
         n_max: Largest wave number whose eigenvalues are computed.
         zw_end: The branch ends when the level has decreased to this fraction of the highest one.
         step: Largest arc-length step.
+        model: The weak form, if there is one already; its initial loads are those of ``data``.
     """
 
     def __init__(
@@ -68,11 +69,17 @@ class FluidPath:
         n_max: int,
         zw_end: float = ZW_END,
         step: float = STEP,
+        model: TubeModel | None = None,
     ) -> None:
         self.data, self.zw_end, self.step = data, zw_end, step
-        self.model = TubeModel(comm, data)
-        self.modes = TubeModes(self.model, n_max)
+        self.model = model or TubeModel(comm, data)
+        self._n_max = n_max
         self._highest = self._volume = 0.0
+
+    @cached_property
+    def modes(self) -> TubeModes:
+        """What is computed along the branch."""
+        return TubeModes(self.model, self._n_max)
 
     def _ends(self, point: CurvePoint) -> bool:
         """Whether the level has decreased far enough or, for a stiffening law, increases again."""
@@ -81,7 +88,7 @@ class FluidPath:
             self._highest, self._volume = level, volume
         rises = volume > self._volume and point.tangent.loads["zw"] > 0
         stiffens = rises and self.data.material is not None
-        return level < self.zw_end * self._highest or stiffens or bool(self._locked(point))
+        return level < self.zw_end * self._highest or stiffens or bool(self.locked(point))
 
     @cached_property
     def _heaviest(self) -> float:
@@ -90,7 +97,7 @@ class FluidPath:
         stiffness = 1 + self.data.alpha if law is None else relative_stiffness(law)
         return max(2 * self.data.L, HEAVIEST * stiffness / self.data.gamma)
 
-    def _locked(self, point: CurvePoint) -> str:
+    def locked(self, point: CurvePoint) -> str:
         """Why a level that still rises is followed no further, as text; empty if it is followed."""
         if point.monitors["V"] > np.pi * WIDEST**2 * self.data.L:
             return f"the mean radius is {WIDEST:g}"
@@ -115,7 +122,7 @@ class FluidPath:
             least = self._resistance.values().min(initial=np.inf)
         return self.model.mesh.comm.allreduce(least, op=MPI.MIN) < 0
 
-    def _limit(self, state: State) -> str:
+    def limit(self, state: State) -> str:
         """Why the law takes hardly any more stretch at some place, as text; empty if it does."""
         if self.data.material is None:
             return ""
@@ -171,7 +178,7 @@ class FluidPath:
     def _say_end(self, branch: ModalBranch) -> None:
         """Why the branch ends, if its level has not fallen to where it was to end."""
         last = branch.points[-1]
-        level, why = last.state.loads["zw"], self._locked(last)
+        level, why = last.state.loads["zw"], self.locked(last)
         if why and level >= self.zw_end * self._highest:
             branch.ended = (
                 f"the level comes to zw = {level:.6g} without falling below {self.zw_end:g} of its highest "
@@ -212,7 +219,7 @@ class FluidPath:
         hidden: tuple[str, ...] = (),
     ) -> ModalBranch:
         branch = ModalBranch(continuation, "zw", start, stop, self.modes, hidden)
-        branch.end_at_limit(self._limit)
+        branch.end_at_limit(self.limit)
         return branch
 
     def _steps(self) -> StepControl:
@@ -262,7 +269,7 @@ class FluidPath:
         return state
 
     def _necked(self, delta: float) -> State:
-        loads = {"front": 0.5, "zw": 0.0, **DRY, "delta": delta}
+        loads = {**self.model.system.initial.loads, "front": 0.5, "zw": 0.0, **DRY, "delta": delta}
         length, narrow = self.data.L / delta, delta**-0.5
         z = self.model.points(loads)
         wall = np.cosh(z - length / 2) / np.cosh(length / 2)
@@ -278,10 +285,9 @@ class FluidPath:
 
     def sampled(self, state: State, points: np.ndarray, names: tuple[str, ...]) -> list[np.ndarray]:
         """Columns of a state's profile at material points, the same on every rank."""
-        system = self.model.system
-        profile = {name: system.formulation.profile[name] for name in names}
-        sampler = Sampler(self.model.unknown, profile, self.model.position(points, state.loads))
-        with system.at(state):
+        columns = {name: self.model.fields[name] for name in names}
+        sampler = Sampler(self.model.unknown, columns, self.model.position(points, state.loads))
+        with self.model.system.at(state):
             found = sampler()
         return [found[name] for name in names]
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import ufl
@@ -33,6 +34,7 @@ from weakforms.forms.fluid import (
     principal_resultants,
     strain_energy,
 )
+from weakforms.forms.materials import surface_law
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks, both_ends
 from weakforms.problems.meridian.body import Body
@@ -81,8 +83,8 @@ class TubeModel(MeridianModel):
     The first variation is that of a surface in space (:mod:`weakforms.forms.fluid`), from which variations
     that are not axisymmetric follow too.
 
-    Loads: ``zw``, ``front`` (``Zf`` as a fraction of the length), ``delta``, and ``low``, ``high`` (1 if that
-        block is wet).
+    Loads: ``zw``, ``front`` (``Zf`` as a fraction of the length), ``L``, ``delta``, ``gamma``, constants of
+        the law, and ``low``, ``high`` (1 if that block is wet).
     """
 
     name = "tube"
@@ -91,11 +93,12 @@ class TubeModel(MeridianModel):
         self.data = data
         ends_finer = [both_ends(data.grading)] * 2
         mesh = Blocks([0.0, 0.5, 1.0], data.cells, data.degree, 4 * data.degree, {"front": 1}, ends_finer)
-        super().__init__(comm, CYLINDER, {"zw": 0.0, "delta": data.delta, **DRY}, mesh)
-        self._fixed = {
-            name: fem.Constant(self.mesh, float(getattr(data, name))) for name in ("L", "gamma", "alpha")
-        }
-        self.surface_law = data.material.surface_law(self.mesh) if data.material else self._fixed["alpha"]
+        of_tube = {"L": data.L, "delta": data.delta, "gamma": data.gamma}
+        law = data.material
+        constants = {"alpha": data.alpha} if law is None else dict(law.constants)
+        super().__init__(comm, CYLINDER, {"zw": 0.0, **of_tube, **DRY, **constants}, mesh)
+        of_law = {name: self.q[name] for name in constants}
+        self.surface_law = of_law["alpha"] if law is None else surface_law(law.model, of_law)
         self.wave_number = fem.Constant(self.mesh, 0.0)
         everything = [(1.0, 0.0), (0.0, 1.0)]
         self.axial = self._variation("axial", self.space, (0, 2), everything[:1])
@@ -106,15 +109,15 @@ class TubeModel(MeridianModel):
 
     def _jacobian(self) -> Expr:
         """``dZ/dx``."""
-        return self._fixed["L"] / self.q["delta"] * self.place()[1]
+        return self.q["L"] / self.q["delta"] * self.place()[1]
 
     def position(self, s: np.ndarray, loads: Mapping[str, float]) -> np.ndarray:
         """Mesh coordinates of material points ``Z`` for a state's front."""
-        return super().position(np.asarray(s) * loads["delta"] / self.data.L, loads)
+        return super().position(np.asarray(s) * loads["delta"] / loads["L"], loads)
 
     def material(self, x: np.ndarray, loads: Mapping[str, float]) -> np.ndarray:
         """Material points ``Z`` of mesh coordinates: the inverse of :meth:`position`."""
-        return self.data.L / loads["delta"] * super().material(x, loads)
+        return loads["L"] / loads["delta"] * super().material(x, loads)
 
     def points(self, loads: Mapping[str, float]) -> np.ndarray:
         """Material points of the nodes this rank owns."""
@@ -134,7 +137,7 @@ class TubeModel(MeridianModel):
     @property
     def height(self) -> Expr:
         """``z``."""
-        return self.unknown[1] + self._fixed["L"] * self.place()[0]
+        return self.unknown[1] + self.q["L"] * self.place()[0]
 
     def stretches(self) -> tuple[Expr, Expr]:
         """``lam1, lam2``."""
@@ -151,7 +154,7 @@ class TubeModel(MeridianModel):
 
     def _work(self, at: Surface, v: Surface) -> Expr:
         """First variation per ``Z`` and ``Theta``."""
-        pressure = hydrostatic(at.x[2], self.q["zw"], self._fixed["gamma"], self._wet())
+        pressure = hydrostatic(at.x[2], self.q["zw"], self.q["gamma"], self._wet())
         return membrane_work(at, v, self.surface_law) + pressure_work(at, v, pressure)
 
     def formulation(self) -> Formulation:
@@ -160,9 +163,8 @@ class TubeModel(MeridianModel):
         r, z = self.radius, self.height
         test = ufl.TestFunction(space)
         v = axisymmetric(test[0], test[1], (test[0].dx(0) / jacobian, test[1].dx(0) / jacobian))
-        zw, gamma, law = self.q["zw"], self._fixed["gamma"], self.surface_law
-        lam1, lam2 = self.stretches()
-        t1, t2 = principal_resultants(lam1, lam2, law)
+        zw, gamma, law = self.q["zw"], self.q["gamma"], self.surface_law
+        t1, t2 = self.fields["T1"], self.fields["T2"]
         volume = ufl.pi * self._wet() * r**2 * at.a[2]
         liquid = hydrostatic(z, zw, gamma, 1.0)
         energy = 2 * ufl.pi * strain_energy(at.a, at.b, law) - liquid * volume
@@ -179,24 +181,24 @@ class TubeModel(MeridianModel):
                 "Pi": energy * jacobian * self.dx,
                 "T1_ring": t1 * ends(LOWER),
                 "T2_ring": t2 * ends(LOWER),
-                "Z_front": ufl.avg(self.front) * self._fixed["L"] / self.q["delta"] * inner(BREAK),
+                "Z_front": ufl.avg(self.front) * self.q["L"] / self.q["delta"] * inner(BREAK),
                 "r_front": ufl.avg(r) * inner(BREAK),
                 "gap": (ufl.avg(z) - zw) * inner(BREAK),
             },
             internal=("front", "gap"),
             locate=self.position,
             aim=self.aim,
-            # H is a first integral of the homogeneous membrane under any pressure.
-            profile={
-                "r": r,
-                "z": z,
-                "lam1": lam1,
-                "lam2": lam2,
-                "T1": t1,
-                "T2": t2,
-                "H": strain_energy(at.a, at.b, law) - lam1 * lam2 * t1,
-            },
+            profile=self.fields,
         )
+
+    @cached_property
+    def fields(self) -> dict[str, Expr]:
+        """What is sampled along the tube; ``H`` is a first integral of the membrane under any pressure."""
+        (lam1, lam2), at, law = self.stretches(), self.surface(), self.surface_law
+        t1, t2 = principal_resultants(lam1, lam2, law)
+        first = strain_energy(at.a, at.b, law) - lam1 * lam2 * t1
+        placed = {"r": self.radius, "z": self.height}
+        return {**placed, "lam1": lam1, "lam2": lam2, "T1": t1, "T2": t2, "H": first}
 
     def _rings(self, space: fem.FunctionSpace) -> list[fem.DirichletBC]:
         """No displacement at the disks."""

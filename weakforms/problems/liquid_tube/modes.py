@@ -19,7 +19,6 @@ class TubeModes:
     def __init__(self, model: TubeModel, n_max: int) -> None:
         self.model, self.n_max = model, n_max
         self.wave_numbers = range(1, n_max + 1)
-        profile = model.system.formulation.profile
         self.columns = (
             "r_mid",
             "T1_mid",
@@ -29,7 +28,7 @@ class TubeModes:
             "Lambda_torsion",
             "LambdaV_n0",
         )
-        self._middle = Probe(model.unknown, {name: profile[name] for name in ("r", "T1", "T2")})
+        self._middle = Probe(model.unknown, {name: model.fields[name] for name in ("r", "T1", "T2")})
         self._widest = Peak(model.unknown, 0)
 
     def variation(self, n: int) -> SecondVariation:
@@ -42,7 +41,7 @@ class TubeModes:
     def observe(self) -> dict[str, float]:
         """Radii and resultants at the middle, largest radius, lowest eigenvalues."""
         state = self.model.system.state()
-        place = self.model.position(np.array(self.model.data.L / state.loads["delta"] / 2), state.loads)
+        place = self.model.position(np.array(state.loads["L"] / state.loads["delta"] / 2), state.loads)
         middle = self._middle(float(place))
         values = (
             middle["r"],
@@ -72,5 +71,5 @@ class TubeModes:
         border = model.system.load_derivative("zw")
         compliance = 0.0
         if not state.loads["high"]:
-            compliance = model.data.gamma * model.system.monitor("r_front") ** 2 / 2
+            compliance = state.loads["gamma"] * model.system.monitor("r_front") ** 2 / 2
         return model.axial.fixed(border, compliance).eigenvalues[0]
