@@ -490,3 +490,11 @@ def test_bad_input_is_refused_before_anything_is_solved(given, message):
 def test_a_level_above_the_highest_is_refused_with_the_range():
     with pytest.raises(InputError, match=r"zw = 8.5 is not taken .* ranges over \[0, 8.37"):
         solve("fluid_tube", n_max=1, at={"zw": 8.5}, numerics={"cells": 16, "levels": 2})
+
+
+def test_a_front_that_turns_just_below_the_ring_leads_to_no_tube_that_is_turned_inside_out():
+    """Long steps of the front did on a coarse mesh: the volume fell from 109 to 5.5."""
+    pieces = FluidPath(MPI.COMM_WORLD, TubeData(8.0, 4.0, 0.13, 0.0, 8, 6), 0).pieces
+    volumes = [point.monitors["V"] for piece in pieces for point in piece.points]
+    assert np.all(np.diff(volumes) > 0)
+    assert len(pieces) == 2  # it never becomes full

@@ -205,6 +205,8 @@ class FluidPath:
             try:
                 for exponent in np.linspace(np.log(left), np.log(EDGE), TOP_STATES)[1:]:
                     branch.extend_to("front", 1 - float(np.exp(exponent)))
+                    if np.any(np.diff([point.monitors["V"] for point in branch.points]) < 0):
+                        raise ConvergenceError("a tube turned inside out has such a front too")
             except ConvergenceError:  # the front may turn just below the ring
                 self._highest, self._volume = before
                 branch = self._branch(continuation, start, self._ends)
