@@ -39,6 +39,18 @@ def test_lines_of_balloons_parts_of_them_and_long_tubes(same_on_ranks):
     assert [point.kind for point in last.special_points] == ["cusp_point"]
 
 
+@pytest.mark.paper3
+def test_lines_of_full_and_partially_filled_tubes(same_on_ranks):
+    tube = {"problem": "diagram", "body": "fluid_tube", "alpha": 0.0, "numerics": MESH | {"cells": 24}}
+    given = (
+        {"kind": "fold,n1", "low": 4.4, "high": 4.6},
+        {"kind": "n1", "low": 3.0, "high": 3.1, "V_end": 28.0},
+    )
+    full, brim = same_on_ranks([tube | item for item in given])
+    assert [point.kind for point in full.special_points] == ["fold_n1"] * 2
+    assert {"n1", "n1_2"} <= {branch.name for branch in brim.branches}
+
+
 @pytest.mark.paper2
 def test_controls_of_inflation(same_on_ranks):
     inflated = {"problem": "controls", "alpha": 0.0, "V_r": 20.0, "numerics": MESH | {"cells": 24}}

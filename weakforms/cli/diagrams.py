@@ -29,15 +29,19 @@ def _bodies() -> list[str]:
         "weakforms diagram hemisphere --plane angle p --set alpha=0 --kind fold",
         "weakforms diagram sphere --plane mu2 p model=ogden low=0.0005 high=0.02 --kind fold,n1",
         "weakforms diagram infinite_tube --plane lam1 p ends=held --kind localisation,n1",
+        "weakforms diagram fluid_tube --plane delta zw alpha=0 low=3.2 high=9 --kind fold,n1,n2,n3",
     )
 )
 def diagram(
     problem: Annotated[
         str,
-        typer.Argument(help="tube, circular, hemisphere, sphere or infinite_tube.", autocompletion=_bodies),
+        typer.Argument(
+            help="tube, circular, hemisphere, sphere, infinite_tube or fluid_tube.", autocompletion=_bodies
+        ),
     ],
     plane: Annotated[
-        tuple[str, str], typer.Option(metavar="X Y", help="The two parameters; one of them is p.")
+        tuple[str, str],
+        typer.Option(metavar="X Y", help="The two parameters; one of them is p (zw of fluid_tube)."),
     ],
     words: Annotated[
         list[str] | None, typer.Argument(metavar="[NAME=VALUE]...", help="Parameters, as with --set.")

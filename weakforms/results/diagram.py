@@ -43,8 +43,8 @@ COUNTED = {"fold": "n_negative", "mirror": "n_mirror", "localisation": "n_locali
 }
 """Kinds at which an eigenvalue changes sign, and the column with the number of the other negative ones."""
 
-DEPTHS = ("u_max", "t0", "lam", "lam2")
-"""Columns of largest displacement, of which each membrane has one."""
+DEPTHS = ("u_max", "t0", "lam", "lam2", "V")
+"""Columns of largest displacement, the first of which that a membrane has is its own; ``V`` of a liquid."""
 
 COLUMNS, ROWS = 121, 161
 """Number of places at which regions are told apart, along both axes."""
@@ -62,7 +62,7 @@ class Crossing:
 
     kind: str
     depth: float
-    p: float
+    load: float
     others: int
     """Negative eigenvalues of its class besides the critical one."""
 
@@ -85,7 +85,7 @@ def draw(results: Mapping[str, Result], x: str = "", y: str = "") -> Figure:
 def draw_diagram(result: Result, x: str, y: str) -> Figure:
     """Draw the lines of a diagram, its points of codimension two, and its regions.
 
-    A region's label gives the numbers of negative eigenvalues of its states at given pressure, those of all
+    A region's label gives the numbers of negative eigenvalues of its states at given load, those of all
     kinds of lines in the diagram together, in the order in which the primary branch meets them; waves around
     the axis count once. Parts of lines on which the membrane would be wrinkled are faint.
 
@@ -116,7 +116,7 @@ def draw_diagram(result: Result, x: str, y: str) -> Figure:
         place = [point.values[x]], [point.values[y]]
         axes.plot(*place, marker=MARKERS[point.kind], label=None if kind in seen else kind, **style)
         seen.add(kind)
-    if x != "p" and y == "p":
+    if x != load_of(result) == y:
         _draw_regions(axes, result, x)
     axes.set_xlabel(label_of(x, result.scales))
     axes.set_ylabel(label_of(y, result.scales))
@@ -132,7 +132,7 @@ def kind_of(name: str) -> str:
 
 def crossings_at(result: Result, vary: str, value: float) -> list[Crossing]:
     """Where the primary branch at a value of the parameter crosses lines, in its order."""
-    depth = depth_of(result)
+    depth, load = depth_of(result), load_of(result)
     found = []
     for branch in result.branches:
         kind = kind_of(branch.name)
@@ -141,9 +141,9 @@ def crossings_at(result: Result, vary: str, value: float) -> list[Crossing]:
         over = branch[vary] - value
         for i in np.flatnonzero((over[:-1] * over[1:] < 0) | ((over[:-1] == 0) & (over[1:] != 0))):
             share = over[i] / (over[i] - over[i + 1])
-            at = {n: float(branch[n][i] + share * (branch[n][i + 1] - branch[n][i])) for n in (depth, "p")}
+            at = {n: float(branch[n][i] + share * (branch[n][i + 1] - branch[n][i])) for n in (depth, load)}
             counts = branch[COUNTED[kind]] if kind in COUNTED else np.zeros(len(branch))
-            found.append(Crossing(kind, at[depth], at["p"], int(counts[i])))
+            found.append(Crossing(kind, at[depth], at[load], int(counts[i])))
     return sorted(found, key=lambda crossing: crossing.depth)
 
 
@@ -152,22 +152,27 @@ def depth_of(result: Result) -> str:
     return next(name for name in DEPTHS if name in result.branches[0].columns)
 
 
+def load_of(result: Result) -> str:
+    """The column with the load: the level of a liquid, or the pressure of a gas."""
+    return "zw" if "zw" in result.branches[0].columns else "p"
+
+
 def states_between(crossings: list[Crossing], low: float) -> list[tuple[float, float, int]]:
-    """The parts of the primary branch between crossings: pressures at both ends, and negative eigenvalues.
+    """The parts of the primary branch between crossings: loads at both ends, and negative eigenvalues.
 
     Args:
         crossings: In the order of the branch, of which the last is its end.
-        low: Pressure at which the branch begins, with a stable state.
+        low: Load at which the branch begins, with a stable state.
 
     Returns:
         Nothing if the counts of two neighbouring crossings contradict each other, which means that a line is
         missing, or if the end is not known.
     """
     counts = dict.fromkeys(COUNTED, 0)
-    parts, p = [], low
+    parts, load = [], low
     for crossing in crossings:
-        parts.append((p, crossing.p, sum(counts.values())))
-        p = crossing.p
+        parts.append((load, crossing.load, sum(counts.values())))
+        load = crossing.load
         if crossing.kind == "end":
             return parts
         change = crossing.others - counts[crossing.kind]
@@ -182,23 +187,23 @@ def _draw_regions(axes: Axes, result: Result, x: str) -> None:
     low, high = (float(result.parameters[name]) for name in ("low", "high"))
     bottom, top = axes.get_ylim()
     xs = np.linspace(low, high, COLUMNS + 2)[1:-1]
-    ps = np.linspace(bottom, top, ROWS + 2)[1:-1]
-    start = min(bottom, float(result.parameters["p_low"]))
+    loads = np.linspace(bottom, top, ROWS + 2)[1:-1]
+    start = min(bottom, float(result.parameters[f"{load_of(result)}_low"]))
     labels = np.full((ROWS, COLUMNS), "", dtype=object)
     for k, value in enumerate(xs):
         parts = states_between(crossings_at(result, x, float(value)), start)
-        for i, p in enumerate(ps):
-            labels[i, k] = ", ".join(str(n) for a, b, n in parts if min(a, b) < p < max(a, b))
+        for i, load in enumerate(loads):
+            labels[i, k] = ", ".join(str(n) for a, b, n in parts if min(a, b) < load < max(a, b))
     names = sorted(set(labels.ravel()), key=lambda text: (len(text), text))
     shown = np.vectorize(names.index)(labels)
     for k in range(len(names)):  # an outline each, because a picture of so many cells would be large
-        axes.contourf(xs, ps, shown == k, levels=[0.5, 1.5], colors=[PALE[k % len(PALE)]], zorder=0)
+        axes.contourf(xs, loads, shown == k, levels=[0.5, 1.5], colors=[PALE[k % len(PALE)]], zorder=0)
     for k, name in enumerate(names):
         if name:
-            _write(axes, shown == k, name, xs, ps)
+            _write(axes, shown == k, name, xs, loads)
 
 
-def _write(axes: Axes, inside: np.ndarray, text: str, xs: np.ndarray, ps: np.ndarray) -> None:
+def _write(axes: Axes, inside: np.ndarray, text: str, xs: np.ndarray, loads: np.ndarray) -> None:
     """Write a label where its region is tallest, once for each range of the parameter in which it exists."""
     heights = np.zeros(inside.shape[1], dtype=int)
     middles = np.zeros(inside.shape[1], dtype=int)
@@ -211,6 +216,6 @@ def _write(axes: Axes, inside: np.ndarray, text: str, xs: np.ndarray, ps: np.nda
     for a, b in zip(edges[::2], edges[1::2], strict=True):
         tall = np.flatnonzero(heights[a:b] >= 0.9 * heights[a:b].max()) + a
         k = int(tall[len(tall) // 2])
-        if heights[k] >= TALL * len(ps):
+        if heights[k] >= TALL * len(loads):
             style = {"ha": "center", "va": "center", "fontsize": "small", "color": "#3a3a3d"}
-            axes.text(xs[k], ps[middles[k]], text, **style)
+            axes.text(xs[k], loads[middles[k]], text, **style)

@@ -38,6 +38,6 @@ def state(depth: float, p: float, alpha: float = 0.1) -> SimpleNamespace:
 )
 def test_a_point_is_on_a_line_if_it_is_at_one_of_its_places(depth, p, on_line):
     lines = object.__new__(LinesOnMesh)
-    lines.window, lines.depth = SimpleNamespace(vary="alpha"), "u_max"
+    lines.window, lines.depth = SimpleNamespace(vary="alpha", load="p"), "u_max"
     lines._columns = lambda state: state.columns
     assert lines.has(Line(), state(depth, p)) is on_line

@@ -30,28 +30,38 @@ DIAGRAM = About(
     name="diagram",
     title="Lines of critical points in a plane of two parameters",
     paper="beyond",
-    source="the membranes of papers 1, 2 and 5, balloons and long tubes of any law; extended systems: "
+    source="the membranes of papers 1, 2, 3 and 5, balloons and long tubes of any law; extended systems: "
     "Govaerts (2000), chapters 3, 4 and 7; long waves: Haughton & Ogden (1979), Fu, Pearce & Liu (2008)",
     energy="that of tube or circular without a substrate, of a hemisphere (or a shallower or deeper part of "
-    "a sphere) under gas, of a sphere or a long tube, with all parameters as loads",
-    control="the parameter that varies besides p (past a cusp or tip compare over u_max, t0, lam or lam2)",
-    unknown="(rho, eta) as of tube, circular or hemisphere, or the stretches of a sphere or a long tube, "
-    "with p and another parameter, and a null vector",
+    "a sphere) under gas, of a sphere, a long tube, or fluid_tube, with all parameters as loads",
+    control="the parameter that varies besides p or zw (past a cusp or tip compare over u_max, t0, lam, lam2 "
+    "or V)",
+    unknown="(rho, eta) as of tube, circular, hemisphere or fluid_tube, or the stretches of a sphere or a "
+    "long tube, with p or zw and another parameter, and a null vector",
     forms=(
         *("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
         *(
             "problems.diagram.cap:VariedCap",
             "problems.diagram.balloon:VariedSphere",
             "problems.diagram.long_tube:HeldTube",
+            "problems.diagram.liquid:VariedFluidTube",
         ),
     ),
     units=Units("R_f", "C1", "h_o", 2 * math.pi),
     columns=(
         column.PRESSURE,
+        Column(
+            "zw",
+            "level of the liquid above the lower disk, or static head over a full fluid tube, over {length}",
+            "z_w",
+        ),
         Column("delta1", "axial pre-stretch of the tube, 1", r"\delta_1"),
         Column("lf", "L_f/R_f of the tube", "l_f"),
         Column("alpha", "C2/C1", r"\alpha"),
         Column("beta", "uniform pre-stretch of the disk, 1", r"\beta"),
+        Column("delta", "axial pre-stretch of the fluid tube, 1", r"\delta"),
+        Column("L", "stretched length of the fluid tube over {length}", "L"),
+        Column("gamma", "rho g A^2/(mu H) of the liquid, mu = 2 C1, 1", r"\gamma"),
         Column("angle", "angle from the pole to the clamp of the hemisphere, rad"),
         Column("u_max", "radial displacement of the tube's mid-plane over {length}", "u_{max}"),
         Column("t0", "height of the pole over the clamp, over {length}", "t_0"),
@@ -64,7 +74,8 @@ DIAGRAM = About(
         Column(
             "V",
             "enclosed volume of the half tube, of the sphere, under the disk or hemisphere, or of a piece "
-            "of a long tube that is as long at rest as its radius, over {volume}",
+            "of a long tube that is as long at rest as its radius; of the liquid in the fluid tube; over "
+            "{volume}",
             "V",
         ),
         Column("Pi", "total potential of the same over {energy}"),
@@ -92,11 +103,12 @@ DIAGRAM = About(
     ),
     numbers=(
         *numbers(
-            length="R_f, radius of the disks, of the clamp, or of the sphere or the infinite tube at rest",
+            length="R_f, radius of the disks (A of the fluid tube), of the clamp, or of the sphere or the "
+            "infinite tube at rest",
             s="S/R_f, radius of a substrate around the tube",
             l="L/R_f, height of a substrate above the disk",
             S_least="place of the least resultant as a fraction of the meridian, of states",
-            S="fraction of the meridian from the mid-plane or the pole",
+            S="fraction of the meridian from the mid-plane, the pole, or the lower disk of the fluid tube",
             eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 R dS (a "
             "hemisphere: against that of the flat disk, R = S)",
         ),

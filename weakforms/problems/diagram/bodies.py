@@ -20,7 +20,7 @@ from mpi4py import MPI
 
 from weakforms.forms.materials import SurfaceLaw, surface_law
 from weakforms.problems.branch_problem import from_rest
-from weakforms.problems.diagram.followed import PLACE, ended_by_law
+from weakforms.problems.diagram.followed import PLACE, Part, ended_by_law
 from weakforms.problems.disk.phases import FIRST_T0, TAUT, USUAL_LOAD
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen
@@ -151,6 +151,10 @@ class VariedModel(MeridianModel):
             Functions, because the operators of one parity share their forms.
         """
         return {ODD: lambda: self.mirror} if kind == "mirror" and self.odd is not None else {}
+
+    def part(self, _state: State) -> Part:
+        """The whole branch."""
+        return Part()
 
     def held_at(self, ends: Mapping[int, EndPosition]) -> list[fem.DirichletBC]:
         """Conditions that make displacements zero at ends, where they are not free."""

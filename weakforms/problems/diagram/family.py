@@ -10,11 +10,12 @@ from weakforms.problems.diagram.followed import PLACE
 from weakforms.problems.diagram.lines import LinesOnMesh, Seed
 from weakforms.problems.tube.stability import is_wrinkled
 from weakforms.results import Quantity, SpecialPoint
+from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.line import AWAY
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.agreement import same_count
-from weakforms.solvers.uncertainty.family import BranchFamily
+from weakforms.solvers.uncertainty.family import BranchFamily, Compared
 
 COUNTS = {"mirror": "n_mirror", "localisation": "n_localisation"}
 """Column with the number of negative eigenvalues of a kind, if it is not that of waves."""
@@ -29,13 +30,20 @@ class LineFamily(BranchFamily):
         name: Name of the line.
         cap: Highest order of convergence.
         caps: Lower ones of some columns.
+        size: Usual change of the column ``depth`` over that of the parameter.
     """
 
     def __init__(
-        self, meshes: Sequence[LinesOnMesh], seed: Seed, name: str, cap: float, caps: Mapping[str, float]
+        self,
+        meshes: Sequence[LinesOnMesh],
+        seed: Seed,
+        name: str,
+        cap: float,
+        caps: Mapping[str, float],
+        size: float = 1.0,
     ) -> None:
         self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
-        self.counted = meshes[0].broken
+        self.counted, self.size = meshes[0].broken, size
         across = meshes[0].window.vary, meshes[0].depth
         super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
 
@@ -44,6 +52,14 @@ class LineFamily(BranchFamily):
         own = [self._own(-1, point.state, 0.0) for point in self.fine.points]
         names = [name for name in own[0] if name != PLACE]  # it needs a solve for its uncertainty
         return super()._trace() | {name: np.array([row[name] for row in own]) for name in names}
+
+    def _compared(self, point: CurvePoint, near: float, row: dict[str, float]) -> Compared:
+        """As for any branch, in a plane across the line in which the displacement is over its usual size."""
+        vary, depth = self.across
+        rates = self.fine.direction(point, self.across)
+        plane = {vary: rates[vary], depth: rates[depth] / self.size**2}
+        others = [level.at_position(point, plane, near).values for level in self.levels[:-1]]
+        return [*others, row], row
 
     def special_points(self) -> list[SpecialPoint]:
         """Points at which a second condition holds, with ``wrinkled``: 1 if their membrane is compressed."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -14,6 +16,18 @@ from weakforms.solvers.stability.modes import SecondVariation
 
 PLACE = "S_least"
 """Where the least resultant is; a number of states on a line of wrinkling."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """What holds in one part of a primary branch, and on the lines through it."""
+
+    fronts: Mapping[str, Constraint] = field(default_factory=dict)
+    """Further loads that are unknown, such as the place of a free surface, with their equations."""
+    bounds: tuple[tuple[str, float, int], ...] = ()
+    """Column, value and outward direction of each end of the part."""
+    why: str = ""
+    """What happens there."""
 
 
 class Followed(Protocol):
@@ -43,8 +57,11 @@ class Followed(Protocol):
     def at_onset(self) -> dict[str, float]:
         """What is said of the place of first wrinkling at the lent state."""
 
-    def primary(self, end: float, step: float) -> EquilibriumBranch:
-        """The primary branch over ``p`` at the loads of the initial state, up to ``depth = end``."""
+    def part(self, state: State) -> Part:
+        """The part of the primary branch that a state belongs to."""
+
+    def primary(self, end: float, step: float) -> SolutionCurve | Sequence[SolutionCurve]:
+        """The primary branch at the loads of the initial state, up to ``depth = end``; its parts, if any."""
 
 
 def ended_by_law(branch: EquilibriumBranch, model: Followed) -> EquilibriumBranch:

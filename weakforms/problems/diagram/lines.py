@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from weakforms.errors import ConvergenceError
-from weakforms.problems.diagram.followed import Followed
+from weakforms.problems.diagram.followed import Followed, Part
 from weakforms.problems.disk.phases import USUAL_LOAD
-from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.line import (
     CUSP,
     Bracket,
@@ -28,8 +28,6 @@ from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.modes import OwnVariation, SecondVariation, Singular, nearest_to_zero
 from weakforms.solvers.stability.spectra import Stability
-
-LOAD = "p"
 
 SAME = 1e-3
 """Relative distance from an interpolated line within which a critical point lies on it."""
@@ -58,21 +56,22 @@ class Window:
     """The part of the plane in which lines are followed, and the largest displacement."""
 
     vary: str
-    """The parameter over which lines are drawn, besides the pressure."""
+    """The parameter over which lines are drawn, besides the load."""
     low: float
     high: float
-    p_low: float
-    p_high: float
+    load_low: float
+    load_high: float
     end: float
     """Largest value of the column ``depth`` of the membrane."""
+    load: str = "p"
 
     def bounds(self, depth: str) -> tuple[tuple[str, float, int], ...]:
         """Column, value and outward direction of each side."""
         return (
             (self.vary, self.low, -1),
             (self.vary, self.high, 1),
-            (LOAD, self.p_low, -1),
-            (LOAD, self.p_high, 1),
+            (self.load, self.load_low, -1),
+            (self.load, self.load_high, 1),
             (depth, self.end, 1),
         )
 
@@ -108,16 +107,17 @@ class LinesOnMesh:
         self.model, self.window, self.touch, self.step = model, window, touch, step
         self.broken = tuple(broken)
         self.system, self.depth = model.system, model.depth
-        self._branches: dict[float, EquilibriumBranch] = {}
+        self._branches: dict[float, Sequence[SolutionCurve]] = {}
         self._lines: dict[Seed, CriticalLine] = {}
         self.failed: dict[tuple[str, float], str] = {}
         """Kinds and values of the parameter at which no critical point could be searched, and why."""
 
-    def branch(self, at: float) -> EquilibriumBranch:
+    def parts(self, at: float) -> Sequence[SolutionCurve]:
         """The primary branch where the parameter has a value."""
         if at not in self._branches:
             self.system.initial.loads[self.window.vary] = at
-            self._branches[at] = self.model.primary(self.window.end, self.step)
+            found = self.model.primary(self.window.end, self.step)
+            self._branches[at] = [found] if isinstance(found, SolutionCurve) else found
         return self._branches[at]
 
     # -- critical points of the primary branch ---------------------------------------------------
@@ -127,13 +127,16 @@ class LinesOnMesh:
 
         The branch's last step may pass the largest displacement.
         """
-        branch, broken = self.branch(at), self.model.operators(kind).values()
-        if broken:
-            found = [state for form in broken for state in self._neutral(branch, form)]
-            found.sort(key=lambda state: self._place_of(state)[0])
-        else:
-            found = getattr(self, f"_{kind}")(branch)
-        return [state for state in found if not self._outside(self._columns(state))]
+        broken = self.model.operators(kind).values()
+        found = []
+        for branch in self.parts(at):
+            if broken:
+                states = [state for form in broken for state in self._neutral(branch, form)]
+                states.sort(key=lambda state: self._place_of(state)[0])
+            else:
+                states = getattr(self, f"_{kind}")(branch)
+            found += [state for state in states if not self._outside(state)]
+        return found
 
     def seeds(self, kind: str, places: Sequence[float]) -> list[Seed]:
         """One critical point for each line that crosses a primary branch at one of some values.
@@ -152,10 +155,10 @@ class LinesOnMesh:
                     seeds.append(Seed(kind, at, index))
         return seeds
 
-    def _fold(self, branch: EquilibriumBranch) -> list[State]:
+    def _fold(self, branch: SolutionCurve) -> list[State]:
         return [found.state for found in branch.special() if found.kind == "limit_point"]
 
-    def _neutral(self, branch: EquilibriumBranch, form: Operator) -> list[State]:
+    def _neutral(self, branch: SolutionCurve, form: Operator) -> list[State]:
         """Points at which a second variation outside of the unknowns' symmetry is singular."""
 
         def count(state: State) -> int:
@@ -171,16 +174,16 @@ class LinesOnMesh:
             found.append(self._solved(branch, i, guess, Singular(form, border)))
         return found
 
-    def _contact(self, branch: EquilibriumBranch) -> list[State]:
+    def _contact(self, branch: SolutionCurve) -> list[State]:
         count = len(branch.crossings(self.depth, self.touch))
         return [branch.at(self.depth, self.touch, k + 1).state for k in range(count)]
 
-    def _end(self, branch: EquilibriumBranch) -> list[State]:
+    def _end(self, branch: SolutionCurve) -> list[State]:
         """The largest displacement, which closes the regions of a diagram."""
         found = branch.crossings(self.depth, self.window.end)
         return [branch.at(self.depth, self.window.end).state] if len(found) else []
 
-    def _wrinkling(self, branch: EquilibriumBranch) -> list[State]:
+    def _wrinkling(self, branch: SolutionCurve) -> list[State]:
         margins = np.array([point.monitors["t_min"] for point in branch.points])
         margins[np.abs(margins) < UNLOADED] = 0.0
         found = []
@@ -192,8 +195,8 @@ class LinesOnMesh:
             found.append(self._solved(branch, i, guess, self.model.least))
         return found
 
-    def _solved(self, branch: EquilibriumBranch, i: int, guess: State, condition: Constraint) -> State:
-        state, _ = branch.solver.solve(guess, [condition])
+    def _solved(self, branch: SolutionCurve, i: int, guess: State, condition: Constraint) -> State:
+        state, _ = branch.continuation.solve(guess, condition)
         branch.require_within(i, branch.solved(state), "critical point")
         return state
 
@@ -231,45 +234,53 @@ class LinesOnMesh:
         self, continuation: LineContinuation, first: CurvePoint, meetings: Sequence[Meeting]
     ) -> CriticalLine:
         """The line from a point to where it leaves the window, returns to that point, or the law ends."""
+        part = self.model.part(first.state)
 
         def stop(point: CurvePoint) -> bool:
-            longest = continuation.control.most(point.state, (LOAD,))
+            longest = continuation.control.most(point.state, (self.window.load,))
             far = point.arclength > LOOP * longest
             closed = far and continuation.distance(point.state, first.state) < longest
-            outside = self._outside(point.monitors | point.state.loads)
+            outside = self._beyond(point.monitors | point.state.loads, part)
             return closed or bool(outside) or bool(self.model.gives_way(point))
 
         line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
         line.end_at_limit(self.model.limit)
-        while line.stalled is None and (outside := self._outside(self._columns(line.points[-1].state))):
+        why = ""
+        while line.stalled is None and (outside := self._outside(line.points[-1].state)):
             line.end_at(*outside[0])
+            why = part.why if outside[0] in [bound[:2] for bound in part.bounds] else ""
         last, vary = line.points[-1], self.window.vary
-        if why := line.ended or self.model.gives_way(last):
+        if given_way := line.ended or self.model.gives_way(last):
+            why = f"{given_way}; change low or high, or the constants of the law"
+        if why:
             line.ended = (
                 f"diagram: the line was followed up to {vary} = {last.state.loads[vary]:.6g}, "
-                f"p = {last.state.loads[LOAD]:.6g}: {why}; change low or high, or the constants of the law"
+                f"{self.window.load} = {last.state.loads[self.window.load]:.6g}: {why}"
             )
         return line
 
-    def _columns(self, state: State) -> dict[str, float]:
-        """The columns of the window's sides."""
-        with self.system.at(state):
-            return {self.depth: self.system.monitor(self.depth), **state.loads}
+    def _outside(self, state: State) -> list[tuple[str, float]]:
+        """Sides of the window, or of its part of the branch, beyond which a state lies: column and value."""
+        return self._beyond(self._columns(state), self.model.part(state))
 
-    def _outside(self, columns: Mapping[str, float]) -> list[tuple[str, float]]:
-        """Sides of the window beyond which a point lies: column and value."""
+    def _columns(self, state: State) -> dict[str, float]:
+        with self.system.at(state):
+            return self.system.monitors() | state.loads
+
+    def _beyond(self, columns: Mapping[str, float], part: Part) -> list[tuple[str, float]]:
         return [
             (name, side)
-            for name, side, sign in self.window.bounds(self.depth)
+            for name, side, sign in (*self.window.bounds(self.depth), *part.bounds)
             if sign * (columns[name] - side) > INSIDE * max(1.0, abs(side))
         ]
 
     def _continuation(self, kind: str, at: State) -> LineContinuation:
         """Follows the critical points of a kind, beginning near a state."""
-        solver = ExtendedNewton(self.system, [LOAD, self.window.vary])
+        fronts = self.model.part(at).fronts
+        solver = ExtendedNewton(self.system, [self.window.load, self.window.vary, *fronts])
         longest = self.longest
-        steps = StepControl(longest / 4, longest, usual_load=USUAL_LOAD, growing=(LOAD,))
-        return LineContinuation(solver, self._condition(kind, at, solver), steps)
+        steps = StepControl(longest / 4, longest, usual_load=USUAL_LOAD, growing=(self.window.load,))
+        return LineContinuation(solver, self._condition(kind, at, solver), steps, [*fronts.values()])
 
     @property
     def longest(self) -> float:
@@ -306,7 +317,7 @@ class LinesOnMesh:
         ]
         if kind == "fold":
             return [CUSP, *others, *onsets]
-        own, stability = OwnVariation(ExtendedNewton(self.system, [LOAD])), Stability(self.system)
+        own, stability = OwnVariation(ExtendedNewton(self.system, [self.window.load])), Stability(self.system)
         folds = Meeting(f"fold_{kind}", singular_too(lambda: own, stability.nearest_by_index))
         return [Meeting(f"tip_{kind}", tips), folds, *others, *onsets]
 
@@ -321,9 +332,9 @@ class LinesOnMesh:
         return False
 
     def _place_of(self, state: State) -> np.ndarray:
-        """Largest displacement and pressure."""
+        """Largest displacement and load."""
         columns = self._columns(state)
-        return np.array([columns[self.depth], columns[LOAD]])
+        return np.array([columns[self.depth], columns[self.window.load]])
 
 
 def neutral_too(form: Operator) -> Callable[[CriticalLine], Iterable[Bracket]]:

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.diagram.about import BREAKING, LINES, PLAIN, WAVES
-from weakforms.problems.diagram.lines import LOAD, Window
+from weakforms.problems.diagram.lines import Window
 from weakforms.problems.diagram.subjects import SUBJECTS, Subject
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs
@@ -18,6 +18,7 @@ USUAL = {
     **{"delta1": (1.0, 2.0), "lf": (4.0, 12.0), "alpha": (0.0, 0.3), "beta": (1.0, 3.0)},
     "angle": (0.4, 2.0),
     **{"force": (0.0, 3.0), "lam1": (1.05, 3.0)},
+    **{"delta": (3.0, 6.0), "L": (6.0, 10.0), "gamma": (0.08, 0.2)},
 }
 """Ranges of the parameters of a plane, if none are given."""
 
@@ -26,7 +27,8 @@ LONGEST_MIRRORED = 12.0
 middle falls exponentially with the length: at 18 its eigenvalue is 1e-10 where others are 1, on any mesh."""
 
 ONLY = {name: ({"body": (name,)},) for name in ("tube", "circular", "hemisphere")}
-LONG = {"body": ("infinite_tube",)}
+LONG, FILLED = {"body": ("infinite_tube",)}, ({"body": ("fluid_tube",)},)
+INFLATED = ({"body": ("tube", "circular", "hemisphere", "sphere", "infinite_tube")},)
 
 
 class DiagramNumerics(MeshNumerics):
@@ -45,17 +47,19 @@ class DiagramParameters(MaterialChoice):
         **{"angle": ONLY["hemisphere"], "t_end": ({"body": ("circular", "hemisphere")},)},
         **{"ends": (LONG,), "force": (LONG | {"ends": ("free",)},), "lam1": (LONG | {"ends": ("held",)},)},
         "lam_end": ({"body": ("sphere", "infinite_tube")},),
+        **dict.fromkeys(("delta", "L", "gamma", "V_end", "zw_low", "zw_high"), FILLED),
+        **dict.fromkeys(("p_low", "p_high"), INFLATED),
     }
 
-    body: Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube"] = Field(
+    body: Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube", "fluid_tube"] = Field(
         "tube", description="membrane"
     )
     x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
-    y: str = Field("p", description="second axis; one of both is p")
+    y: str = Field("p", description="second axis; one of both is p, or zw of the fluid tube, its default")
     kind: str = Field(
         "all", description=f"kinds of lines, with commas: {', '.join(LINES)}; all: those without waves"
     )
-    low: float | None = Field(None, description="smallest value of the parameter that is not p")
+    low: float | None = Field(None, description="smallest value of the parameter that is not p or zw")
     high: float | None = Field(None, description="largest value of that parameter")
     p_low: float = Field(0.0, ge=0, le=50, description="smallest pressure")
     p_high: float | None = Field(None, gt=0, le=50, description="largest pressure; default: none")
@@ -77,6 +81,13 @@ class DiagramParameters(MaterialChoice):
         4.0, gt=1.001, le=50, description="largest stretch of the sphere, or around the infinite tube"
     )
 
+    delta: float = Field(4.0, ge=1.05, le=9, description="axial pre-stretch of the fluid tube")
+    L: float = Field(8.0, ge=2, le=40, description="stretched length of the fluid tube over its radius A")
+    gamma: float = Field(0.116, ge=0.01, le=2, description="rho g A^2/(mu H) of the liquid, mu = 2 C1")
+    V_end: float = Field(40.0, gt=0.1, le=1000, description="largest volume of the liquid over 2 pi A^3")
+    zw_low: float = Field(0.0, ge=0, le=200, description="lowest level of the liquid")
+    zw_high: float | None = Field(None, gt=0, le=200, description="highest level; default: none")
+
     @property
     def subject(self) -> Subject:
         """What the diagram is drawn of."""
@@ -85,12 +96,18 @@ class DiagramParameters(MaterialChoice):
     @property
     def axes(self) -> tuple[str, str]:
         """The axes."""
-        return self.x or next(iter(self.known), ""), self.y
+        y = self.y if "y" in self.model_fields_set else self.load
+        return self.x or next(iter(self.known), ""), y
+
+    @property
+    def load(self) -> str:
+        """The load of the membrane: the pressure of a gas, or the level of a liquid."""
+        return self.subject.load
 
     @property
     def vary(self) -> str:
-        """The axis that is not the pressure."""
-        return next((name for name in self.axes if name != LOAD), LOAD)
+        """The axis that is not the load."""
+        return next((name for name in self.axes if name != self.load), self.load)
 
     @property
     def known(self) -> dict[str, float]:
@@ -143,8 +160,9 @@ class DiagramParameters(MaterialChoice):
         """The part of the plane."""
         low, high = USUAL.get(self.vary, (inf, -inf))
         low, high = low if self.low is None else self.low, high if self.high is None else self.high
-        top = inf if self.p_high is None else self.p_high
-        return Window(self.vary, low, high, self.p_low, top, getattr(self, self.subject.end))
+        bottom, top = (getattr(self, f"{self.load}_{side}") for side in ("low", "high"))
+        top, end = inf if top is None else top, getattr(self, self.subject.end)
+        return Window(self.vary, low, high, bottom, top, end, self.load)
 
     @property
     def touch(self) -> float:

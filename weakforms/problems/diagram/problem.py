@@ -9,9 +9,10 @@ from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.diagram.about import BREAKING, DIAGRAM, LINES
 from weakforms.problems.diagram.family import LineFamily
-from weakforms.problems.diagram.lines import LOAD, LinesOnMesh, Seed
+from weakforms.problems.diagram.lines import LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.disk.problem import POLE, order_at_pole
+from weakforms.problems.liquid_tube.branch import STEP
 from weakforms.problems.material_choice import require_model
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.tube.parameters import resolving
@@ -43,6 +44,8 @@ class Diagram(BranchProblem):
         self._check_axes(parameters)
         self._check_kinds(parameters)
         self._check_range(parameters)
+        if parameters.body == "fluid_tube":
+            require_model("diagram: body = 'fluid_tube'", parameters, tuple(LAWS))
         if parameters.waves and parameters.body == "tube":
             require_model("diagram: waves around the axis", parameters, tuple(LAWS))
         subject = parameters.subject
@@ -67,11 +70,11 @@ class Diagram(BranchProblem):
         x, y = given.axes
         if x == y:
             raise InputError(f"diagram: x = y = {x!r}: a plane has two different parameters; change x or y")
-        allowed = [LOAD, *given.known]
+        allowed = [given.load, *given.known]
         if not given.known:
             raise InputError(
-                f"diagram: {given.body} with model = {given.model!r} has no parameter besides p; choose a "
-                "model with constants"
+                f"diagram: {given.body} with model = {given.model!r} has no parameter besides {given.load}; "
+                "choose a model with constants"
             )
         for axis, name in (("x", x), ("y", y)):
             if name not in allowed:
@@ -79,8 +82,11 @@ class Diagram(BranchProblem):
                 raise InputError(
                     f"diagram: {axis} = {name!r} is no parameter of {what}{not_among(name, allowed)}"
                 )
-        if LOAD not in (x, y):
-            raise InputError(f"diagram: x = {x!r}, y = {y!r}: one of both must be p; set x or y to p")
+        if given.load not in (x, y):
+            load = given.load
+            raise InputError(
+                f"diagram: x = {x!r}, y = {y!r}: one of both must be {load}; set x or y to {load}"
+            )
 
     def _check_kinds(self, given: DiagramParameters) -> None:
         if given.kind == "all":
@@ -107,9 +113,10 @@ class Diagram(BranchProblem):
                 f"diagram: {named}: the range of {given.vary} must be increasing and between {least:g} and "
                 f"{most:g}; change low or high"
             )
-        if not window.p_low < window.p_high:
+        if not window.load_low < window.load_high:
             raise InputError(
-                f"diagram: p_low = {window.p_low:g} must be less than p_high = {window.p_high:g}; change one"
+                f"diagram: {given.load}_low = {window.load_low:g} must be less than {given.load}_high = "
+                f"{window.load_high:g}; change one"
             )
         here = given.known[given.vary]
         if given.vary in given.model_fields_set and not window.low <= here <= window.high:
@@ -122,10 +129,13 @@ class Diagram(BranchProblem):
         """The sides of the window, the largest displacement, and the start of a closed line."""
         window, given = parameters.window, parameters
         sides = (("low", given.vary, window.low), ("high", given.vary, window.high))
-        sides += (("p_low", LOAD, window.p_low), ("p_high", LOAD, window.p_high))
+        load = given.load
+        sides += ((f"{load}_low", load, window.load_low), (f"{load}_high", load, window.load_high))
         found = [End(*side) for side in sides if np.isfinite(side[2])]
         if not branch.startswith("end"):  # which has this displacement all along
             found.append(End(given.subject.end, given.subject.depth, window.end))
+        if given.body == "fluid_tube":
+            found.append(End("brim", given.load, None, "the liquid reaches the upper ring"))
         return [*found, End("closed", given.vary, None, "the line returns to its first point")]
 
     def families(self, task: Task) -> dict[str, Family]:
@@ -144,7 +154,7 @@ class Diagram(BranchProblem):
         found = {}
         for k, (name, seed) in enumerate(names.items()):
             task.progress(f"line {name}", k, len(names))
-            found[name] = LineFamily(meshes, seed, name, 2.0 * numerics.degree, caps)
+            found[name] = LineFamily(meshes, seed, name, 2.0 * numerics.degree, caps, given.subject.size)
         first = next(iter(found.values()))
         first.absent.extend(missing)
         first.failures.extend(_failures(meshes[0], given.vary))
@@ -175,14 +185,17 @@ class Diagram(BranchProblem):
     def fill(self, result: Result, task: Task) -> None:
         """Solve for the lines; say where each begins."""
         super().fill(result, task)
-        vary = task.parameters.vary
-        result.parameters |= {"x": task.parameters.axes[0], "low": task.parameters.window.low}
-        result.parameters["high"] = task.parameters.window.high
-        begins = {b.name: {n: float(b.columns[n][0]) for n in (vary, LOAD)} for b in result.branches}
+        given = task.parameters
+        result.parameters |= dict(zip("xy", given.axes, strict=True))
+        result.parameters |= {"low": given.window.low, "high": given.window.high}
+        axes = given.vary, given.load
+        begins = {b.name: {n: float(b.columns[n][0]) for n in axes} for b in result.branches}
         result.numerics["begins"] = begins
 
     def resolving(self, parameters: DiagramParameters, numerics: DiagramNumerics) -> DiagramNumerics:
         """More cells for long tubes; two solutions of what has no mesh, which differ by round-off."""
+        if parameters.body == "fluid_tube" and "step" not in numerics.model_fields_set:
+            return numerics.model_copy(update={"step": STEP})
         if parameters.subject.uniform and "levels" not in numerics.model_fields_set:
             return numerics.model_copy(update={"levels": 2})
         window = parameters.window

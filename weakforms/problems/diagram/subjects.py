@@ -13,10 +13,16 @@ from weakforms.problems.diagram.balloon import VariedSphere
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
 from weakforms.problems.diagram.cap import VariedCap, rest_height
 from weakforms.problems.diagram.followed import Followed
+from weakforms.problems.diagram.liquid import VariedFluidTube
 from weakforms.problems.diagram.long_tube import FreeTube, HeldTube
 from weakforms.problems.homogeneous.material import require_borne
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.pre_stretch import require_stretched, require_taut
+from weakforms.problems.meridian.pre_stretch import (
+    require_bearable,
+    require_stretched,
+    require_taut,
+    require_width,
+)
 
 GRADING = 0.6
 """Concentration of cells at the disks of a tube, and at the clamp of a hemisphere."""
@@ -52,6 +58,15 @@ class Subject:
     """Why there is no line of a kind, and what to change."""
     uniform: bool = False
     """Whether a state is the same all over."""
+    load: str = "p"
+    """The load, which is the other axis."""
+    size: float = 1.0
+    """Usual change of ``depth`` over that of the parameter."""
+
+
+def _fillable(problem: str, law: Chosen, delta: float, name: str) -> None:
+    require_bearable(problem, law, delta, 1.0, name)
+    require_width(problem, law, delta, name)
 
 
 def _borne(problem: str, law: Chosen, force: float, _name: str) -> None:
@@ -155,6 +170,17 @@ SUBJECTS = {
             "contact": NO_OBSTACLE,
         },
         uniform=True,
+    ),
+    "fluid_tube": Subject(
+        VariedFluidTube,
+        VariedFluidTube.depth,
+        ("delta", "L", "gamma"),
+        "V_end",
+        ("fold", *WAVES, "wrinkling"),
+        _fillable,
+        without={"mirror": NO_MIRROR, "localisation": NO_LONG_WAVES, "contact": NO_OBSTACLE},
+        load="zw",
+        size=3.0,
     ),
 }
 """Subjects by the name of the body, with what holds its ends if that is another one."""

@@ -22,7 +22,7 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.materials import stress_resultants
 from weakforms.problems.branch_problem import from_rest
-from weakforms.problems.diagram.followed import ended_by_law
+from weakforms.problems.diagram.followed import Part, ended_by_law
 from weakforms.problems.homogeneous.body import Law
 from weakforms.problems.homogeneous.problem import USUAL
 from weakforms.problems.material_choice import Chosen
@@ -197,6 +197,10 @@ class VariedUniform:
         given = self.material_law
         constants = tuple((name, loads.get(name, value)) for name, value in given.constants)
         return limit_of(replace(given, constants=constants), [self.stretched({**monitors, **loads})])
+
+    def part(self, _state: State) -> Part:
+        """The whole branch."""
+        return Part()
 
     def primary(self, end: float, step: float) -> EquilibriumBranch:
         """The primary branch over ``p`` at the loads of the initial state.

@@ -99,11 +99,15 @@ class FluidPath:
 
     def locked(self, point: CurvePoint) -> str:
         """Why a level that still rises is followed no further, as text; empty if it is followed."""
-        if point.monitors["V"] > np.pi * WIDEST**2 * self.data.L:
+        if self._volume_of(point) > np.pi * WIDEST**2 * self.data.L:
             return f"the mean radius is {WIDEST:g}"
         if point.state.loads["zw"] > self._heaviest:
             return f"the pressure of the liquid is {HEAVIEST:g} times the stiffness of the law"
         return GIVES_WAY if self._yields(point.state) else ""
+
+    def _volume_of(self, point: CurvePoint) -> float:
+        """Volume of the liquid over ``A^3``."""
+        return point.monitors["V"]
 
     @cached_property
     def _resistance(self) -> Interpolant | None:

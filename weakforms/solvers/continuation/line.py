@@ -54,16 +54,23 @@ class LineContinuation(Continuation):
     """Follows critical points over the solver's two loads.
 
     Args:
-        solver: Its scalars are the two loads.
+        solver: Its scalars are the two loads, and fronts.
         condition: What makes a state critical. If it can ``turn``, it does so at the guess of each solve: the
             border of a singular form becomes its null vector there.
         control: Lengths of steps.
+        fitted: The equations of the fronts.
     """
 
-    def __init__(self, solver: ExtendedNewton, condition: Constraint, control: StepControl) -> None:
+    def __init__(
+        self,
+        solver: ExtendedNewton,
+        condition: Constraint,
+        control: StepControl,
+        fitted: Sequence[Constraint] = (),
+    ) -> None:
         self.condition = condition
         own = isinstance(condition, Singular) and isinstance(condition.variation(), OwnVariation)
-        super().__init__(solver, [condition], control, shift=AWAY if own else 0.0)
+        super().__init__(solver, [condition, *fitted], control, shift=AWAY if own else 0.0)
 
     def solve(self, guess: State, constraint: Constraint, chord: bool = False) -> tuple[State, SolveRecord]:
         """Solve for the point of the line at which one more constraint holds."""
