@@ -33,7 +33,8 @@ DIAGRAM = About(
     source="the membranes of papers 1, 2, 3 and 5, balloons and long tubes of any law; extended systems: "
     "Govaerts (2000), chapters 3, 4 and 7; long waves: Haughton & Ogden (1979), Fu, Pearce & Liu (2008)",
     energy="that of tube or circular without a substrate, of a hemisphere (or a shallower or deeper part of "
-    "a sphere) under gas, of a sphere, a long tube, or fluid_tube, with all parameters as loads",
+    "a sphere) under gas, of a sphere, a long tube, or a tube that holds a liquid, with all parameters as "
+    "loads",
     control="the parameter that varies besides p or zw (past a cusp or tip compare over u_max, t0, lam, lam2 "
     "or V)",
     unknown="(rho, eta) as of tube, circular, hemisphere or fluid_tube, or the stretches of a sphere or a "
@@ -52,7 +53,7 @@ DIAGRAM = About(
         column.PRESSURE,
         Column(
             "zw",
-            "level of the liquid above the lower disk, or static head over a full fluid tube, over {length}",
+            "level of the liquid in the fluid tube (full: static head) over {length}",
             "z_w",
         ),
         Column("delta1", "axial pre-stretch of the tube, 1", r"\delta_1"),

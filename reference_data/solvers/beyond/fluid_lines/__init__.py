@@ -1,0 +1,1 @@
+"""Lines of critical points of the fluid-loaded tube, by the methods of paper 3."""

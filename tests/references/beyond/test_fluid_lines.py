@@ -1,0 +1,30 @@
+"""First point of a line of the fluid-loaded tube, by both methods, against the committed table."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from committed_tables import assert_same_rows
+
+from reference_data.solvers.beyond.fluid_lines import tables
+
+DATA = Path(__file__).resolve().parents[3] / "reference_data" / "beyond"
+
+
+def test_first_point_of_a_line_equals_the_committed_one():
+    name, kind, deltas = tables.TABLES["fluid_fold_delta"].args
+    table = tables.line(name, kind, deltas[:1])
+    head, *lines = (DATA / f"{name}.csv").read_text().splitlines()
+    numbers = np.array([[float(x) for x in line.split(",")] for line in lines])
+    about = tomllib.loads((DATA / f"{name}.toml").read_text())
+    new = {c.name: c.values for c in table.columns}
+    sizes = {c.name: c.uncertainty for c in table.columns}
+    committed = dict(zip(head.split(","), numbers.T, strict=True))
+    assert_same_rows(new, committed, about, sizes, slice(1))
+
+
+def test_a_wave_number_that_is_not_critical_is_refused():
+    """Three waves are critical only at larger volumes where the tube is stretched so little."""
+    with pytest.raises(RuntimeError, match=r"delta = 3.*\[3\]"):
+        tables.first_points(3.0, (3,), 60.0)
