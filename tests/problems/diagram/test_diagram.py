@@ -281,3 +281,20 @@ def test_a_search_that_fails_costs_only_its_own_lines(monkeypatch):
     monkeypatch.setattr(LinesOnMesh, "starts", lambda *_: starts(None, "fold", first))
     with pytest.raises(ConvergenceError, match="start of lines of kind fold at delta1 = 1: SNES ended"):
         solve("diagram", **plane)
+
+
+def test_a_line_that_fails_costs_no_other_line(monkeypatch):
+    """Its failure was that of the whole solve."""
+    right = LinesOnMesh._both_ways
+
+    def both_ways(self, kind, at):
+        if kind == "contact":
+            raise ConvergenceError("SNES ended")
+        return right(self, kind, at)
+
+    monkeypatch.setattr(LinesOnMesh, "_both_ways", both_ways)
+    plane = {"alpha": 0.1, "kind": "fold,contact", "low": 1.0, "high": 1.4, "u_end": 1.6, "numerics": COARSE}
+    found = solve("diagram", **plane)
+    assert "fold" in {branch.name for branch in found.branches}
+    assert "contact" not in {branch.name for branch in found.branches}
+    assert found.failures[0].what == "start of lines of kind contact at delta1 = 1"

@@ -141,18 +141,17 @@ class LinesOnMesh:
     def seeds(self, kind: str, places: Sequence[float]) -> list[Seed]:
         """One critical point for each line that crosses a primary branch at one of some values.
 
-        Where the search does not converge, :attr:`failed` says so, and the other values are searched.
+        Where the search or a line does not converge, :attr:`failed` says so; the other values are searched.
         """
         seeds: list[Seed] = []
         for at in dict.fromkeys(places):
             try:
-                starts = self.starts(kind, at)
+                for index, state in enumerate(self.starts(kind, at)):
+                    if not any(self.has(self.line(seed), state) for seed in seeds):
+                        self.line(Seed(kind, at, index))
+                        seeds.append(Seed(kind, at, index))
             except ConvergenceError as error:
                 self.failed[kind, at] = str(error)
-                continue
-            for index, state in enumerate(starts):
-                if not any(self.has(self.line(seed), state) for seed in seeds):
-                    seeds.append(Seed(kind, at, index))
         return seeds
 
     def _fold(self, branch: SolutionCurve) -> list[State]:
