@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from weakforms.problems.tube.waves import EXTREMES, Wave
-from weakforms.results import Branch, Quantity, SpecialPoint
+from weakforms.results import Branch, Quantity
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
@@ -119,11 +119,6 @@ class TubeFamily(ModalFamily):
         """All columns; the extremes have round-off too."""
         found = super().branch(with_uncertainty)
         return replace(found, uncertainty=_with_rounding(found.uncertainty))
-
-    def special_points(self) -> list[SpecialPoint]:
-        """Special points; the extremes have round-off too."""
-        points = super().special_points()
-        return [replace(point, uncertainty=_with_rounding(point.uncertainty)) for point in points]
 
     def located(self, kind: str) -> list[tuple[Solved, ...]]:
         """The special points of a kind in their order, each on all meshes."""

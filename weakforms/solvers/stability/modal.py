@@ -19,7 +19,6 @@ from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.stability.modes import SecondVariation, Singular
 from weakforms.solvers.uncertainty.family import BranchFamily
-from weakforms.solvers.uncertainty.points import special_point
 
 Family = Hashable
 """Modes of one symmetry: a wave number, or an object that says more."""
@@ -274,15 +273,11 @@ class ModalFamily(BranchFamily):
 
     def special_points(self) -> list[SpecialPoint]:
         """As for any branch; bifurcation points have their wave number ``n``."""
-        points = []
-        for same in self._special():
-            held = self.located_by.get(same[-1].kind, "")
-            caps = self._caps_at(same[-1].values, held)
-            point = special_point(same, self.fine.shown, self.cap, self.name, self.fine.control, caps)
+        points = super().special_points()
+        for point, same in zip(points, self._special(), strict=True):
             for mark in self.marks:
                 if mark in same[-1].values:
                     point.values[mark], point.uncertainty[mark] = same[-1].values[mark], 0.0
-            points.append(point)
         return points
 
     def _locate(self) -> list[tuple[Solved, ...]]:

@@ -19,7 +19,7 @@ from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.stability.spectra import Spectrum, spectrum_of
 from weakforms.solvers.support.provenance import quadrature_degree
 from weakforms.solvers.support.sampling import Sampler
-from weakforms.solvers.uncertainty.points import special_point
+from weakforms.solvers.uncertainty.points import point_of
 from weakforms.solvers.uncertainty.refinement import (
     Slow,
     doubt,
@@ -37,7 +37,6 @@ LOCATED = tuple(kind for kind in KINDS if kind not in NOT_LOCATED)
 
 CRITICAL = 1e-6
 """An eigenvalue below this magnitude at a special point is the zero eigenvalue of that point."""
-
 
 SAMPLED = 1.5
 """Factor for columns of a profile, because differences depend on where points lie in their cells."""
@@ -61,7 +60,8 @@ class BranchFamily:
         cap: Highest order of convergence that is assumed ...
         across: Columns of the plane in which branches of two meshes are compared.
         caps: ... and a lower one for some columns (one-sided limits of derivatives).
-        points_of: Columns that are values of a profile's column at a point that moves through the cells.
+        points_of: Columns that are values of a profile's column at a point; their observed order may be
+            accidental, because the point moves through the cells or a difference changes its sign.
         slow: A part of all errors that converges more slowly.
         name: Name of the branch.
     """
@@ -177,13 +177,15 @@ class BranchFamily:
         Raises:
             ConvergenceError: If they do not.
         """
-        points = []
-        for same in self._special():
-            held = self.located_by.get(same[-1].kind, "")
-            caps = self._caps_at(same[-1].values, held)
-            about = self.fine.shown, self.cap, self.name, self.fine.control, caps
-            points.append(special_point(same, *about, self.slow))
-        return points
+        return [self._special_point(same) for same in self._special()]
+
+    def _special_point(self, same: Sequence[Solved]) -> SpecialPoint:
+        """One special point; if a column locates it, no error has twice its fields' order (``doubt``)."""
+        kind, orders = same[-1].kind, self._orders_in_mean(same)
+        held = self.located_by.get(kind, "")
+        columns = self._columns(same, held, orders)
+        found = columns if held else self._widened_if_unresolved(columns, orders)
+        return point_of(kind, self.name, self.fine.control, found)
 
     def _special(self) -> list[tuple[Solved, ...]]:
         """Each special point on all meshes; they are located once."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from weakforms.results import SpecialPoint
+from weakforms.results import Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import Solved
-from weakforms.solvers.uncertainty.refinement import Estimate, Slow, estimate
+from weakforms.solvers.uncertainty.refinement import Slow, estimate
 
 
 def special_point(
@@ -20,16 +20,21 @@ def special_point(
 ) -> SpecialPoint:
     """A special point located on several meshes, coarse to fine, with its uncertainties."""
     lower = caps or {}
-    values = {k: estimate([s.values[k] for s in same], lower.get(k, cap), slow=slow) for k in shown}
-    return SpecialPoint(
+    return point_of(
         same[-1].kind,
         branch,
         control,
-        {k: float(v.value) for k, v in values.items()},
-        {k: float(v.uncertainty) for k, v in values.items()},
-        orders=_orders(values),
+        {k: estimate([s.values[k] for s in same], lower.get(k, cap), slow=slow).quantity() for k in shown},
     )
 
 
-def _orders(values: dict[str, Estimate]) -> dict[str, float]:
-    return {k: float(v.order) for k, v in values.items() if v.order > 0}
+def point_of(kind: str, branch: str, control: str, columns: Mapping[str, Quantity]) -> SpecialPoint:
+    """A special point with its columns."""
+    return SpecialPoint(
+        kind,
+        branch,
+        control,
+        {name: q.value for name, q in columns.items()},
+        {name: q.uncertainty for name, q in columns.items() if q.uncertainty is not None},
+        orders={name: q.order for name, q in columns.items() if q.order is not None},
+    )
