@@ -11,6 +11,7 @@ from weakforms.errors import InputError
 from weakforms.problems.controls.branch import ControlledBranch, Gas
 from weakforms.problems.controls.problem import ControlsParameters
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
+from weakforms.problems.tube.problem import order_at_middle
 from weakforms.solvers.stability.spectra import Stability
 
 MESH = {"cells": 48, "levels": 2}
@@ -189,3 +190,35 @@ def test_bad_input_is_refused_in_one_line_before_anything_is_solved(given, messa
         solve("controls", **given)
     assert message in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+UNRESOLVED = {"alpha": 0.14759186785668132, "V_r": 31.065158532001078, "u_end": 2.5}
+"""Four cells of degree 3 do not resolve this tube at its limit points, and at the second one the stretch at
+the mid-plane has nearly no error on eight."""
+
+
+def test_special_points_on_coarse_meshes_are_as_good_as_they_say():
+    given = {"numerics": {"degree": 3, "cells": 16}}
+    coarse = solve("controls", **UNRESOLVED, **given, at={"limit_point": 2})
+    fine = solve("controls", **UNRESOLVED, numerics={"degree": 6, "cells": 48, "levels": 2})
+    for point, truth in zip(coarse.special_points, fine.special_points, strict=True):
+        for name, u in point.uncertainty.items():
+            assert abs(point.values[name] - truth.values[name]) <= u + truth.uncertainty[name], name
+    (state,), point = coarse.states, coarse.points("limit_point")[1]
+    for name, u in point.uncertainty.items():
+        assert state.quantities[name].uncertainty == u, name
+
+
+@pytest.mark.parametrize(("degree", "order"), [(2, 2), (3, 4), (4, 4), (5, 6)])
+def test_the_order_of_stretches_at_the_mid_plane(degree, order):
+    """Not twice the degree, as that of the pressure is."""
+
+    def stretch(cells, degree):
+        law = ControlsParameters().material
+        branch = VariedTube(MPI.COMM_WORLD, law, {"delta1": 1.0, "lf": 6.0}, cells, degree, 0.6)
+        return branch.primary(1.2, 0.3).at("u_max", 1.0).values["lam1_mid"]
+
+    exact = stretch(48, 6)
+    coarse, fine = (abs(stretch(cells, degree) - exact) for cells in (16, 32))
+    assert order_at_middle(degree) == order
+    assert np.log2(coarse / fine) == pytest.approx(order, abs=0.4)

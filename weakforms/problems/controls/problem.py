@@ -14,9 +14,8 @@ from weakforms.problems.branch_problem import Family as AnyFamily
 from weakforms.problems.controls.about import CONTROLS
 from weakforms.problems.controls.branch import ControlledBranch, ControlledFamily, Gas
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
-from weakforms.problems.diagram.problem import MOVING
+from weakforms.problems.diagram.family import POINTS_OF, orders_of
 from weakforms.problems.diagram.subjects import GRADING
-from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.homogeneous.body import Body, sphere, system_of
 from weakforms.problems.homogeneous.material import require_reachable
 from weakforms.problems.homogeneous.problem import USUAL
@@ -112,11 +111,9 @@ class Controls(BranchProblem):
                 branch.ended = f"controls: {branch.ended}; lower {given.end[0]}"
             return branch
 
-        caps = {"t_min": MOVING}
-        if given.body == "circular":
-            caps |= dict.fromkeys(POLE, order_at_pole(numerics.degree))
-        order = 2.0 * numerics.degree
-        return {"primary": ControlledFamily(make, numerics.levels, order, ("p", along), caps=caps)}
+        caps, order = orders_of(numerics.degree, given.body == "circular"), 2.0 * numerics.degree
+        about = "primary", caps, POINTS_OF
+        return {"primary": ControlledFamily(make, numerics.levels, order, ("p", along), *about)}
 
     def points(self, parameters: ControlsParameters) -> np.ndarray:
         """61 fractions of the meridian; one point of a sphere."""

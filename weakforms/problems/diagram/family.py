@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
+from weakforms.problems.diagram.about import LINES
 from weakforms.problems.diagram.followed import PLACE
 from weakforms.problems.diagram.lines import LinesOnMesh, Seed
+from weakforms.problems.disk.problem import POLE, order_at_pole
+from weakforms.problems.tube.problem import MIDDLE, order_at_middle
 from weakforms.problems.tube.stability import is_wrinkled
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.solvers.continuation.continuation import CurvePoint
@@ -19,6 +23,22 @@ from weakforms.solvers.uncertainty.family import BranchFamily, Compared
 
 COUNTS = {"mirror": "n_mirror", "localisation": "n_localisation"}
 """Column with the number of negative eigenvalues of a kind, if it is not that of waves."""
+
+
+POINTS_OF = {"t_min": "t2", "u_max": "rho", "lam1_mid": "lam1"}
+"""Columns that are values at a point of the meridian, and of which field; the least resultant is the hoop's,
+because tension along a meridian bears the pressure."""
+
+
+def orders_of(degree: int, pole: bool) -> dict[str, float]:
+    """Highest orders of the columns that are no functionals of the whole membrane.
+
+    Args:
+        degree: Of the elements; inside of a cell and at a clamp it is the order of a resultant.
+        pole: Whether the membrane has a pole.
+    """
+    caps = {"t_min": float(degree)} | dict.fromkeys(MIDDLE, order_at_middle(degree))
+    return caps | dict.fromkeys(POLE if pole else (), order_at_pole(degree))
 
 
 class LineFamily(BranchFamily):
@@ -33,6 +53,8 @@ class LineFamily(BranchFamily):
         size: Usual change of the column ``depth`` over that of the parameter.
     """
 
+    located_by: ClassVar = {f"wrinkling_{kind}": "t_min" for kind in LINES}
+
     def __init__(
         self,
         meshes: Sequence[LinesOnMesh],
@@ -45,7 +67,7 @@ class LineFamily(BranchFamily):
         self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
         self.counted, self.size = meshes[0].broken, size
         across = meshes[0].window.vary, meshes[0].depth
-        super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps)
+        super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps, POINTS_OF)
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace."""

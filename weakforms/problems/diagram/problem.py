@@ -8,10 +8,9 @@ from weakforms.errors import AbsentError, ConvergenceError, InputError, not_amon
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.diagram.about import BREAKING, DIAGRAM, LINES
-from weakforms.problems.diagram.family import LineFamily
+from weakforms.problems.diagram.family import LineFamily, orders_of
 from weakforms.problems.diagram.lines import LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
-from weakforms.problems.disk.problem import POLE, order_at_pole
 from weakforms.problems.liquid_tube.branch import STEP
 from weakforms.problems.material_choice import require_model
 from weakforms.problems.problem import End, Requests, Task
@@ -24,9 +23,6 @@ SCANNED = 9
 ROOM = 0.1
 """Least rise of the last state from rest, or, if that is higher than 1, the same fraction of its height. The
 first state, at a small pressure, has risen less."""
-
-MOVING = 2.0
-"""Order of values at a place that moves through the cells."""
 
 
 class Diagram(BranchProblem):
@@ -148,9 +144,7 @@ class Diagram(BranchProblem):
         given, numerics = task.parameters, task.numerics
         meshes = [_lines_on(cells, task) for cells in numerics.meshes]
         names, missing = self._seeds(given, meshes[0])
-        caps = {"t_min": MOVING}
-        if given.subject.pole:
-            caps |= dict.fromkeys(POLE, order_at_pole(numerics.degree))
+        caps = orders_of(numerics.degree, given.subject.pole)
         found = {}
         for k, (name, seed) in enumerate(names.items()):
             task.progress(f"line {name}", k, len(names))

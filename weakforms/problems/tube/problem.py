@@ -38,6 +38,17 @@ from weakforms.solvers.uncertainty.family import BranchFamily
 SCANNED = 17
 """Number of pre-stretches at which a limit point is searched."""
 
+MIDDLE = ("lam1_mid", "t1_mid")
+"""Columns with first derivatives at the mid-plane."""
+
+
+def order_at_middle(degree: int) -> float:
+    """Order of stretches at the mid-plane: of the first even power that polynomials of a degree less miss.
+
+    A stretch is an even function of the distance from the mid-plane, which is a vertex of the mesh.
+    """
+    return 2.0 * ((degree + 1) // 2)
+
 
 class Tube(BranchProblem):
     """Inflation of a pre-stretched cylindrical membrane, free or constrained by a substrate."""
@@ -110,7 +121,8 @@ class Tube(BranchProblem):
             return self._with_secondary(task)
         make, order = branch_maker(parameters, numerics, comm, progress), 2 * numerics.degree
         if not parameters.n:
-            return {"primary": BranchFamily(make, numerics.levels, order, across=("p", "u_max"))}
+            caps = dict.fromkeys(MIDDLE, order_at_middle(numerics.degree))
+            return {"primary": BranchFamily(make, numerics.levels, order, across=("p", "u_max"), caps=caps)}
         return {"primary": _with_stability(make, numerics)}
 
     def _with_secondary(self, task: Task) -> dict[str, Family]:
@@ -176,6 +188,7 @@ def _with_stability(make: Callable[[int], SolutionCurve], numerics: TubeNumerics
     """Free inflation with its stability on all meshes."""
     # Resultants are derivatives: inside of a cell they have the order of the degree.
     caps = dict.fromkeys(EXTREMES, float(numerics.degree))
+    caps |= dict.fromkeys(MIDDLE, order_at_middle(numerics.degree))
     return TubeFamily(make, numerics.levels, 2 * numerics.degree, ("p", "u_max"), caps=caps)
 
 
