@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from itertools import compress
 from typing import ClassVar
 
 import numpy as np
 
+from weakforms.errors import ConvergenceError
 from weakforms.problems.diagram.about import LINES
 from weakforms.problems.diagram.followed import PLACE
 from weakforms.problems.diagram.lines import LinesOnMesh, Seed
@@ -64,8 +67,9 @@ class LineFamily(BranchFamily):
         caps: Mapping[str, float],
         size: float = 1.0,
     ) -> None:
-        self.models, self.kind = [mesh.model for mesh in meshes], seed.kind
-        self.counted, self.size = meshes[0].broken, size
+        self.meshes, self.models, self.seed = meshes, [mesh.model for mesh in meshes], seed
+        self.kind, self.size = seed.kind, size
+        self.counted = meshes[0].broken
         across = meshes[0].window.vary, meshes[0].depth
         super().__init__(lambda k: meshes[k].line(seed), len(meshes), cap, across, name, caps, POINTS_OF)
 
@@ -90,6 +94,20 @@ class LineFamily(BranchFamily):
             point.values["wrinkled"] = float(is_wrinkled(point.values["t_min"]))
             point.uncertainty["wrinkled"] = 0.0
         return points
+
+    def _found(self) -> list[list[Solved]]:
+        """The special points of each mesh; one near a side of the window may be beyond it on another mesh."""
+        found = super()._found()
+        if _same_kinds(found):
+            return found
+        with suppress(ConvergenceError):  # the caller says that the meshes differ
+            wider = [mesh.beyond(self.seed).special() for mesh in self.meshes]
+            window, depth = self.meshes[-1].window, self.meshes[-1].depth
+            inside = [not window.outside(point.values, depth) for point in wider[-1]]
+            kept = [list(compress(points, inside)) for points in wider]
+            if _same_kinds(wider) and _same_kinds([kept[-1], found[-1]]):
+                return kept
+        return found
 
     def _own(self, level: int, state: State, critical: float) -> dict[str, float]:
         """Negative eigenvalues of other symmetries without a critical one, and what is said of wrinkling."""
@@ -118,3 +136,8 @@ class LineFamily(BranchFamily):
             values = [row[name] for row in own]
             found[name] = self._quantity(values, name) if name == PLACE else Quantity(same_count(values))
         return found
+
+
+def _same_kinds(found: Sequence[Sequence[Solved]]) -> bool:
+    """Whether the meshes have points of the same kinds in the same order."""
+    return len({tuple(point.kind for point in points) for points in found}) == 1

@@ -9,6 +9,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError
 from weakforms.problems.diagram.followed import Followed, Part
+from weakforms.problems.diagram.window import INSIDE, Window
 from weakforms.problems.disk.phases import USUAL_LOAD
 from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import SolutionCurve
@@ -32,9 +33,6 @@ from weakforms.solvers.stability.spectra import Stability
 SAME = 1e-3
 """Relative distance from an interpolated line within which a critical point lies on it."""
 
-INSIDE = 1e-9
-"""Relative distance within which a point lies on a side of the window."""
-
 UNLOADED = 1e-9
 """Hoop resultant below which a tube that is only stretched counts as taut, whatever the sign of round-off."""
 
@@ -49,31 +47,6 @@ ORDER = ("fold", "mirror", "localisation", "n1", "n2", "n3").index
 
 Operator = Callable[[], SecondVariation]
 """Returns a second variation outside of the unknowns' symmetry, at the state that the base is lent to."""
-
-
-@dataclass(frozen=True)
-class Window:
-    """The part of the plane in which lines are followed, and the largest displacement."""
-
-    vary: str
-    """The parameter over which lines are drawn, besides the load."""
-    low: float
-    high: float
-    load_low: float
-    load_high: float
-    end: float
-    """Largest value of the column ``depth`` of the membrane."""
-    load: str = "p"
-
-    def bounds(self, depth: str) -> tuple[tuple[str, float, int], ...]:
-        """Column, value and outward direction of each side."""
-        return (
-            (self.vary, self.low, -1),
-            (self.vary, self.high, 1),
-            (self.load, self.load_low, -1),
-            (self.load, self.load_high, 1),
-            (depth, self.end, 1),
-        )
 
 
 @dataclass(frozen=True)
@@ -208,14 +181,32 @@ class LinesOnMesh:
             ConvergenceError: If this mesh has no such critical point.
         """
         if seed not in self._lines:
-            starts = self.starts(seed.kind, seed.at)
-            if len(starts) <= seed.index:
-                raise ConvergenceError(
-                    f"diagram: {self.window.vary} = {seed.at:g}: the meshes have different numbers of "
-                    f"critical points of kind {seed.kind}: raise cells"
-                )
-            self._lines[seed] = self._both_ways(seed.kind, starts[seed.index])
+            self._lines[seed] = self._both_ways(seed.kind, self._start(seed))
         return self._lines[seed]
+
+    def beyond(self, seed: Seed) -> CriticalLine:
+        """The same line in a wider window.
+
+        Raises:
+            ConvergenceError: As :meth:`line`.
+        """
+        wider = LinesOnMesh(self.model, self.window.wider(), self.touch, self.step, self.broken)
+        return wider._both_ways(seed.kind, self._start(seed))
+
+    def _start(self, seed: Seed) -> State:
+        at = f"diagram: {self.window.vary} = {seed.at:g}"
+        try:
+            starts = self.starts(seed.kind, seed.at)
+        except ConvergenceError as error:
+            raise ConvergenceError(
+                f"{at}: the critical points of kind {seed.kind} were not found on every mesh: raise cells "
+                f"({error})"
+            ) from error
+        if len(starts) <= seed.index:
+            raise ConvergenceError(
+                f"{at}: the meshes have different numbers of critical points of kind {seed.kind}: raise cells"
+            )
+        return starts[seed.index]
 
     def _both_ways(self, kind: str, at: State) -> CriticalLine:
         """The line through a state: against the sense of the parameter to an end, and from there back."""
@@ -233,7 +224,7 @@ class LinesOnMesh:
         self, continuation: LineContinuation, first: CurvePoint, meetings: Sequence[Meeting]
     ) -> CriticalLine:
         """The line from a point to where it leaves the window, returns to that point, or the law ends."""
-        part = self.model.part(first.state)
+        window, part = self.window, self.model.part(first.state)
 
         def stop(point: CurvePoint) -> bool:
             longest = continuation.control.most(point.state, (self.window.load,))
@@ -242,13 +233,13 @@ class LinesOnMesh:
             outside = self._beyond(point.monitors | point.state.loads, part)
             return closed or bool(outside) or bool(self.model.gives_way(point))
 
-        line = CriticalLine(continuation, self.window.vary, first, stop, meetings)
+        line = CriticalLine(continuation, window.vary, first, stop, meetings)
         line.end_at_limit(self.model.limit)
         why = ""
         while line.stalled is None and (outside := self._outside(line.points[-1].state)):
             line.end_at(*outside[0])
             why = part.why if outside[0] in [bound[:2] for bound in part.bounds] else ""
-        last, vary = line.points[-1], self.window.vary
+        last, vary = line.points[-1], window.vary
         if given_way := line.ended or self.model.gives_way(last):
             why = f"{given_way}; change low or high, or the constants of the law"
         if why:
@@ -267,11 +258,7 @@ class LinesOnMesh:
             return self.system.monitors() | state.loads
 
     def _beyond(self, columns: Mapping[str, float], part: Part) -> list[tuple[str, float]]:
-        return [
-            (name, side)
-            for name, side, sign in (*self.window.bounds(self.depth), *part.bounds)
-            if sign * (columns[name] - side) > INSIDE * max(1.0, abs(side))
-        ]
+        return self.window.outside(columns, self.depth, part.bounds)
 
     def _continuation(self, kind: str, at: State) -> LineContinuation:
         """Follows the critical points of a kind, beginning near a state."""

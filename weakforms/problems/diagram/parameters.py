@@ -9,8 +9,8 @@ from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.diagram.about import BREAKING, LINES, PLAIN, WAVES
-from weakforms.problems.diagram.lines import Window
 from weakforms.problems.diagram.subjects import SUBJECTS, Subject
+from weakforms.problems.diagram.window import Window
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs
 
