@@ -10,6 +10,7 @@ from scipy.special import jn_zeros
 import weakforms.problems.meridian.model as meridian_module
 from weakforms import Axis, Case, Curve, InputError, Panel, circular, solve
 from weakforms.forms import loads
+from weakforms.problems.disk.family import STRETCHES, rounded
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.peeling import PeelingBranch
 from weakforms.problems.disk.phases import DiskHistory, DiskPhases
@@ -308,3 +309,15 @@ def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
     )
     assert contact["X_contact"].value > 0.4
     assert contact["eigenvalue_1"].value == pytest.approx(free["eigenvalue_1"].value, rel=5e-9)
+
+
+def test_where_stretches_begin_to_differ_has_their_round_off_over_their_slope():
+    """Of a nearly slack disk the slope is 8e-4, and the place has errors of 1e-10 on any mesh."""
+    found = solve("circular", t_end=0.1, at={"t0": 0.05})
+    (state,), branch = found.states, found.branch()
+    profile, place = state.fields[0].columns, state.quantities["X_iso"]
+    slopes = np.gradient(profile["lam1"] - profile["lam2"], profile["X"])
+    slope = np.interp(place.value, profile["X"], slopes)
+    assert STRETCHES / slope == pytest.approx(rounded(place.value), rel=0.1)
+    assert place.uncertainty >= rounded(place.value) > 1e-10
+    assert (branch.uncertainty["X_iso"] >= rounded(branch["X_iso"])).all()

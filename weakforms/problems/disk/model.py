@@ -34,6 +34,9 @@ from weakforms.problems.meridian.thickness import Thickness
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
 
+UNEQUAL = 1e-4
+"""Difference of both stretches at which a state is no longer equibiaxial."""
+
 
 @dataclass(frozen=True)
 class DiskData:
@@ -249,7 +252,7 @@ class DiskModel(FreeDisk):
             },
             maxima={"minus_t": ufl.max_value(-t1, -t2)},
             derived={"t_min": lambda v: -v["minus_t"]},
-            levels={"X_iso": (lam1 - lam2, 1e-4)},
+            levels={"X_iso": (lam1 - lam2, UNEQUAL)},
             coordinate=e["S"] * self.data.beta,
             internal=("front", "k", "minus_t", "gap", "steepness", "rho_slope_outside"),
             profile={**given.profile, "sigma": sigma},

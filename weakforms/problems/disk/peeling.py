@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.disk.family import DiskFamily
 from weakforms.problems.disk.phases import DiskPhases
 from weakforms.results import Quantity
 from weakforms.results import State as StateRecord
@@ -17,7 +18,6 @@ from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.uncertainty.family import BranchFamily
 
 SMALLEST_FRONT = 0.04
 """Front at which a peeling curve ends, as a fraction of the radius; ``G`` becomes unbounded at zero."""
@@ -142,7 +142,7 @@ def _lowered(run: DiskPhases, p: float) -> State:
     return run.lowered(p).at("p", p).state
 
 
-class PeelingFamily(BranchFamily):
+class PeelingFamily(DiskFamily):
     """A peeling curve on all meshes; a request for the state at its pressure gives the pull-off point."""
 
     located_by: ClassVar[Mapping[str, str]] = {"pull_off": "G"}

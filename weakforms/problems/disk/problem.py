@@ -14,6 +14,7 @@ from weakforms.errors import AbsentError, InputError
 from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics
 from weakforms.problems.contact.family import contact_branch
 from weakforms.problems.disk.about import CIRCULAR
+from weakforms.problems.disk.family import DiskFamily, rounded
 from weakforms.problems.disk.model import DiskData
 from weakforms.problems.disk.peeling import SMALLEST_FRONT, PeelingBranch, PeelingFamily
 from weakforms.problems.disk.phases import FIRST_T0, HIGHEST_P, DiskPhases
@@ -25,7 +26,6 @@ from weakforms.results import SpecialPoint
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
-from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.points import special_point
 from weakforms.solvers.uncertainty.refinement import Slow
 
@@ -196,8 +196,8 @@ class Circular(BranchProblem):
         ]
 
         def family(
-            part: Callable[[DiskPhases], SolutionCurve], slow: Slow | None = None, of: type = BranchFamily
-        ) -> BranchFamily:
+            part: Callable[[DiskPhases], SolutionCurve], slow: Slow | None = None, of: type = DiskFamily
+        ) -> DiskFamily:
             def make(level: int) -> SolutionCurve:
                 progress("branch", level, numerics.levels)
                 return part(runs[level])
@@ -264,7 +264,9 @@ def _onset(runs: list[DiskPhases], degree: int) -> SpecialPoint:
     shown = [n for n in runs[-1].free.shown if n not in NO_PATCH]
     caps = dict.fromkeys(TRACES, float(degree)) | dict.fromkeys(MOVING_POINTS, 2.0)
     highest = order_at_pole(degree)  # for all columns, because the height of the pole is prescribed
-    return special_point([run.onset for run in runs], shown, highest, "primary", "p", caps)
+    point = special_point([run.onset for run in runs], shown, highest, "primary", "p", caps)
+    point.uncertainty["X_iso"] += rounded(point.values["X_iso"])
+    return point
 
 
 @lru_cache(maxsize=9)
