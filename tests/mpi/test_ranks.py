@@ -77,6 +77,14 @@ def test_lopsided_states_of_a_tube(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_states_of_an_uneven_tube(same_on_ranks):
+    whole = {"problem": "tube", "alpha": 0, "u_end": 1.6, "extent": "full", "secondary": True}
+    (found,) = same_on_ranks([whole | {"uneven": 0.01, "numerics": MESH}])
+    kinds = [point.kind for point in found.special_points if point.branch == "secondary"]
+    assert kinds[:2] == ["limit_point", "volume_fold"]
+
+
+@pytest.mark.paper2
 def test_tube_with_waves_around(same_on_ranks):
     half = {"problem": "tube", "alpha": 0, "u_end": 1.6, "n": [0, 2], "at": [("u_max", 1.2)]}
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.2, "n": [1], "extent": "full"}

@@ -18,6 +18,7 @@ TEXTS = ("title", "source", "method", "grid", "tolerance", "notes", "abscissa")
 UNFINISHED = {
     "beyond.filled_disk.tables.extremum",
     "beyond.lopsided.tables.limits",
+    "beyond.lopsided.tables_uneven.extrema",
     "beyond.tables_airbag.curve",
     "beyond.tables_controls.mass_folds",
     "beyond.tables_tube_bends.limit_points",

@@ -97,9 +97,9 @@ class Tube(BranchProblem):
     def ends(self, parameters: TubeParameters, branch: str) -> list[End]:
         """Where free inflation, its lopsided states, contact and deflation end."""
         if branch == "secondary" and parameters.uneven:
-            begun = "it begins at half the amplitude that Koiter's law has at its smallest volume"
-            first = End("begin", AMPLITUDE, None, begun, begins=True)
-            return [first, End("u_end", "V", None, "its volume is that at which free inflation ends")]
+            return [
+                End("u_end", "V", None, "its volume is that at which free inflation of an even tube ends")
+            ]
         if branch == "secondary":
             joined = End("primary", AMPLITUDE, 0.0, "it joins free inflation again")
             return [joined, End("u_end", "V", None, "its volume is that at the end of free inflation")]

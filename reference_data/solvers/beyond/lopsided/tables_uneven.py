@@ -29,7 +29,7 @@ UNEVEN = 1e-5, 1e-4, 1e-3, 1e-2
 BRANCH = 1e-2
 """That of the branches."""
 VOLUMES = 8.0, 9.5, 10.5, 11.0, 11.5, 12.0, 12.5, 13.0, 14.0, 15.0, 16.5, 18.0, 19.5
-PLACES = 0.16, 0.17, 0.19, 0.21, 0.25, 0.3, 0.36
+PLACES = 0.17, 0.18, 0.19, 0.21, 0.25, 0.3, 0.36
 """Positions of the middle on the detached branch."""
 SIZE, ABOVE, BELOW = 0.75, 1.5, 0.93
 """Position of the middle at the extrema over the cubic root of the unevenness, roughly, and a bracket."""

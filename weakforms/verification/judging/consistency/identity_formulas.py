@@ -45,6 +45,8 @@ def thickness(result: Result, c: Columns) -> np.ndarray | float:
         coordinate = next(name for name in ("X", "t", "Z") if name in c)
         others = {"L": given["L"]} if "L" in given else {}
         return Thickness(given["thickness"], coordinate, tuple(others)).at(c[coordinate], **others)
+    if given.get("uneven") and "Z" in c:
+        return 1 + given["uneven"] * 2 * c["Z"] / given["lf"]
     return given["M"] + 2 * (1 - given["M"]) * c["X"] if "M" in given and "X" in c else 1.0
 
 
