@@ -40,6 +40,11 @@ RECTANGLE = About(
                 n_odd_odd="the same, z odd in X and in Y",
                 n_all="negative eigenvalues of the whole tangent, all classes, the load held",
                 n_held="the same, the volume of the gas or liquid held",
+                n_A1="of a square: negative eigenvalues in class A1 of the group C4v, that of the states; "
+                "class E is the pair odd_even, even_odd",
+                n_A2="the same in A2, odd in both mirrors and in the diagonals",
+                n_B1="the same in B1, even in both mirrors and odd in the diagonals",
+                n_B2="the same in B2, odd in both mirrors and even in the diagonals",
             )
         ),
         Column("X_least", "X of that stress over {length}, on the quarter", derived=True, dimension="length"),
@@ -59,6 +64,7 @@ RECTANGLE = About(
             state="of a triangle: 1 taut, 0 wrinkled, -1 slack",
             t_x="direction of the larger stretch of a triangle, deformed; t_y and t_z alike",
             n="class of the critical mode: 0 both mirrors, 1 z odd in X, 2 z odd in Y, 3 odd in both",
+            C4v="class of the critical mode of a square: 1 A1, 2 A2, 3 B1, 4 B2, 5 the pair E",
         ),
         Column("X", "X of a point of the diagonal, Y = c X", "X", dimension="length"),
         *(Column(name, dimension="length") for name in "xyz"),

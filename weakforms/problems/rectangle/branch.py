@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from weakforms.problems.rectangle.model import RectangleModel
-from weakforms.problems.rectangle.readings import Centre
+from weakforms.problems.rectangle.readings import Centre, Diagonal
 from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
-from weakforms.problems.triangles.readings import AmountHeld, LeastStress
+from weakforms.problems.triangles.readings import ZERO, AmountHeld, LeastStress
 from weakforms.problems.triangles.start import first_under_load
 from weakforms.problems.triangles.weak_form import RULE
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.stability.modes import SecondVariation
@@ -18,6 +20,13 @@ from weakforms.solvers.stability.surface_family import FilledBranch
 
 COUNTED = {1: "n_odd_even", 2: "n_even_odd", 3: "n_odd_odd"}
 """Columns of the counts by class; that of the states' own class is ``n_negative``."""
+
+
+PARTS = {0: ("A1", "B1"), 1: (1,), 3: ("A2", "B2")}
+"""Classes of a square, of the group C4v, that a class of the mirrors consists of; 1 is one half of E."""
+
+C4V = {"A1": 1.0, "A2": 2.0, "B1": 3.0, "B2": 4.0, 1: 5.0}
+"""Number ``C4v`` of a critical point, by the class of its mode; 5 is the pair E."""
 
 
 class RectangleModes:
@@ -32,30 +41,72 @@ class RectangleModes:
         self.amount = "V" if model.sheet.load == "gas" else "V_f"
         self._held = AmountHeld(model.system, model.sheet.control, self.amount)
         self._counted = {} if model.sheet.whole else COUNTED
-        self.columns = ("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all", "n_held")
+        self._split = {f"n_{name}": name for name in model.octants}
+        self._diagonal = Diagonal(model) if self._split else None
+        self.columns = (
+            *("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all", "n_held"),
+            *self._split,
+        )
 
     @property
-    def wave_numbers(self) -> tuple[int, ...]:
+    def wave_numbers(self) -> tuple[int | str, ...]:
         """Classes whose zeros are bifurcation points; on a square two of them are copies of each other."""
         if not self._counted:
             return ()
-        return (1, 3) if self.square else (1, 2, 3)
+        return (*PARTS[1], *PARTS[3]) if self.square else (1, 2, 3)
 
-    def variation(self, n: int) -> SecondVariation:
+    def variation(self, n: int | str) -> SecondVariation:
         """The operator of a class; 0 is that of the states."""
-        return self.model.variations[n]
+        return self.model.octants[n] if isinstance(n, str) else self.model.variations[n]
 
     def observe(self) -> dict[str, float]:
-        """The columns at the state that the system is lent to."""
+        """The columns at the state that the system is lent to.
+
+        Raises:
+            ConvergenceError: If a state of a square has lost the mirrors in its diagonals.
+        """
+        if self._diagonal is not None:
+            self._diagonal.require_mirrored()
         place, least = self._points.least()
         counts = {name: float(self._count(n)) for n, name in self._counted.items()}
         own, held = self._held.counts()
         rest = sum(counts.values())
-        values = (self._centre.stretch(), least, *place, *counts.values(), own + rest, held + rest)
+        split = [float(self.variation(name).negative_count(ZERO)) for name in self._split.values()]
+        values = (self._centre.stretch(), least, *place, *counts.values(), own + rest, held + rest, *split)
         return dict(zip(self.columns, values, strict=True))
+
+    def breaking(self, n: int) -> float:
+        """Number of the class of a square that a critical state's zero eigenvalue belongs to.
+
+        Args:
+            n: Class of the mirrors in ``X`` and ``Y``.
+        """
+        nearest = {part: abs(self.variation(part).nearest().eigenvalue) for part in PARTS[n]}
+        return C4V[min(nearest, key=nearest.__getitem__)]
 
     def _count(self, n: int) -> int:
         return self.model.variations[1 if self.square and n == 2 else n].negative_count()
+
+
+class RectangleBranch(FilledBranch):
+    """States of a rectangle; at critical points of a square, the class of C4v of the mode as ``C4v``."""
+
+    modes: RectangleModes
+
+    def special(self) -> list[Solved]:
+        """As for any branch."""
+        return [self._classed(solved) for solved in super().special()]
+
+    def _classed(self, solved: Solved) -> Solved:
+        if not self.modes.model.sheet.has_diagonals or solved.kind == "volume_fold":
+            return solved
+        with self.system.at(solved.state):
+            breaking = self.modes.breaking(round(solved.values.get("n", 0.0)))
+        return replace(solved, values=solved.values | {"C4v": breaking})
+
+    def _named(self, n: int | str, direction: float) -> tuple[str, dict[str, float]]:
+        """As for any branch; A2 and B2 are the two parts of the class odd in both."""
+        return super()._named(3 if n in PARTS[3] else n, direction)
 
 
 def traced(
@@ -64,7 +115,7 @@ def traced(
     end: float,
     step: float,
     progress: Callable[[], None] = lambda: None,
-) -> FilledBranch:
+) -> RectangleBranch:
     """The branch from a small height of the centre to a larger one.
 
     Args:
@@ -88,6 +139,6 @@ def traced(
         progress()
         return point.monitors["w_c"] > end or yields(point.state)
 
-    branch = FilledBranch(continuation, control, begin, ends, RectangleModes(model))
+    branch = RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
     branch.end_before(yields, GIVES_WAY)
     return branch

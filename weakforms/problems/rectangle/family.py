@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +21,7 @@ class RectangleFamily(SurfaceFamily):
     """As for any modal branch; a state with a profile also has the sheet on the finest mesh."""
 
     fine: FilledBranch
+    marks: ClassVar = ("n", "C4v")
     _last: Solved | None = None
 
     def smooth_order(self, values: Mapping[str, float]) -> float:

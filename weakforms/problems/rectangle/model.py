@@ -10,6 +10,10 @@ are held at ``x = (delta X, delta_y Y, 0)``. Lengths are divided by half the sho
 A state with both mirrors is solved for on the quarter ``[0, 1] x [0, c]``. The second variation of such a
 state decouples into four classes, by the parity of ``z`` in ``X`` and in ``Y``; each is the same form on the
 quarter with other conditions on the mirrors. Together they are all displacements of the whole sheet.
+
+A state of a square also has the mirrors in its diagonals. Its class with both mirrors then decouples into A1
+and B1, that odd in both into B2 and A2, and the two others are a pair, class E of the group C4v: see
+:mod:`weakforms.problems.rectangle.octant`.
 """
 
 from __future__ import annotations
@@ -27,6 +31,7 @@ from ufl.core.expr import Expr
 from weakforms.forms.relaxed_surface import SLACK, WRINKLED, depth, least_stress, state
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
+from weakforms.problems.rectangle.octant import DIAGONAL, Octant
 from weakforms.problems.triangles.readings import corner_weight
 from weakforms.problems.triangles.weak_form import RULE, Membrane, scalars
 from weakforms.solvers.equilibrium.formulation import Formulation
@@ -86,6 +91,11 @@ class Sheet:
         return self.c == 1 and self.delta == self.delta_y and not self.strip
 
     @property
+    def has_diagonals(self) -> bool:
+        """Whether displacements of the quarter decouple by the mirrors in the diagonals."""
+        return self.is_square and not self.whole
+
+    @property
     def copies(self) -> int:
         """Number of meshes that make the whole sheet."""
         return 1 if self.whole else 4
@@ -108,6 +118,7 @@ class RectangleModel:
         system: Residual, tangent and columns in the space of the states.
         variations: The second variation in each class of displacements, by its number; on a whole sheet 0
             stands for all of them.
+        octants: On the quarter of a square, that in each class of the diagonals, by its name.
     """
 
     def __init__(self, comm: MPI.Intracomm, sheet: Sheet) -> None:
@@ -126,6 +137,8 @@ class RectangleModel:
         self.system = System(self._formulation())
         classes = {0: CLASSES[0]} if sheet.whole else CLASSES
         self.variations = {n: self._variation(name) for n, name in classes.items()}
+        diagonal = DIAGONAL if sheet.has_diagonals else ()
+        self.octants = {name: self._on_octant(name) for name in diagonal}
 
     def cosine(self, height: float) -> np.ndarray:
         """Owned degrees of freedom of a deflection by half a wave in either direction."""
@@ -207,16 +220,31 @@ class RectangleModel:
     # -- conditions and classes ----------------------------------------------------------------
 
     def _variation(self, name: str) -> SecondVariation:
+        return self._second(name, lambda q: q, self.sheet.copies, self._conditions(name))
+
+    def _on_octant(self, name: str) -> SecondVariation:
+        """In a class of the diagonals, on the octant ``0 <= Y <= X``."""
+        octant = Octant(self.mesh, self.space, *DIAGONAL[name])
+        return self._second(name, octant.displacement, octant.copies, octant.conditions())
+
+    def _second(
+        self,
+        name: str,
+        displacement: Callable[[Expr], Expr],
+        copies: Expr | int,
+        conditions: list[fem.DirichletBC],
+    ) -> SecondVariation:
+        """The form at a displacement that depends linearly on the unknown of a class."""
         q = fem.Function(self.space, name=name)
-        at, copies = self._at(self.unknown + q), self.sheet.copies
+        at = self._at(self.unknown + displacement(q))
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         return SecondVariation(
             Formulation(
                 unknown=q,
                 residual=ufl.derivative(copies * (at.strain + at.load) * self.dx, q, test),
                 loads=self.scalars,
-                bcs=self._conditions(name),
-                mass=copies * ufl.inner(trial, test) * self.dx,
+                bcs=conditions,
+                mass=copies * ufl.inner(displacement(trial), displacement(test)) * self.dx,
                 monitors={},
             ),
             self.system,

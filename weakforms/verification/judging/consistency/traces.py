@@ -34,7 +34,7 @@ SHARP = 1e-3
 
 BLUNT = (
     *("traction_max", "traction_front", "kappa", "X_iso"),
-    *("S_least", "X_least", "Y_least", "lam1_c", "f_w", "f_s", "n_all", "n_held"),
+    *("S_least", "X_least", "Y_least", "lam1_c", "f_w", "f_s", "n_all", "n_held", "n_A1"),
 )
 """Columns that some states know less sharply: tractions and curvature at the edge of a patch that lets go,
 the point where two nearly equal stretches cross, the least stress of a sheet and its place among the points
