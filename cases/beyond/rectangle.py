@@ -13,6 +13,9 @@ GAS, GAS_NEO_HOOKEAN = (rectangle(load="gas", alpha=alpha).on(**FINE) for alpha 
 LIGHT, LIGHT_NEO_HOOKEAN = (
     rectangle(gamma=1, alpha=a, w_end=e).on(**FINE) for a, e in ((0.1, 2.0), (0.0, 1.8))
 )
+FILLED = rectangle(load="gas", alpha=0.0, kappa=1.4, p_atm=0.5, V_r=60.0, w_end=1.8).on(**FINE)
+"""Neo-Hookean with a large reservoir: a given mass of gas is not enough for stability beyond its fold."""
+
 HEAVY = rectangle(gamma=5, w_end=1.2).on(**FINE)
 TAUT = 1e-5
 """Asked of smooth taut states at degree 2."""
@@ -68,6 +71,7 @@ CASE = Case(
             {GAS_NEO_HOOKEAN: 1, GAS: 0, LIGHT: 1, LIGHT_NEO_HOOKEAN: 1, HEAVY: 2},
             "number of limit loads up to w_end",
         ),
+        Count("mass_fold", {FILLED: 1, GAS: 0}, "number of folds of the mass of gas"),
         Count("volume_fold", {LIGHT_NEO_HOOKEAN: 1, LIGHT: 0, HEAVY: 0}, "number of folds of the volume"),
         limit("rectangle_gas_limit", GAS_NEO_HOOKEAN, "p", "V"),
         limit("rectangle_liquid_limit", LIGHT),
@@ -78,6 +82,12 @@ CASE = Case(
             "rectangle_liquid_fold_neo_hookean",
             LIGHT_NEO_HOOKEAN,
             {"V_f": TAUT, "zw": PLACE, "w_c": PLACE, "U": PLACE},
+        ),
+        points(
+            "mass_fold",
+            "rectangle_gas_mass_fold",
+            FILLED,
+            {"m": TAUT, "p": PLACE, "w_c": PLACE, "V": PLACE, "U": PLACE},
         ),
         points(
             "limit_point",

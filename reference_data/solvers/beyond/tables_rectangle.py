@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache, partial
 
 import numpy as np
@@ -41,6 +41,7 @@ SERIES = Series(
         "V": ("1/a^3", "volume between the sheet and the plane of the frame"),
         "V_f": ("1/a^3", "liquid over the sheet between vertical walls"),
         "U": ("1/(C1 h a^2)", "strain energy"),
+        "m": ("1", "(p + p_atm) (V + V_r)^kappa of a gas inside, its mass if kappa = 1"),
     },
     method="Two codes that share only the derivatives of the energy: (a) collocation of the equations of "
     "equilibrium at Chebyshev points of a quarter; (b) Galerkin's method with Legendre polynomials over the "
@@ -155,25 +156,46 @@ def limits(name: str, title: str, of: Inflated, near: float, order: int, notes: 
     return SERIES.table(name, title, "", of.facts, columns, notes=notes)
 
 
-def amount_fold(
-    name: str, title: str, of: Inflated, near: float, width: float = 0.15, nodes: int = 9
+@dataclass(frozen=True)
+class Gas:
+    """A gas: (p + p_atm) (V + V_r)^kappa = m."""
+
+    kappa: float
+    p_atm: float
+    V_r: float
+
+    def mass(self, row: dict[str, float]) -> float:
+        """``m`` of a state."""
+        return (row["load"] + self.p_atm) * (row["amount"] + self.V_r) ** self.kappa
+
+
+def fold(
+    name: str,
+    title: str,
+    of: Inflated,
+    near: float,
+    gas: Gas | None = None,
+    width: float = 0.15,
+    nodes: int = 9,
 ) -> Table:
-    """The largest volume, by a polynomial through states at Chebyshev nodes."""
+    """The largest volume, or mass of a gas, by a polynomial through states at Chebyshev nodes."""
+    largest = "m" if gas else "amount"
+    names = ("load", "amount", "U", *(("m",) if gas else ()))
 
     def work(code: Code) -> list[dict[str, float]]:
         window = near + width * np.cos(np.pi * (np.arange(nodes) + 0.5) / nodes)[::-1]
         states = follow(code.equations, code.centre, _first(code, of), window)
         rows = [code.columns(state) for state in states]
-        fits = {
-            n: Chebyshev.fit(window, [row[n] for row in rows], nodes - 1) for n in ("load", "amount", "U")
-        }
-        roots = [r.real for r in fits["amount"].deriv().roots() if abs(r.imag) < 1e-12]
+        if gas:
+            rows = [row | {"m": gas.mass(row)} for row in rows]
+        fits = {n: Chebyshev.fit(window, [row[n] for row in rows], nodes - 1) for n in names}
+        roots = [r.real for r in fits[largest].deriv().roots() if abs(r.imag) < 1e-12]
         place = min(roots, key=lambda r: abs(r - near))
         return [{n: float(fit(place)) for n, fit in fits.items()} | {"w_c": place}]
 
     columns = SERIES.keys(order=np.ones(1))
-    columns += _columns(name, of, _states(of, work), ("load", "w_c", "amount", "U"))
-    return SERIES.table(name, title, "", of.facts, columns)
+    columns += _columns(name, of, _states(of, work), ("load", "w_c", *names[1:]))
+    return SERIES.table(name, title, "", of.facts | (asdict(gas) if gas else {}), columns)
 
 
 KINK = (
@@ -202,8 +224,12 @@ TABLES: dict[str, Builder] = {
             *(LIGHT_NEO_HOOKEAN, 1.1, 1),
         ),
         (
-            *("rectangle_liquid_fold_neo_hookean", amount_fold, "The same, neo-Hookean: largest volume"),
+            *("rectangle_liquid_fold_neo_hookean", fold, "The same, neo-Hookean: largest volume"),
             *(LIGHT_NEO_HOOKEAN, 1.63),
+        ),
+        (
+            *("rectangle_gas_mass_fold", fold, "Neo-Hookean square sheet: largest mass of gas"),
+            *(GAS_NEO_HOOKEAN, 1.62, Gas(1.4, 0.5, 60.0)),
         ),
         ("rectangle_heavy_lower", limits, "Heavy liquid: lower limit level", HEAVY, 0.2, 1, KINK),
         ("rectangle_heavy_upper", limits, "Heavy liquid: upper limit level", HEAVY, 0.85, 2),

@@ -8,9 +8,10 @@ from scipy.sparse import csr_matrix
 from weakforms import solve
 from weakforms.api import solve_requests
 from weakforms.errors import InputError
-from weakforms.problems.controls.branch import ControlledBranch, Gas
+from weakforms.problems.controls.branch import ControlledBranch
 from weakforms.problems.controls.problem import ControlsParameters
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
+from weakforms.problems.gas import Gas
 from weakforms.problems.tube.problem import order_at_middle
 from weakforms.solvers.stability.spectra import Stability
 

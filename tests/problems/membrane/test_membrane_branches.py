@@ -7,6 +7,7 @@ import ufl
 from dolfinx import fem
 from mpi4py import MPI
 from numpy.polynomial import Chebyshev
+from scipy.optimize import brentq
 
 import weakforms
 from weakforms import solve
@@ -152,6 +153,24 @@ def test_an_eighth_of_a_balloon_is_a_balloon(tmp_path):
     sheet = next(f for f in state.fields if f.name == "triangles").columns
     assert np.ptp(sheet["lam1"]) < 0.01
     assert (sheet["state"] == 1).all()
+
+
+def test_the_mass_in_an_eighth_of_a_balloon_folds_at_the_closed_form(tmp_path):
+    """V is the volume beyond that at rest, which is part of the reservoir: 4/3 pi lam^3/8 and V_r - pi/6."""
+    path = shapes.written(tmp_path / "ball.msh", shapes.octant, 0.25, order=2)
+    given = {"mirror": "x,y,z", "delta": 1, "alpha": 0, "w_end": 0.8}
+    gas = {"kappa": 1.4, "p_atm": 0.5, "V_r": 20.0}
+    found = solve("membrane", mesh=str(path), **given, **gas, numerics={"levels": 2})
+    (fold,) = found.points("mass_fold")
+
+    def slope(lam):
+        p, rate = 4 * (1 / lam - 1 / lam**7), 4 * (-1 / lam**2 + 7 / lam**8)
+        volume = np.pi / 6 * (lam**3 - 1)
+        return (volume + 20.0) * rate + 1.4 * (p + 0.5) * np.pi / 2 * lam**2
+
+    lam = brentq(slope, 7 ** (1 / 6), 1.7)
+    assert fold.values["p"] == pytest.approx(4 * (1 / lam - 1 / lam**7), rel=1e-4)
+    assert fold.values["V"] == pytest.approx(np.pi / 6 * (lam**3 - 1), rel=2e-3)
 
 
 def test_a_quarter_has_the_numbers_of_the_whole(tmp_path):

@@ -28,7 +28,7 @@ CONTROLS = About(
         *derived(
             column.LAM1,
             column.LAM2,
-            Column("m", "(p + p_atm) (V + V_r)^kappa, by p and V as given here, 1"),
+            column.MASS,
             Column("t_min", "least principal Cauchy resultant over {resultant}"),
             Column("n_fixed_V", "negative eigenvalues at given volume, in the symmetry of the states, 1"),
             Column(
@@ -40,11 +40,11 @@ CONTROLS = About(
     numbers=(
         *numbers(
             length="R_f, radius of the disks, or of the clamp; of the sphere r_o, its radius at rest",
-            p_atm="absolute pressure outside times {1/pressure}",
-            V_r="volume of a rigid reservoir, for the part of the membrane whose volume is V, over {volume}",
             S="fraction of the meridian from the mid-plane or the pole",
             eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 R dS",
         ),
+        column.OUTSIDE,
+        column.RESERVOIR,
         column.RHO,
         Column("eta", "deformed axial position, or height, over {length}", r"\eta"),
         column.T1,

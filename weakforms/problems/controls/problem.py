@@ -12,14 +12,14 @@ from pydantic import Field
 from weakforms.problems.branch_problem import BranchProblem, MeshNumerics, from_rest
 from weakforms.problems.branch_problem import Family as AnyFamily
 from weakforms.problems.controls.about import CONTROLS
-from weakforms.problems.controls.branch import ControlledBranch, ControlledFamily, Gas
+from weakforms.problems.controls.branch import ControlledBranch, ControlledFamily
 from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
 from weakforms.problems.diagram.family import POINTS_OF, orders_of
 from weakforms.problems.diagram.subjects import GRADING
+from weakforms.problems.gas import GasChoice
 from weakforms.problems.homogeneous.body import Body, sphere, system_of
 from weakforms.problems.homogeneous.material import require_reachable
 from weakforms.problems.homogeneous.problem import USUAL
-from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.pre_stretch import require_stretched, require_taut
 from weakforms.problems.problem import End, Needs, Requests, Task
 from weakforms.solvers.continuation.curve import SolutionCurve
@@ -34,7 +34,7 @@ class ControlsNumerics(MeshNumerics):
     degree: int = Field(6, ge=2, le=6, description="polynomial degree of the unknowns")
 
 
-class ControlsParameters(MaterialChoice):
+class ControlsParameters(GasChoice):
     """The membrane, and the gas."""
 
     ratio: ClassVar[str] = "alpha"
@@ -50,11 +50,6 @@ class ControlsParameters(MaterialChoice):
     delta1: float = Field(1.0, ge=1, le=5, description="axial pre-stretch of the tube")
     lf: float = Field(6.0, ge=1, le=30, description="stretched length L_f/R_f of the tube")
     beta: float = Field(1.0, ge=1, le=10, description="uniform pre-stretch of the disk")
-    kappa: float = Field(1.0, ge=1, le=2, description="1: isothermal gas; ratio of specific heats: adiabatic")
-    p_atm: float = Field(1.0, ge=0, le=1e4, description="absolute pressure outside; 0 is a vacuum")
-    V_r: float = Field(
-        0.0, ge=0, le=1e6, description="volume of a rigid reservoir, of a tube for its half; 0: none"
-    )
     u_end: float = Field(4.0, gt=0.05, le=10, description="largest u_max of the tube")
     t_end: float = Field(2.0, gt=0.06, le=10, description="largest pole height of the disk")
     lam_end: float = Field(4.0, gt=1.001, le=50, description="largest stretch of the sphere")
@@ -92,7 +87,7 @@ class Controls(BranchProblem):
     def families(self, task: Task) -> dict[str, AnyFamily]:
         """The branch on all meshes."""
         given, numerics = task.parameters, task.numerics
-        gas, (_, along, end) = Gas(given.kappa, given.p_atm, given.V_r), given.end
+        gas, (_, along, end) = given.gas, given.end
         kind = partial(ControlledBranch, gas=gas, along=along)
 
         def make(level: int) -> SolutionCurve:

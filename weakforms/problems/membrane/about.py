@@ -47,7 +47,11 @@ MEMBRANE = About(
                 "quadrature, over {stress}; negative where the membrane would be compressed",
             ),
             *(Column(f"{x}_least", f"{x} of that stress over {{length}}") for x in "XYZ"),
-            *numbers(n_held="negative eigenvalues, the volume of the gas or liquid held"),
+            *numbers(
+                n_held="negative eigenvalues, the volume of the gas or liquid held",
+                n_fixed_m="the same, the mass of the gas held",
+            ),
+            column.MASS,
         ),
         *column.DIAGNOSTICS,
     ),
@@ -65,9 +69,11 @@ MEMBRANE = About(
             lam1="larger principal stretch of a triangle, 1",
             lam2="smaller principal stretch of a triangle, 1",
         ),
+        column.OUTSIDE,
+        column.RESERVOIR,
         *(Column(name, dimension="length") for name in ("Y_c", "Z_c", "X", "Y", "Z", "x", "y", "z")),
     ),
-    special_points=("limit_point", "bifurcation_point", "volume_fold"),
+    special_points=("limit_point", "bifurcation_point", "volume_fold", "mass_fold"),
     example=Example("w_c", "p", {"mesh": "square", "alpha": 0.0}, numerics={"cells": 8}),
     tuned=(
         Family(

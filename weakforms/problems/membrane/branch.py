@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.gas import Gas, folds_of
 from weakforms.problems.membrane.descent import least_energy
 from weakforms.problems.membrane.model import MembraneModel
 from weakforms.problems.membrane.readings import Highest
@@ -40,14 +41,15 @@ class Readings:
     """What is computed at a state besides its functionals: largest deflection, least stress, a count."""
 
     wave_numbers: tuple[int, ...] = ()
-    columns = ("w_max", "S_least", "X_least", "Y_least", "Z_least", "n_held")
 
-    def __init__(self, model: MembraneModel) -> None:
+    def __init__(self, model: MembraneModel, gas: Gas | None = None) -> None:
         self.model = model
         self.highest = Highest(model)
         self._stress = LeastStress(model.mesh, model.least_stress, model.rule)
         self.amount = MEDIA[model.body.load][1]
-        self._held = AmountHeld(model.system, model.body.control, self.amount)
+        self.folds = folds_of(gas)
+        self._held = AmountHeld(model.system, model.body.control, self.amount, gas)
+        self.columns = ("w_max", "S_least", "X_least", "Y_least", "Z_least", *self._held.columns)
 
     def variation(self, n: int) -> SecondVariation:
         """None: all displacements are those of the states.
@@ -60,12 +62,18 @@ class Readings:
     def observe(self) -> dict[str, float]:
         """The columns at the state that the system is lent to."""
         place, least = self._stress.least()
-        _, held = self._held.counts()
-        return dict(zip(self.columns, (self.highest(), least, *place, float(held)), strict=True))
+        found = self._held.mass() | self._held.counts()
+        values = (self.highest(), least, *place, *(float(found[name]) for name in self._held.columns))
+        return dict(zip(self.columns, values, strict=True))
 
 
 def traced(
-    model: MembraneModel, start: Start, end: float, step: float, progress: Callable[[float], None]
+    model: MembraneModel,
+    start: Start,
+    end: float,
+    step: float,
+    progress: Callable[[float], None],
+    gas: Gas | None = None,
 ) -> FilledBranch:
     """The branch from a small deflection to a larger one.
 
@@ -75,6 +83,7 @@ def traced(
         end: Largest deflection at which the branch ends.
         step: Largest step.
         progress: Called with the largest deflection at every point.
+        gas: The gas inside, if its mass is to be held.
 
     Raises:
         ConvergenceError: If there is no first state.
@@ -83,7 +92,7 @@ def traced(
     solver = ExtendedNewton(model.system, [control])
     continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
     begin = _begun(model, continuation, start)
-    readings = Readings(model)
+    readings = Readings(model, gas)
 
     given = model.body.law, model.law, model.rule
     yields = gives_way(model.system, model.membrane.cauchy_green, *given)

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import AfterValidator, Field
 
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.gas import Gas, GasChoice
 from weakforms.problems.membrane.files import from_file
 from weakforms.problems.membrane.model import Body, Motion
 from weakforms.problems.membrane.reference import AXES, Reference
@@ -54,7 +54,7 @@ class MembraneNumerics(MeshNumerics):
     )
 
 
-class MembraneParameters(MaterialChoice):
+class MembraneParameters(GasChoice):
     """The membrane, its supports and its load."""
 
     ratio: ClassVar[str] = "alpha"
@@ -63,6 +63,7 @@ class MembraneParameters(MaterialChoice):
         **{name: [{"moved": ()}] for name in ("shift_x", "shift_y", "shift_z", "turn")},
         "axis": [{"turn": ()}],
         "gamma": [{"load": ("liquid",)}],
+        **dict.fromkeys(("kappa", "p_atm", "V_r"), ({"load": ("gas",)},)),
     }
     movable: ClassVar = {"w_end": "le"}
 
@@ -110,6 +111,11 @@ class MembraneParameters(MaterialChoice):
 
     def _has(self, name: str, values: tuple[Any, ...]) -> bool:
         return self.is_file if name == "mesh" else super()._has(name, values)
+
+    @property
+    def gas(self) -> Gas | None:
+        """The gas inside, if there is one."""
+        return super().gas if self.load == "gas" else None
 
     @property
     def is_loose(self) -> bool:

@@ -108,9 +108,8 @@ class Membrane(BranchProblem):
                 task.progress(f"branch, mesh {level + 1} of {levels}", round(100 * share), 100)
 
             passed(0.0)
-            return traced(
-                model, Start(numerics.start, numerics.p_start), parameters.w_end, numerics.step, passed
-            )
+            start = Start(numerics.start, numerics.p_start)
+            return traced(model, start, parameters.w_end, numerics.step, passed, parameters.gas)
 
         across = ("p", "V") if parameters.load == "gas" else ("zw", "w_c")
         return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, across, caps=CAPS)}

@@ -40,6 +40,7 @@ RECTANGLE = About(
                 n_odd_odd="the same, z odd in X and in Y",
                 n_all="negative eigenvalues of the whole tangent, all classes, the load held",
                 n_held="the same, the volume of the gas or liquid held",
+                n_fixed_m="the same, the mass of the gas held",
                 n_A1="of a square: negative eigenvalues in class A1 of the group C4v, that of the states; "
                 "class E is the pair odd_even, even_odd",
                 n_A2="the same in A2, odd in both mirrors and in the diagonals",
@@ -47,6 +48,7 @@ RECTANGLE = About(
                 n_B2="the same in B2, odd in both mirrors and even in the diagonals",
             )
         ),
+        *derived(column.MASS),
         Column("X_least", "X of that stress over {length}, on the quarter", derived=True, dimension="length"),
         Column("Y_least", "Y of that stress over {length}, on the quarter", derived=True, dimension="length"),
         *column.DIAGNOSTICS,
@@ -66,12 +68,14 @@ RECTANGLE = About(
             n="class of the critical mode: 0 both mirrors, 1 z odd in X, 2 z odd in Y, 3 odd in both",
             C4v="class of the critical mode of a square: 1 A1, 2 A2, 3 B1, 4 B2, 5 the pair E",
         ),
+        column.OUTSIDE,
+        column.RESERVOIR,
         Column("X", "X of a point of the diagonal, Y = c X", "X", dimension="length"),
         *(Column(name, dimension="length") for name in "xyz"),
         Column("lam1", "larger principal stretch, 1", r"\lambda_1"),
         Column("lam2", "smaller principal stretch, 1", r"\lambda_2"),
     ),
-    special_points=("limit_point", "bifurcation_point", "volume_fold"),
+    special_points=("limit_point", "bifurcation_point", "volume_fold", "mass_fold"),
     example=Example("w_c", "zw", {"gamma": 1.0}, numerics={"cells": 8}),
     tuned=(
         Family(

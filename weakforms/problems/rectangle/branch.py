@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from weakforms.problems.gas import Gas, folds_of
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.readings import Centre, Diagonal
 from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
@@ -29,22 +30,28 @@ C4V = {"A1": 1.0, "A2": 2.0, "B1": 3.0, "B2": 4.0, 1: 5.0}
 """Number ``C4v`` of a critical point, by the class of its mode; 5 is the pair E."""
 
 
+CRITICAL = ("limit_point", "bifurcation_point")
+"""Special points at which an eigenvalue is zero with the load held."""
+
+
 class RectangleModes:
     """What is computed at a state besides its functionals: least stress, stretch, counts by class."""
 
-    def __init__(self, model: RectangleModel) -> None:
+    def __init__(self, model: RectangleModel, gas: Gas | None = None) -> None:
         self.model = model
         self.square = model.sheet.is_square
         rule = RULE[model.sheet.degree]
         self._points = LeastStress(model.mesh, model.least_stress, rule, mirrored=True)
         self._centre = Centre(model)
         self.amount = "V" if model.sheet.load == "gas" else "V_f"
-        self._held = AmountHeld(model.system, model.sheet.control, self.amount)
+        self.folds = folds_of(gas)
+        self._held = AmountHeld(model.system, model.sheet.control, self.amount, gas)
         self._counted = {} if model.sheet.whole else COUNTED
         self._split = {f"n_{name}": name for name in model.octants}
         self._diagonal = Diagonal(model) if self._split else None
         self.columns = (
-            *("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all", "n_held"),
+            *("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all"),
+            *self._held.columns,
             *self._split,
         )
 
@@ -68,12 +75,17 @@ class RectangleModes:
         if self._diagonal is not None:
             self._diagonal.require_mirrored()
         place, least = self._points.least()
-        counts = {name: float(self._count(n)) for n, name in self._counted.items()}
-        own, held = self._held.counts()
+        counts = {name: self._count(n) for n, name in self._counted.items()}
         rest = sum(counts.values())
-        split = [float(self.variation(name).negative_count(ZERO)) for name in self._split.values()]
-        values = (self._centre.stretch(), least, *place, *counts.values(), own + rest, held + rest, *split)
-        return dict(zip(self.columns, values, strict=True))
+        counts |= {name: own + rest for name, own in self._held.counts().items()}
+        counts |= {column: self.variation(n).negative_count(ZERO) for column, n in self._split.items()}
+        return {
+            "lam1_c": self._centre.stretch(),
+            "S_least": least,
+            **dict(zip(("X_least", "Y_least"), place, strict=True)),
+            **self._held.mass(),
+            **{name: float(count) for name, count in counts.items()},
+        }
 
     def breaking(self, n: int) -> float:
         """Number of the class of a square that a critical state's zero eigenvalue belongs to.
@@ -98,7 +110,7 @@ class RectangleBranch(FilledBranch):
         return [self._classed(solved) for solved in super().special()]
 
     def _classed(self, solved: Solved) -> Solved:
-        if not self.modes.model.sheet.has_diagonals or solved.kind == "volume_fold":
+        if not self.modes.model.sheet.has_diagonals or solved.kind not in CRITICAL:
             return solved
         with self.system.at(solved.state):
             breaking = self.modes.breaking(round(solved.values.get("n", 0.0)))
@@ -115,6 +127,7 @@ def traced(
     end: float,
     step: float,
     progress: Callable[[], None] = lambda: None,
+    gas: Gas | None = None,
 ) -> RectangleBranch:
     """The branch from a small height of the centre to a larger one.
 
@@ -124,6 +137,7 @@ def traced(
         end: Height of the centre at which the branch ends.
         step: Largest step.
         progress: Called at every point.
+        gas: The gas inside, if its mass is to be held.
     """
     control = model.sheet.control
     solver = ExtendedNewton(model.system, [control])
@@ -139,6 +153,6 @@ def traced(
         progress()
         return point.monitors["w_c"] > end or yields(point.state)
 
-    branch = RectangleBranch(continuation, control, begin, ends, RectangleModes(model))
+    branch = RectangleBranch(continuation, control, begin, ends, RectangleModes(model, gas))
     branch.end_before(yields, GIVES_WAY)
     return branch

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.gas import Gas, GasChoice
 from weakforms.problems.problem import Needs, TogetherError
 from weakforms.problems.rectangle.model import Sheet
 
@@ -30,11 +30,14 @@ class RectangleNumerics(MeshNumerics):
     )
 
 
-class RectangleParameters(MaterialChoice):
+class RectangleParameters(GasChoice):
     """The sheet, its frame and its load."""
 
     ratio: ClassVar[str] = "alpha"
-    needs: ClassVar[Needs] = {"gamma": [{"load": ("liquid",)}]}
+    needs: ClassVar[Needs] = {
+        "gamma": [{"load": ("liquid",)}],
+        **dict.fromkeys(("kappa", "p_atm", "V_r"), ({"load": ("gas",)},)),
+    }
     movable: ClassVar = {"w_end": "le"}
 
     load: Literal["liquid", "gas"] = Field("liquid", description="liquid on top, or gas from below")
@@ -67,6 +70,11 @@ class RectangleParameters(MaterialChoice):
                 f"branches that are not followed; allowed: c up to {LONGEST_STRIP:g}, or edges = 'held'"
             )
         return self
+
+    @property
+    def gas(self) -> Gas | None:
+        """The gas inside, if there is one."""
+        return super().gas if self.load == "gas" else None
 
     @property
     def stretch_y(self) -> float:

@@ -64,7 +64,7 @@ class Rectangle(BranchProblem):
             model = RectangleModel(task.comm, sheet)
             slackest = min(parameters.delta, parameters.stretch_y)
             start = begins(numerics.start, slackest, parameters.load)
-            return traced(model, start, parameters.w_end, numerics.step)
+            return traced(model, start, parameters.w_end, numerics.step, gas=parameters.gas)
 
         across = MEDIA[parameters.load][0], "w_c"
         return {"primary": RectangleFamily(make, numerics.levels, 2.0 * numerics.degree, across, caps=CAPS)}

@@ -10,6 +10,7 @@ from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
+from weakforms.problems.gas import Gas
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.system import System
 
@@ -61,20 +62,22 @@ class AmountHeld:
 
     The amount ``V`` changes with the load :math:`\ell` by :math:`\mathrm dV/\mathrm d\ell = V_{,\ell} -
     V_{,u} K^{-1} R_{,\ell}`. With the amount held there is one negative eigenvalue less where this is
-    negative: a liquid's level then falls while it is filled in.
+    negative: a liquid's level then falls while it is filled in. The mass of a gas: :class:`Gas`.
 
     Args:
         system: The equations in the space whose displacements keep the symmetry of the states.
         load: The load.
         amount: The functional whose derivative is conjugate to it.
+        gas: The gas inside, whose mass may be held instead of its volume; none of a liquid.
     """
 
-    def __init__(self, system: System, load: str, amount: str) -> None:
-        self._system, self._load, self._amount = system, load, amount
+    def __init__(self, system: System, load: str, amount: str, gas: Gas | None) -> None:
+        self._system, self._load, self._amount, self._gas = system, load, amount, gas
         self._factor = Factorization(system)
+        self.columns = ("n_held",) if gas is None else ("n_held", "m", "n_fixed_m")
 
-    def counts(self) -> tuple[int, int]:
-        """Both counts at the state that the system is lent to."""
+    def counts(self) -> dict[str, int]:
+        """Counts at the state that the system is lent to: ``n_all`` with the load held, and the others."""
         system = self._system
         system.tangent()
         system.shift(ZERO)
@@ -83,7 +86,18 @@ class AmountHeld:
         turned = self._factor.solve(system.load_derivative(self._load))
         rate = own[self._load] - system.dot(b, turned)
         count = self._factor.negative_count()
-        return count, count - (rate < 0)
+        counts = {"n_all": count, "n_held": count - int(rate < 0)}
+        if self._gas is not None:
+            counts["n_fixed_m"] = self._gas.count(count, *self._state(), rate)
+        return counts
+
+    def mass(self) -> dict[str, float]:
+        """The mass ``m`` of the gas at the state that the system is lent to, if there is one."""
+        return {} if self._gas is None else {"m": self._gas.mass(*self._state())}
+
+    def _state(self) -> tuple[float, float]:
+        """Load and amount."""
+        return self._system.load(self._load), self._system.monitor(self._amount)
 
 
 def corner_weight(mesh: Mesh, degree: int, here: np.ndarray) -> fem.Function:

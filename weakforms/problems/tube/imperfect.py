@@ -17,6 +17,7 @@ from collections.abc import Callable
 import numpy as np
 
 from weakforms.errors import AbsentError
+from weakforms.problems.gas import folds_of
 from weakforms.problems.tube.lopsided import (
     ACROSS,
     AMPLITUDE,
@@ -27,6 +28,7 @@ from weakforms.problems.tube.lopsided import (
 )
 from weakforms.problems.tube.model import STEEPEST, USUAL_LOAD, made_uneven, yielding, yields
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
+from weakforms.solvers.continuation.amounts import AmountCurve
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
@@ -62,7 +64,7 @@ def detached_side(even: TubeBranch, crossing: Solved, uneven: float) -> float:
     return -float(taken * np.sign(after[0] - before[-1]))
 
 
-class DetachedBranch(TubeBranch):
+class DetachedBranch(AmountCurve, TubeBranch):
     """The branch on one mesh.
 
     Args:
@@ -95,7 +97,9 @@ class DetachedBranch(TubeBranch):
 
     def _placed(self) -> list[tuple[float, Solved]]:
         """Besides, the extrema of the volume."""
-        return super()._placed() + self._folds("V")
+        found = super()._placed()
+        folds = self.folds(self.control, "V", folds_of(None))
+        return found + [(self._arclength(i, solved), solved) for i, solved in folds]
 
 
 def _first(

@@ -13,7 +13,7 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.solvers.continuation.apart import tell_apart
 from weakforms.solvers.continuation.branch import FittedBranch
-from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, Tangent
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.stability.agreement import same_count
@@ -178,21 +178,6 @@ class ModalBranch(FittedBranch):
             for i in changes:
                 solved = self._bifurcation(int(i), n)
                 found.append((self._arclength(int(i), solved), solved))
-        return found
-
-    def _folds(self, amount: str) -> list[tuple[float, Solved]]:
-        """Extrema of the volume of gas or liquid, which is a column, with their arc lengths."""
-        rates = np.array([self.direction(point, (amount,))[amount] for point in self.points])
-
-        def rate(solved: Solved, along: Tangent) -> float:
-            tangent = self.continuation.direction(solved.state, along)
-            with self.system.at(solved.state):
-                return self.continuation.rate(amount, tangent)
-
-        found = []
-        for i in np.flatnonzero(rates[:-1] * rates[1:] < 0).tolist():
-            solved = self._root(i, partial(rate, along=self.points[i].tangent), "volume_fold")
-            found.append((self._arclength(i, solved), solved))
         return found
 
     def tell_apart(self) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.solvers.continuation.amounts import AmountCurve
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
@@ -50,15 +51,18 @@ class SurfaceBranch(ModalBranch):
         return super()._placed() + found
 
 
-class FilledBranch(SurfaceBranch):
+class FilledBranch(AmountCurve, SurfaceBranch):
     """States over a load; folds of the amount of gas or liquid, ``modes.amount``, are special points.
 
-    They are the ends of what can be reached by filling.
+    They are the ends of what can be reached by filling. ``modes.folds`` names the kinds of folds, of the mass
+    of a gas too.
     """
 
     def _placed(self) -> list[tuple[float, Solved]]:
         """Besides, the folds of the amount."""
-        return super()._placed() + self._folds(self.modes.amount)
+        found = super()._placed()
+        folds = self.folds(self.control, self.modes.amount, self.modes.folds)
+        return found + [(self._arclength(i, solved), solved) for i, solved in folds]
 
 
 class SurfaceFamily(ModalFamily):
