@@ -9,14 +9,19 @@ from __future__ import annotations
 import numpy as np
 
 from reference_data.solvers.beyond.framed_sheet import (
+    CLASSES,
     Array,
     Found,
     Framed,
     energy,
+    kept,
     normal,
     normal_rates,
+    parities,
     stresses,
 )
+
+Parities = tuple[tuple[int, int], ...]
 
 PARITIES = ((-1, 1), (1, -1), (1, 1))
 """Of x, y and z in X and in Y: 1 even, -1 odd."""
@@ -65,17 +70,21 @@ class CollocatedSheet:
             for parity in (1, -1)
         }
         self.count = m * m
+        self.free = self._free(PARITIES)
+        middle = 2 * self.count + self.count - 1
+        self.centre = np.where(self.free == middle, sheet.sign, 0.0)
+
+    def _free(self, signs: Parities) -> Array:
+        """Numbers of the unknowns that neither the edge nor a parity makes zero."""
         edge = (self.place > 1 - 1e-12).any(axis=0)
         free = []
-        for i, parity in enumerate(PARITIES):
+        for i, parity in enumerate(signs):
             zero = edge.copy()
             for s in range(2):
                 if parity[s] < 0:
                     zero |= np.abs(self.place[s]) < 1e-12
             free.append(np.flatnonzero(~zero) + i * self.count)
-        self.free = np.concatenate(free)
-        middle = 2 * self.count + self.count - 1
-        self.centre = np.where(self.free == middle, sheet.sign, 0.0)
+        return np.concatenate(free)
 
     def start(self, height: float, load: float) -> Found:
         """A guess: half a wave of cosine in either direction."""
@@ -104,19 +113,46 @@ class CollocatedSheet:
         stress, moduli = stresses(x1, x2, self.sheet.alpha)
         push, slope, rate = self.sheet.push(whole[2], load)
         n, turns = normal(x1, x2), normal_rates(x1, x2)
-        residual, k = np.zeros((3, q)), np.zeros((3, q, 3, q))
+        residual = np.zeros((3, q))
         for i in range(3):
             # a derivative of component i has the opposite parity in its direction
             d = [self.along[r, -PARITIES[i][r]] for r in range(2)]
             residual[i] = d[0] @ stress[0, i] + d[1] @ stress[1, i] + push * n[i]
+        matrix = self._tangent((moduli, push * turns, slope * n), PARITIES)[np.ix_(self.free, self.free)]
+        return residual.ravel()[self.free], matrix, (rate * n).ravel()[self.free]
+
+    def lowest(self, found: Found, name: str) -> float:
+        """The lowest eigenvalue of the equations at the points in a class of C4v.
+
+        They are linear in a displacement there; their matrix is not symmetric.
+        """
+        own = parities(name)
+        whole = self._whole(found.u)
+        x1, x2 = self.tangents(whole)
+        _, moduli = stresses(x1, x2, self.sheet.alpha)
+        push, slope, _ = self.sheet.push(whole[2], found.load)
+        rates = moduli, push * normal_rates(x1, x2), slope * normal(x1, x2)
+        free = self._free(own)
+        k = -self._tangent(rates, own)[np.ix_(free, free)]
+        component, point = np.divmod(free, self.count)
+        row, column = np.divmod(point, round(self.count**0.5))
+        places = list(zip(component.tolist(), row.tolist(), column.tolist(), strict=True))
+        basis = kept(places, CLASSES[name][2])
+        return float(np.linalg.eigvals(basis.T @ k @ basis).real.min())
+
+    def _tangent(self, rates: tuple[Array, Array, Array], signs: Parities) -> Array:
+        """The matrix of the rates of stress, and of those of the load by the tangents and by the height."""
+        (moduli, turned, risen), q = rates, self.count
+        k = np.zeros((3, q, 3, q))
+        for i in range(3):
+            d = [self.along[r, -signs[i][r]] for r in range(2)]
             for j in range(3):
                 for s in range(2):
                     inner = d[0] * moduli[0, i, s, j] + d[1] * moduli[1, i, s, j]
-                    inner[np.diag_indices(q)] += push * turns[i, s, j]
-                    k[i, :, j] += inner @ self.along[s, PARITIES[j][s]]
-            k[i, :, 2][np.diag_indices(q)] += slope * n[i]
-        matrix = k.reshape(3 * q, 3 * q)[np.ix_(self.free, self.free)]
-        return residual.ravel()[self.free], matrix, (rate * n).ravel()[self.free]
+                    inner[np.diag_indices(q)] += turned[i, s, j]
+                    k[i, :, j] += inner @ self.along[s, signs[j][s]]
+            k[i, :, 2][np.diag_indices(q)] += risen[i]
+        return k.reshape(3 * q, 3 * q)
 
     def columns(self, found: Found) -> dict[str, float]:
         """Volume, strain energy, and the load."""

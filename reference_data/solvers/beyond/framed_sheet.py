@@ -1,4 +1,4 @@
-"""A framed rectangular sheet at points: stresses, their derivatives, and the load, for both methods.
+"""A framed sheet at points: stresses, their derivatives, the load, and classes of C4v, for both methods.
 
 Mooney-Rivlin, ``W = t + 1/d - 3 + alpha (d + t/d - 3)`` with ``t = c1 + c2`` and ``d = c1 c2 - c3^2``, a
 function of ``c = (x_X.x_X, x_Y.x_Y, x_X.x_Y)``; or the law of Saint Venant and Kirchhoff in plane stress. The
@@ -194,3 +194,32 @@ def limit(equations: Linear, centre: Array, near: Found, width: float = 0.02) ->
         if abs(b.height - a.height) < 1e-9:
             return b
     raise RuntimeError(f"no limit load near the height {near.height:g}")
+
+
+CLASSES = {"A1": (1, 1, 1), "A2": (-1, -1, -1), "B1": (1, 1, -1), "B2": (-1, -1, 1), "E": (1, -1, 0)}
+"""Of each class of the group C4v the parities of z in X and in Y (1 even, -1 odd), and the sign of the
+exchange ``(x, y, z)(X, Y) -> (y, x, z)(Y, X)``; 0 in E, which it does not keep."""
+
+
+def parities(name: str) -> tuple[tuple[int, int], ...]:
+    """Those of x, y and z in X and in Y, in a class."""
+    p, q, _ = CLASSES[name]
+    return (-p, q), (p, -q), (p, q)
+
+
+def kept(places: list[tuple[int, int, int]], sign: int) -> Array:
+    """Orthonormal vectors that the exchange multiplies by a sign, over unknowns (component, row, column)."""
+    if not sign:
+        return np.eye(len(places))
+    number = {place: n for n, place in enumerate(places)}
+    other = {0: 1, 1: 0, 2: 2}
+    columns = []
+    for n, (i, a, b) in enumerate(places):
+        image = number[other[i], b, a]
+        if image < n or (image == n and sign < 0):
+            continue
+        column = np.zeros(len(places))
+        column[n] = 1.0
+        column[image] += sign if image != n else 0.0
+        columns.append(column / np.linalg.norm(column))
+    return np.array(columns).T

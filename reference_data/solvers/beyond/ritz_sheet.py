@@ -9,19 +9,25 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss, legval
+from scipy.linalg import block_diag, eigh
 
 from reference_data.solvers.beyond.framed_sheet import (
+    CLASSES,
     Array,
     Found,
     Framed,
     energy,
+    kept,
     normal,
     normal_rates,
+    parities,
     stresses,
 )
 
 EVEN, ODD = 1, 2
 """First index of integrated Legendre polynomials of either parity."""
+
+Parities = tuple[tuple[int, int], ...]
 
 PARITIES = ((ODD, EVEN), (EVEN, ODD), (EVEN, EVEN))
 """Of x, y and z in X and in Y."""
@@ -52,17 +58,25 @@ class RitzSheet:
         x, w = (points + 1) / 2, weights / 2
         self.weights = 4 * np.outer(w, w).ravel()
         self.place = np.array([p.ravel() for p in np.meshgrid(x, x, indexing="ij")])
-        self.values, self.slopes, middle = [], [], []
+        self.degree, self._x = degree, x
+        self.values, self.slopes = self.basis(PARITIES)
+        middle = []
         for first, second in PARITIES:
-            (a, da), (b, db) = shapes(first, degree, x), shapes(second, degree, x)
-            self.values.append(_products(a, b))
-            self.slopes.append((_products(da, b), _products(a, db)))
             (at, _), (by, _) = shapes(first, degree, np.zeros(1)), shapes(second, degree, np.zeros(1))
             middle.append(_products(at, by)[:, 0])
         counts = [len(v) for v in self.values]
         self.parts = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
         self.centre = np.zeros(sum(counts))
         self.centre[self.parts[2]] = sheet.sign * middle[2]
+
+    def basis(self, firsts: Parities) -> tuple[list[Array], list[tuple[Array, Array]]]:
+        """Of each component the shapes from its first indices in X and Y, and their derivatives."""
+        values, slopes = [], []
+        for first, second in firsts:
+            (a, da), (b, db) = (shapes(at, self.degree, self._x) for at in (first, second))
+            values.append(_products(a, b))
+            slopes.append((_products(da, b), _products(a, db)))
+        return values, slopes
 
     def start(self, height: float, load: float) -> Found:
         """A guess: half a wave of cosine in either direction, projected."""
@@ -95,21 +109,52 @@ class RitzSheet:
         push, slope, rate = self.sheet.push(self.height(u), load)
         n, turns = normal(x1, x2), normal_rates(x1, x2)
         w, size = self.weights, len(u)
-        residual, k, by_load = np.zeros(size), np.zeros((size, size)), np.zeros(size)
+        residual, by_load = np.zeros(size), np.zeros(size)
         for i, rows in enumerate(self.parts):
             of, ds = self.values[i], self.slopes[i]
             residual[rows] = ds[0] @ (w * stress[0, i]) + ds[1] @ (w * stress[1, i]) - of @ (w * push * n[i])
             by_load[rows] = -of @ (w * rate * n[i])
-            for j, columns in enumerate(self.parts):
+        k = self._tangent((moduli, push * turns, slope * n), self.values, self.slopes)
+        return residual, k, by_load
+
+    def lowest(self, found: Found, name: str) -> float:
+        """The lowest eigenvalue of the second variation over ``int |v|^2 dA`` in a class of C4v."""
+        firsts = tuple(tuple(EVEN if p > 0 else ODD for p in pair) for pair in parities(name))
+        x1, x2 = self.tangents(found.u)
+        _, moduli = stresses(x1, x2, self.sheet.alpha)
+        push, slope, _ = self.sheet.push(self.height(found.u), found.load)
+        values, slopes = self.basis(firsts)
+        load = push * normal_rates(x1, x2), slope * normal(x1, x2)
+        mass = block_diag(*((of * self.weights) @ of.T for of in values))
+        k = self._tangent((moduli, *load), values, slopes)
+        places = [
+            (i, a, b)
+            for i, (first, second) in enumerate(firsts)
+            for a in range(first, self.degree, 2)
+            for b in range(second, self.degree, 2)
+        ]
+        basis = kept(places, CLASSES[name][2])
+        return float(eigh(basis.T @ k @ basis, basis.T @ mass @ basis, eigvals_only=True)[0])
+
+    def _tangent(
+        self, rates: tuple[Array, Array, Array], values: list[Array], slopes: list[tuple[Array, Array]]
+    ) -> Array:
+        """The matrix of the rates of stress, and of those of the load by the tangents and by the height."""
+        (moduli, turned, risen), w = rates, self.weights
+        parts = np.split(np.arange(sum(map(len, values))), np.cumsum([len(v) for v in values])[:-1])
+        k = np.zeros((sum(map(len, values)),) * 2)
+        for i, rows in enumerate(parts):
+            of, ds = values[i], slopes[i]
+            for j, columns in enumerate(parts):
                 block = np.zeros((len(rows), len(columns)))
                 for s in range(2):
                     right = (w * moduli[0, i, s, j]) * ds[0] + (w * moduli[1, i, s, j]) * ds[1]
-                    right -= (w * push * turns[i, s, j]) * of
-                    block += right @ self.slopes[j][s].T
+                    right -= (w * turned[i, s, j]) * of
+                    block += right @ slopes[j][s].T
                 if j == 2:
-                    block -= ((w * slope * n[i]) * of) @ self.values[2].T
+                    block -= ((w * risen[i]) * of) @ values[2].T
                 k[np.ix_(rows, columns)] = block
-        return residual, k, by_load
+        return k
 
     def columns(self, found: Found) -> dict[str, float]:
         """Volume, strain energy, and the load."""

@@ -10,7 +10,16 @@ import numpy as np
 from numpy.polynomial.chebyshev import Chebyshev
 
 from reference_data.solvers.beyond.collocated_sheet import CollocatedSheet
-from reference_data.solvers.beyond.framed_sheet import Array, Found, Framed, Kirchhoff, follow, limit, solve
+from reference_data.solvers.beyond.framed_sheet import (
+    CLASSES,
+    Array,
+    Found,
+    Framed,
+    Kirchhoff,
+    follow,
+    limit,
+    solve,
+)
 from reference_data.solvers.beyond.ritz_sheet import RitzSheet
 from reference_data.solvers.core.tables import (
     TWO_GRIDS,
@@ -41,6 +50,13 @@ SERIES = Series(
         "V": ("1/a^3", "volume between the sheet and the plane of the frame"),
         "V_f": ("1/a^3", "liquid over the sheet between vertical walls"),
         "U": ("1/(C1 h a^2)", "strain energy"),
+        **{
+            f"eigenvalue_{name}": (
+                "1/C1",
+                f"lowest eigenvalue in class {name} of C4v, over h int |v|^2 dA/a^4",
+            )
+            for name in CLASSES
+        },
         "m": ("1", "(p + p_atm) (V + V_r)^kappa of a gas inside, its mass if kappa = 1"),
     },
     method="Two codes that share only the derivatives of the energy: (a) collocation of the equations of "
@@ -142,6 +158,18 @@ def curve(name: str, title: str, of: Inflated, heights: Array) -> Table:
     return SERIES.table(name, title, "", of.facts, columns)
 
 
+def classes(name: str, title: str, of: Inflated, heights: Array) -> Table:
+    """The lowest eigenvalue in each class of C4v over the height of the centre."""
+
+    def work(code: Code) -> list[dict[str, float]]:
+        states = follow(code.equations, code.centre, _first(code, of), heights)
+        return [{f"eigenvalue_{name}": code.lowest(at, name) for name in CLASSES} for at in states]
+
+    columns = SERIES.keys(w_c=heights)
+    columns += _columns(name, of, _states(of, work), tuple(f"eigenvalue_{name}" for name in CLASSES))
+    return SERIES.table(name, title, "", of.facts, columns)
+
+
 def limits(name: str, title: str, of: Inflated, near: float, order: int, notes: str = "") -> Table:
     """One limit load; with ``notes`` of irregular convergence its uncertainty is larger."""
 
@@ -226,6 +254,10 @@ TABLES: dict[str, Builder] = {
         (
             *("rectangle_liquid_fold_neo_hookean", fold, "The same, neo-Hookean: largest volume"),
             *(LIGHT_NEO_HOOKEAN, 1.63),
+        ),
+        (
+            *("rectangle_gas_classes", classes, "Neo-Hookean square sheet: stability by classes"),
+            *(GAS_NEO_HOOKEAN, steps(0.3, 1.5, 0.3)),
         ),
         (
             *("rectangle_gas_mass_fold", fold, "Neo-Hookean square sheet: largest mass of gas"),

@@ -5,6 +5,8 @@ import pytest
 
 from reference_data.solvers.beyond.collocated_sheet import CollocatedSheet, chebyshev
 from reference_data.solvers.beyond.framed_sheet import (
+    CLASSES,
+    Found,
     Framed,
     Kirchhoff,
     derivatives,
@@ -91,3 +93,24 @@ def test_the_flat_sheet_has_the_energy_of_its_stretch(code):
     t, d = 2 * 1.2**2, 1.2**4
     exact = 4 * (t + 1 / d - 3 + 0.1 * (d + t / d - 3))
     assert of.columns(flat)["U"] == pytest.approx(exact, rel=1e-12)
+
+
+@pytest.mark.parametrize("code", [CollocatedSheet(Framed(0.0), 9), RitzSheet(Framed(0.0), 14)])
+def test_eigenvalues_of_a_flat_sheet_are_those_of_its_waves(code):
+    """S (pi/2)^2 (m^2 + n^2) in the class of each wave; in A2 a mode in the plane is lower."""
+    flat = Found(np.zeros(len(code.centre)), 0.0, 0.0, 0.0)
+    found, stress = {name: code.lowest(flat, name) for name in CLASSES}, 2 * (1 - 1.1**-6)
+    for name, squares in {"A1": 1 + 1, "E": 1 + 4, "B2": 4 + 4, "B1": 1 + 9}.items():
+        assert found[name] == pytest.approx(stress * (np.pi / 2) ** 2 * squares, rel=1e-6), name
+    assert found["A2"] < stress * (np.pi / 2) ** 2 * (4 + 16)
+
+
+@pytest.mark.parametrize("code", [CollocatedSheet(Framed(0.0), 9), RitzSheet(Framed(0.0), 14)])
+def test_eigenvalues_by_class_are_those_of_the_table(code):
+    table = references.load("beyond", "rectangle_gas_classes")
+    first = solve(code.equations, code.centre, code.start(0.05, 0.12), 0.05)
+    (state,) = follow(code.equations, code.centre, first, np.array([0.3]))
+    for name in CLASSES:
+        assert code.lowest(state, name) == pytest.approx(table.columns[f"eigenvalue_{name}"][0], rel=1e-4), (
+            name
+        )

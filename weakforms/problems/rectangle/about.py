@@ -66,10 +66,13 @@ RECTANGLE = About(
             state="of a triangle: 1 taut, 0 wrinkled, -1 slack",
             t_x="direction of the larger stretch of a triangle, deformed; t_y and t_z alike",
             n="class of the critical mode: 0 both mirrors, 1 z odd in X, 2 z odd in Y, 3 odd in both",
+            eigenvalue_A1="lowest eigenvalue of the second variation in class A1 of a square at fixed load "
+            "against int |dx|^2 dA, of a state; A2, B1, B2 and E alike",
             C4v="class of the critical mode of a square: 1 A1, 2 A2, 3 B1, 4 B2, 5 the pair E",
         ),
         column.OUTSIDE,
         column.RESERVOIR,
+        *(Column(f"eigenvalue_{name}") for name in ("A2", "B1", "B2", "E")),
         Column("X", "X of a point of the diagonal, Y = c X", "X", dimension="length"),
         *(Column(name, dimension="length") for name in "xyz"),
         Column("lam1", "larger principal stretch, 1", r"\lambda_1"),

@@ -48,6 +48,7 @@ class RectangleModes:
         self._held = AmountHeld(model.system, model.sheet.control, self.amount, gas)
         self._counted = {} if model.sheet.whole else COUNTED
         self._split = {f"n_{name}": name for name in model.octants}
+        self.classes = (*model.octants, "E") if self._split else ()
         self._diagonal = Diagonal(model) if self._split else None
         self.columns = (
             *("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all"),
@@ -86,6 +87,11 @@ class RectangleModes:
             **self._held.mass(),
             **{name: float(count) for name, count in counts.items()},
         }
+
+    def lowest(self) -> dict[str, float]:
+        """The lowest eigenvalue in each class of a square, at the state that the system is lent to."""
+        classes = {name: self.variation(PARTS[1][0] if name == "E" else name) for name in self.classes}
+        return {name: variation.spectrum().eigenvalues[0] for name, variation in classes.items()}
 
     def breaking(self, n: int) -> float:
         """Number of the class of a square that a critical state's zero eigenvalue belongs to.

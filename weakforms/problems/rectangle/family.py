@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from weakforms.problems.triangles.shape import Shape
-from weakforms.results import Field, State
+from weakforms.results import Field, Quantity, State
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.stability.surface_family import ORDER_AT_EDGE, FilledBranch, SurfaceFamily
 
@@ -41,6 +41,15 @@ class RectangleFamily(SurfaceFamily):
         mirrors = ((1, 1),) if model.sheet.whole else MIRRORS
         with model.system.at(self._last.state):
             return replace(state, fields=(*Shape(model.mesh, model.membrane, mirrors)(), *state.fields))
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """As for any modal branch; of a square also the lowest eigenvalue in each class."""
+        rows = []
+        for level, at in zip(self.levels, solved, strict=True):
+            with level.system.at(at.state):
+                rows.append({f"eigenvalue_{name}": mu for name, mu in level.modes.lowest().items()})
+        found = {name: self._quantity([row[name] for row in rows], name) for name in rows[-1]}
+        return super()._diagnostics(solved, critical) | found
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         self._last = solved[-1]
