@@ -65,3 +65,10 @@ def test_too_few_cells_for_the_critical_points_are_said_to_be_too_few():
     given = {"kind": "mirror", "alpha": 0.0, "lf": 7.858983834274113}
     with pytest.raises(ConvergenceError, match=r"delta1 = 1: .*of kind mirror.*: raise cells"):
         solve("diagram", **given, numerics={"degree": 3, "cells": 16})
+
+
+def test_an_order_that_is_low_by_accident_does_not_widen_a_column():
+    """On these meshes ``u_max`` of the second point has errors of -5.9e-5, -2.8e-5 and -8.0e-7."""
+    given = {"kind": "fold", "alpha": 0.10087719056755304, "lf": 7.514857112430036, "high": 1.4, "u_end": 3.5}
+    (point,) = solve("diagram", **given, numerics={"degree": 3, "cells": 16}).points("fold_mirror")
+    assert 8.0e-7 <= point.uncertainty["u_max"] <= 30 * 8.0e-7
