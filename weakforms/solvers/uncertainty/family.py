@@ -181,11 +181,11 @@ class BranchFamily:
 
     def _special_point(self, same: Sequence[Solved]) -> SpecialPoint:
         """One special point; if a column locates it, no error has twice its fields' order (``doubt``)."""
-        kind, orders = same[-1].kind, self._orders_in_mean(same)
-        held = self.located_by.get(kind, "")
+        orders = self._orders_in_mean(same)
+        held = self.located_by.get(same[-1].kind, "")
         columns = self._columns(same, held, orders)
         found = columns if held else self._widened_if_unresolved(columns, orders)
-        return point_of(kind, self.name, self.fine.control, found)
+        return point_of(same[-1].kind, self.name, self.fine.control, found)
 
     def _special(self) -> list[tuple[Solved, ...]]:
         """Each special point on all meshes; they are located once."""
