@@ -77,9 +77,11 @@ class RectangleModes:
             self._diagonal.require_mirrored()
         place, least = self._points.least()
         counts = {name: self._count(n) for n, name in self._counted.items()}
-        rest = sum(counts.values())
-        counts |= {name: own + rest for name, own in self._held.counts().items()}
-        counts |= {column: self.variation(n).negative_count(ZERO) for column, n in self._split.items()}
+        rest, own = sum(counts.values()), self._held.counts()
+        whole = dict.fromkeys(PARTS[0], own["n_all"]) | dict.fromkeys(PARTS[3], counts.get(COUNTED[3], 0))
+        counts |= {name: count + rest for name, count in own.items()}
+        for column, n in self._split.items():  # both parts of a class without negative ones have none
+            counts[column] = self.variation(n).negative_count(ZERO) if whole[n] else 0
         return {
             "lam1_c": self._centre.stretch(),
             "S_least": least,
