@@ -40,16 +40,24 @@ def over_law(solutions: Solutions, name: str, uneven: float) -> decide.Number:
     """The extremum's distance from the even tube's crossing, over that of the two-thirds law."""
     crossing, slope = (solutions.point(EVEN, "mirror_breaking", n) for n in (name, f"{name}_s"))
     kind, _ = EXTREMA[name]
-    found = solutions.point(EVEN.at(uneven=-uneven), kind, name)
+    points = solutions.points(EVEN.at(uneven=-uneven), kind)
+    found = decide.of_point(next(point for point in points if point.branch == BRANCH), name)
     return (found - crossing) / (slope * uneven ** (2 / 3))
 
 
 def koiter(solutions: Solutions) -> Finding:
-    """Koiter's constant: the limit of the ratio for vanishing unevenness is one."""
+    """Koiter's constant: the limit of the ratio for vanishing unevenness is one.
+
+    The ratio is a series in the power of the unevenness. Its first two terms are used; the third one is taken
+    for as large as the square of the second.
+    """
     found = []
     for name in EXTREMA:
         near, far = (over_law(solutions, name, uneven) for uneven in (SMALL, MIDDLE))
-        found.append(decide.agree(f"{name} over law", near + (near - far) / (NEXT - 1), 1.0, 1e-3))
+        limit = near + (near - far) / (NEXT - 1)
+        third = abs((near.value - 1) * (far.value - 1))
+        known = decide.Number(limit.value, limit.uncertainty + third)
+        found.append(decide.agree(f"{name} over law", known, 1.0, 1e-3))
     return decide.all_of(*found)
 
 

@@ -72,13 +72,21 @@ class DetachedBranch(AmountCurve, TubeBranch):
         even: Free inflation of the even tube.
         uneven: The unevenness.
         step: Largest step.
+        begin: Amplitude at which it begins, that of other meshes; if none is given, one is chosen.
 
     Raises:
         AbsentError: If the even tube has no lopsided state beyond the smallest volume.
         ConvergenceError: If there is no first state.
     """
 
-    def __init__(self, lopsided: LopsidedBranch, even: TubeBranch, uneven: float, step: float) -> None:
+    def __init__(
+        self,
+        lopsided: LopsidedBranch,
+        even: TubeBranch,
+        uneven: float,
+        step: float,
+        begin: float | None = None,
+    ) -> None:
         solver, side = ExtendedNewton(even.system, [even.control]), lopsided.side
         extremum = abs(lopsided.expansion.amplitude_of_extremum(uneven))
         steps = StepControl(first=min(step, extremum) / 4, largest=step, usual_load=USUAL_LOAD)
@@ -89,7 +97,7 @@ class DetachedBranch(AmountCurve, TubeBranch):
             columns, steep = point.monitors, point.tangent.loads[even.control] > STEEPEST
             return columns["V"] > most or side * columns[AMPLITUDE] < 0 or yields(point) or steep
 
-        start = _first(lopsided, continuation, uneven, extremum)
+        start = _first(lopsided, continuation, uneven, extremum, begin)
         super().__init__(continuation, even.control, start, stop, even.modes)
         self.end_at_limit(even.limit)
         if yields(self.points[-1]):
@@ -103,7 +111,11 @@ class DetachedBranch(AmountCurve, TubeBranch):
 
 
 def _first(
-    lopsided: LopsidedBranch, continuation: Continuation, uneven: float, extremum: float
+    lopsided: LopsidedBranch,
+    continuation: Continuation,
+    uneven: float,
+    extremum: float,
+    begin: float | None,
 ) -> CurvePoint:
     """The first point of the detached branch, beyond its smallest volume towards the symmetric states.
 
@@ -127,14 +139,16 @@ def _first(
     held = Held(AMPLITUDE, beyond)
     near = abs(beyond) <= side * lopsided.points[1].monitors[AMPLITUDE]
     guess = lopsided.expansion.predicted(beyond) if near else lopsided.at(AMPLITUDE, beyond).state
-    begin = continuation.start(made_uneven(solver, guess, held, uneven), held, towards={AMPLITUDE: -side})
+    start = continuation.start(made_uneven(solver, guess, held, uneven), held, towards={AMPLITUDE: -side})
 
     def passed(point: CurvePoint) -> bool:
-        columns = point.monitors
-        return columns["V"] > begin.monitors["V"] or side * columns[AMPLITUDE] < BEFORE * extremum
+        amplitude, volume = side * point.monitors[AMPLITUDE], point.monitors["V"]
+        if begin is not None:
+            return amplitude < side * begin
+        return volume > start.monitors["V"] or amplitude < BEFORE * extremum
 
-    *_, last = continuation.trace(begin, passed)
-    place = Held(AMPLITUDE, last.monitors[AMPLITUDE])
+    *_, last = continuation.trace(start, passed)
+    place = Held(AMPLITUDE, last.monitors[AMPLITUDE] if begin is None else begin)
     return continuation.start(last.state, place, towards={AMPLITUDE: side})
 
 
@@ -162,10 +176,14 @@ def detached_family(
     require_crossings(len(crossings), number, even.fine)
     side = detached_side(even.fine, crossings[number - 1][-1], uneven)
 
+    made: list[DetachedBranch] = []
+
     def make(level: int) -> DetachedBranch:
         progress("detached branch", level, len(even.levels))
-        own = even.levels[level]
-        on_mesh = [same[level] for same in crossings]
-        return DetachedBranch(LopsidedBranch(own, on_mesh, number - 1, step, side), own, uneven, step)
+        own, on_mesh = even.levels[level], [same[level] for same in crossings]
+        begin = made[0].points[0].monitors[AMPLITUDE] if made else None
+        lopsided = LopsidedBranch(own, on_mesh, number - 1, step, side)
+        made.append(DetachedBranch(lopsided, own, uneven, step, begin))
+        return made[-1]
 
     return TubeFamily(make, len(even.levels), even.cap, ACROSS, "secondary", even.caps)

@@ -22,6 +22,9 @@ from weakforms.solvers.support.roots import root
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
 """Columns that describe the solve; they cannot be prescribed."""
 
+JUST_BEYOND = 1e-3
+"""Part of its first and of its last step by which a curve counts as crossing a plane that it ends before."""
+
 FAR = 0.1
 """Distance along a curve, relative to its length, within which a point of another mesh's curve is sought."""
 
@@ -178,12 +181,14 @@ class SolutionCurve:
         target = sum(rate * self._column(like, name) for name, rate in rates.items())
         places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
         arclengths = np.array([p.arclength for p in self.points])
-        crossed = (places[:-1] - target) * (places[1:] - target) <= 0
+        spans = np.diff(places)
+        beyond = np.zeros_like(spans)
+        beyond[[0, -1]] = JUST_BEYOND * spans[[0, -1]] ** 2  # both ends differ from mesh to mesh
+        crossed = (places[:-1] - target) * (places[1:] - target) <= beyond
         apart = np.abs((arclengths[:-1] + arclengths[1:]) / 2 - near * arclengths[-1])
         # This curve may end just before the plane, which may cut it a second time far from there.
         i = int(np.argmin(np.where(crossed & (apart <= FAR * arclengths[-1]), apart - arclengths[-1], apart)))
-        span = places[i + 1] - places[i]
-        guess = self.between(i, (target - places[i]) / span if span else 0.5)
+        guess = self.between(i, (target - places[i]) / spans[i] if spans[i] else 0.5)
         return self._solve(guess, MonitorPlane(rates, target))
 
     def over_points(self, name: str) -> np.ndarray:
