@@ -89,7 +89,7 @@ class DetachedBranch(AmountCurve, TubeBranch):
     ) -> None:
         solver, side = ExtendedNewton(even.system, [even.control]), lopsided.side
         extremum = abs(lopsided.expansion.amplitude_of_extremum(uneven))
-        steps = StepControl(first=min(step, extremum) / 4, largest=step, usual_load=USUAL_LOAD)
+        steps = StepControl(first=min(step, extremum) / 16, largest=step, usual_load=USUAL_LOAD)
         continuation = Continuation(solver, control=steps)
         most = even.points[-1].monitors["V"]
 

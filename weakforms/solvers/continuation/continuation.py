@@ -26,6 +26,11 @@ class Tangent:
     """``M u`` if it is known already; its inner product projects on this direction."""
 
 
+SLOW = 8
+"""Iterations with one factorisation above which its error may be larger than its last step: Newton's method
+then makes the last ones."""
+
+
 @dataclass
 class CurvePoint:
     """A converged point of a curve, with the curve's direction and the inertia of ``K`` there."""
@@ -233,6 +238,9 @@ class Continuation:
         guess = self.predict(before, at, step)
         plane = self.plane(at.state, at.tangent, step)
         state, record = self.solve(guess, plane, chord=not self.fixed)
+        if record.iterations > SLOW:
+            state, last = self.solve(state, plane)
+            record = record.followed_by(last)
         if not self.allowed(state):
             raise ConvergenceError("the step leads out of the range of the problem")
         chord = self._chord(at.state, state)

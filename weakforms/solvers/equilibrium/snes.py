@@ -23,6 +23,11 @@ class SolveRecord:
     norms: tuple[float, ...]
     """Residual norm of the whole system at each iteration."""
 
+    def followed_by(self, other: SolveRecord) -> SolveRecord:
+        """The record of both solves, one after the other."""
+        both = self.iterations + other.iterations, self.factorizations + other.factorizations
+        return SolveRecord(other.reason, *both, (*self.norms, *other.norms))
+
 
 def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
     """Solve, starting from ``x``; the caller must check whether the solve converged.
