@@ -7,6 +7,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from weakforms import InputError, solve
+from weakforms.errors import ConvergenceError
 from weakforms.problems.material_choice import mooney_rivlin_of
 from weakforms.problems.rectangle.branch import RectangleModes, traced
 from weakforms.problems.rectangle.model import RectangleModel, Sheet
@@ -207,3 +208,10 @@ def test_the_sheet_of_a_state_is_whole_and_faces_upwards():
     assert (triangles["lam1"] >= triangles["lam2"]).all()
     assert sum(triangles[f"t_{name}"] ** 2 for name in "xyz") == pytest.approx(1.0)
     assert (triangles["state"] == 1).all()
+
+
+def test_a_law_without_stress_at_a_place_is_an_error_that_says_so():
+    with pytest.raises(ConvergenceError, match="lower w_end"):
+        solve(
+            "rectangle", load="gas", model="gent", delta=1.02, w_end=3.9, numerics={"cells": 6, "levels": 2}
+        )

@@ -10,6 +10,7 @@ from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from ufl.core.expr import Expr
 
+from weakforms.errors import ConvergenceError
 from weakforms.problems.gas import Gas
 from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.system import System
@@ -40,12 +41,21 @@ class LeastStress:
         self._cells = np.arange(mesh.topology.index_map(2).size_local, dtype=np.int32)
 
     def least(self) -> tuple[tuple[float, ...], float]:
-        """Its place and its value; of points that share it by symmetry, the one with the largest ``X``."""
+        """Its place and its value; of points that share it by symmetry, the one with the largest ``X``.
+
+        Raises:
+            ConvergenceError: If the law has no stress at one of the points.
+        """
         values = self._expression.eval(self._mesh, self._cells).reshape(-1, self._columns)
         if self._mirrored:
             values[:, 1:] = np.abs(values[:, 1:])
         lowest = values[:, 0].min(initial=np.inf)
         lowest = min(self._mesh.comm.allgather(lowest))
+        if not np.isfinite(self._mesh.comm.allreduce(float(values[:, 0].sum()))):
+            raise ConvergenceError(
+                "the law has no stress where the membrane is wrinkled or stretched beyond its limit; lower "
+                "w_end, or choose a law without a largest stretch"
+            )
         near = values[values[:, 0] <= lowest + ALIKE * max(1.0, abs(lowest))]
         _, *place = max(
             (row for rows in self._mesh.comm.allgather(near.tolist()) for row in rows), key=_order
