@@ -78,6 +78,12 @@ class Tube(BranchProblem):
                 "tube: frictionless contact has no history, it deflates as it inflates; "
                 "phase = 'deflation' is allowed with contact = 'adhesive'"
             )
+        if parameters.uneven and (parameters.contact != "none" or parameters.extent == "half"):
+            raise InputError(
+                f"tube: uneven = {parameters.uneven:g} with extent = {parameters.extent!r}, contact = "
+                f"{parameters.contact!r}: allowed in free inflation of the whole tube; set extent = 'full', "
+                "contact = 'none'"
+            )
         if 0 < abs(parameters.uneven) < LEAST:
             raise InputError(
                 f"tube: uneven = {parameters.uneven:g} is too small for its branches to be told apart; "

@@ -22,11 +22,10 @@ from weakforms.solvers.support.roots import root
 DIAGNOSTICS = ("n_negative", "residual", "iterations")
 """Columns that describe the solve; they cannot be prescribed."""
 
-JUST_BEYOND = 1e-3
-"""Part of its first and of its last step by which a curve counts as crossing a plane that it ends before."""
-
 FAR = 0.1
 """Distance along a curve, relative to its length, within which a point of another mesh's curve is sought."""
+JUST_BEYOND = 1e-3
+"""Part of its first and of its last step by which a curve counts as crossing a plane that it ends before."""
 
 AT_END = 1e-10
 """Value at one end of an interval, over that at the other, which counts as a zero there, up to round-off."""
@@ -182,14 +181,13 @@ class SolutionCurve:
         places = np.array([sum(r * self._column(p, n) for n, r in rates.items()) for p in self.points])
         arclengths = np.array([p.arclength for p in self.points])
         spans = np.diff(places)
-        beyond = np.zeros_like(spans)
-        beyond[[0, -1]] = JUST_BEYOND * spans[[0, -1]] ** 2  # both ends differ from mesh to mesh
-        crossed = (places[:-1] - target) * (places[1:] - target) <= beyond
+        at_end = np.isin(np.arange(len(spans)), (0, len(spans) - 1))
+        crossed = (places[:-1] - target) * (places[1:] - target) <= JUST_BEYOND * at_end * spans**2
         apart = np.abs((arclengths[:-1] + arclengths[1:]) / 2 - near * arclengths[-1])
         # This curve may end just before the plane, which may cut it a second time far from there.
         i = int(np.argmin(np.where(crossed & (apart <= FAR * arclengths[-1]), apart - arclengths[-1], apart)))
-        guess = self.between(i, (target - places[i]) / spans[i] if spans[i] else 0.5)
-        return self._solve(guess, MonitorPlane(rates, target))
+        share = (target - places[i]) / spans[i] if spans[i] else 0.5
+        return self._solve(self.between(i, share), MonitorPlane(rates, target))
 
     def over_points(self, name: str) -> np.ndarray:
         """A column, also a computed one, over the points of the trace."""
@@ -285,10 +283,8 @@ class SolutionCurve:
             raise ConvergenceError(f"{name} = {value:g} is not reached: {self.stalled or 'the branch ends'}")
         solved = self.at(name, value, crossings)
         before, last = self.points[-2:]
-        length = self.continuation.distance(solved.state, before.state)
-        self.points[-1] = self.continuation.point(
-            solved.state, last.record, before.tangent, before.arclength + length
-        )
+        arclength = before.arclength + self.continuation.distance(solved.state, before.state)
+        self.points[-1] = self.continuation.point(solved.state, last.record, before.tangent, arclength)
 
     def go_on(self) -> None:
         """Add one more point at the end, after a step as long as the last one.
