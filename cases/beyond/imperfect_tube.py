@@ -24,7 +24,7 @@ from weakforms.cases import (
 EVEN = tube(extent="full", secondary=True, alpha=0.0, delta1=1.0, lf=6.0, u_end=2.1).on(
     degree=6, cells=64, step=0.15
 )
-LARGE, MIDDLE, SMALL = 1e-2, 1e-4, 1e-5
+LARGE, WIDE, MIDDLE, SMALL = 1e-2, 1e-3, 1e-4, 1e-5
 DETACHED = EVEN.at(uneven=-LARGE)
 FREE = EVEN.at(uneven=LARGE)
 BRANCH = "secondary"
@@ -33,7 +33,7 @@ ASKED = dict.fromkeys(("p", "V", "u_max", "w_mid"), 1e-7)
 PLACES = dict.fromkeys(("p", "V", "u_max", "w_mid"), 1e-6)
 
 NEXT = (MIDDLE / SMALL) ** (2 / 3)
-"""Ratio of the next terms of the law, which are smaller than it by the same power of the unevenness."""
+"""Ratio of the next terms of the law at neighbouring values of the unevenness, which is their power of it."""
 
 
 def over_law(solutions: Solutions, name: str, uneven: float) -> decide.Number:
@@ -48,15 +48,15 @@ def over_law(solutions: Solutions, name: str, uneven: float) -> decide.Number:
 def koiter(solutions: Solutions) -> Finding:
     """Koiter's constant: the limit of the ratio for vanishing unevenness is one.
 
-    The ratio is a series in the power of the unevenness. Its first two terms are used; the third one is taken
-    for as large as the square of the second.
+    The ratio is a series in the power of the unevenness. Its first three terms give the limit; what the
+    third one changes is the bound.
     """
     found = []
     for name in EXTREMA:
-        near, far = (over_law(solutions, name, uneven) for uneven in (SMALL, MIDDLE))
-        limit = near + (near - far) / (NEXT - 1)
-        third = abs((near.value - 1) * (far.value - 1))
-        known = decide.Number(limit.value, limit.uncertainty + third)
+        near, far, farthest = (over_law(solutions, name, uneven) for uneven in (SMALL, MIDDLE, WIDE))
+        two, wider = near + (near - far) / (NEXT - 1), far + (far - farthest) / (NEXT - 1)
+        limit = two + (two - wider) / (NEXT**2 - 1)
+        known = decide.Number(limit.value, limit.uncertainty + abs((limit - two).value) / 2)
         found.append(decide.agree(f"{name} over law", known, 1.0, 1e-3))
     return decide.all_of(*found)
 
@@ -73,8 +73,7 @@ def power(solutions: Solutions) -> Finding:
 
 def runs(solutions: Solutions, branch: str) -> list[int]:
     """Numbers of negative eigenvalues at fixed volume along a branch, without repetition."""
-    values = [int(v) for v in solutions.branch(DETACHED, branch).columns["n_negative_volume"]]
-    return [v for k, v in enumerate(values) if not k or v != values[k - 1]]
+    return decide.runs(solutions.branch(DETACHED, branch).columns["n_negative_volume"])
 
 
 def stability(solutions: Solutions) -> Finding:
@@ -85,7 +84,7 @@ def stability(solutions: Solutions) -> Finding:
     )
 
 
-SOLVED = tuple((EVEN.at(uneven=-uneven), None) for uneven in (SMALL, MIDDLE))
+SOLVED = tuple((EVEN.at(uneven=-uneven), None) for uneven in (SMALL, MIDDLE, WIDE))
 CASE = Case(
     title="The free tube of uneven thickness",
     source="beyond Patil, Nordmark & Eriksson (2014); Koiter (1945)",

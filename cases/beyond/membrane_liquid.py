@@ -48,32 +48,33 @@ NEARLY = 0.95
 """Share of the weight at which the flat disk ponds."""
 
 THRESHOLD = STRESS * ZERO**2 / DELTA**2
-SHALLOW = 2e-3
-"""Height at which, and at half of it, the linear membrane is compared."""
+HEIGHTS = 2e-3, 1e-3
+"""Heights at which the linear membrane is compared."""
 
 NEAR = membrane(load="liquid", gamma=round(NEARLY * THRESHOLD, 9), alpha=ALPHA, delta=DELTA, w_end=0.31).on(
     start=5e-4
 )
 POND = membrane(load="liquid", gamma=8, alpha=ALPHA, delta=DELTA, w_end=0.31).on(start=5e-4, cells=32)
-CURVED = 20.0
-"""Largest factor of the relative change of a pond's ratio, over the square of the height."""
+
+
+def vanishing(once: decide.Number, half: decide.Number) -> decide.Number:
+    """A ratio at vanishing height, from two heights: the quadratic term is removed, and is the bound."""
+    limit = half + (half - once) / 3
+    return decide.Number(limit.value, limit.uncertainty + abs((limit - half).value) / 2)
 
 
 def shallow(solutions: Solutions) -> Finding:
-    """Height over level of a vanishing pond, by two of them: the next term is quadratic."""
-    once, half = (h / solutions.number(NEAR, At("w_c", h), "zw") for h in (SHALLOW, SHALLOW / 2))
-    limit = half + (half - once) / 3
-    known = decide.Number(limit.value, limit.uncertainty + abs((half - once).value) / 3)
-    return decide.agree("w_c/zw", known, 1 / j0(np.sqrt(NEARLY) * ZERO) - 1, 1e-3)
+    """Height over level of a vanishing pond, near the threshold."""
+    both = (h / solutions.number(NEAR, At("w_c", h), "zw") for h in HEIGHTS)
+    return decide.agree("w_c/zw", vanishing(*both), 1 / j0(np.sqrt(NEARLY) * ZERO) - 1, 1e-3)
 
 
 def ponded(solutions: Solutions) -> Finding:
-    """Level over height of a shallow pond, heavier than the threshold, which wets the middle only."""
+    """Level over height of a vanishing pond, heavier than the threshold, which wets the middle only."""
     k = np.sqrt(8 * DELTA**2 / STRESS)
     q = ZERO * j1(ZERO) * np.log(k / ZERO)
-    exact = q / (1 + q)
-    ours = -1 * solutions.number(POND, At("w_c", SHALLOW), "zw") / SHALLOW
-    return decide.agree("-zw/w_c", ours, decide.Number(exact, CURVED * SHALLOW**2 * exact), 5e-3)
+    both = (-1 * solutions.number(POND, At("w_c", h), "zw") / h for h in HEIGHTS)
+    return decide.agree("-zw/w_c", vanishing(*both), q / (1 + q), 5e-3)
 
 
 def limit(kind: str, table: str, spec: Spec, asked: dict[str, float]) -> Points:
@@ -140,13 +141,13 @@ CASE = Case(
         Claim(
             "shallow",
             "a shallow disk follows the linear membrane close to the threshold of ponding",
-            tuple((NEAR, At("w_c", h)) for h in (SHALLOW, SHALLOW / 2)),
+            tuple((NEAR, At("w_c", h)) for h in HEIGHTS),
             shallow,
         ),
         Claim(
             "ponded",
             "above the threshold the level leaves zero downwards, in a finite ratio to the height",
-            ((POND, At("w_c", SHALLOW)),),
+            tuple((POND, At("w_c", h)) for h in HEIGHTS),
             ponded,
         ),
     ),

@@ -70,8 +70,7 @@ def signs(solutions: Solutions) -> Finding:
 
 def runs(solutions: Solutions, spec: Spec, name: str) -> list[int]:
     """Numbers of negative eigenvalues along the lopsided branch, without repetition."""
-    values = [int(v) for v in solutions.branch(spec, BRANCH).columns[name]]
-    return [v for k, v in enumerate(values) if not k or v != values[k - 1]]
+    return decide.runs(solutions.branch(spec, BRANCH).columns[name])
 
 
 def stability(solutions: Solutions) -> Finding:

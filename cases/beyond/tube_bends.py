@@ -6,9 +6,6 @@ prescribed pressure and under a prescribed volume, and for compression. The pane
 with lines by the number of negative eigenvalues; the data of figures 3 to 5 are those of panels (a) and (b).
 """
 
-from collections.abc import Iterable
-from itertools import groupby
-
 from weakforms.cases import (
     At,
     Axis,
@@ -51,15 +48,10 @@ VOLUME = ("n_negative_volume", "n_negative_n1", "n_negative_n2")
 KINDS = ("limit_point", "bifurcation_n1", "bifurcation_n2", "mirror_breaking", "wrinkling_onset")
 
 
-def runs(numbers: Iterable[float]) -> list[int]:
-    """Whole numbers along a branch, without repetition."""
-    return [int(n) for n, _ in groupby(numbers)]
-
-
 def counts(solutions: Solutions, spec: Spec, names: tuple[str, ...]) -> list[int]:
     """Numbers of negative eigenvalues along a branch, without repetition."""
     columns = solutions.branch(spec).columns
-    return runs(sum(columns[name] for name in names))
+    return decide.runs(sum(columns[name] for name in names))
 
 
 def neo_hookean(solutions: Solutions) -> Finding:
@@ -122,7 +114,9 @@ def one_removed(solutions: Solutions) -> Finding:
     for spec in ALL:
         columns, limits = solutions.branch(spec).columns, len(solutions.points(spec, "limit_point"))
         removed = columns["n_negative_n0"] - columns["n_negative_volume"]
-        found.append(decide.same(f"removed, {spec}", runs(removed), [i % 2 for i in range(limits + 1)]))
+        found.append(
+            decide.same(f"removed, {spec}", decide.runs(removed), [i % 2 for i in range(limits + 1)])
+        )
     return decide.all_of(*found)
 
 

@@ -23,10 +23,11 @@ from weakforms.problems.tube.lopsided import (
     AMPLITUDE,
     CROSSED,
     LopsidedBranch,
+    ending,
     expanded,
     require_crossings,
 )
-from weakforms.problems.tube.model import STEEPEST, USUAL_LOAD, made_uneven, yielding, yields
+from weakforms.problems.tube.model import USUAL_LOAD, made_uneven, yielding, yields
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.solvers.continuation.amounts import AmountCurve
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -87,17 +88,11 @@ class DetachedBranch(AmountCurve, TubeBranch):
         step: float,
         begin: float | None = None,
     ) -> None:
-        solver, side = ExtendedNewton(even.system, [even.control]), lopsided.side
+        solver = ExtendedNewton(even.system, [even.control])
         extremum = abs(lopsided.expansion.amplitude_of_extremum(uneven))
         steps = StepControl(first=min(step, extremum) / 16, largest=step, usual_load=USUAL_LOAD)
         continuation = Continuation(solver, control=steps)
-        most = even.points[-1].monitors["V"]
-
-        def stop(point: CurvePoint) -> bool:
-            columns, steep = point.monitors, point.tangent.loads[even.control] > STEEPEST
-            return columns["V"] > most or side * columns[AMPLITUDE] < 0 or yields(point) or steep
-
-        start = _first(lopsided, continuation, uneven, extremum, begin)
+        start, stop = _first(lopsided, continuation, uneven, extremum, begin), ending(even, lopsided.side)
         super().__init__(continuation, even.control, start, stop, even.modes)
         self.end_at_limit(even.limit)
         if yields(self.points[-1]):

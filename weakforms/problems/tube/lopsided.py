@@ -66,6 +66,22 @@ def expanded(solver: ExtendedNewton, crossing: Solved) -> Expansion:
     return Expansion.at(solver, crossing.state, "p", AMPLITUDE, UNEVEN)
 
 
+def ending(primary: TubeBranch, side: float) -> Callable[[CurvePoint], bool]:
+    """Whether a branch beside free inflation ends: at its last volume, at the mirror, or by the law.
+
+    Args:
+        primary: Free inflation.
+        side: Sign of the branch's amplitude.
+    """
+    most = primary.points[-1].monitors["V"]
+
+    def stop(point: CurvePoint) -> bool:
+        columns, steep = point.monitors, point.tangent.loads[primary.control] > STEEPEST
+        return columns["V"] > most or side * columns[AMPLITUDE] < 0 or yields(point) or steep
+
+    return stop
+
+
 class LopsidedBranch(TubeBranch):
     """The branch on one mesh.
 
@@ -96,13 +112,7 @@ class LopsidedBranch(TubeBranch):
         self.expansion = expanded(solver, crossings[begin])
         steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
         continuation = Continuation(solver, control=steps)
-        most = primary.points[-1].monitors["V"]
-
-        def stop(point: CurvePoint) -> bool:
-            columns, steep = point.monitors, point.tangent.loads[primary.control] > STEEPEST
-            return columns["V"] > most or side * columns[AMPLITUDE] < 0 or yields(point) or steep
-
-        start = self._first_beside(continuation)
+        start, stop = self._first_beside(continuation), ending(primary, side)
         super().__init__(continuation, primary.control, start, stop, primary.modes)
         self.end_at_limit(primary.limit)
         if yields(self.points[-1]):

@@ -7,7 +7,8 @@ mid-plane on the axially stretched tube. The total potential over :math:`2\pi C_
 .. math:: \frac{\Pi}{2\pi} = \int_0^{l_f/2} \Big[ \frac{w(\lambda_1,\lambda_2)}{\sqrt{\delta_1}}
           - \frac p2 \rho^2 \eta_{,Z} + \frac k2\,\chi\,\rho\,(\rho - s)^2\,\eta_{,Z} \Big] \mathrm{d}Z
 
-(equation 8 of the paper; ``r0 dz = dZ/sqrt(delta1)``).
+(equation 8 of the paper; ``r0 dz = dZ/sqrt(delta1)``). A whole tube may be of uneven thickness; ``w`` is then
+multiplied by ``1 + uneven Z/(l_f/2)``.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,6 +43,7 @@ __all__ = [
     "order",
     "positive",
     "rises",
+    "runs",
     "same",
     "sides",
     "stack",
@@ -295,3 +297,8 @@ def _all_given(*numbers: Number) -> bool:
 
 def _shown(x: Number) -> str:
     return f"{float(x.value):.6g} (uncertainty {float(x.uncertainty):.0e})"
+
+
+def runs(numbers: Iterable[float]) -> list[int]:
+    """Whole numbers along a branch, such as counts of negative eigenvalues, without repetition."""
+    return [int(n) for n, _ in groupby(numbers)]
