@@ -8,12 +8,13 @@ from contextlib import contextmanager
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
 import ufl
-from dolfinx import fem, la
+from dolfinx import cpp, fem, la
 from mpi4py import MPI
 from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.matrix import FormMatrix, pattern_of
 from weakforms.solvers.equilibrium.state import Lendable
 from weakforms.solvers.support.jit_cache import compile_together
 from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
@@ -55,7 +56,8 @@ class System(Lendable):
         fem_petsc.set_bc(self._sums.petsc_vec, formulation.bcs)
         self._bc_values = self._assembled[self.bc_dofs]
         self._fixed = len(self.bc_dofs)
-        self.matrix = self._unfilled_matrix()
+        self.stiffness = FormMatrix(space, self._pattern())
+        self.matrix = self.stiffness.petsc
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
         self._update_mass()
@@ -80,18 +82,13 @@ class System(Lendable):
         """``∂R/∂λ``, compiled when needed, because few of these derivatives are used."""
         return ufl.diff(self.formulation.residual, self.formulation.loads[load][1])
 
-    def _unfilled_matrix(self) -> PETSc.Mat:
-        """A matrix for the tangent, which has the entries of every form on this space."""
-        return fem_petsc.create_matrix(self._form("tangent"))
+    def _pattern(self) -> cpp.la.SparsityPattern:
+        """Places of the entries of every form on this space."""
+        return pattern_of(self._form("tangent"))
 
     def _mass_matrix(self) -> PETSc.Mat:
         """Mass matrix with *zero* Dirichlet rows, which add no finite eigenvalue."""
-        entries = self.matrix.duplicate()
-        fem_petsc.assemble_matrix(entries, self._form("mass"), self.formulation.bcs, 0.0)
-        entries.assemble()
-        compact = without_zeros(entries)
-        entries.destroy()  # it is as large as the tangent
-        return compact
+        return self.stiffness.without_zeros(self._form("mass"), self.formulation.bcs)
 
     @property
     def mass(self) -> PETSc.Mat:
@@ -164,9 +161,7 @@ class System(Lendable):
     def tangent(self) -> PETSc.Mat:
         """``K = ∂R/∂U``, always the same matrix object."""
         self.require_lent()
-        self.matrix.zeroEntries()
-        fem_petsc.assemble_matrix(self.matrix, self._form("tangent"), self.formulation.bcs)
-        self.matrix.assemble()
+        self.stiffness.assemble(self._form("tangent"), self.formulation.bcs)
         held = self.bc_dofs[self._fixed :]
         if self.sum(len(held)):
             self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0])
@@ -324,12 +319,3 @@ class System(Lendable):
         if name not in self.formulation.monitors:
             known = ", ".join(self.formulation.monitors)
             raise InputError(f"cannot control {name!r}: the functionals of this problem are {known}")
-
-
-def without_zeros(matrix: PETSc.Mat) -> PETSc.Mat:
-    """A copy without stored zeros, which are two thirds of a mass matrix of three components."""
-    starts, columns, values = matrix.getValuesCSR()
-    kept = np.flatnonzero(values)
-    starts = np.searchsorted(kept, starts).astype(starts.dtype)
-    parts = starts, columns[kept], values[kept]
-    return PETSc.Mat().createAIJ(matrix.getSizes(), csr=parts, comm=matrix.comm)

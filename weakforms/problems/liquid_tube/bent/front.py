@@ -20,7 +20,7 @@ from copy import copy
 
 import basix.ufl
 import numpy as np
-from dolfinx import fem
+from dolfinx import cpp, fem
 from dolfinx.mesh import Mesh
 from numpy.polynomial import chebyshev
 from petsc4py import PETSc
@@ -152,9 +152,9 @@ class HalfSystem(System):
         self._weighed = -1
         super().__init__(formulation)
 
-    def _unfilled_matrix(self) -> PETSc.Mat:
-        """That of the system with the same unknown, if there is one: its entries take long to find."""
-        return self._beside.matrix.duplicate() if self._beside else super()._unfilled_matrix()
+    def _pattern(self) -> cpp.la.SparsityPattern:
+        """That of the system with the same unknown, if there is one: it takes long to find."""
+        return self._beside.stiffness.pattern if self._beside else super()._pattern()
 
     @property
     def is_lent(self) -> bool:
