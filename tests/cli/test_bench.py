@@ -6,6 +6,7 @@ import time
 import pytest
 from mpi4py import MPI
 
+from weakforms import solve
 from weakforms.problems.triangles.branch import SurfaceRun
 from weakforms.problems.triangles.meshes import tube
 from weakforms.problems.triangles.model import Body, SurfaceModel
@@ -59,16 +60,29 @@ def test_a_run_is_held_against_the_last_one_by_its_ratios(weakforms, small, monk
 
 
 def test_the_surface_is_measured_at_the_level_that_is_stated(monkeypatch):
-    monkeypatch.setattr(bench_surface, "ROWS", 8)
-    monkeypatch.setattr(bench_surface, "COLUMNS", 12)
+    monkeypatch.setattr(bench_surface.Tube, "FIRST", (8, 12))
     table = bench_surface.run_surface_bench(1)
     (row,) = table["rows"]
     body = Body(tube(8.0, 8, 12), M=1.5, delta=3.0, Af=0.4362, c2=0.01, gamma=PAPER_GAMMA)
     run = SurfaceRun(SurfaceModel(MPI.COMM_SELF, body), "zw", {"p": 0.0, "zw": 0.0})
     for level in (2.0, 4.0):
         point = run.at(level)
-    assert table["zw"] == 4.0
+    assert table["title"].endswith("zw = 4")
     assert row["V"] == pytest.approx(run.columns(point, 0)["V"], rel=1e-9)
+
+
+def test_the_square_is_measured_at_the_height_that_is_stated(monkeypatch):
+    monkeypatch.setattr(bench_surface.Square, "FIRST", 4)
+    table = bench_surface.run_surface_bench(2100, body="square")
+    assert [row["mesh"] for row in table["rows"]] == ["4 x 4", "8 x 8", "9 x 9"]
+    assert [row["unknowns"] for row in table["rows"]] == [435, 1635, 2055]
+    mesh = {"cells": 8, "levels": 2, "step": 0.4}
+    solved = solve("rectangle", load="gas", w_end=0.9, at=[("w_c", 0.8)], numerics=mesh)
+    (state,) = solved.states
+    row = table["rows"][1]
+    assert table["title"].endswith("w_c = 0.8")
+    assert row["V"] == pytest.approx(state.quantities["V"].value, rel=1e-9)
+    assert row["n_negative"] == state.quantities["n_negative"].value == 0
 
 
 def test_unknown_problem_is_one_line(weakforms):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +12,13 @@ import typer
 from weakforms.cli.app import Jobs, Json, Out, Resume, app, examples
 from weakforms.errors import InputError
 from weakforms.terminal import complain, console, print_json, progress_bar, rank
+
+
+class SurfaceBody(StrEnum):
+    """Surfaces that ``bench --surface`` refines."""
+
+    TUBE = "tube"
+    SQUARE = "square"
 
 
 def _ended(verb: Callable[[], int], again: str = "--resume") -> None:
@@ -136,9 +144,12 @@ def bench(
     surface: Annotated[
         int,
         typer.Option(
-            min=0, max=2_000_000, help="Refine the triangulated tube up to this number of unknowns."
+            min=0, max=2_000_000, help="Refine a triangulated surface up to this number of unknowns."
         ),
     ] = 0,
+    body: Annotated[
+        SurfaceBody, typer.Option(help="The surface: a tube under a liquid, or a square under gas.")
+    ] = SurfaceBody.TUBE,
     history: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Add this run to a file of JSON lines.")
     ] = None,
@@ -164,7 +175,7 @@ def bench(
     before = bench_history.last(against) if against else {}
     with progress_bar() as progress:
         if surface:
-            table = run_surface_bench(surface, progress)
+            table = run_surface_bench(surface, progress, body.value)
         else:
             table = run_bench(progress, tuple(only or ()), cold)
     if rank() != 0:
