@@ -132,8 +132,8 @@ class BranchFamily:
             except ConvergenceError as error:
                 missed.append((i, str(error)))
         if missed:
-            places = f"points {missed[0][0]} to {missed[-1][0]}, {len(missed)} of them left out"
-            self.failures.append(Failure(f"branch {self.name}, {places}", missed[0][1]))
+            left_out = f"points {missed[0][0]} to {missed[-1][0]}, {len(missed)} of them left out"
+            self.failures.append(Failure(f"branch {self.name}, {left_out}", missed[0][1]))
         if not kept:
             raise ConvergenceError(f"branch {self.name}: no point could be solved for on all meshes")
         columns = {name: np.array([row[name] for _, row in kept]) for name in kept[0][1]}
