@@ -45,14 +45,18 @@ def launcher():
 
 @pytest.fixture
 def same_on_ranks(on_two_ranks):
-    """Solves serially, in this process, and on two ranks; every number must agree."""
+    """Solves serially, in this process, and on two ranks; every number must agree.
 
-    def check(requests: list[dict]) -> list[Result]:
+    Without ``traces``, only states and special points: where a zone of wrinkles has just opened, its fronts
+    have round-off, and with them the lengths of steps.
+    """
+
+    def check(requests: list[dict], traces: bool = True) -> list[Result]:
         serial = [Result.from_json(solve(**request).to_json()) for request in requests]
         split = on_two_ranks(requests)
         for a, b in zip(serial, split, strict=True):
             assert a.failures == b.failures == []
-            assert beyond(a, b) == []
+            assert [item for item in beyond(a, b) if traces or not item.startswith("branch ")] == []
         return serial
 
     return check

@@ -77,6 +77,18 @@ def test_lopsided_states_of_a_tube(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_wrinkled_tubes(same_on_ranks):
+    wrinkled = {"problem": "tube", "energy": "relaxed", "numerics": MESH | {"cells": 32}}
+    given = (
+        {"alpha": 0.02, "u_end": 2.6, "at": [("u_max", 2.0)]},
+        {"alpha": 0.0, "u_end": 1.7, "extent": "full", "at": [("u_max", 1.65)]},
+    )
+    half, whole = same_on_ranks([wrinkled | one for one in given], traces=False)
+    assert [point.kind for point in half.special_points].count("wrinkling_onset") == 2
+    assert [point.kind for point in whole.special_points][-1] == "wrinkling_onset"
+
+
+@pytest.mark.paper2
 def test_states_of_an_uneven_tube(same_on_ranks):
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.6, "extent": "full", "secondary": True}
     (found,) = same_on_ranks([whole | {"uneven": 0.01, "numerics": MESH}])

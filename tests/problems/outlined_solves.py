@@ -41,6 +41,13 @@ SOLVES: dict[str, dict[str, Any]] = {
         "u_end": 1.5,
         "numerics": {"cells": 16, "levels": 2, "step": 0.2},
     },
+    "tube, relaxed": {
+        "alpha": 0.0,
+        "energy": "relaxed",
+        "u_end": 2.0,
+        "at": {"u_max": 1.8},
+        "numerics": {"cells": 32, "levels": 2, "step": 0.2},
+    },
     "tube, frictionless": {"contact": "frictionless", **CLAMPED, "at": {"p": 2.0}, "numerics": LINE},
     "tube, glued": {**GLUED, **CLAMPED, "p_end": 2.5, "at": {"p": 1.0}, "numerics": LINE},
     "tube_fold": {"alpha": 0.1, "numerics": LINE},

@@ -142,7 +142,7 @@ LAWS = {"mooney_rivlin", "neo_hookean"}
 """Laws that all codes have."""
 
 ONLY = {
-    "tube": {"contact": "none", "phase": "inflation", "extent": "half"},
+    "tube": {"contact": "none", "phase": "inflation", "extent": "half", "energy": "standard"},
     "circular": {"contact": "none", "phase": "inflation", "thickness": None},
     "sphere": {"vary": ""},
     "wrinkled_tube": {"thickness": None},

@@ -71,6 +71,17 @@ LOPSIDED = (
 """Columns of lopsided states only."""
 
 PRE_STRETCH = Column("delta1", "axial pre-stretch, 1", r"\delta_1")
+RELAXED = (
+    Column("wrinkled_fraction", "fraction of the length that is wrinkled, of one zone or of both"),
+    Column(
+        "Z_front_1",
+        "Z of the end of the wrinkled zone that is nearer to the mid-plane",
+        dimension="length",
+    ),
+    Column("Z_front_2", "Z of its other end; lf/2 if it ends at the disk", dimension="length"),
+)
+"""Columns of the relaxed energy only."""
+
 NUMBERS = (
     *numbers(
         length="R_f, radius of the disks (= R_o/sqrt(delta1))",
@@ -132,11 +143,12 @@ TUBE = About(
         "forms.kinematics:revolution_stretches",
         "forms.loads:gas_potential",
         "forms.loads:substrate_potential",
+        "forms.wrinkling:relaxed",
         "forms.revolution:around",
         "forms.revolution:strain_energy",
         "forms.revolution:gas_energy",
     ),
-    columns=(*FREE, *LOPSIDED, *STABILITY, *CONTACT, *column.DIAGNOSTICS),
+    columns=(*FREE, *LOPSIDED, *STABILITY, *CONTACT, *RELAXED, *column.DIAGNOSTICS),
     numbers=(*NUMBERS, *WAVES, *CURVATURES),
     special_points=(
         *("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset"),
@@ -182,6 +194,13 @@ TUBE = About(
             fixed={"n": (0, 1, 2), "u_end": 1.3},
             at=(("u_max", 1.1),),
             label="waves",
+        ),
+        Family(
+            {"alpha": (0.0, 0.01), "delta1": (1.0, 1.03)},
+            **MORE,
+            fixed={"energy": "relaxed", "u_end": 3.6},
+            at=(("u_max", 2.2),),
+            label="relaxed",
         ),
     ),
 )

@@ -249,6 +249,7 @@ def free_branch(
     step: float,
     kind: Callable[..., SolutionCurve] = EquilibriumBranch,
     limit: Callable[[State], str] = lambda _state: "",
+    begin: tuple[State, Held] | None = None,
 ) -> SolutionCurve:
     """Free inflation at fixed pre-stretch by arc length, up to ``u_max = u_end`` or the law's end.
 
@@ -259,11 +260,12 @@ def free_branch(
         step: Largest step.
         kind: The class of the curve.
         limit: Why the law takes no more than a state, where the trace may stall.
+        begin: A guess of its first state and a condition for it; by default the unloaded tube.
     """
     solver = ExtendedNewton(system, ["p"])
     steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
     continuation = Continuation(solver, control=steps)
-    state, held = first_state(solver, delta1)
+    state, held = begin or first_state(solver, delta1)
     start = continuation.start(state, held, towards={"u_max": 1.0})
 
     def stop(point: CurvePoint) -> bool:

@@ -67,6 +67,10 @@ class TubeParameters(MaterialChoice):
     )
     u_end: float = Field(5.0, gt=0.05, le=10, description="u_max at which free inflation ends")
     extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
+    energy: Literal["standard", "relaxed"] = Field(
+        "standard",
+        description="that of the law, or relaxed: in free inflation a tube that bears no compression",
+    )
     n: Annotated[tuple[int, ...], wave_numbers(MOST_WAVES)] = Field(
         (),
         description="wave numbers for which stability is computed, such as 0,1,2; 0: axisymmetric, also "

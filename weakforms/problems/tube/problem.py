@@ -11,7 +11,7 @@ from mpi4py import MPI
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
-from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_model
+from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_foldable, require_model
 from weakforms.problems.meridian.limits import limit_along
 from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
@@ -27,6 +27,7 @@ from weakforms.problems.tube.parameters import (
     TubeParameters,
     resolving,
 )
+from weakforms.problems.tube.relaxed_family import relaxed_family
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
 from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
@@ -69,6 +70,8 @@ class Tube(BranchProblem):
         if parameters.n:
             _require_waves_possible(parameters)
         _require_lopsided_possible(parameters, requests)
+        if parameters.energy == "relaxed":
+            _require_relaxed_possible(parameters)
         if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
                 "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"
@@ -125,9 +128,11 @@ class Tube(BranchProblem):
             return {"primary": contact_family(parameters, numerics, comm, progress)}
         if parameters.secondary:
             return self._with_secondary(task)
+        caps = dict.fromkeys(MIDDLE, order_at_middle(numerics.degree))
+        if parameters.energy == "relaxed":
+            return {"primary": relaxed_family(parameters, numerics, comm, progress, caps)}
         make, order = branch_maker(parameters, numerics, comm, progress), 2 * numerics.degree
         if not parameters.n:
-            caps = dict.fromkeys(MIDDLE, order_at_middle(numerics.degree))
             return {"primary": BranchFamily(make, numerics.levels, order, across=("p", "u_max"), caps=caps)}
         return {"primary": _with_stability(make, numerics)}
 
@@ -173,6 +178,18 @@ def _require_waves_possible(parameters: TubeParameters) -> None:
             "against waves is computed for free inflation; set contact = 'none', or n = ()"
         )
     require_model("tube: waves around the axis", parameters, tuple(LAWS))
+
+
+def _require_relaxed_possible(parameters: TubeParameters) -> None:
+    """Refuse what is not known of a tube that wrinkles, and laws without a natural width."""
+    others = {"contact": "none", "n": (), "secondary": False, "uneven": 0.0}
+    for name, without in others.items():
+        if getattr(parameters, name) != without:
+            raise InputError(
+                f"tube: energy = 'relaxed' is for axisymmetric free inflation of an even tube; set {name} = "
+                f"{without!r}, or energy = 'standard'"
+            )
+    require_foldable("tube: energy = 'relaxed'", parameters, invariants=False)
 
 
 def _require_lopsided_possible(parameters: TubeParameters, requests: Requests) -> None:

@@ -30,10 +30,17 @@ def cauchy_resultant(which: int) -> Any:
     """Cauchy resultants of that law: ``t1 = H w_1/lam2``, ``t2 = H w_2/lam1``."""
 
     def by(result: Result, _: State, c: Columns) -> np.ndarray:
-        derivative = mooney_rivlin(c["lam1"], c["lam2"], result.parameters["alpha"])[which]
+        derivative = law_of(result, c)[which]
         return thickness(result, c) * derivative / c["lam2" if which == 1 else "lam1"]
 
     return by
+
+
+def law_of(result: Result, c: Columns) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Energy of that law and its derivatives; a sheet that wrinkles is as wide as without hoop stress."""
+    relaxed = result.parameters.get("energy") == "relaxed"
+    lam2 = np.maximum(c["lam2"], c["lam1"] ** -0.5) if relaxed else c["lam2"]
+    return mooney_rivlin(c["lam1"], lam2, result.parameters["alpha"])
 
 
 def thickness(result: Result, c: Columns) -> np.ndarray | float:
@@ -52,7 +59,7 @@ def thickness(result: Result, c: Columns) -> np.ndarray | float:
 
 def hamiltonian(result: Result, _: State, c: Columns) -> np.ndarray:
     """First integral of the free tube."""
-    energy, first, _second = mooney_rivlin(c["lam1"], c["lam2"], result.parameters["alpha"])
+    energy, first, _second = law_of(result, c)
     return energy - c["lam1"] * first
 
 
@@ -69,7 +76,7 @@ def tube_potential(result: Result, state: State, profile: Field) -> quadrature.E
     x, c = profile.columns["Z"], profile.columns
     q = {name: quantity.value for name, quantity in state.quantities.items()}
     delta1 = prestretch(result, state)
-    energy, *_ = mooney_rivlin(c["lam1"], c["lam2"], result.parameters["alpha"])
+    energy, *_ = law_of(result, c)
     stored, doubt = quadrature.integral(x, energy / np.sqrt(delta1), x)
     volume, more = quadrature.integral(x, c["rho"] ** 2 / 2, c["eta"])
     noise = 10 * max(profile.uncertainty[name] for name in ("lam1", "lam2", "rho")) * x[-1]

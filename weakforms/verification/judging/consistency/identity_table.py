@@ -153,7 +153,13 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         read(
             "kappa", "curvature by the balance of the free part at the front", formulas.curvature_by_balance
         ),
-        read("Pi", "potential of the profile", formulas.tube_potential, lambda g: _half(g) and _of_paper(g)),
+        read(
+            "Pi",
+            "potential of the profile",
+            formulas.tube_potential,
+            # At a front the energy has a kink, which the points of a profile do not resolve.
+            lambda g: _half(g) and _of_paper(g) and g.get("energy") != "relaxed",
+        ),
         _over(field("t1", "t1 is that of the law at the stretches", formulas.cauchy_resultant(1)), _of_paper),
         _over(field("t2", "t2 is that of the law at the stretches", formulas.cauchy_resultant(2)), _of_paper),
         _over(field("H", "H = w - lam1 w_1", formulas.hamiltonian), lambda g: _of_paper(g) and _free(g)),

@@ -63,11 +63,11 @@ def farthest(panel: PanelOutcome, curve: CurveOutcome) -> tuple[float, str]:
 
 
 def _distance(points: np.ndarray, line: np.ndarray) -> np.ndarray:
-    """Distance of each point from a polygon; from a single point where it has no more."""
+    """Distance of each point from a polygon with gaps, or from a single point."""
     start, along = line[:-1], np.diff(line, axis=0)
     if not len(along):
         return np.linalg.norm(points - line[0], axis=1)
     away = points[:, None] - start
     length = np.maximum(np.sum(along**2, axis=1), np.finfo(float).tiny)
     share = np.clip(np.sum(away * along, axis=2) / length, 0, 1)
-    return np.linalg.norm(away - share[:, :, None] * along, axis=2).min(axis=1)
+    return np.nanmin(np.linalg.norm(away - share[:, :, None] * along, axis=2), axis=1)

@@ -1,0 +1,1 @@
+"""The free tube of paper 2 with the relaxed energy: wrinkled beside the disks, by two methods."""

@@ -1,0 +1,130 @@
+r"""The wrinkled tube by collocation, with both fronts as unknowns (method a).
+
+Zones lead from the mid-plane over the fronts z_1 < z_2 to the disk; z_2 = L if the wrinkles reach it. Taut
+zones have the equations of paper 2 for y = (rho, eta, l1, b, v). Between the fronts the hoop stress is zero
+and the tension r0 W', W(l) = w(l, l^{-1/2}), balances the pressure alone. Along the meridian the pressure has
+no component, so that the tension is constant there, and with it l1:
+
+.. math:: l_1' = 0, \qquad b' = -\frac{p \rho l_1}{r_0 W'(l_1)}
+
+All of y is continuous at a front, where l1 l2^2 = 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from reference_data.solvers.core.collocation import Array, Ends, Mesh, Problem, joined
+from reference_data.solvers.core.collocation import Zone as Part
+from reference_data.solvers.core.mooney_rivlin import Tube, plain_pressure, slope
+from reference_data.solvers.paper2.collocation import equations as taut
+from reference_data.solvers.paper2.collocation.critical import start
+
+MESHES = Mesh.graded(8, 10, 2.0), Mesh.graded(12, 12, 2.0)
+PLACES = 2001
+"""Places at which the first fronts are looked for."""
+
+
+@dataclass(frozen=True)
+class State:
+    """One state; nodal values of each zone, and the numbers p, z_1 and, inside of the tube, z_2."""
+
+    tube: Tube
+    mesh: Mesh
+    y: tuple[Array, ...]
+    c: Array
+
+    @property
+    def p(self) -> float:
+        """Pressure."""
+        return float(self.c[0])
+
+    @property
+    def volume(self) -> float:
+        """Volume of the half tube per 2 pi."""
+        return float(self.y[-1][-1, -1, 4])
+
+    @property
+    def u_max(self) -> float:
+        """Radial displacement of the mid-plane."""
+        return float(self.y[0][0, 0, 0]) - 1
+
+    def front(self, k: int) -> float:
+        """Z of a front, 1 or 2, on the pre-stretched tube."""
+        return float(self.c[k]) * self.tube.delta1
+
+
+def wrinkled(tube: Tube, y: list[Any], p: Any) -> list[Any]:
+    """(rho', eta', l1', b', v') of a wrinkled zone."""
+    rho, _, l1, b, _ = y
+    # The derivative of w(l, l^(-1/2)) is w_1, because w_2 = 0 at that width.
+    tension = tube.r0 * slope(l1, l1**-0.5, tube.alpha)
+    return [
+        l1 * np.sin(b),
+        l1 * np.cos(b),
+        0 * l1,
+        -p * rho * l1 / tension,
+        rho * rho * l1 * np.cos(b) / 2,
+    ]
+
+
+def problem(tube: Tube, mesh: Mesh, fronts: int, u_max: float) -> Problem:
+    """The equations with the displacement of the mid-plane given."""
+    base = taut.State(tube, (), (), np.zeros(1))
+
+    def edges(c: list[Any]) -> list[Any]:
+        return [0.0, *c[1:], tube.length]
+
+    def rates(d: int, y: list[Any], _s: Array, c: list[Any]) -> list[Any]:
+        length = edges(c)[d + 1] - edges(c)[d]
+        if d == 1:
+            found = wrinkled(tube, y, c[0])
+        else:
+            found = taut.free(base, y, None, lambda rho: plain_pressure(rho, c[0]))
+        return [length * f for f in found]
+
+    def conditions(left: Ends, right: Ends, _c: list[Any]) -> list[Any]:
+        first, disk = left[0], right[-1]
+        ends = [first[1], first[3], first[4], disk[0] - 1, disk[1] - tube.lf / 2]
+        at_fronts = [y[2] * (y[0] / tube.r0) ** 2 - 1 for y in left[1:]]
+        return [*ends, *joined(left, right), *at_fronts, first[0] - 1 - u_max]
+
+    return Problem(tuple(Part(mesh, partial(rates, d)) for d in range(fronts + 1)), conditions)
+
+
+def solve(guess: State, u_max: float) -> State:
+    """The state with a displacement of the mid-plane.
+
+    Raises:
+        RuntimeError: If Newton's method does not converge.
+    """
+    given = problem(guess.tube, guess.mesh, len(guess.c) - 1, u_max)
+    y, c = given.solve(guess.y, guess.c, f"wrinkled {guess.tube} at u_max = {u_max}")
+    return replace(guess, y=y, c=c)
+
+
+def first(tube: Tube, mesh: Mesh, u_max: float) -> State:
+    """A state not far beyond the first wrinkle, from the one that bears compression."""
+    ordinary = start(tube, taut.Mesh.graded(12, 12, 2.0), "u_max", u_max)
+    s = np.linspace(0, 1, PLACES)
+    y = ordinary.zones[0].mesh.evaluate(ordinary.y[0], s)
+    compressed = s[y[:, 2] * (y[:, 0] / tube.r0) ** 2 < 1]
+    fronts = [compressed[0], compressed[-1]] if compressed[-1] < 1 else [compressed[0]]
+    bounds = [0.0, *fronts, 1.0]
+    guess = [
+        ordinary.zones[0].mesh.evaluate(ordinary.y[0], low + (high - low) * mesh.x)
+        for low, high in pairwise(bounds)
+    ]
+    c = np.array([ordinary.p, *(f * tube.length for f in fronts)])
+    return solve(State(tube, mesh, tuple(guess), c), u_max)
+
+
+def again(state: State, mesh: Mesh) -> State:
+    """The same state on another mesh."""
+    y = tuple(state.mesh.evaluate(part, mesh.x) for part in state.y)
+    return solve(replace(state, mesh=mesh, y=y), state.u_max)

@@ -1,0 +1,116 @@
+"""Free inflation of a tube that bears no compression on a family of meshes: taut, wrinkled, taut again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+from mpi4py import MPI
+
+from weakforms.errors import ConvergenceError
+from weakforms.problems.problem import Progress
+from weakforms.problems.tube.model import TubeMesh
+from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
+from weakforms.problems.tube.relaxed import FRACTION, FRONTS, RelaxedTube
+from weakforms.problems.tube.stability import SLOPES
+from weakforms.results import Quantity, SpecialPoint
+from weakforms.solvers.continuation.curve import SolutionCurve, Solved
+from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
+from weakforms.solvers.uncertainty.family import BranchFamily
+from weakforms.solvers.uncertainty.points import special_point
+
+Family = TypeVar("Family", bound=BranchFamily)
+
+EPSILON = 2.0**-53
+"""Round-off of a number of order one."""
+
+NO_ZONE = {FRACTION: 0.0} | dict.fromkeys(FRONTS, float("nan"))
+"""Columns of a taut tube."""
+
+
+class WrinkledFamily(BranchFamily):
+    r"""Wrinkled states, whose fronts have round-off while their zone is small.
+
+    In cells of length ``h`` and degree ``d`` stretches have a round-off of :math:`\epsilon d^2/h`. It is
+    divided by the slope of ``gw`` at a front, which is of the size of the zone.
+    """
+
+    noise = 0.0
+    """This round-off times the square of ``wrinkled_fraction``."""
+
+    def left_by_round_off(self, index: int) -> Mapping[str, float]:
+        """Of the fronts and of the size of the zone."""
+        return self._left(self.fine.points[index].monitors[FRACTION])
+
+    def _left(self, fraction: float) -> dict[str, float]:
+        return {n: self.noise / fraction**2 for n in (FRACTION, *FRONTS) if n in self.fine.shown}
+
+    def _columns(
+        self, solved: Sequence[Solved], held: str, orders: Mapping[str, float]
+    ) -> dict[str, Quantity]:
+        found = super()._columns(solved, held, orders)
+        left = self._left(solved[-1].values[FRACTION])
+        return found | {
+            name: replace(found[name], uncertainty=found[name].uncertainty + more)
+            for name, more in left.items()
+        }
+
+
+def relaxed_family(
+    parameters: TubeParameters,
+    numerics: TubeNumerics,
+    comm: MPI.Intracomm,
+    progress: Progress,
+    caps: Mapping[str, float],
+) -> PiecewiseFamily:
+    """The branch of the relaxed energy on all meshes: taut, wrinkled, and taut again.
+
+    Args:
+        parameters: The tube.
+        numerics: Meshes.
+        comm: Ranks.
+        progress: Called for every mesh.
+        caps: Lower orders of some columns.
+
+    Raises:
+        ConvergenceError: If the meshes disagree about what the tube does.
+    """
+    # Fronts are where a stretch, a one-sided derivative, has a value.
+    caps = {**caps, **dict.fromkeys((FRACTION, *FRONTS), float(numerics.degree))}
+    full, order = parameters.extent == "full", 2 * numerics.degree
+    meshes = [TubeMesh(n, numerics.degree, numerics.grading, full) for n in numerics.meshes]
+    runs = [RelaxedTube(comm, parameters, at, numerics.step, at is meshes[-1]) for at in meshes]
+
+    def family(part: Callable[[RelaxedTube], SolutionCurve], kind: type[Family] = BranchFamily) -> Family:
+        def make(level: int) -> SolutionCurve:
+            progress("branch", level, numerics.levels)
+            return part(runs[level])
+
+        return kind(make, numerics.levels, order, across=("p", "u_max"), caps=caps)
+
+    def alike(known: Callable[[RelaxedTube], bool]) -> bool:
+        answers = [known(run) for run in runs]
+        if len(set(answers)) > 1:
+            raise ConvergenceError("tube: a zone of wrinkles is on some meshes only; raise cells")
+        return answers[-1]
+
+    def joint(solved: Callable[[RelaxedTube], Solved]) -> SpecialPoint:
+        # Where ``gw`` touches 1 inside of a cell it has the order of stretches, and its place that of slopes.
+        shown, lower = (*runs[-1].free.shown, *FRONTS), dict.fromkeys(FRONTS, numerics.degree - 1.0)
+        at = special_point(
+            [solved(run) for run in runs], shown, float(numerics.degree), "primary", "p", lower
+        )
+        return replace(at, uncertainty=at.uncertainty | {n: at.uncertainty[n] + SLOPES for n in FRONTS})
+
+    pieces, joints = [Piece(family(lambda run: run.free), NO_ZONE)], []
+    if alike(lambda run: run.onset is not None):
+        joints.append(lambda run: run.onset)
+        fixed = {FRONTS[1]: parameters.lf / 2} if alike(lambda run: run.to_disk) else {}
+        wrinkled = family(lambda run: run.wrinkled, WrinkledFamily)
+        wrinkled.noise = EPSILON * numerics.degree**2 * meshes[-1].cells / (parameters.lf / 2) ** 2
+        pieces.append(Piece(wrinkled, fixed))
+        if alike(lambda run: run.closes):
+            joints.append(lambda run: run.closing)
+            pieces.append(Piece(family(lambda run: run.smooth), NO_ZONE))
+    return PiecewiseFamily(pieces, lambda: [joint(at) for at in joints])
