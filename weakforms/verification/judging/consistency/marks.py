@@ -70,4 +70,5 @@ def _distance(points: np.ndarray, line: np.ndarray) -> np.ndarray:
     away = points[:, None] - start
     length = np.maximum(np.sum(along**2, axis=1), np.finfo(float).tiny)
     share = np.clip(np.sum(away * along, axis=2) / length, 0, 1)
-    return np.nanmin(np.linalg.norm(away - share[:, :, None] * along, axis=2), axis=1)
+    distance = np.linalg.norm(away - share[:, :, None] * along, axis=2)
+    return np.nan_to_num(distance, nan=np.inf).min(axis=1)
