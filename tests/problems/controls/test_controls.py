@@ -10,7 +10,7 @@ from weakforms.api import solve_requests
 from weakforms.errors import InputError
 from weakforms.problems.controls.branch import ControlledBranch
 from weakforms.problems.controls.problem import ControlsParameters
-from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
+from weakforms.problems.diagram.bodies.varied import VariedDisk, VariedTube
 from weakforms.problems.gas import Gas
 from weakforms.problems.tube.problem import order_at_middle
 from weakforms.solvers.stability.spectra import Stability

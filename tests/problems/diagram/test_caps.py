@@ -9,7 +9,7 @@ from mpi4py import MPI
 from weakforms import solve
 from weakforms.errors import InputError
 from weakforms.problems.diagram import cap
-from weakforms.problems.diagram.cap import VariedCap
+from weakforms.problems.diagram.bodies.cap import VariedCap
 from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.problems.diagram.problem import ROOM
 

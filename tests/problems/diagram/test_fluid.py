@@ -8,7 +8,7 @@ from mpi4py import MPI
 
 from weakforms import solve
 from weakforms.errors import InputError
-from weakforms.problems.diagram.liquid import VariedFluidTube
+from weakforms.problems.diagram.bodies.liquid import VariedFluidTube
 from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.solvers.equilibrium.state import State
 

@@ -5,8 +5,8 @@ import pytest
 
 from weakforms import solve
 from weakforms.errors import InputError
-from weakforms.problems.diagram.balloon import VariedSphere
-from weakforms.problems.diagram.long_tube import FreeTube, HeldTube
+from weakforms.problems.diagram.bodies.balloon import VariedSphere
+from weakforms.problems.diagram.bodies.long_tube import FreeTube, HeldTube
 from weakforms.problems.homogeneous.material_point import evaluated
 from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
 from weakforms.solvers.equilibrium.state import State

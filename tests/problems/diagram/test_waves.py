@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from weakforms import solve
-from weakforms.problems.diagram.bodies import VariedTube
+from weakforms.problems.diagram.bodies.varied import VariedTube
 from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.problems.tube.waves import EVEN, ODD
 

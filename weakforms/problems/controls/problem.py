@@ -13,7 +13,7 @@ from weakforms.problems.branch_problem import BranchProblem, MeshNumerics, from_
 from weakforms.problems.branch_problem import Family as AnyFamily
 from weakforms.problems.controls.about import CONTROLS
 from weakforms.problems.controls.branch import ControlledBranch, ControlledFamily
-from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
+from weakforms.problems.diagram.bodies.varied import VariedDisk, VariedTube
 from weakforms.problems.diagram.family import POINTS_OF, orders_of
 from weakforms.problems.diagram.subjects import GRADING
 from weakforms.problems.gas import GasChoice

@@ -48,10 +48,10 @@ DIAGRAM = About(
     forms=(
         *("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
         *(
-            "problems.diagram.cap:VariedCap",
-            "problems.diagram.balloon:VariedSphere",
-            "problems.diagram.long_tube:HeldTube",
-            "problems.diagram.liquid:VariedFluidTube",
+            "problems.diagram.bodies.cap:VariedCap",
+            "problems.diagram.bodies.balloon:VariedSphere",
+            "problems.diagram.bodies.long_tube:HeldTube",
+            "problems.diagram.bodies.liquid:VariedFluidTube",
         ),
     ),
     units=Units("R_f", "C1", "h_o", 2 * math.pi),

@@ -9,12 +9,12 @@ from math import inf
 from mpi4py import MPI
 
 from weakforms.problems.diagram.about import WAVES
-from weakforms.problems.diagram.balloon import VariedSphere
-from weakforms.problems.diagram.bodies import VariedDisk, VariedTube
-from weakforms.problems.diagram.cap import VariedCap, rest_height
+from weakforms.problems.diagram.bodies.balloon import VariedSphere
+from weakforms.problems.diagram.bodies.cap import VariedCap, rest_height
+from weakforms.problems.diagram.bodies.liquid import VariedFluidTube
+from weakforms.problems.diagram.bodies.long_tube import FreeTube, HeldTube
+from weakforms.problems.diagram.bodies.varied import VariedDisk, VariedTube
 from weakforms.problems.diagram.followed import Followed
-from weakforms.problems.diagram.liquid import VariedFluidTube
-from weakforms.problems.diagram.long_tube import FreeTube, HeldTube
 from weakforms.problems.homogeneous.material import require_borne
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.pre_stretch import (

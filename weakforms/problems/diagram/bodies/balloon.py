@@ -22,8 +22,8 @@ from functools import partial
 import ufl
 from ufl.core.expr import Expr
 
-from weakforms.problems.diagram.bodies import WAVES
-from weakforms.problems.diagram.uniform import Pair, Perturbation, VariedUniform
+from weakforms.problems.diagram.bodies.uniform import Pair, Perturbation, VariedUniform
+from weakforms.problems.diagram.bodies.varied import WAVES
 
 
 class VariedSphere(VariedUniform):

@@ -24,7 +24,7 @@ import ufl
 from ufl.core.expr import Expr
 
 from weakforms.problems.branch_problem import from_rest
-from weakforms.problems.diagram.bodies import Kind, VariedDisk
+from weakforms.problems.diagram.bodies.varied import Kind, VariedDisk
 from weakforms.problems.diagram.followed import ended_by_law
 from weakforms.problems.disk.phases import USUAL_LOAD
 from weakforms.problems.meridian.body import Body, Values

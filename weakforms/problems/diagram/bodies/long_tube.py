@@ -21,7 +21,7 @@ from collections.abc import Mapping
 import ufl
 from ufl.core.expr import Expr
 
-from weakforms.problems.diagram.uniform import Pair, Perturbation, VariedUniform
+from weakforms.problems.diagram.bodies.uniform import Pair, Perturbation, VariedUniform
 from weakforms.problems.homogeneous.problem import under_force
 from weakforms.solvers.equilibrium.state import State
 

@@ -17,7 +17,7 @@ import numpy as np
 import ufl
 from mpi4py import MPI
 
-from weakforms.problems.diagram.bodies import WAVES
+from weakforms.problems.diagram.bodies.varied import WAVES
 from weakforms.problems.diagram.followed import PLACE, Part
 from weakforms.problems.liquid_tube.branch import EDGE, STEP, FluidPath
 from weakforms.problems.liquid_tube.model import TubeData, TubeModel

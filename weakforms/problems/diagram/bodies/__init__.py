@@ -1,0 +1,1 @@
+"""The membranes of diagrams: weak forms all of whose parameters are loads."""
