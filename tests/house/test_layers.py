@@ -227,8 +227,9 @@ OWNERS = {
     "weakforms/solvers/equilibrium/subspace.py": {"rewrite"},
     "weakforms/solvers/stability/modes.py": {"_write", "_give_up"},
     "weakforms/problems/liquid_tube/bent/front.py": {"_write_loads", "put"},
+    "weakforms/problems/diagram/bodies/wrinkled.py": {"mark"},
 }
-"""The modules that own it: states, Newton's methods, second variations, and the mesh with a front."""
+"""The modules that own it: states, Newton's methods, second variations, and the meshes with fronts."""
 
 
 def test_nobody_else_puts_a_state():

@@ -51,6 +51,14 @@ def test_lines_of_full_and_partially_filled_tubes(same_on_ranks):
     assert {"n1", "n1_2"} <= {branch.name for branch in brim.branches}
 
 
+@pytest.mark.paper5
+def test_lines_of_wrinkled_tubes(same_on_ranks):
+    tube = {"problem": "diagram", "body": "wrinkled_tube", "alpha": 0.01, "kind": "fold", "V_end": 17.0}
+    plane = {"x": "delta", "delta": 2.0, "Af": 0.7, "low": 1.98, "high": 2.0}
+    (found,) = same_on_ranks([tube | plane | {"numerics": MESH | {"cells": 32}}])
+    assert [branch.name for branch in found.branches] == ["fold", "end"]
+
+
 @pytest.mark.paper2
 def test_controls_of_inflation(same_on_ranks):
     inflated = {"problem": "controls", "alpha": 0.0, "V_r": 20.0, "numerics": MESH | {"cells": 24}}

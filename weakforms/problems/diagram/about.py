@@ -52,6 +52,7 @@ DIAGRAM = About(
             "problems.diagram.bodies.balloon:VariedSphere",
             "problems.diagram.bodies.long_tube:HeldTube",
             "problems.diagram.bodies.liquid:VariedFluidTube",
+            "problems.diagram.bodies.wrinkled:VariedWrinkledTube",
         ),
     ),
     units=Units("R_f", "C1", "h_o", 2 * math.pi),
@@ -66,8 +67,12 @@ DIAGRAM = About(
         Column("lf", "L_f/R_f of the tube", "l_f"),
         Column("alpha", "C2/C1", r"\alpha"),
         Column("beta", "uniform pre-stretch of the disk, 1", r"\beta"),
-        Column("delta", "axial pre-stretch of the fluid tube, 1", r"\delta"),
-        Column("L", "stretched length of the fluid tube over {length}", "L"),
+        Column("delta", "axial pre-stretch of the fluid or wrinkled tube, 1", r"\delta"),
+        Column(
+            "L", "stretched length of the fluid tube, undeformed one of the wrinkled tube, over {length}", "L"
+        ),
+        Column("M", "thickness at the wrinkled tube's lower end over its mean h (2 - M at the upper end)"),
+        Column("Af", "radius of the wrinkled tube's disks over {length}"),
         Column("gamma", "rho g A^2/(mu H) of the liquid, mu = 2 C1, 1", r"\gamma"),
         Column("angle", "angle from the pole to the clamp of the hemisphere, rad"),
         Column("u_max", "radial displacement of the tube's mid-plane over {length}", "u_{max}"),

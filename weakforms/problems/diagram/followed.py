@@ -28,6 +28,8 @@ class Part:
     """Column, value and outward direction of each end of the part."""
     why: str = ""
     """What happens there."""
+    allowed: Callable[[State], bool] = lambda _state: True
+    """Whether a state belongs to it or is just beyond an end; a step to another one is repeated shorter."""
 
 
 class Followed(Protocol):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from weakforms.errors import ConvergenceError
 from weakforms.problems.diagram.followed import Followed, Part
 from weakforms.problems.diagram.window import INSIDE, Window
 from weakforms.problems.disk.phases import USUAL_LOAD
-from weakforms.solvers.continuation.continuation import CurvePoint, StepControl, Tangent
+from weakforms.solvers.continuation.continuation import CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import SolutionCurve
 from weakforms.solvers.continuation.line import (
     CUSP,
@@ -217,7 +217,7 @@ class LinesOnMesh:
         first = continuation.start(at, Held(vary, here), towards={vary: 1.0 if at_low else -1.0})
         if not (at_low or at_high):
             back = reversed(self._followed(continuation, first, ()).points)
-            first = _reversed(next(point for point in back if not self.model.gives_way(point)))
+            first = next(point for point in back if not self.model.gives_way(point)).reversed()
         return self._followed(continuation, first, self._meetings(kind))
 
     def _followed(
@@ -262,11 +262,12 @@ class LinesOnMesh:
 
     def _continuation(self, kind: str, at: State) -> LineContinuation:
         """Follows the critical points of a kind, beginning near a state."""
-        fronts = self.model.part(at).fronts
-        solver = ExtendedNewton(self.system, [self.window.load, self.window.vary, *fronts])
+        part = self.model.part(at)
+        solver = ExtendedNewton(self.system, [self.window.load, self.window.vary, *part.fronts])
         longest = self.longest
         steps = StepControl(longest / 4, longest, usual_load=USUAL_LOAD, growing=(self.window.load,))
-        return LineContinuation(solver, self._condition(kind, at, solver), steps, [*fronts.values()])
+        condition = self._condition(kind, at, solver)
+        return LineContinuation(solver, condition, steps, [*part.fronts.values()], part.allowed)
 
     @property
     def longest(self) -> float:
@@ -326,11 +327,3 @@ class LinesOnMesh:
 def neutral_too(form: Operator) -> Callable[[CriticalLine], Iterable[Bracket]]:
     """Points of a line at which a second variation outside of the unknowns' symmetry is singular too."""
     return singular_too(form, lambda _state, index: form().eigenvalue(index))
-
-
-def _reversed(point: CurvePoint) -> CurvePoint:
-    """The same point, with the curve followed the other way."""
-    along = point.tangent
-    dual = None if along.dual is None else -along.dual
-    back = Tangent(-along.u, {name: -rate for name, rate in along.loads.items()}, dual)
-    return replace(point, tangent=back, arclength=0.0)

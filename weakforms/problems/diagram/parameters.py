@@ -19,6 +19,7 @@ USUAL = {
     "angle": (0.4, 2.0),
     **{"force": (0.0, 3.0), "lam1": (1.05, 3.0)},
     **{"delta": (3.0, 6.0), "L": (6.0, 10.0), "gamma": (0.08, 0.2)},
+    **{"M": (0.3, 1.0), "Af": (0.5, 1.0)},
 }
 """Ranges of the parameters of a plane, if none are given."""
 
@@ -28,7 +29,8 @@ middle falls exponentially with the length: at 18 its eigenvalue is 1e-10 where 
 
 ONLY = {name: ({"body": (name,)},) for name in ("tube", "circular", "hemisphere")}
 LONG, FILLED = {"body": ("infinite_tube",)}, ({"body": ("fluid_tube",)},)
-INFLATED = ({"body": ("tube", "circular", "hemisphere", "sphere", "infinite_tube")},)
+WRINKLED, STRETCHED = ({"body": ("wrinkled_tube",)},), ({"body": ("fluid_tube", "wrinkled_tube")},)
+INFLATED = ({"body": ("tube", "circular", "hemisphere", "sphere", "infinite_tube", "wrinkled_tube")},)
 
 
 class DiagramNumerics(MeshNumerics):
@@ -47,13 +49,15 @@ class DiagramParameters(MaterialChoice):
         **{"angle": ONLY["hemisphere"], "t_end": ({"body": ("circular", "hemisphere")},)},
         **{"ends": (LONG,), "force": (LONG | {"ends": ("free",)},), "lam1": (LONG | {"ends": ("held",)},)},
         "lam_end": ({"body": ("sphere", "infinite_tube")},),
-        **dict.fromkeys(("delta", "L", "gamma", "V_end", "zw_low", "zw_high"), FILLED),
+        **dict.fromkeys(("gamma", "zw_low", "zw_high"), FILLED),
+        **dict.fromkeys(("delta", "L", "V_end"), STRETCHED),
+        **dict.fromkeys(("M", "Af"), WRINKLED),
         **dict.fromkeys(("p_low", "p_high"), INFLATED),
     }
 
-    body: Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube", "fluid_tube"] = Field(
-        "tube", description="membrane"
-    )
+    body: Literal[
+        "tube", "circular", "hemisphere", "sphere", "infinite_tube", "fluid_tube", "wrinkled_tube"
+    ] = Field("tube", description="membrane")
     x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
     y: str = Field("p", description="second axis; one of both is p, or zw of the fluid tube, its default")
     kind: str = Field(
@@ -81,10 +85,24 @@ class DiagramParameters(MaterialChoice):
         4.0, gt=1.001, le=50, description="largest stretch of the sphere, or around the infinite tube"
     )
 
-    delta: float = Field(4.0, ge=1.05, le=9, description="axial pre-stretch of the fluid tube")
-    L: float = Field(8.0, ge=2, le=40, description="stretched length of the fluid tube over its radius A")
+    delta: float = Field(4.0, ge=1.05, le=9, description="axial pre-stretch of the fluid or wrinkled tube")
+    L: float = Field(
+        8.0,
+        ge=2,
+        le=40,
+        description="stretched length of the fluid tube over its radius A; undeformed length of the wrinkled "
+        "tube over its radius Ao",
+    )
+    M: float = Field(
+        0.5, ge=0.1, le=1.9, description="thickness at the wrinkled tube's lower end over its mean"
+    )
+    Af: float = Field(
+        1.0, ge=0.1, le=2, description="radius of the wrinkled tube's disks over its undeformed radius"
+    )
     gamma: float = Field(0.116, ge=0.01, le=2, description="rho g A^2/(mu H) of the liquid, mu = 2 C1")
-    V_end: float = Field(40.0, gt=0.1, le=1000, description="largest volume of the liquid over 2 pi A^3")
+    V_end: float = Field(
+        40.0, gt=0.1, le=1000, description="largest volume in the fluid or wrinkled tube over 2 pi A^3"
+    )
     zw_low: float = Field(0.0, ge=0, le=200, description="lowest level of the liquid")
     zw_high: float | None = Field(None, gt=0, le=200, description="highest level; default: none")
 

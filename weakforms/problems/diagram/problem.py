@@ -12,7 +12,7 @@ from weakforms.problems.diagram.family import LineFamily, orders_of
 from weakforms.problems.diagram.lines import LinesOnMesh, Seed
 from weakforms.problems.diagram.parameters import DiagramNumerics, DiagramParameters
 from weakforms.problems.liquid_tube.branch import STEP
-from weakforms.problems.material_choice import require_model
+from weakforms.problems.material_choice import require_foldable, require_model
 from weakforms.problems.problem import End, Requests, Task
 from weakforms.problems.tube.parameters import resolving
 from weakforms.results import Absence, Failure, Result
@@ -42,6 +42,8 @@ class Diagram(BranchProblem):
         self._check_range(parameters)
         if parameters.body == "fluid_tube":
             require_model("diagram: body = 'fluid_tube'", parameters, tuple(LAWS))
+        if parameters.body == "wrinkled_tube":
+            require_foldable("diagram: body = 'wrinkled_tube'", parameters, invariants=False)
         if parameters.waves and parameters.body == "tube":
             require_model("diagram: waves around the axis", parameters, tuple(LAWS))
         subject = parameters.subject
@@ -132,6 +134,8 @@ class Diagram(BranchProblem):
             found.append(End(given.subject.end, given.subject.depth, window.end))
         if given.body == "fluid_tube":
             found.append(End("brim", given.load, None, "the liquid reaches the upper ring"))
+        if given.body == "wrinkled_tube":
+            found.append(End("zones", given.load, None, "a zone opens or closes"))
         return [*found, End("closed", given.vary, None, "the line returns to its first point")]
 
     def families(self, task: Task) -> dict[str, Family]:

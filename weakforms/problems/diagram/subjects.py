@@ -14,6 +14,7 @@ from weakforms.problems.diagram.bodies.cap import VariedCap, rest_height
 from weakforms.problems.diagram.bodies.liquid import VariedFluidTube
 from weakforms.problems.diagram.bodies.long_tube import FreeTube, HeldTube
 from weakforms.problems.diagram.bodies.varied import VariedDisk, VariedTube
+from weakforms.problems.diagram.bodies.wrinkled import VariedWrinkledTube
 from weakforms.problems.diagram.followed import Followed
 from weakforms.problems.homogeneous.material import require_borne
 from weakforms.problems.material_choice import Chosen
@@ -82,6 +83,10 @@ AT_LIMIT_POINTS = (
     "with ends = 'free' begins to bulge at its limit points (kind = 'fold'); allowed with ends = 'held'"
 )
 BY_ITS_FORCE = "with ends = 'free' bends where force = 0; allowed with ends = 'held'"
+BY_ITS_OWN_PROBLEM = (
+    "has no lines of waves around its axis (problem wrinkled_tube with n has their stability); allowed with "
+    "body = 'tube' or 'fluid_tube'"
+)
 TAUT = "is in tension at any pressure"
 
 SUBJECTS = {
@@ -180,6 +185,20 @@ SUBJECTS = {
         _fillable,
         without={"mirror": NO_MIRROR, "localisation": NO_LONG_WAVES, "contact": NO_OBSTACLE},
         load="zw",
+        size=3.0,
+    ),
+    "wrinkled_tube": Subject(
+        VariedWrinkledTube,
+        VariedWrinkledTube.depth,
+        ("M", "delta", "L", "Af"),
+        "V_end",
+        ("fold", "wrinkling"),
+        without={
+            "mirror": NO_MIRROR,
+            "localisation": NO_LONG_WAVES,
+            "contact": NO_OBSTACLE,
+            **dict.fromkeys(WAVES, BY_ITS_OWN_PROBLEM),
+        },
         size=3.0,
     ),
 }

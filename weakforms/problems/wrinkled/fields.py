@@ -63,6 +63,13 @@ class Zones:
         kept = tuple(f for i, f in enumerate(self.fronts) if i not in drop)
         return Zones(-self.first if k == 0 else self.first, kept, self.surface, self.wet)
 
+    def thicker_than(self, share: float, length: float) -> Zones:
+        """The same zones without those that are thinner than a fraction of the length, the thinnest first."""
+        found = self
+        while found.fronts and np.diff([0.0, *found.fronts, length]).min() < share * length:
+            found = found.without_thinnest(length)
+        return found
+
 
 def zones(meridian: Meridian, loads: Mapping[str, float], flat: float, liquid: bool) -> Zones:
     """Zones of the state that a model holds.

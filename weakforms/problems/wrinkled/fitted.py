@@ -121,7 +121,7 @@ class FittedMembrane:
     def _pattern(self, start: ZonedState, constraint: Constraint, thinnest: float, adapt: bool) -> ZonedState:
         """Solve on the finest mesh with the zones of the last solution until they do not change."""
         held = self._adapted(start, constraint) if adapt else start
-        wanted, last = self._thick(held.zones, thinnest), "none tried"
+        wanted, last = held.zones.thicker_than(thinnest, self.length), "none tried"
         for _ in range(ATTEMPTS):
             try:
                 held = self.fit(len(self.meshes) - 1, held, wanted, (constraint,))
@@ -131,7 +131,7 @@ class FittedMembrane:
                 last, wanted = str(error), wanted.without_thinnest(self.length)
                 continue
             shown = held.shown_zones(VERGE_FITTED, self.liquid)
-            found = self._thick(shown, thinnest)
+            found = shown.thicker_than(thinnest, self.length)
             if found.kind == held.zones.kind:
                 if self.near_fronts and found.fronts:
                     held = self.fit(len(self.meshes) - 1, held, held.zones, (constraint,), graded=True)
@@ -147,7 +147,7 @@ class FittedMembrane:
         """
         held = start
         for _ in range(PASSES):
-            layout = Layout.of(self._thick(held.zones, COARSE), self.length)
+            layout = Layout.of(held.zones.thicker_than(COARSE, self.length), self.length)
             model = model_on(self.meshes[-1], len(layout.breaks) - 1)
             unmarked = np.full(model.blocks, BY_STATE)
             marks = Marks(unmarked, unmarked if self.liquid else layout.marks.wet)
@@ -156,11 +156,6 @@ class FittedMembrane:
             held = ZonedState(model, state, held.zones, record, (self.control,))
             held.zones = held.shown_zones(VERGE, self.liquid)
         return held
-
-    def _thick(self, found: Zones, share: float) -> Zones:
-        while found.fronts and np.diff([0.0, *found.fronts, self.length]).min() < share * self.length:
-            found = found.without_thinnest(self.length)
-        return found
 
     def fit(
         self,
@@ -279,7 +274,8 @@ class FittedMembrane:
         zones = replace(held.zones, fronts=tuple(moved[:count]), surface=surface)
         found = replace(held, state=state, zones=zones, record=begin.record)
         inside = np.diff([0.0, *zones.fronts, self.length]).min() > 0
-        if not inside or self._thick(found.shown_zones(VERGE_FITTED, self.liquid), SLIVER).kind != zones.kind:
+        shown = found.shown_zones(VERGE_FITTED, self.liquid) if inside else zones
+        if not inside or shown.thicker_than(SLIVER, self.length).kind != zones.kind:
             raise ConvergenceError(f"zones open or close between V = {low:.6g} and the limit load")
         return found
 

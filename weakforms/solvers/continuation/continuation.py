@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, sqrt
 
 import numpy as np
@@ -41,6 +41,13 @@ class CurvePoint:
     n_negative: int
     record: SolveRecord
     monitors: dict[str, float]
+
+    def reversed(self) -> CurvePoint:
+        """The same point as the first one of the curve, followed the other way."""
+        along = self.tangent
+        dual = None if along.dual is None else -along.dual
+        back = Tangent(-along.u, {name: -rate for name, rate in along.loads.items()}, dual)
+        return replace(self, tangent=back, arclength=0.0)
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from weakforms.errors import ConvergenceError
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl, Tangent
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
@@ -59,6 +60,7 @@ class LineContinuation(Continuation):
             border of a singular form becomes its null vector there.
         control: Lengths of steps.
         fitted: The equations of the fronts.
+        allowed: True for admissible states.
     """
 
     def __init__(
@@ -67,10 +69,11 @@ class LineContinuation(Continuation):
         condition: Constraint,
         control: StepControl,
         fitted: Sequence[Constraint] = (),
+        allowed: Callable[[State], bool] = lambda _: True,
     ) -> None:
         self.condition = condition
         own = isinstance(condition, Singular) and isinstance(condition.variation(), OwnVariation)
-        super().__init__(solver, [condition, *fitted], control, shift=AWAY if own else 0.0)
+        super().__init__(solver, [condition, *fitted], control, AWAY if own else 0.0, allowed)
 
     def solve(self, guess: State, constraint: Constraint, chord: bool = False) -> tuple[State, SolveRecord]:
         """Solve for the point of the line at which one more constraint holds."""
@@ -114,6 +117,21 @@ class CriticalLine(SolutionCurve):
                 solved = self._root(i, lambda at, function=function: function(at.state), meeting.kind)
                 found.append((self.arclength(i, solved.state), solved))
         return [solved for _, solved in sorted(found, key=lambda item: item[0])]
+
+    def at(self, name: str, value: float, crossing: int = 1) -> Solved:
+        """As for any curve; a column that is constant on one side, which cannot be prescribed, is a root.
+
+        Raises:
+            InputError: If the column cannot be asked for or does not take the value that often.
+            ConvergenceError: If the state was bracketed but is not found.
+        """
+        try:
+            return super().at(name, value, crossing)
+        except ConvergenceError:
+            if name in self.loads:
+                raise
+            i = int(self.crossings(name, value)[crossing - 1])
+            return self._root(i, lambda solved: solved.values[name] - value, "")
 
     def arclength(self, i: int, state: State) -> float:
         """Position of a state after point ``i``."""
