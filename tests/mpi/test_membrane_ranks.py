@@ -27,6 +27,16 @@ def test_membrane(same_on_ranks):
     assert [len(result.special_points) for result in found] == [1, 0, 0, 2]
 
 
+def test_adapted_meshes(same_on_ranks):
+    """The triangles that are cut are the same on any number of ranks, by symmetry and by value."""
+    coarse = {"cells": 4, "levels": 2, "degree": 1}
+    slack = {"problem": "membrane", "mesh": "square", "delta": 1.0, "w_end": 0.31}
+    slack |= {"numerics": coarse | {"refine": 2}, "at": [("w_c", 0.3)]}
+    disk = {"problem": "membrane", "w_end": 0.31, "numerics": coarse | {"refine": 1}}
+    square, _ = (result.numerics["triangles"] for result in same_on_ranks([slack, disk]))
+    assert square[1] == 4 * square[0] > 4 * 64
+
+
 def test_moved_supports(same_on_ranks, tmp_path):
     """A ring of a file whose inner edge is turned and raised."""
     sides, rows = 12, 4

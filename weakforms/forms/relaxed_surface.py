@@ -11,9 +11,25 @@ Cauchy-Green tensor, whatever the frame (Patil, Nordmark & Eriksson 2016, sectio
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
-from ufl import Jacobian, conditional, cross, det, diff, dot, grad, gt, inv, min_value, sqrt, tr, variable
+from ufl import (
+    Jacobian,
+    as_vector,
+    conditional,
+    cross,
+    det,
+    diff,
+    dot,
+    grad,
+    gt,
+    inv,
+    min_value,
+    sqrt,
+    tr,
+    variable,
+)
 from ufl.core.expr import Expr
 
 from weakforms.forms.materials import SurfaceLaw, mooney_rivlin_surface
@@ -81,6 +97,24 @@ def relaxed_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:
     of tension. Another law may replace ``c2``; its energy is then divided by the stress of its constants.
     """
     return surface_tension_field(c, c2 if isinstance(c2, SurfaceLaw) else mooney_rivlin_surface(c2))
+
+
+def resultants(patch: Patch, energy: Callable[[Expr], Expr]) -> Expr:
+    r"""Kirchhoff's stress resultants in space, ``C1 h``, of an energy ``W(C)`` per reference area.
+
+    .. math:: \tau = \frac{\partial W}{\partial F}\, F^T = 2 F\, \frac{\partial W}{\partial C}\, F^T
+
+    They do not depend on the frame on the reference surface and are smooth where it has a crease that the
+    deformed surface has not.
+
+    Returns:
+        The six components ``xx, yy, zz, xy, xz, yz``, the last three times the root of 2, so that the sum of
+        squares is that of the tensor.
+    """
+    f = variable(patch.deformed)
+    tau = dot(diff(energy(Patch(patch.reference, f).cauchy_green()), f), f.T)
+    shear = [sqrt(2) * tau[i, j] for i, j in ((0, 1), (0, 2), (1, 2))]
+    return as_vector([*(tau[i, i] for i in range(3)), *shear])
 
 
 def full_energy(c: Expr, c2: Expr | float | SurfaceLaw) -> Expr:

@@ -69,6 +69,11 @@ MEMBRANE = About(
             lam1="larger principal stretch of a triangle, 1",
             lam2="smaller principal stretch of a triangle, 1",
         ),
+        Column(
+            "error",
+            "of a triangle: root mean square of the difference between the stress resultants and continuous "
+            "ones recovered from them, over {stress} h",
+        ),
         column.OUTSIDE,
         column.RESERVOIR,
         *(Column(name, dimension="length") for name in ("Y_c", "Z_c", "X", "Y", "Z", "x", "y", "z")),

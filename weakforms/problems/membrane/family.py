@@ -36,7 +36,9 @@ class MembraneFamily(SurfaceFamily):
             return state
         model = self.fine.modes.model
         with model.system.at(self._last.state):
-            return replace(state, fields=Shape(model.mesh, model.membrane, law=model.law)())
+            model.recovery()
+            more = {"error": model.recovery.local}
+            return replace(state, fields=Shape(model.mesh, model.membrane, law=model.law, more=more)())
 
     def special_points(self) -> list[SpecialPoint]:
         """As for any branch: there are no classes of modes."""

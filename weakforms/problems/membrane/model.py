@@ -15,7 +15,8 @@ unknown is the displacement from the stretched surface.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, sin
 
 import numpy as np
@@ -35,6 +36,7 @@ from weakforms.problems.triangles.weak_form import RULE, Membrane, scalars
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.support import compat
+from weakforms.solvers.uncertainty.recovery import Recovery
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,13 @@ class Body:
     motion: Motion | None = None
     """Motion of the edges :attr:`Reference.moved`."""
 
+    def refined(self, times: int) -> Body:
+        """The same with four triangles for each, so many times."""
+        reference = self.reference
+        for _ in range(times):
+            reference = reference.refined()
+        return replace(self, reference=reference)
+
     @property
     def control(self) -> str:
         """Name of the load: ``p`` or ``zw``."""
@@ -97,12 +106,15 @@ class MembraneModel:
         deflection: The displacement in this direction.
         rule: Degree of the quadrature, with which the load of the gas is exact.
         node: Node of the reference surface that each vertex of this rank's mesh is.
+        cells: Triangle of the reference surface that each of this rank's triangles is.
     """
 
     def __init__(self, comm: MPI.Intracomm, body: Body) -> None:
         self.body = body
         self.mesh = in_space(comm, body.reference.points, body.reference.cells)
         self.node = self._nodes()
+        own = self.mesh.topology.index_map(2).size_local
+        self.cells = np.asarray(self.mesh.topology.original_cell_index)[:own]
         self.space = fem.functionspace(self.mesh, ("Lagrange", body.degree, (3,)))
         self.unknown = fem.Function(self.space, name="displacement")
         self.law = body.law.surface_law(self.mesh)
@@ -241,6 +253,11 @@ class MembraneModel:
         out.interpolate(fem.Expression(vector, compat.interpolation_points(self.space.element)))
         out.x.scatter_forward()
         return out
+
+    @cached_property
+    def recovery(self) -> Recovery:
+        """Where the error of the stress resultants is."""
+        return Recovery(self.mesh, self.membrane.resultants, self.body.degree, self.dx)
 
     # -- supports --------------------------------------------------------------------------------
 

@@ -39,6 +39,12 @@ class MembraneNumerics(MeshNumerics):
     cells: int = Field(
         16, ge=4, le=512, description="disk, square: triangles along the radius or half a side, finest mesh"
     )
+    refine: int = Field(
+        0,
+        ge=0,
+        le=8,
+        description="times that triangles of the coarsest mesh are cut where its error is large",
+    )
     step: float = Field(0.2, ge=0.01, le=0.5, description="largest arc-length step")
     start: float = Field(
         0.02,

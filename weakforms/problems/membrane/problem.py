@@ -8,9 +8,10 @@ from weakforms.errors import InputError
 from weakforms.problems.branch_problem import BranchProblem, Family
 from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.membrane.about import MEMBRANE
+from weakforms.problems.membrane.adapted import adapted
 from weakforms.problems.membrane.branch import Start, traced
 from weakforms.problems.membrane.family import MembraneFamily
-from weakforms.problems.membrane.model import MembraneModel
+from weakforms.problems.membrane.model import Body, MembraneModel
 from weakforms.problems.membrane.parameters import MembraneNumerics, MembraneParameters
 from weakforms.problems.meridian.pre_stretch import require_low, require_taut
 from weakforms.problems.meridian.thickness import require_thickness
@@ -90,32 +91,33 @@ class Membrane(BranchProblem):
         """
         parameters, numerics = task.parameters, task.numerics
         levels = numerics.levels
-        if parameters.is_file:
-            triangles = len(parameters.given().cells) * 4 ** (levels - 1)
-            unknowns = round(1.5 * numerics.degree**2 * triangles)
-            if unknowns > LARGEST:
-                raise InputError(
-                    f"membrane: mesh = {parameters.mesh} has about {unknowns} unknowns after {levels - 1} "
-                    f"refinements; allowed: {LARGEST}; choose a coarser mesh, or numerics levels = 2"
-                )
 
-        def make(level: int) -> FilledBranch:
-            body = parameters.body(numerics, level)
-            model = MembraneModel(task.comm, body)
-
+        def trace(body: Body, what: str) -> FilledBranch:
             def passed(height: float) -> None:
                 share = min(max(height / parameters.w_end, 0.0), 1.0)
-                task.progress(f"branch, mesh {level + 1} of {levels}", round(100 * share), 100)
+                task.progress(f"branch, {what}", round(100 * share), 100)
 
             passed(0.0)
             start = Start(numerics.start, numerics.p_start)
+            model = MembraneModel(task.comm, body)
             return traced(model, start, parameters.w_end, numerics.step, passed, parameters.gas)
+
+        coarse = parameters.body(numerics, 0)
+        if parameters.is_file:
+            _require_few(parameters, numerics, coarse)
+        if numerics.refine:
+            coarse = adapted(coarse, numerics.refine, trace)
+            _require_few(parameters, numerics, coarse)
+
+        def make(level: int) -> FilledBranch:
+            body = coarse.refined(level) if numerics.refine else parameters.body(numerics, level)
+            return trace(body, f"mesh {level + 1} of {levels}")
 
         across = ("p", "V") if parameters.load == "gas" else ("zw", "w_c")
         return {"primary": MembraneFamily(make, levels, 2.0 * numerics.degree, across, caps=CAPS)}
 
     def fill(self, result: Result, task: Task) -> None:
-        """As for any branch; also where the deflection is read, and the numbers of triangles."""
+        """As for any branch; also where the deflection is read."""
         reference = task.parameters.body(task.numerics, 0).reference
         result.quantities |= {
             f"{name}_c": Quantity(float(x))
@@ -123,9 +125,31 @@ class Membrane(BranchProblem):
         }
         super().fill(result, task)
 
+    def _answer(self, result: Result, families: dict[str, Family], task: Task) -> None:
+        """As for any branch; also the number of triangles of each mesh."""
+        meshes = families["primary"].levels
+        result.numerics["triangles"] = [len(m.modes.model.body.reference.cells) for m in meshes]
+        super()._answer(result, families, task)
+
     def points(self, _parameters: MembraneParameters) -> np.ndarray:
         """None along a line: fields are the corners and triangles of the surface."""
         return np.zeros(1)
+
+
+def _require_few(parameters: MembraneParameters, numerics: MembraneNumerics, coarse: Body) -> None:
+    """Refuse meshes with too many unknowns.
+
+    Raises:
+        InputError: With what to change.
+    """
+    finer = numerics.levels - 1
+    unknowns = round(1.5 * numerics.degree**2 * len(coarse.reference.cells) * 4**finer)
+    if unknowns > LARGEST:
+        again = f" and refine = {numerics.refine}" if numerics.refine else ""
+        raise InputError(
+            f"membrane: mesh = {parameters.mesh} has about {unknowns} unknowns after {finer} "
+            f"refinements{again}; allowed: {LARGEST}; choose a coarser mesh, or numerics levels = 2"
+        )
 
 
 def _require_basin(parameters: MembraneParameters) -> None:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from dolfinx import mesh as dmesh
+from mpi4py import MPI
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
+from scipy.spatial import cKDTree
 
 from weakforms.problems.triangles.checks import edges_of
+from weakforms.problems.triangles.meshes import in_space
 
 OPPOSITE = ((1, 2), (2, 0), (0, 1))
 """Corners at the ends of the edge opposite to each corner."""
@@ -49,6 +53,8 @@ class Reference:
     """Held edges that are moved as a rigid body, among :attr:`held`."""
     pivot: np.ndarray = field(default_factory=lambda: np.zeros(3))
     """The point about which these are turned."""
+    edge_at: Callable[[np.ndarray], np.ndarray] | None = None
+    """The place on the true edge of new nodes of held edges; by default they stay where the triangles are."""
 
     @property
     def corners(self) -> np.ndarray:
@@ -167,44 +173,113 @@ class Reference:
         around = self.normals[(self.corners == self.centre).any(axis=1)].sum(axis=0)
         return around / np.linalg.norm(around)
 
-    def refined(self) -> Reference:
-        """The same surface with four triangles for each; the corners keep their numbers."""
+    def refined(self, marked: np.ndarray | None = None) -> Reference:
+        """The same surface with four triangles for each; the corners keep their numbers.
+
+        Args:
+            marked: Whether a triangle is to be cut; by default all. Others are cut if a node would hang.
+        """
         points, six = self.points, self.cells
         if six.shape[1] == 3:
             edges = edges_of(self.cells)[0]
             points = np.vstack([points, points[edges].mean(axis=1)])
             middles = [_numbers(edges, self.cells[:, ends]) + len(self.points) for ends in OPPOSITE]
             six = np.column_stack([self.cells, *middles])
-        cells = six[:, CHILDREN].reshape(-1, 3)
+        if marked is None:
+            parents, parts = np.repeat(np.arange(len(six)), 4), np.tile(CHILDREN, (len(six), 1))
+        else:
+            parents, parts = bisected(points, six, marked)
+        cells = six[parents[:, None], parts]
+        cut = np.isin(np.arange(len(points)), cells)  # middles of edges that are not cut are no corners
         if self.cells.shape[1] == 6:
-            points, cells = self._curved(cells)
-        halves = [np.column_stack([six[:, a], six[:, 3 + i], six[:, b]]) for i, (a, b) in enumerate(OPPOSITE)]
-        chains = np.vstack(halves)
+            points, cells = self._curved(parents, parts, cells)
+        chains = np.vstack([six[:, [a, 3 + i, b]] for i, (a, b) in enumerate(OPPOSITE)])
+        kept = np.unique(cells)
+        number = np.full(len(points), -1)
+        number[kept] = np.arange(len(kept))
+
+        def halves(edges: np.ndarray) -> np.ndarray:
+            return number[_halved(edges, chains, cut)]
+
         mirrors, slides = (
-            {axis: _halved(edges, chains) for axis, edges in planes.items()}
-            for planes in (self.mirrors, self.slides)
+            {axis: halves(edges) for axis, edges in planes.items()} for planes in (self.mirrors, self.slides)
         )
-        return replace(
+        out = replace(
             self,
-            points=points,
-            cells=cells,
-            held=_halved(self.held, chains),
-            moved=_halved(self.moved, chains),
+            points=points[kept],
+            cells=number[cells],
+            held=halves(self.held),
+            moved=halves(self.moved),
             mirrors=mirrors,
             slides=slides,
-            point=self.centre,
+            point=int(number[self.centre]),
         )
+        return out._on_edge() if self.edge_at else out
 
-    def _curved(self, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _curved(
+        self, parents: np.ndarray, parts: np.ndarray, cells: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Nodes on the edges of the parts of curved triangles, on the same quadratic surface."""
-        sides = np.array([[[child[a], child[b]] for a, b in OPPOSITE] for child in CHILDREN])
-        at = NODES[sides].mean(axis=2).reshape(-1, 2)
-        curved = np.einsum("qi,mid->mqd", quadratics(at), self.points[self.cells])
+        at = NODES[parts[:, OPPOSITE]].mean(axis=2)
+        shapes = quadratics(at.reshape(-1, 2)).reshape(len(cells), 3, 6)
         edges, _ = edges_of(cells)
         new = np.zeros((len(edges), 3))
         number = np.stack([_numbers(edges, cells[:, ends]) for ends in OPPOSITE], axis=1)
-        new[number.reshape(len(self.cells), -1)] = curved
+        new[number] = np.einsum("cqi,cid->cqd", shapes, self.points[self.cells[parents]])
         return np.vstack([self.points, new]), np.column_stack([cells, number + len(self.points)])
+
+    def _on_edge(self) -> Reference:
+        """The same with all nodes of held edges on the true edge."""
+        nodes, base = np.unique(self.held), [len(self.points), 1]
+        if self.cells.shape[1] == 6:
+            rim = np.sort(self.held, axis=1) @ base
+            on = [np.isin(np.sort(self.cells[:, ends], axis=1) @ base, rim) for ends in OPPOSITE]
+            nodes = np.append(nodes, self.cells[:, 3:][np.column_stack(on)])
+        points = self.points.copy()
+        points[nodes] = self.edge_at(points[nodes])
+        return replace(self, points=points)
+
+
+def bisected(points: np.ndarray, six: np.ndarray, marked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cut triangles by DOLFINx: all edges of those marked, and longest edges of others until no node hangs.
+
+    Every rank cuts the same mesh by itself, with the same result.
+
+    Args:
+        points: Nodes, ``(n, 3)``.
+        six: Nodes of the triangles, ``(m, 6)``.
+        marked: Whether a triangle is to be cut.
+
+    Returns:
+        For each part the triangle that it belongs to, and its corners among that triangle's six nodes.
+    """
+    corners, numbers = np.unique(six[:, :3], return_inverse=True)
+    mesh = in_space(MPI.COMM_SELF, points[corners], numbers.reshape(-1, 3))
+    mesh.topology.create_entities(1)
+    cells = np.flatnonzero(marked[mesh.topology.original_cell_index]).astype(np.int32)
+    edges = dmesh.compute_incident_entities(mesh.topology, cells, 2, 1)
+    fine = dmesh.refine(mesh, edges)[0]
+    # Releases differ in the triangles that they name as parents, so that these are found by their nodes.
+    flat = points.copy()
+    for i, ends in enumerate(OPPOSITE):
+        flat[six[:, 3 + i]] = points[six[:, ends]].mean(axis=1)
+    nodes = np.unique(six)
+    parts = nodes[cKDTree(flat[nodes]).query(fine.geometry.x)[1]][fine.geometry.dofmap]
+    shared = (_incidence(parts, len(points)) @ _incidence(six, len(points)).T).tocoo()
+    parents = np.zeros(len(parts), int)
+    parents[shared.row[shared.data == 3]] = shared.col[shared.data == 3]
+    parts = (six[parents][:, None] == parts[:, :, None]).argmax(axis=2)
+    (ax, ay), (bx, by) = ((NODES[parts[:, i]] - NODES[parts[:, 0]]).T for i in (1, 2))
+    turned = ax * by < ay * bx
+    parts[turned] = parts[turned][:, [0, 2, 1]]
+    order = np.lexsort([*parts.T, parents])
+    return parents[order], parts[order]
+
+
+def _incidence(cells: np.ndarray, nodes: int) -> csr_matrix:
+    """Which nodes each cell has."""
+    rows = np.repeat(np.arange(len(cells)), cells.shape[1])
+    return csr_matrix((np.ones(cells.size), (rows, cells.ravel())), shape=(len(cells), nodes))
 
 
 def quadratics(at: np.ndarray) -> np.ndarray:
@@ -222,13 +297,18 @@ def _numbers(edges: np.ndarray, pairs: np.ndarray) -> np.ndarray:
     return np.searchsorted(edges[:, 0].astype(np.int64) * base + edges[:, 1], low * base + high)
 
 
-def _halved(edges: np.ndarray, chains: np.ndarray) -> np.ndarray:
-    """The halves of some edges, whose nodes are listed with all others in ``chains``, ``(k, 3)``."""
+def _halved(edges: np.ndarray, chains: np.ndarray, cut: np.ndarray) -> np.ndarray:
+    """The halves of some edges, whose nodes are listed with all others in ``chains``, ``(k, 3)``.
+
+    Edges whose middle is not in ``cut`` stay whole.
+    """
     if not len(edges):
         return edges
     every, first = np.unique(np.sort(chains[:, [0, 2]], axis=1), axis=0, return_index=True)
     middle = chains[first][_numbers(every, edges), 1]
-    return np.vstack([np.column_stack([edges[:, 0], middle]), np.column_stack([middle, edges[:, 1]])])
+    at, whole = cut[middle], edges[~cut[middle]]
+    halves = np.column_stack([edges[:, 0], middle])[at], np.column_stack([middle, edges[:, 1]])[at]
+    return np.vstack([*halves, whole])
 
 
 def boundary(cells: np.ndarray) -> np.ndarray:

@@ -46,7 +46,11 @@ def _held(points: np.ndarray, cells: np.ndarray, degree: int) -> Reference:
         number = {tuple(edge): len(points) + i for i, edge in enumerate(edges.tolist())}
         more = [[number[tuple(sorted((c[a], c[b])))] for a, b in OPPOSITE] for c in cells.tolist()]
         points, cells = np.vstack([points, middle]), np.column_stack([cells, more])
-    return Reference(points, cells, rim, {})
+    return Reference(points, cells, rim, {}, edge_at=_on_circle)
+
+
+def _on_circle(points: np.ndarray) -> np.ndarray:
+    return points / np.linalg.norm(points, axis=1)[:, None]
 
 
 def square(cells: int) -> Reference:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import ufl
 from dolfinx import fem
 from dolfinx.mesh import Mesh
+from ufl.core.expr import Expr
 
 from weakforms.forms.materials import SurfaceLaw
 from weakforms.forms.relaxed_surface import state as state_of
@@ -28,6 +29,7 @@ class Shape:
         membrane: The membrane at the unknown position.
         mirrors: Signs of ``X`` and ``Y`` of each copy of the mesh that makes the whole sheet.
         law: See :func:`weakforms.forms.relaxed_surface.state`.
+        more: Further numbers of triangles.
     """
 
     def __init__(
@@ -36,7 +38,9 @@ class Shape:
         membrane: Membrane,
         mirrors: Sequence[tuple[int, int]] = ((1, 1),),
         law: SurfaceLaw | None = None,
+        more: Mapping[str, Expr] | None = None,
     ) -> None:
+        self._more = dict(more or {})
         self._mesh, self._mirrors, self._dim = mesh, mirrors, mesh.geometry.dim
         place, reference = ufl.SpatialCoordinate(mesh), ufl.Jacobian(mesh)
         deformed = ufl.dot(ufl.grad(membrane.position), reference)
@@ -47,7 +51,7 @@ class Shape:
             for j in (0, 1)
         ]
         corner = [*place, *membrane.position]
-        middle = [*place, *tangents, state_of(membrane.cauchy_green, law)]
+        middle = [*place, *tangents, state_of(membrane.cauchy_green, law), *self._more.values()]
         self._corners = fem.Expression(ufl.as_vector(corner), VERTICES)
         self._middle = fem.Expression(ufl.as_vector(middle), CENTROID)
         self._cells = np.arange(mesh.topology.index_map(2).size_local, dtype=np.int32)
@@ -74,7 +78,9 @@ class Shape:
         abc = dict(zip("abc", which.reshape(-1, 3).T, strict=True))
         reference = middle[:, d : 3 * d].reshape(-1, d, 2)
         deformed = middle[:, 3 * d : 3 * d + 6].reshape(-1, 3, 2)
-        values = [stretched(reference, deformed, middle[:, -1], mirror) for mirror in mirrors]
+        mode, *more = middle[:, 3 * d + 6 :].T
+        own = dict(zip(self._more, more, strict=True))
+        values = [stretched(reference, deformed, mode, mirror) | own for mirror in mirrors]
         cells = {name: np.concatenate([part[name] for part in values]) for name in values[0]}
         return Field("sheet", columns), Field("triangles", {**abc, **cells})
 
@@ -86,7 +92,7 @@ class Shape:
             a, b, c = corners[:, 0, :2], corners[:, 1, :2], corners[:, 2, :2]
             below = (b - a)[:, 0] * (c - a)[:, 1] < (b - a)[:, 1] * (c - a)[:, 0]
             corners[below] = corners[below][:, ::-1]
-        middle = self._middle.eval(mesh, self._cells).reshape(-1, 3 * d + 7)
+        middle = self._middle.eval(mesh, self._cells).reshape(-1, 3 * d + 7 + len(self._more))
         corners, middle = (np.concatenate(mesh.comm.allgather(part)) for part in (corners, middle))
         order = np.lexsort(middle[:, :d].round(9).T)
         return corners[order], middle[order]

@@ -19,7 +19,13 @@ from dolfinx.mesh import Mesh
 from ufl.core.expr import Expr
 
 from weakforms.forms.materials import SurfaceLaw
-from weakforms.forms.relaxed_surface import Patch, full_energy, pressure_potential, relaxed_energy
+from weakforms.forms.relaxed_surface import (
+    Patch,
+    full_energy,
+    pressure_potential,
+    relaxed_energy,
+    resultants,
+)
 
 RULE = {1: 2, 2: 4}
 """Quadrature degree by the degree of the elements: the load of straight triangles is exact with the first."""
@@ -47,6 +53,8 @@ class Membrane:
     """``H W(C)``."""
     load: Expr
     """Potential of gas and liquid."""
+    resultants: Expr
+    """Stress resultants, see :func:`weakforms.forms.relaxed_surface.resultants`."""
 
     @classmethod
     def at(
@@ -76,4 +84,5 @@ class Membrane:
         c, normal = patch.cauchy_green(), patch.area_vector()
         energy = relaxed_energy if relaxed else full_energy
         load = pressure_potential(position[2], normal, loads["p"][1], loads["zw"][1], gamma, edge)
-        return cls(position, c, normal, thickness * energy(c, law), load)
+        tension = resultants(patch, lambda c: thickness * energy(c, law))
+        return cls(position, c, normal, thickness * energy(c, law), load, tension)
