@@ -191,3 +191,19 @@ def test_a_state_shows_where_its_error_is(corner):
     worst = int(triangles["error"].argmax())
     corners = [[nodes[name][int(triangles[c][worst])] for name in "XY"] for c in "abc"]
     assert np.abs(corners).sum(axis=1).min() == 0  # at the inner corner
+
+
+def test_a_fold_that_is_smooth_when_deformed_is_no_error():
+    """A roof that is opened into a plane and stretched has one stress everywhere."""
+    flat, slope = square(2), 0.5
+    points = flat.points + np.abs(flat.points[:, :1]) * [[0, 0, slope]]
+    of = MembraneModel(
+        MPI.COMM_SELF, Body(type(flat)(points, flat.cells, flat.held, {}), mooney_rivlin_of(0.1))
+    )
+    x, y, _ = ufl.SpatialCoordinate(of.mesh)
+    opened = ufl.as_vector([1.3 * np.sqrt(1 + slope**2) * x, 1.2 * y, 0.0])
+    move = fem.Expression(opened - of.stretched(), compat.interpolation_points(of.space.element))
+    of.unknown.interpolate(move)
+    assert of.recovery().max() < 1e-20
+    of.unknown.interpolate(lambda x: np.stack([0.1 * np.abs(x[0]), 0 * x[1], 0 * x[2]]))
+    assert of.recovery().max() > 1e-6
