@@ -19,7 +19,7 @@ import typer
 from rich.console import Console
 
 from weakforms.errors import InputError, WeakformsError, lacking, not_among
-from weakforms.world import world
+from weakforms.world import end_ranks_that_wait, world
 
 _LACKS = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO),
@@ -29,12 +29,6 @@ _LACKS = (
 
 USAGE_ERROR = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 """Exceptions for wrong use of the command line; newer releases of typer contain their own click."""
-
-PATIENCE = 10.0
-"""Seconds in which all ranks of a run must meet an error that one of them has met."""
-
-IN_ERROR = 4711
-"""Tag of the messages by which they tell each other."""
 
 LONGEST_MESSAGE = 600
 """Number of characters after which a message is cut, because it may quote long input."""
@@ -278,28 +272,6 @@ def require_one_rank(verb: str) -> None:
         raise InputError(f"{verb} runs on one rank, not on {MPI.COMM_WORLD.size}: start it without mpirun")
 
 
-def _end_ranks_that_wait(status: int, text: str) -> None:
-    """End all ranks if an error has come to this one alone: the others would wait for it for ever.
-
-    An error that all of them meet ends each of them by itself. They tell each other by messages: a barrier
-    would be taken for the collective call in which another rank waits.
-    """
-    try:
-        comm = world()
-    except ImportError:
-        return
-    others = [other for other in range(comm.size) if other != comm.rank]
-    here = [comm.Isend(bytearray(), other, IN_ERROR) for other in others]
-    here += [comm.Irecv(bytearray(), other, IN_ERROR) for other in others]
-    last = time.monotonic() + PATIENCE
-    while not all([request.Test() for request in here]):
-        if time.monotonic() > last:
-            sys.stderr.write(f"weakforms: rank {comm.rank} alone: {text}\n")
-            sys.stderr.flush()
-            comm.Abort(status)
-        time.sleep(0.01)
-
-
 def guarded(run: Callable[[], Any], debug: bool = False) -> int:
     """Run a command and return its exit status. Errors become one line; ``debug`` adds the traceback."""
     try:
@@ -311,7 +283,7 @@ def guarded(run: Callable[[], Any], debug: bool = False) -> int:
         status, text = _verdict_on(error)
         if text:
             complain(text)
-        _end_ranks_that_wait(status, text)
+        end_ranks_that_wait(status, text)
         return status
     return outcome if isinstance(outcome, int) else 0
 

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import sys
+import time
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+
+PATIENCE = 10.0
+"""Seconds in which all ranks of a run must meet an error that one of them has met."""
+
+IN_ERROR = 4711
+"""Tag of the messages by which they tell each other."""
 
 _alone = False
 
@@ -21,3 +29,25 @@ def world() -> MPI.Intracomm:
     from mpi4py import MPI
 
     return MPI.COMM_SELF if _alone else MPI.COMM_WORLD
+
+
+def end_ranks_that_wait(status: int, text: str) -> None:
+    """End all ranks if an error has come to this one alone: the others would wait for it for ever.
+
+    An error that all of them meet ends each of them by itself. They tell each other by messages: a barrier
+    would be taken for the collective call in which another rank waits.
+    """
+    try:
+        comm = world()
+    except ImportError:
+        return
+    others = [other for other in range(comm.size) if other != comm.rank]
+    here = [comm.Isend(bytearray(), other, IN_ERROR) for other in others]
+    here += [comm.Irecv(bytearray(), other, IN_ERROR) for other in others]
+    last = time.monotonic() + PATIENCE
+    while not all([request.Test() for request in here]):
+        if time.monotonic() > last:
+            sys.stderr.write(f"weakforms: rank {comm.rank} alone: {text}\n")
+            sys.stderr.flush()
+            comm.Abort(status)
+        time.sleep(0.01)

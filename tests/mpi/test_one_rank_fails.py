@@ -11,7 +11,7 @@ pytestmark = pytest.mark.mpi
 COMMAND = """
 import sys
 from mpi4py import MPI
-from weakforms import terminal
+from weakforms import terminal, world
 from weakforms.errors import ConvergenceError
 
 def run():
@@ -19,7 +19,7 @@ def run():
         raise {error}
     MPI.COMM_WORLD.allreduce(1)
 
-terminal.PATIENCE = 0.5
+world.PATIENCE = 0.5
 sys.exit(terminal.guarded(run))
 """
 

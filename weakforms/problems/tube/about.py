@@ -76,9 +76,10 @@ RELAXED = (
     Column(
         "Z_front_1",
         "Z of the end of the wrinkled zone that is nearer to the mid-plane",
+        "Z_1",
         dimension="length",
     ),
-    Column("Z_front_2", "Z of its other end; lf/2 if it ends at the disk", dimension="length"),
+    Column("Z_front_2", "Z of its other end; lf/2 if it ends at the disk", "Z_2", dimension="length"),
 )
 """Columns of the relaxed energy only."""
 
