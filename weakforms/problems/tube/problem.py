@@ -165,9 +165,9 @@ class Tube(BranchProblem):
         return resolving(parameters.lf, numerics)
 
     def points(self, parameters: TubeParameters) -> np.ndarray:
-        """61 points over the body."""
-        half = parameters.lf / 2
-        return np.linspace(-half if parameters.extent == "full" else 0.0, half, 61)
+        """61 points over the body; 241 with the relaxed energy, whose resultants have kinks at the fronts."""
+        half, count = parameters.lf / 2, 241 if parameters.energy == "relaxed" else 61
+        return np.linspace(-half if parameters.extent == "full" else 0.0, half, count)
 
 
 def _require_waves_possible(parameters: TubeParameters) -> None:
