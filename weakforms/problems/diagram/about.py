@@ -39,12 +39,12 @@ DIAGRAM = About(
     source="the membranes of papers 1, 2, 3 and 5, balloons and long tubes of any law; extended systems: "
     "Govaerts (2000), chapters 3, 4 and 7; long waves: Haughton & Ogden (1979), Fu, Pearce & Liu (2008)",
     energy="that of tube or circular without a substrate, of a hemisphere (or a shallower or deeper part of "
-    "a sphere) under gas, of a sphere, a long tube, or a tube that holds a liquid, with all parameters as "
-    "loads",
+    "a sphere) under gas, of a sphere, a long tube, a tube that holds a liquid, or a tube that may "
+    "wrinkle, with all parameters as loads",
     control="the parameter that varies besides p or zw (past a cusp or tip compare over u_max, t0, lam, lam2 "
     "or V)",
-    unknown="(rho, eta) as of tube, circular, hemisphere or fluid_tube, or the stretches of a sphere or a "
-    "long tube, with p or zw and another parameter, and a null vector",
+    unknown="(rho, eta) as of tube, circular, hemisphere, fluid_tube or wrinkled_tube, or the stretches of a "
+    "sphere or a long tube, with p or zw and another parameter, and a null vector",
     forms=(
         *("forms.kinematics:revolution_stretches", "forms.loads:gas_potential"),
         *(
