@@ -26,14 +26,27 @@ class FormMatrix:
     Args:
         space: The space of the test and the trial functions.
         pattern: Places of the entries.
+        bcs: Dirichlet conditions.
+        held: Degrees of freedom that they hold, of those that this rank owns.
     """
 
-    def __init__(self, space: fem.FunctionSpace, pattern: cpp.la.SparsityPattern) -> None:
+    def __init__(
+        self,
+        space: fem.FunctionSpace,
+        pattern: cpp.la.SparsityPattern,
+        bcs: Sequence[fem.DirichletBC],
+        held: np.ndarray,
+    ) -> None:
         self.pattern, self._comm = pattern, space.mesh.comm
+        self._bcs = [bc._cpp_object for bc in bcs]
         self._sum = la.matrix_csr(pattern, la.BlockMode.expanded)
         rows, columns = (self._sum.index_map(i) for i in (0, 1))
         self._starts = self._sum.indptr[: rows.size_local + 1].astype(PETSc.IntType)
         self._entries = int(self._starts[-1])
+        numbers = np.repeat(np.arange(rows.size_local, dtype=np.int32), np.diff(self._starts))
+        diagonal = np.flatnonzero(self._sum.indices[: self._entries] == numbers)
+        self._held = diagonal[np.isin(numbers[diagonal], held)]
+        """Places of the diagonal entries of held degrees of freedom."""
         self._columns = self._sum.indices[: self._entries].astype(PETSc.IntType, copy=False)
         if self._comm.size > 1:
             everywhere = np.arange(columns.size_local + columns.num_ghosts, dtype=np.int32)
@@ -47,25 +60,29 @@ class FormMatrix:
         """Starts of the rows of this rank, and columns and values of their entries."""
         return self._starts, self._columns, self._sum.data[: self._entries]
 
-    def assemble(self, form: fem.Form, bcs: Sequence[fem.DirichletBC]) -> None:
+    def assemble(self, form: fem.Form) -> None:
         """Make it the matrix of a form, with the identity in rows of Dirichlet conditions."""
-        self._add_up(form, bcs, 1.0)
+        self._add_up(form, 1.0)
         if self._comm.size > 1:
             self.petsc.setValuesCSR(*self._rows())
         self.petsc.assemble()
 
-    def _add_up(self, form: fem.Form, bcs: Sequence[fem.DirichletBC], diagonal: float) -> None:
+    def _add_up(self, form: fem.Form, diagonal: float) -> None:
         self._sum.set_value(0.0)
-        fem.assemble_matrix(self._sum, form, bcs, diagonal)
+        of = form._cpp_object
+        packed = cpp.fem.pack_constants(of), cpp.fem.pack_coefficients(of)
+        cpp.fem.assemble_matrix(self._sum._cpp_object, of, *packed, self._bcs)
         self._sum.scatter_reverse()
+        # dolfinx's own function writes to copies of the rows on other ranks too, which would be added up.
+        self._sum.data[self._held] = diagonal
 
-    def without_zeros(self, form: fem.Form, bcs: Sequence[fem.DirichletBC]) -> PETSc.Mat:
+    def without_zeros(self, form: fem.Form) -> PETSc.Mat:
         """Another matrix, of a form that has many zeros, without them.
 
         Two thirds of a mass matrix of three components are zeros. Rows of Dirichlet conditions are zero.
         """
         kept = self._sum.data.copy()
-        self._add_up(form, bcs, 0.0)
+        self._add_up(form, 0.0)
         starts, columns, values = self._rows()
         wanted = np.flatnonzero(values)
         starts = np.searchsorted(wanted, starts).astype(PETSc.IntType)

@@ -56,7 +56,7 @@ class System(Lendable):
         fem_petsc.set_bc(self._sums.petsc_vec, formulation.bcs)
         self._bc_values = self._assembled[self.bc_dofs]
         self._fixed = len(self.bc_dofs)
-        self.stiffness = FormMatrix(space, self._pattern())
+        self.stiffness = FormMatrix(space, self._pattern(), formulation.bcs, self.bc_dofs)
         self.matrix = self.stiffness.petsc
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         self.matrix.setOption(PETSc.Mat.Option.SYMMETRY_ETERNAL, True)
@@ -88,7 +88,7 @@ class System(Lendable):
 
     def _mass_matrix(self) -> PETSc.Mat:
         """Mass matrix with *zero* Dirichlet rows, which add no finite eigenvalue."""
-        return self.stiffness.without_zeros(self._form("mass"), self.formulation.bcs)
+        return self.stiffness.without_zeros(self._form("mass"))
 
     @property
     def mass(self) -> PETSc.Mat:
@@ -161,7 +161,7 @@ class System(Lendable):
     def tangent(self) -> PETSc.Mat:
         """``K = ∂R/∂U``, always the same matrix object."""
         self.require_lent()
-        self.stiffness.assemble(self._form("tangent"), self.formulation.bcs)
+        self.stiffness.assemble(self._form("tangent"))
         held = self.bc_dofs[self._fixed :]
         if self.sum(len(held)):
             self.matrix.zeroRowsColumns(held + self.matrix.getOwnershipRange()[0])
