@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, replace
 from math import inf
@@ -196,8 +196,13 @@ class BranchProblem(Problem):
             result.failures.extend(family.failures)
             result.absent.extend(family.absent)
             result.warnings.extend(family.warnings)
+        result.warnings.extend(self.remarks(task.parameters, task.numerics, families))
         if requests.ahead:  # last, so that no other number depends on it
             result.branches[:] = [self._with_end(b, families[b.name], task) for b in result.branches]
+
+    def remarks(self, _parameters: Any, _numerics: Any, _families: Mapping[str, Family]) -> list[str]:
+        """What to know of branches beside their numbers."""
+        return []
 
     def _not_reached(self, what: str, result: Result, name: str) -> InputError:
         """The error of a state that a branch does not have, which says where and why the branch ends."""

@@ -111,7 +111,7 @@ def test_a_zero_that_is_not_there_is_no_zero(function):
 
 def test_a_special_point_that_is_not_bracketed_is_named():
     with pytest.raises(ConvergenceError, match="limit_point in load is not found"):
-        half_circle()._root(2, lambda _: 1.0, "limit_point")
+        half_circle().zero(2, lambda _: 1.0, "limit_point")
 
 
 def test_a_fold_the_inertia_does_not_see_is_named():

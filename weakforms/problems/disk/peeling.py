@@ -117,7 +117,7 @@ class PeelingBranch(FittedBranch):
 
     def _pull_off(self, i: int) -> Solved:
         along = self.points[i].tangent
-        return self._root(i, lambda solved: self._growth(solved.state, along), "pull_off")
+        return self.zero(i, lambda solved: self._growth(solved.state, along), "pull_off")
 
     def _release_rate(self, point: CurvePoint) -> float:
         """``dG/dx_f`` up to a positive factor; the curve is followed towards smaller fronts."""

@@ -38,6 +38,7 @@ from weakforms.forms.materials import surface_law
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, UPPER, Blocks, both_ends
 from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.compression import PrincipalResultants
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
@@ -189,6 +190,7 @@ class TubeModel(MeridianModel):
             locate=self.position,
             aim=self.aim,
             profile=self.fields,
+            tension=PrincipalResultants(self, t1, t2),
         )
 
     @cached_property

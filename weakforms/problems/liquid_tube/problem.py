@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -16,6 +17,7 @@ from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.material_choice import require_model
+from weakforms.problems.meridian.compression import compression
 from weakforms.problems.meridian.pre_stretch import has_bounded_force, require_bearable, require_width
 from weakforms.problems.problem import End, Progress, Requests, Task, sample_points
 from weakforms.results import Absence, Failure, Result
@@ -105,6 +107,13 @@ class FluidTube(BranchProblem):
     def points(self, parameters: FluidTubeParameters) -> np.ndarray:
         """61 points from the lower ring to the upper one."""
         return np.linspace(0, parameters.L / parameters.delta, 61)
+
+    def remarks(
+        self, _parameters: FluidTubeParameters, numerics: FluidTubeNumerics, families: Mapping[str, Family]
+    ) -> list[str]:
+        """Where the primary branch is compressed."""
+        where = compression(families["primary"], "Z", numerics.degree)
+        return [f"the tube is compressed {where}; a real one wrinkles there"] if where else []
 
     def _answer(self, result: Result, families: dict[str, Family], task: Task) -> None:
         """As for any problem; with the secondary branch, a state is computed on every branch that has it."""

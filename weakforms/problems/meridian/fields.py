@@ -72,6 +72,13 @@ class Meridian:
         """Columns at material points."""
         return self.at(self.model.position(s, loads))
 
+    def at_nodes(self) -> tuple[float, float]:
+        """Smallest value and largest magnitude, at the nodes of the cells, of all columns but the place."""
+        values = self._nodes()[:, :, 1:]
+        own = float(values.min(initial=np.inf)), float(np.abs(values).max(initial=0.0))
+        lowest, highest = zip(*self._comm.allgather(own), strict=True)
+        return min(lowest), max(highest)
+
     def extreme(self, name: str, sign: int) -> float:
         """Largest (``sign`` 1) or smallest (-1) value of a column, by the cells' polynomials."""
         return self.extreme_at(name, sign)[0]

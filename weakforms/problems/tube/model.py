@@ -27,6 +27,7 @@ from weakforms.forms.loads import substrate_potential
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, LOWER, Blocks, mirrored, one_end
 from weakforms.problems.meridian.body import Body
+from weakforms.problems.meridian.compression import PrincipalResultants
 from weakforms.problems.meridian.limits import resistance
 from weakforms.problems.meridian.model import MeridianModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch
@@ -143,6 +144,11 @@ class TubeModel(MeridianModel):
         own = self.thickness(self.expressions["S"], self.q)
         return own * t1, own * t2
 
+    @cached_property
+    def tension(self) -> PrincipalResultants:
+        """The same, to be read at states."""
+        return PrincipalResultants(self, *self.resultants)
+
     def mass(self) -> ufl.Form:
         """``int |dx|^2 dZ``."""
         trial, test = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
@@ -190,6 +196,7 @@ class TubeModel(MeridianModel):
                 "resistance": self.at_middle(resistance(self.law, lam1, lam2)),
             },
             internal=("resistance",),
+            tension=self.tension,
             profile={
                 **given.profile,
                 "F_axial": self.axial_force() - self.q["p"] * rho**2 / 2,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -11,7 +11,8 @@ from mpi4py import MPI
 from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family
-from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_foldable, require_model
+from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen, require_model
+from weakforms.problems.meridian.compression import compression
 from weakforms.problems.meridian.limits import limit_along
 from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
@@ -27,7 +28,7 @@ from weakforms.problems.tube.parameters import (
     TubeParameters,
     resolving,
 )
-from weakforms.problems.tube.relaxed_family import relaxed_family
+from weakforms.problems.tube.relaxed_family import relaxed_family, require_relaxed_possible
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
 from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
@@ -71,7 +72,7 @@ class Tube(BranchProblem):
             _require_waves_possible(parameters)
         _require_lopsided_possible(parameters, requests)
         if parameters.energy == "relaxed":
-            _require_relaxed_possible(parameters)
+            require_relaxed_possible(parameters)
         if parameters.contact == "none" and parameters.phase == "deflation":
             raise InputError(
                 "tube: phase = 'deflation' needs an inflation history; allowed with contact = 'adhesive'"
@@ -160,6 +161,22 @@ class Tube(BranchProblem):
             return {"primary": primary}
         return {"primary": primary, "secondary": secondary}
 
+    def remarks(
+        self, parameters: TubeParameters, numerics: TubeNumerics, families: Mapping[str, Family]
+    ) -> list[str]:
+        """Where the ordinary tube is compressed; with wave numbers special points say it."""
+        if parameters.energy == "relaxed" or parameters.stability:
+            return []
+        end = ("u_max", parameters.u_end) if parameters.contact == "none" else None
+        place = "Z" if parameters.extent == "half" else "|Z|"
+        where = compression(families["primary"], place, numerics.degree, end)
+        try:
+            require_relaxed_possible(parameters)
+            instead = "energy = relaxed lets it wrinkle"
+        except InputError:
+            instead = "a real one wrinkles there"
+        return [f"the tube is compressed {where}; {instead}"] if where else []
+
     def resolving(self, parameters: TubeParameters, numerics: TubeNumerics) -> TubeNumerics:
         """More cells for long tubes."""
         return resolving(parameters.lf, numerics)
@@ -178,18 +195,6 @@ def _require_waves_possible(parameters: TubeParameters) -> None:
             "against waves is computed for free inflation; set contact = 'none', or n = ()"
         )
     require_model("tube: waves around the axis", parameters, tuple(LAWS))
-
-
-def _require_relaxed_possible(parameters: TubeParameters) -> None:
-    """Refuse what is not known of a tube that wrinkles, and laws without a natural width."""
-    others = {"contact": "none", "n": (), "secondary": False, "uneven": 0.0}
-    for name, without in others.items():
-        if getattr(parameters, name) != without:
-            raise InputError(
-                f"tube: energy = 'relaxed' is for axisymmetric free inflation of an even tube; set {name} = "
-                f"{without!r}, or energy = 'standard'"
-            )
-    require_foldable("tube: energy = 'relaxed'", parameters, invariants=False)
 
 
 def _require_lopsided_possible(parameters: TubeParameters, requests: Requests) -> None:

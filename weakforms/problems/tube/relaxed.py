@@ -9,7 +9,6 @@ again, the tube is taut and the branch is that of the law once more.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
@@ -24,6 +23,7 @@ from weakforms.forms.wrinkling import wrinkling_function
 from weakforms.problems.contact.guesses import transferred
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, mirrored, one_end
+from weakforms.problems.meridian.compression import ONSET
 from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.limits import limit_along
 from weakforms.problems.meridian.model import TAUT, WET, WRINKLED, Marks
@@ -36,9 +36,6 @@ from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
-
-ONSET = "wrinkling_onset"
-"""Kind of the special point where ``gw`` just reaches 1: a zone opens or closes."""
 
 SMALLEST, AT_DISK = 2e-3, 2e-5
 """Fraction of the length of the smallest wrinkled zone that is followed, inside and at the disk. Inside a
@@ -134,14 +131,6 @@ class FoldedTube(TubeModel):
         )
 
 
-class TautBranch(EquilibriumBranch):
-    """States of a taut tube, with those where ``gw`` just reaches 1."""
-
-    def touch(self, i: int, least: Callable[[Solved], float]) -> Solved:
-        """The state between two neighbours of the trace where a function is zero."""
-        return self._root(i, least, ONSET)
-
-
 class RelaxedTube:
     """Free inflation with the relaxed energy on one mesh, in parts; each is solved when it is first needed.
 
@@ -164,7 +153,7 @@ class RelaxedTube:
     # -- taut ----------------------------------------------------------------------------------
 
     @cached_property
-    def free(self) -> TautBranch:
+    def free(self) -> EquilibriumBranch:
         """The taut tube, up to the first wrinkle if there is one."""
         branch = self._inflated(None)
         at = self._touching(branch)
@@ -178,7 +167,7 @@ class RelaxedTube:
     """The first wrinkle; known after :attr:`free`."""
 
     @cached_property
-    def smooth(self) -> TautBranch:
+    def smooth(self) -> EquilibriumBranch:
         """The tube that is taut again, from where the zone closes."""
         last = self.wrinkled.points[-1]
         begin = transferred(self.folded, last.state, self.taut, {})
@@ -201,10 +190,10 @@ class RelaxedTube:
     closing: Solved | None = None
     """Where the zone closes; known after :attr:`smooth`."""
 
-    def _inflated(self, begin: tuple[State, Held] | None) -> TautBranch:
+    def _inflated(self, begin: tuple[State, Held] | None) -> EquilibriumBranch:
         limit, given = limit_along(self.taut), self.parameters
         inflation = self.taut.system, given.delta1, given.u_end, self.step
-        branch = free_branch(*inflation, TautBranch, limit, begin)
+        branch = free_branch(*inflation, EquilibriumBranch, limit, begin)
         across = [self.least(point.state, "across")[0] for point in branch.points]
         slack = np.flatnonzero(np.array(across) < -VERGE)
         if self.finest and len(slack):
@@ -224,16 +213,16 @@ class RelaxedTube:
             value, x = self._meridian.extreme_at(name, -1)
         return value - 1, abs(float(self.taut.material(np.array([x]), {})[0]))
 
-    def _touching(self, branch: TautBranch) -> list[int]:
+    def _touching(self, branch: EquilibriumBranch) -> list[int]:
         """Points of a trace after which the smallest ``gw - 1`` changes its sign."""
         least = np.array([self.least(point.state)[0] for point in branch.points])
         sign = np.where(np.abs(least) > VERGE, np.sign(least), 0.0)
         known = np.flatnonzero(sign)
         return [int(j) - 1 for i, j in pairwise(known) if sign[i] * sign[j] < 0]
 
-    def _touch(self, branch: TautBranch, i: int) -> Solved:
+    def _touch(self, branch: EquilibriumBranch, i: int) -> Solved:
         """The state between two points of a trace at which ``gw`` just reaches 1, with its place."""
-        found = branch.touch(i, lambda solved: self.least(solved.state)[0])
+        found = branch.zero(i, lambda solved: self.least(solved.state)[0], ONSET)
         place = self.least(found.state)[1]
         return replace(found, values=found.values | dict.fromkeys(FRONTS, place))
 

@@ -8,12 +8,13 @@ from typing import TypeVar
 
 from mpi4py import MPI
 
-from weakforms.errors import ConvergenceError
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.material_choice import require_foldable
+from weakforms.problems.meridian.compression import SLOPES
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.model import TubeMesh
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.relaxed import FRACTION, FRONTS, RelaxedTube
-from weakforms.problems.tube.stability import SLOPES
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
@@ -114,3 +115,19 @@ def relaxed_family(
             joints.append(lambda run: run.closing)
             pieces.append(Piece(family(lambda run: run.smooth), NO_ZONE))
     return PiecewiseFamily(pieces, lambda: [joint(at) for at in joints])
+
+
+def require_relaxed_possible(parameters: TubeParameters) -> None:
+    """Refuse what is not known of a tube that wrinkles, and laws without a natural width.
+
+    Raises:
+        InputError: With a message that names the parameter.
+    """
+    others = {"contact": "none", "n": (), "secondary": False, "uneven": 0.0}
+    for name, without in others.items():
+        if getattr(parameters, name) != without:
+            raise InputError(
+                f"tube: energy = 'relaxed' is for axisymmetric free inflation of an even tube; set {name} = "
+                f"{without!r}, or energy = 'standard'"
+            )
+    require_foldable("tube: energy = 'relaxed'", parameters, invariants=False)

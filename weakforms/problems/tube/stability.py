@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from weakforms.problems.meridian.compression import ONSET, SLOPES
 from weakforms.problems.tube.waves import EXTREMES, Wave
 from weakforms.results import Branch, Quantity
 from weakforms.solvers.continuation.crossing import Crossing
@@ -24,13 +25,6 @@ SLACK = 1e-9
 
 PLACES = 6
 """Decimal places of the arc length by which special points are put in order."""
-
-ONSET = "wrinkling_onset"
-"""Kind of the special point at which the smallest principal resultant passes zero."""
-
-
-SLOPES = 1e-8
-"""Round-off of a resultant and of its place: Newton's last step in a slope on the smallest cells."""
 
 
 class TubeBranch(ModalBranch):
@@ -57,7 +51,7 @@ class TubeBranch(ModalBranch):
         for i in self._symmetry_lost():
             found.append(self._beside(i, Crossing(self, i).located()))
         for i in self._onsets():
-            found.append(self._beside(i, self._root(i, self._least, ONSET)))
+            found.append(self._beside(i, self.zero(i, self._least, ONSET)))
         # Short even and odd waves are neutral at one state to round-off: keep their order on all meshes.
         return [(round(s, PLACES), solved) for s, solved in found]
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.waves import AXIAL, CLAMPED, HOOP, RADIAL, MeridianWaves
 from weakforms.problems.tube.model import TubeModel
 from weakforms.problems.wave_numbers import LOWEST, eigenvalue_names
@@ -73,8 +72,6 @@ class TubeModes:
         # The axisymmetric waves of the unknowns' own symmetry are those of the equilibrium equations.
         self.wave_numbers = [w for w in families if w.n or w.parity == ODD]
         self.columns = (*EXTREMES, *(name for n in numbers for name in eigenvalue_names(n)))
-        t1, t2 = model.resultants
-        self._fields = Meridian(model, {"t1": t1, "t2": t2})
         self._own = Stability(model.system)
 
     def variation(self, wave: Wave) -> SecondVariation:
@@ -96,8 +93,7 @@ class TubeModes:
 
     def least_resultant(self) -> tuple[float, float]:
         """Smallest of both principal resultants anywhere, and its distance ``|Z|`` from the mid-plane."""
-        value, x = min(self._fields.extreme_at(name, -1) for name in ("t1", "t2"))
-        return value, abs(float(self.model.material(x, {})))
+        return self.model.tension.least({})[:2]
 
     def counts(self, own: int | None = None) -> dict[str, int]:
         """Negative eigenvalues of every wave number, and of axisymmetric waves at fixed volume, by inertia.

@@ -29,7 +29,7 @@ class AmountCurve(SolutionCurve):
         for kind, rate in kinds.items():
             rates = np.array([rate(*self._rates(p.state, p.tangent, load, amount)) for p in self.points])
             for i in np.flatnonzero(rates[:-1] * rates[1:] < 0).tolist():
-                found.append((i, self._root(i, partial(value, rate=rate, like=self.points[i]), kind)))
+                found.append((i, self.zero(i, partial(value, rate=rate, like=self.points[i]), kind)))
         return found
 
     def _rates(

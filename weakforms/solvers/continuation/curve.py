@@ -135,7 +135,7 @@ class SolutionCurve:
             raise InputError(not_crossed(name, value, crossing, len(hits), self.over_points(name)))
         i = int(hits[crossing - 1])
         if name in self.computed:
-            return replace(self._root(i, lambda solved: self._computed(solved, name) - value, name), kind="")
+            return replace(self.zero(i, lambda solved: self._computed(solved, name) - value, name), kind="")
         solved = self._solve(self.interpolated(i, name, value), Held(name, value))
         self.require_within(i, solved, f"state at {name} = {value:g}")
         return solved
@@ -250,7 +250,7 @@ class SolutionCurve:
             if gap > 1.2 * length:
                 raise ConvergenceError(f"{what}: converged {gap:.2g} away from where it was bracketed")
 
-    def _root(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
+    def zero(self, i: int, function: Callable[[Solved], float], kind: str) -> Solved:
         """Solve for the state between two neighbours where a function is zero, over planes across it."""
         tangent, what = self.points[i].tangent, f"{kind} in {self.control}"
 
@@ -343,7 +343,7 @@ class SolutionCurve:
         def rate(solved: Solved) -> float:
             return self.continuation.direction(solved.state, along).loads[self.control]
 
-        return self._root(i, rate, "limit_point")
+        return self.zero(i, rate, "limit_point")
 
     def _turn_guess(self, i: int) -> State:
         ra, rb = (self.points[j].tangent.loads[self.control] for j in (i, i + 1))

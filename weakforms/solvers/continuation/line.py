@@ -114,7 +114,7 @@ class CriticalLine(SolutionCurve):
         found = []
         for meeting in self.meetings:
             for i, function in meeting.brackets(self):
-                solved = self._root(i, lambda at, function=function: function(at.state), meeting.kind)
+                solved = self.zero(i, lambda at, function=function: function(at.state), meeting.kind)
                 found.append((self.arclength(i, solved.state), solved))
         return [solved for _, solved in sorted(found, key=lambda item: item[0])]
 

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import ufl
 from dolfinx import fem
 from ufl.core.expr import Expr
+
+
+class Tension(Protocol):
+    """Principal resultants of the state that a system is lent to; a negative one is compression."""
+
+    def at_nodes(self) -> tuple[float, float]:
+        """The smallest one, and the largest magnitude, at the nodes."""
+
+    def least(self, loads: Mapping[str, float]) -> tuple[float, float, str]:
+        """The smallest one anywhere, the magnitude of its material coordinate, and its direction."""
 
 
 @dataclass
@@ -55,3 +65,5 @@ class Formulation:
     them."""
     mark: Callable[[Any], None] | None = None
     """Writes the ``marks`` of a state into the forms, if states have them."""
+    tension: Tension | None = None
+    """Resultants of a membrane of revolution, if its results say where it is compressed."""

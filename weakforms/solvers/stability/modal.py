@@ -217,7 +217,7 @@ class ModalBranch(FittedBranch):
             solved = self._solve(guess, singular, kind)
             self.require_within(i, solved, f"bifurcation of {self._called(n)}")
         except ConvergenceError:  # as for a limit point, root finding needs no good guess
-            solved = self._root(i, partial(self._singularity, singular), kind)
+            solved = self.zero(i, partial(self._singularity, singular), kind)
         return replace(solved, values=solved.values | marks)
 
     def _singularity(self, singular: Singular, solved: Solved) -> float:
