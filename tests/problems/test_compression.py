@@ -9,7 +9,7 @@ import pytest
 
 from weakforms import solve
 from weakforms.problems.meridian import compression as module
-from weakforms.problems.meridian.compression import AROUND, TAUT, compression
+from weakforms.problems.meridian.compression import AROUND, TAUT, UNRESOLVED, compression
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.verification.cases.references import ROOT
 
@@ -57,6 +57,15 @@ def test_compression_beyond_the_end_of_the_branch_is_not_told(end, remarks):
     assert len(told(alpha=0.0, u_end=end)) == remarks
 
 
+def test_the_place_is_where_a_resultant_is_zero_and_not_a_dry_part_without_any():
+    given = {"delta": 1.05, "L": 20.0, "gamma": 0.3, "n_max": 1}
+    result = solve("fluid_tube", numerics={"levels": 2}, **given)
+    (text,) = [text for text in result.warnings if "compressed" in text]
+    (_, volume, _), (_, _, _), (_, z, _) = numbers(text)
+    assert volume == pytest.approx(25.99698087, abs=1e-6)  # on twice as many cells
+    assert z == pytest.approx(0.16861745, abs=1e-5)
+
+
 @pytest.mark.parametrize(
     "given",
     [
@@ -101,27 +110,30 @@ def zero(u, kind):
     ("zeros", "signs", "text"),
     [
         ([], [1, 1], ""),
-        ([], [-1, -1], "from its first state on"),
-        ([(3.0, TAUT)], [-1, 1], "from its first state to u = 3"),
-        ([(1.0, AROUND)], [1, -1], "around the axis from u = 1 (p = 1, at Z = 2) on"),
+        ([], [-1, -1], "is compressed from its first state on"),
+        ([(3.0, TAUT)], [-1, 1], "is compressed from its first state to u = 3"),
+        ([(1.0, AROUND)], [1, -1], "is compressed around the axis from u = 1 (p = 1, at Z = 2) on"),
         (
             [(1.0, AROUND), (2.0, TAUT), (4.0, AROUND)],
             [1, -1, 1, -1],
-            "around the axis from u = 1 (p = 1, at Z = 2) to u = 2, and around the axis from "
-            "u = 4 (p = 1, at Z = 2) on",
+            "is compressed around the axis from u = 1 (p = 1, at Z = 2) to u = 2, and is compressed around "
+            "the axis from u = 4 (p = 1, at Z = 2) on",
         ),
     ],
 )
 def test_all_parts_of_a_branch_are_told(monkeypatch, zeros, signs, text):
-    monkeypatch.setattr(module, "_signs", lambda curve: (curve.signs, None))
-    monkeypatch.setattr(module, "_zeros", lambda curves, _place: curves[0].zeros)
+    monkeypatch.setattr(module, "_signs", lambda curve, _error: curve.signs)
+    monkeypatch.setattr(module, "_zeros", lambda curves, *_: curves[0].zeros)
+    monkeypatch.setattr(module, "_errors", lambda curves: [0.0 for _ in curves])
     same = [zero(*at) for at in zeros]
     told = compression(stand_in([same, same], signs), "Z", 4.0)
     assert re.sub(r"\.0+\(\d+\)", "", told) == text
 
 
-def test_meshes_that_disagree_give_no_number(monkeypatch):
-    monkeypatch.setattr(module, "_signs", lambda curve: (curve.signs, None))
-    monkeypatch.setattr(module, "_zeros", lambda curves, _place: curves[0].zeros)
-    text = compression(stand_in([[], [zero(1.0, AROUND)]], [1, -1]), "Z", 4.0)
-    assert text == "on a part of the branch that depends on the mesh; raise cells"
+@pytest.mark.parametrize("signs", [[1, -1], [0, -1]])
+def test_what_the_meshes_do_not_resolve_has_no_number(monkeypatch, signs):
+    monkeypatch.setattr(module, "_signs", lambda curve, _error: curve.signs)
+    monkeypatch.setattr(module, "_zeros", lambda curves, *_: curves[0].zeros)
+    monkeypatch.setattr(module, "_errors", lambda curves: [0.0 for _ in curves])
+    text = compression(stand_in([[], [zero(1.0, AROUND)] * (signs[0] > 0)], signs), "Z", 4.0)
+    assert text == UNRESOLVED

@@ -113,7 +113,7 @@ class FluidTube(BranchProblem):
     ) -> list[str]:
         """Where the primary branch is compressed."""
         where = compression(families["primary"], "Z", numerics.degree)
-        return [f"the tube is compressed {where}; a real one wrinkles there"] if where else []
+        return [f"the tube {where}; a real one wrinkles there"] if where else []
 
     def _answer(self, result: Result, families: dict[str, Family], task: Task) -> None:
         """As for any problem; with the secondary branch, a state is computed on every branch that has it."""

@@ -21,8 +21,12 @@ from weakforms.problems.meridian.model import MeridianModel
 from weakforms.results.uncertain import uncertain
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.continuation.pieces import PiecewiseFamily
+from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.points import special_point
+
+UNRESOLVED = "may be compressed where the meshes do not resolve it (raise cells)"
+"""What is said if the meshes do not agree on where the smallest resultant is zero."""
 
 ONSET = "wrinkling_onset"
 """Kind of the special point at which the smallest principal resultant passes zero."""
@@ -32,6 +36,13 @@ ALONG, AROUND = "along the meridian", "around the axis"
 NEGLIGIBLE = 1e-5
 """Compression, over the largest resultant of its state, that is not told of: it may be the mesh's error, as
 in a dry tube, whose hoop resultant is zero."""
+
+SLACK = 1e-9
+"""The same without relation to others, for a membrane without pressure."""
+
+NEAR = 0.2
+"""Part of a block within which the place of the smallest resultant moves between two points of a trace. Far
+from there it may be zero, as in a dry part, to the mesh's error."""
 
 SLOPES = 1e-8
 """Round-off of a resultant and of its place: Newton's last step in a slope on the smallest cells."""
@@ -61,10 +72,15 @@ class PrincipalResultants:
         """The smallest resultant, and the largest magnitude, at the nodes of the cells."""
         return self._fields.at_nodes()
 
-    def least(self, loads: Mapping[str, float]) -> tuple[float, float, str]:
-        """The smallest one anywhere, the magnitude of its material coordinate, and its direction."""
-        (value, x), name = min((self._fields.extreme_at(name, -1), name) for name in self._columns)
-        return value, abs(float(self.model.material(np.array([x]), loads)[0])), name
+    def least(self, near: float | None = None) -> tuple[float, float, str]:
+        """The smallest one anywhere or near a mesh coordinate, its mesh coordinate and its direction."""
+        within = (-np.inf, np.inf) if near is None else (near - NEAR, near + NEAR)
+        (value, x), name = min((self._fields.extreme_at(name, -1, within), name) for name in self._columns)
+        return value, x, name
+
+    def place(self, x: float, loads: Mapping[str, float]) -> float:
+        """Magnitude of the material coordinate at a mesh coordinate."""
+        return abs(float(self.model.material(np.array([x]), loads)[0]))
 
 
 def compression(
@@ -80,20 +96,23 @@ def compression(
     """
     pieces = [p.family for p in family.pieces] if isinstance(family, PiecewiseFamily) else [family]
     levels = list(zip(*(piece.levels for piece in pieces), strict=True))
-    signs = np.concatenate([_signs(curve)[0] for curve in levels[-1]])
+    errors = _errors([level[0] for level in levels])
+    signs = np.concatenate([_signs(curve, errors[-1]) for curve in levels[-1]])
     if not (signs < 0).any():
         return ""
     column, last = end or (place, np.inf)
     try:
-        found = [[s for s in _zeros(level, place) if s.values[column] <= last] for level in levels]
-    except ConvergenceError as error:
-        return f"on a part of the branch, whose ends are not found ({error})"
+        zeros = [_zeros(level, place, error) for level, error in zip(levels, errors, strict=True)]
+    except ConvergenceError:
+        return UNRESOLVED
+    found = [[s for s in level if s.values[column] <= last] for level in zeros]
     kinds = [s.kind for s in found[-1]]
-    if any([s.kind for s in level] != kinds for level in found):
-        return "on a part of the branch that depends on the mesh; raise cells"
+    begins = signs[signs != 0][0] < 0
+    if any([s.kind for s in level] != kinds for level in found) or (begins and not signs[0]):
+        return UNRESOLVED
     across, along = pieces[0].across
     shown = along, across, place
-    text = "from its first state on" if signs[signs != 0][0] < 0 else ""
+    text = "is compressed from its first state on" if begins else ""
     for same in zip(*found, strict=True):
         at = special_point(same, shown, order, "primary", across, {place: order - 1})
         spread = at.uncertainty | {place: at.uncertainty[place] + SLOPES}
@@ -101,45 +120,62 @@ def compression(
         if at.kind == TAUT:
             text = f"{text.removesuffix(' on')} to {number[along]}"
         else:
-            where = f"{at.kind} from {number[along]} ({number[across]}, at {number[place]}) on"
+            where = f"is compressed {at.kind} from {number[along]} ({number[across]}, at {number[place]}) on"
             text = f"{text}, and {where}" if text else where
     return text
 
 
-def _signs(curve: SolutionCurve) -> tuple[np.ndarray, np.ndarray]:
-    """Sign of the smallest resultant at each point of a trace, 0 where it is not known, and its value."""
-    tension, rows = curve.system.formulation.tension, []
-    for point in curve.points:
-        with curve.system.at(point.state):
-            rows.append(tension.at_nodes())
-    least, largest = np.array(rows).T
-    return (least > 0).astype(int) - (least < -NEGLIGIBLE * largest), least
+def _errors(curves: Sequence[SolutionCurve]) -> list[float]:
+    """Twice the change of the smallest resultant of the first state from mesh to mesh: its error."""
+    first = [_at_nodes(curve, curve.points[0].state)[0] for curve in curves]
+    away = [abs(least - first[-1]) for least in first[:-1]]
+    return [2 * error for error in (*away, away[-1])]
 
 
-def _zeros(curves: Sequence[SolutionCurve], place: str) -> list[Solved]:
+def _signs(curve: SolutionCurve, error: float) -> np.ndarray:
+    """Sign of the smallest resultant at each point of a trace, 0 where it is not known."""
+    least, largest = np.array([_at_nodes(curve, point.state) for point in curve.points]).T
+    return (least > 0).astype(int) - (least < -np.maximum(NEGLIGIBLE * largest, max(SLACK, error)))
+
+
+def _at_nodes(curve: SolutionCurve, state: State) -> tuple[float, float]:
+    with curve.system.at(state):
+        return curve.system.formulation.tension.at_nodes()
+
+
+def _zeros(curves: Sequence[SolutionCurve], place: str, error: float) -> list[Solved]:
     """The states of consecutive curves at which the smallest resultant is zero, with its place."""
     found, before = [], 0
     for curve in curves:
-        sign, least = _signs(curve)
+        sign = _signs(curve, error)
         known = np.flatnonzero(sign)
         if len(known) and before * sign[known[0]] < 0:  # between the last point of one and this one
-            found.append(_placed(curve, curve.solved(curve.points[0].state), place, sign[known[0]]))
-        for i, j in pairwise(known):
+            found.append(_placed(curve, curve.solved(curve.points[0].state), place, None, sign[known[0]]))
+        for i, j in pairwise(known.tolist()):
             if sign[i] * sign[j] < 0:
-                k = i + int(np.flatnonzero(np.diff(least[i : j + 1] > 0))[-1])
-                zero = curve.zero(k, lambda solved, curve=curve: _least(curve, solved)[0], ONSET)
-                found.append(_placed(curve, zero, place, sign[j]))
+                found.append(_zero(curve, i, j, place, sign[j]))
         before = sign[known[-1]] if len(known) else before
     return found
 
 
-def _placed(curve: SolutionCurve, solved: Solved, place: str, after: int) -> Solved:
+def _zero(curve: SolutionCurve, i: int, j: int, place: str, after: int) -> Solved:
+    """The state between two points of a trace, one taut and one compressed, at which a resultant is zero."""
+    compressed = curve.points[i if after > 0 else j].state
+    _, near, _ = _least(curve, compressed)
+    at = [_least(curve, point.state, near)[0] for point in curve.points[i : j + 1]]
+    changes = np.flatnonzero(np.diff(np.array(at) > 0))
+    k = i + int(changes[0 if after > 0 else -1]) if len(changes) else i
+    zero = curve.zero(k, lambda solved: _least(curve, solved.state, near)[0], ONSET)
+    return _placed(curve, zero, place, near, after)
+
+
+def _placed(curve: SolutionCurve, solved: Solved, place: str, near: float | None, after: int) -> Solved:
     """A state with the place of its smallest resultant, and with what follows as its kind."""
-    _, at, direction = _least(curve, solved)
-    kind = TAUT if after > 0 else direction
-    return replace(solved, values=solved.values | {place: at}, kind=kind)
+    _, x, direction = _least(curve, solved.state, near)
+    at = curve.system.formulation.tension.place(x, solved.state.loads)
+    return replace(solved, values=solved.values | {place: at}, kind=TAUT if after > 0 else direction)
 
 
-def _least(curve: SolutionCurve, solved: Solved) -> tuple[float, float, str]:
-    with curve.system.at(solved.state):
-        return curve.system.formulation.tension.least(solved.state.loads)
+def _least(curve: SolutionCurve, state: State, near: float | None = None) -> tuple[float, float, str]:
+    with curve.system.at(state):
+        return curve.system.formulation.tension.least(near)

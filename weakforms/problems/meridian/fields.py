@@ -83,8 +83,10 @@ class Meridian:
         """Largest (``sign`` 1) or smallest (-1) value of a column, by the cells' polynomials."""
         return self.extreme_at(name, sign)[0]
 
-    def extreme_at(self, name: str, sign: int) -> tuple[float, float]:
-        """The same, and the mesh coordinate where it is."""
+    def extreme_at(
+        self, name: str, sign: int, within: tuple[float, float] = (-np.inf, np.inf)
+    ) -> tuple[float, float]:
+        """The same in the cells with a middle within two mesh coordinates, and the coordinate where it is."""
         nodes = self._nodes()
         best = -np.inf, 0.0
         if self._local:
@@ -95,10 +97,13 @@ class Meridian:
             grid = np.linspace(0.0, 1.0, FINE + 1)
             peaks = (column @ _lagrange(places, grid).T).max(axis=1)
             # If two cells share the best sample, the maximum may be in either.
-            rows = np.argsort(peaks)[-CANDIDATES:]
-            value, row, t = _top(places, column[rows])
-            t = _stationary(places, column[rows[row]], t)
-            best = value, float(first[rows[row]] + t * lengths[rows[row]])
+            middle, (low, high) = first + lengths / 2, within
+            inside = np.flatnonzero((low <= middle) & (middle <= high))
+            rows = inside[np.argsort(peaks[inside])[-CANDIDATES:]]
+            if len(rows):
+                value, row, t = _top(places, column[rows])
+                t = _stationary(places, column[rows[row]], t)
+                best = value, float(first[rows[row]] + t * lengths[rows[row]])
         value, x = max(self._comm.allgather(best))
         return sign * value, x
 

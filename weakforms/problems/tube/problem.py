@@ -175,7 +175,7 @@ class Tube(BranchProblem):
             instead = "energy = relaxed lets it wrinkle"
         except InputError:
             instead = "a real one wrinkles there"
-        return [f"the tube is compressed {where}; {instead}"] if where else []
+        return [f"the tube {where}; {instead}"] if where else []
 
     def resolving(self, parameters: TubeParameters, numerics: TubeNumerics) -> TubeNumerics:
         """More cells for long tubes."""

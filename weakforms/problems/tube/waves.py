@@ -93,7 +93,8 @@ class TubeModes:
 
     def least_resultant(self) -> tuple[float, float]:
         """Smallest of both principal resultants anywhere, and its distance ``|Z|`` from the mid-plane."""
-        return self.model.tension.least({})[:2]
+        value, x, _ = self.model.tension.least()
+        return value, self.model.tension.place(x, {})
 
     def counts(self, own: int | None = None) -> dict[str, int]:
         """Negative eigenvalues of every wave number, and of axisymmetric waves at fixed volume, by inertia.

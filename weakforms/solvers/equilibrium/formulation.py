@@ -18,8 +18,11 @@ class Tension(Protocol):
     def at_nodes(self) -> tuple[float, float]:
         """The smallest one, and the largest magnitude, at the nodes."""
 
-    def least(self, loads: Mapping[str, float]) -> tuple[float, float, str]:
-        """The smallest one anywhere, the magnitude of its material coordinate, and its direction."""
+    def least(self, near: float | None = None) -> tuple[float, float, str]:
+        """The smallest one anywhere or near a mesh coordinate, its mesh coordinate and its direction."""
+
+    def place(self, x: float, loads: Mapping[str, float]) -> float:
+        """Magnitude of the material coordinate at a mesh coordinate."""
 
 
 @dataclass
