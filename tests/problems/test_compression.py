@@ -96,6 +96,16 @@ def test_a_tube_of_liquid_is_compressed_where_its_hoop_resultant_is_zero():
     assert abs(columns["Z"][lowest] - z) <= np.diff(columns["Z"]).max()
 
 
+@pytest.mark.parametrize(
+    ("least", "error", "sign"),
+    [(1e-12, 0.0, 1), (-9e-6, 0.0, 0), (-2e-5, 0.0, -1), (-2e-5, 1e-4, 0), (-2e-4, 1e-4, -1)],
+)
+def test_the_error_of_a_mesh_is_no_compression(monkeypatch, least, error, sign):
+    monkeypatch.setattr(module, "_at_nodes", lambda _curve, state: (state, 1.0))
+    curve = SimpleNamespace(points=[SimpleNamespace(state=least)])
+    assert module._signs(curve, error).tolist() == [sign]
+
+
 def stand_in(zeros, signs):
     """A family of two meshes with given zeros of the smallest resultant."""
     levels = [SimpleNamespace(zeros=at, signs=np.array(signs)) for at in zeros]
