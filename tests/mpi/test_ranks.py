@@ -33,7 +33,7 @@ def test_lines_of_bending(same_on_ranks):
 def test_lines_of_balloons_parts_of_them_and_long_tubes(same_on_ranks):
     tube = {"body": "infinite_tube", "ends": "held", "kind": "localisation,n1", "high": 1.2}
     balloon = {"body": "sphere", "x": "alpha", "kind": "fold", "low": 0.2}
-    part = {"body": "hemisphere", "kind": "fold", "low": 1.45, "high": 1.5, "t_end": 2.6, "numerics": MESH}
+    part = {"body": "hemisphere", "kind": "fold,n1", "low": 1.45, "high": 1.5, "t_end": 2.6, "numerics": MESH}
     found, _, last = same_on_ranks([{"problem": "diagram"} | given for given in (tube, balloon, part)])
     assert [point.kind for point in found.special_points] == ["localisation_n1"] * 2
     assert [point.kind for point in last.special_points] == ["cusp_point"]

@@ -8,10 +8,11 @@ from mpi4py import MPI
 
 from weakforms import solve
 from weakforms.errors import InputError
-from weakforms.problems.diagram import cap
+from weakforms.problems.diagram.bodies import cap
 from weakforms.problems.diagram.bodies.cap import VariedCap
 from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.problems.diagram.problem import ROOM
+from weakforms.problems.wave_numbers import eigenvalue_names
 
 MESH = {"cells": 16, "levels": 2, "step": 0.2}
 FOLDS = {"body": "hemisphere", "kind": "fold", "numerics": MESH}
@@ -87,12 +88,46 @@ def test_first_states_are_lower_than_the_least_end(angle):
     assert first[0].n_negative == 0
 
 
+def test_waves_around_a_hemisphere_are_those_of_the_problem_hemisphere():
+    """It hangs, and a part of a sphere stands: gas acts on the other side of the meridian."""
+    given = {"load": "gas", "c2": 0.0, "n": "1,2,3", "numerics": {"levels": 2, "step": 0.2}}
+    (state,) = solve("hemisphere", at={"p": 2.0}, **given).states
+    found = model(pi / 2)
+    with found.system.at(found.primary(1.3, 0.2).at("p", 2.0).state):
+        for n in (1, 2, 3):
+            (form,) = found.operators(f"n{n}").values()
+            exact = [state.quantities[name].value for name in eigenvalue_names(n)]
+            assert form().spectrum(3).eigenvalues == pytest.approx(exact, rel=1e-6)
+
+
+def test_at_limit_points_of_parts_of_spheres_no_wave_is_unstable():
+    kinds = {**FOLDS, "kind": "fold,n1,n2,n3"}
+    found = solve("diagram", alpha=0.0, low=1.2, high=2.0, t_end=3.2, **kinds)
+    line = found.branch("fold").columns
+    assert line["angle"][[0, -1]] == pytest.approx([1.2, 2.0], abs=1e-12)
+    for n in (1, 2, 3):
+        assert not line[f"n_negative_n{n}"].any()
+    assert [item.what for item in found.absent] == [f"lines of kind n{n}" for n in (1, 2, 3)]
+
+
+def test_the_clamp_keeps_an_ogden_balloon_from_a_pear_that_points_sideways():
+    """The whole balloon has two neutral pears; the part of a sphere has none, but comes near to one."""
+    law = DiagramParameters(body="hemisphere", model="ogden").material
+    found = VariedCap(MPI.COMM_WORLD, law, {"angle": 2.4}, 16, 6, 0.6)
+    (form,) = found.operators("n1").values()
+    lowest = []
+    for point in found.primary(8.0, 0.3).points[::2]:
+        with found.system.at(point.state):
+            lowest.append(form().spectrum(1).eigenvalues[0])
+    least = int(np.argmin(lowest))
+    assert 0 < lowest[least] < 0.3 * max(lowest[:least])
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
         ({"kind": "contact"}, "body = 'hemisphere' touches nothing"),
         ({"kind": "mirror"}, "body = 'hemisphere' has no mirror"),
-        ({"kind": "n1"}, "body = 'hemisphere' has no lines of waves around its axis"),
         ({"kind": "localisation"}, "body = 'hemisphere' is not long"),
         ({"x": "beta"}, "x = 'beta' is no parameter of hemisphere"),
         ({"high": 2.7}, "between 0.2 and 2.6"),

@@ -121,15 +121,10 @@ SUBJECTS = {
         VariedCap.depth,
         ("angle",),
         "t_end",
-        ("fold", "wrinkling"),
+        ("fold", *WAVES, "wrinkling"),
         rest=rest_height,
         pole=True,
-        without={
-            "mirror": NO_MIRROR,
-            "localisation": NO_LONG_WAVES,
-            "contact": NO_OBSTACLE,
-            **dict.fromkeys(WAVES, "has no lines of waves around its axis" + ONLY_TUBE),
-        },
+        without={"mirror": NO_MIRROR, "localisation": NO_LONG_WAVES, "contact": NO_OBSTACLE},
     ),
     "sphere": Subject(
         lambda _comm, law, values, _cells, _degree: VariedSphere(law, values),

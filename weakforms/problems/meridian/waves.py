@@ -65,7 +65,7 @@ class MeridianWaves:
             c = revolution.gradient_tensor(at, e["radius"], scales)
             total += e["weight"] * revolution.strain_energy(c, taut, model.full)
             if "p" in q:
-                total += revolution.gas_energy(at, q["p"])
+                total += revolution.gas_energy(at, model.body.upwards * q["p"])
             if "zw" in q:
                 wet = model.marked("wet", q["zw"] - e["z"])
                 total += revolution.liquid_energy(at, q["zw"], q["gamma"], wet)
@@ -135,6 +135,33 @@ class MeridianWaves:
         if key not in self._variations:
             self._variations[key] = SecondVariation(self.formulation(*key), self.model.system)
         return self._variations[key]
+
+
+class PoleWaves(MeridianWaves):
+    """Second variations of a membrane whose first end may be a pole.
+
+    Args:
+        model: The model.
+    """
+
+    def __init__(self, model: MeridianModel) -> None:
+        super().__init__(model)
+        self._sheared = fem.Constant(model.mesh, 0.0)
+
+    def parts(self, d: Expr) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
+        """``(u, q, w)`` of the unknowns ``(u + q, q, w)`` or ``(u, q, w)``, and slopes in ``S``.
+
+        One wave shifts a pole sideways, ``u + q = 0``, which is a condition on the first unknown alone.
+        """
+        width = self.model.expressions["width"]
+        mixed = [ufl.as_vector([v[0] - self._sheared * v[1], v[1], v[2]]) for v in (d, d.dx(0) / width)]
+        return tuple(mixed[0]), tuple(mixed[1])
+
+    def held(self, n: float) -> SecondVariation:
+        """The operator for ``n`` waves; edges and a pole do not move, but one wave shifts the pole."""
+        shifts = self.model.body.pole and n == 1
+        self._sheared.value = float(shifts)
+        return self.operator(n, (RADIAL, AXIAL) if shifts else CLAMPED)
 
 
 def _digits(numbers: Sequence[int]) -> str:

@@ -17,19 +17,23 @@ For ``A -> 0`` it is that of the flat disk without pre-stretch.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property, partial
 from math import sin, tan
 
 import ufl
 from ufl.core.expr import Expr
 
 from weakforms.problems.branch_problem import from_rest
-from weakforms.problems.diagram.bodies.varied import Kind, VariedDisk
+from weakforms.problems.diagram.bodies.varied import WAVES, Kind, VariedDisk
 from weakforms.problems.diagram.followed import ended_by_law
 from weakforms.problems.disk.phases import USUAL_LOAD
 from weakforms.problems.meridian.body import Body, Values
 from weakforms.problems.meridian.limits import relative_stiffness
+from weakforms.problems.meridian.waves import PoleWaves
 from weakforms.solvers.continuation.branch import EquilibriumBranch
+from weakforms.solvers.stability.modes import SecondVariation
 
 FIRST_P = 0.25
 """Pressure of the first state over the radius of the sphere at rest, of a neo-Hookean law with ``C1 = 1``.
@@ -74,6 +78,15 @@ class VariedCap(VariedDisk):
         s, _ = self.place()
         (u, w), (v, y) = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
         return (s**2 * u * v + w * y) * s * self.dx
+
+    @cached_property
+    def _waves(self) -> PoleWaves:
+        return PoleWaves(self)
+
+    def operators(self, kind: str) -> dict[int, Callable[[], SecondVariation]]:
+        """The second variation in waves around the axis; a part of a sphere has no parity along it."""
+        numbered = WAVES.fullmatch(kind)
+        return {0: partial(self._waves.held, int(numbered[1]))} if numbered else {}
 
     def primary(self, end: float, step: float, kind: Kind = EquilibriumBranch) -> EquilibriumBranch:
         """Inflation from a small pressure up to ``t0 = end``, or to the law's end."""

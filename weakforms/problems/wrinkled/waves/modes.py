@@ -15,13 +15,12 @@ from contextlib import contextmanager
 from functools import cached_property
 
 import numpy as np
-import ufl
 from dolfinx import fem
 from ufl.core.expr import Expr
 
 from weakforms.forms import revolution
 from weakforms.problems.meridian.fields import Meridian
-from weakforms.problems.meridian.waves import AXIAL, CLAMPED, RADIAL, MeridianWaves
+from weakforms.problems.meridian.waves import PoleWaves
 from weakforms.problems.wrinkled.model import WrinkledModel, kept_with_model
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.solvers.equilibrium.state import State
@@ -32,7 +31,7 @@ MODE = ("meridional", "circumferential", "normal")
 """Components of a mode: along the meridian, around the axis, outwards."""
 
 
-class Waves(MeridianWaves):
+class Waves(PoleWaves):
     """Second variations of the state that a model is lent to, with their spectra and modes.
 
     Args:
@@ -44,18 +43,8 @@ class Waves(MeridianWaves):
         self.bending = fem.Constant(model.mesh, 0.0)
         """Name of the load ``beta``: bending stiffness over ``H^3``, for the circumferential curvature
         alone."""
-        self._sheared = fem.Constant(model.mesh, 0.0)
 
     # -- the operator --------------------------------------------------------------------------
-
-    def parts(self, d: Expr) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """``(u, q, w)`` of the unknowns ``(u + q, q, w)`` or ``(u, q, w)``, and slopes in ``S``.
-
-        One wave shifts a pole sideways, ``u + q = 0``, which is a condition on the first unknown alone.
-        """
-        width = self.model.expressions["width"]
-        mixed = [ufl.as_vector([v[0] - self._sheared * v[1], v[1], v[2]]) for v in (d, d.dx(0) / width)]
-        return tuple(mixed[0]), tuple(mixed[1])
 
     def energy(self, parts: tuple[Expr, ...], slopes: tuple[Expr, ...]) -> Expr:
         """Energy of the displaced surface per ``S``, with bending, summed over the two angles."""
@@ -73,9 +62,8 @@ class Waves(MeridianWaves):
 
         Edges and a pole do not move, except that one wave shifts the pole sideways.
         """
-        shifts = self.model.body.pole and n == 1
-        self.bending.value, self._sheared.value = beta, float(shifts)
-        return self.operator(n, (RADIAL, AXIAL) if shifts else CLAMPED)
+        self.bending.value = beta
+        return self.held(n)
 
     # -- spectra and modes -------------------------------------------------------------------------
 
