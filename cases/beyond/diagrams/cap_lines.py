@@ -3,7 +3,8 @@
 The hemisphere is the part up to a right angle. Limit points vanish in cusps: in one over C2/C1, where the law
 has become stiff enough, and in one over the angle, where the part has become shallow enough. The lines pass
 through the limit point of the problem hemisphere, and lie between that of the flat disk of circular
-and that of the whole balloon of sphere.
+and that of the whole balloon of sphere. No limit point is unstable to waves around the axis. The second
+variation of such waves is compared by the eigenvalues of the hemisphere.
 """
 
 from math import sin
@@ -28,9 +29,13 @@ from weakforms.cases import (
 
 CAP = {"body": "hemisphere", "kind": "fold"}
 OVER_ALPHA = diagram(**CAP, x="alpha", high=0.2).on(cells=24, levels=2)
-OVER_ANGLE = diagram(**CAP, alpha=0.0, high=2.4, t_end=4.5).on(cells=24, levels=2)
+OVER_ANGLE = diagram(body="hemisphere", kind="fold,n1,n2,n3", alpha=0.0, high=2.4, t_end=4.5).on(
+    cells=24, levels=2
+)
 STIFFER = diagram(**CAP, alpha=0.1, low=1.3, high=2.0).on(cells=24, levels=2)
 HANGING = hemisphere(load="gas", energy="relaxed")
+WAVES = hemisphere(load="gas", energy="relaxed", n=(1, 2, 3))
+EIGENVALUES = tuple(f"Lambda_n{n}_1" for n in (1, 2, 3))
 FLAT, BALLOON = circular(alpha=0, beta=1, t_end=1.5), sphere(model="mooney_rivlin", alpha=0.0)
 FIRST = At("alpha", 0.0, branch="fold")
 SHALLOW, DEEP, DEEPER = (At("angle", angle, branch="fold") for angle in (0.4, 1.6, 2.4))
@@ -65,6 +70,14 @@ def between(solutions: Solutions) -> Finding:
     )
 
 
+def no_waves(solutions: Solutions) -> Finding:
+    """No limit point is unstable to waves around the axis."""
+    line = solutions.branch(OVER_ANGLE, "fold").columns
+    return decide.all_of(
+        decide.same(f"n = {n}", sorted(set(line[f"n_negative_n{n}"].tolist())), [0]) for n in (1, 2, 3)
+    )
+
+
 CASE = Case(
     title="Lines of limit points of parts of spheres",
     source="the membrane of Patil, Nordmark & Eriksson (2016)",
@@ -87,6 +100,13 @@ CASE = Case(
                 Curve(OVER_ANGLE, "neo-Hookean", "caps_fold_angle", branch="fold"),
                 Curve(STIFFER, r"$\alpha = 0.1$", branch="fold"),
             ),
+        ),
+        Panel(
+            "c",
+            x=Axis("p", 0, 3.2),
+            y=Axis("Lambda", 0, 30),
+            title="waves around the hemisphere",
+            curves=tuple(Curve(WAVES, f"$n = {name[8]}$", "caps_waves", y=name) for name in EIGENVALUES),
         ),
     ),
     checks=(
@@ -116,6 +136,12 @@ CASE = Case(
             (*((OVER_ANGLE, at) for at in (SHALLOW, DEEP, DEEPER)), (FLAT, None), (BALLOON, None)),
             between,
         ),
+        Claim(
+            "no_waves",
+            "no limit point is unstable to one, two or three waves around the axis",
+            ((OVER_ANGLE, None),),
+            no_waves,
+        ),
     ),
-    asked=dict.fromkeys(("p", "alpha", "angle", "t0", "lam_pole"), 1e-7),
+    asked=dict.fromkeys(("p", "alpha", "angle", "t0", "lam_pole", *EIGENVALUES), 1e-7),
 )

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
+from reference_data.solvers.beyond.caps import energy, waves_ritz
 from weakforms import solve
 from weakforms.errors import InputError
 from weakforms.problems.diagram.bodies import cap
@@ -98,6 +99,19 @@ def test_waves_around_a_hemisphere_are_those_of_the_problem_hemisphere():
             (form,) = found.operators(f"n{n}").values()
             exact = [state.quantities[name].value for name in eigenvalue_names(n)]
             assert form().spectrum(3).eigenvalues == pytest.approx(exact, rel=1e-6)
+
+
+@pytest.mark.parametrize(("angle", "height"), [(0.6, 0.8), (2.2, 2.6)])
+def test_waves_around_other_parts_of_spheres_are_those_of_their_energy_in_space(angle, height):
+    """By the reference code, which shares nothing with the weak form."""
+    found = model(angle)
+    state = found.primary(height + 0.1, 0.2).at("t0", height).state
+    exact = energy.start("angle", 0.0, angle, height, energy.DEGREES[1])
+    assert state.loads["p"] == pytest.approx(exact.p, rel=1e-7)
+    with found.system.at(state):
+        for n in (1, 2, 3):
+            (form,) = found.operators(f"n{n}").values()
+            assert form().spectrum(1).eigenvalues[0] == pytest.approx(waves_ritz.lowest(exact, n), rel=1e-6)
 
 
 def test_at_limit_points_of_parts_of_spheres_no_wave_is_unstable():

@@ -96,3 +96,16 @@ def test_there_is_one_newton():
                 ):
                     loops.add(path.relative_to(SOLVERS).as_posix())
     assert loops == {"core/newton.py"}
+
+
+def test_methods_for_waves_around_parts_of_spheres_share_their_data_only():
+    """Each takes one method of the limit points and one of the tube's waves."""
+    taken = []
+    for name in ("waves_shooting", "waves_ritz"):
+        own = {module for module, _ in imported(SOLVERS / f"beyond/caps/{name}.py")}
+        taken.append({module for module in own if not module.startswith("core/")})
+    assert taken[0] & taken[1] == {"beyond/caps/ring"}
+    assert [sorted(own - {"beyond/caps/ring"}) for own in taken] == [
+        ["beyond/caps/shooting", "beyond/tube_waves/strong"],
+        ["beyond/caps/energy", "beyond/tube_waves/ritz"],
+    ]

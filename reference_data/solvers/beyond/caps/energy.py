@@ -163,6 +163,18 @@ def equilibrium(at: Point, t0: float) -> Point:
     return replace(at, u=x[:-1], p=float(x[-1]))
 
 
+def under(at: Point, p: float) -> Point:
+    """The state at a pressure, from a guess."""
+
+    def correct(u: Array) -> tuple[float, Any]:
+        step = np.linalg.solve(second(at, u, p, at.mu), gradient(at, u, p, at.mu))
+        return float(np.abs(step).max()), lambda share: u - share * step
+
+    return replace(
+        at, u=newton(at.u, correct, f"part of a sphere at p = {p:g}", longest=0.3, close=1e-9), p=p
+    )
+
+
 def limit(at: Point, **held: float) -> Point:
     """The limit point at which t0, lam_pole, or the parameter has a value, from a guess."""
     ((name, value),) = held.items()

@@ -91,23 +91,28 @@ def shot(l0: Array, of: Data, how: Accuracy) -> Array:
     length = of.angle / np.sin(of.angle)
     left = (1 - np.arange(how.steps + 1) / how.steps) ** SHORTER * np.log(how.piece)
     y = np.array([l0, meridional(l0, l0, of.alpha), 0 * l0])
-    for begin, end in pairwise(left.tolist()):
-        table = [_midpoint(y, np.log(length) + begin, of, end - begin, n) for n in SUBSTEPS]
-        for j in range(1, len(table)):  # Neville's scheme in the square of the substep
-            for i in range(len(table) - 1, j - 1, -1):
-                ratio = (SUBSTEPS[i] / SUBSTEPS[i - j]) ** 2 - 1
-                table[i] = table[i] + (table[i] - table[i - 1]) / ratio
-        y = table[-1]
+    for begin, end in pairwise([np.log(length) + x for x in left.tolist()]):
+        y = extrapolated(lambda y, at: rates(y, at, of), y, begin, end)
     return y
 
 
-def _midpoint(y: Array, at: Any, of: Data, h: Any, n: int) -> Array:
-    """Gragg's modified midpoint rule with n substeps."""
+def extrapolated(slope: Callable[[Array, Any], Array], y: Array, begin: Any, end: Any) -> Array:
+    """A step by Gragg's midpoint rule, extrapolated by Neville's scheme in the square of the substep."""
+    table = [_midpoint(slope, y, begin, end - begin, n) for n in SUBSTEPS]
+    for j in range(1, len(table)):
+        for i in range(len(table) - 1, j - 1, -1):
+            ratio = (SUBSTEPS[i] / SUBSTEPS[i - j]) ** 2 - 1
+            table[i] = table[i] + (table[i] - table[i - 1]) / ratio
+    return table[-1]
+
+
+def _midpoint(slope: Callable[[Array, Any], Array], y: Array, at: Any, h: Any, n: int) -> Array:
+    """N substeps."""
     step = h / n
-    before, now = y, y + step * rates(y, at, of)
+    before, now = y, y + step * slope(y, at)
     for k in range(1, n):
-        before, now = now, before + 2 * step * rates(now, at + k * step, of)
-    return (before + now + step * rates(now, at + h, of)) / 2
+        before, now = now, before + 2 * step * slope(now, at + k * step)
+    return (before + now + step * slope(now, at + h)) / 2
 
 
 def misses(x: Array, held: dict[str, Array], of: dict[str, Any], vary: str, how: Accuracy) -> Array:

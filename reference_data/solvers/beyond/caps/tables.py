@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from reference_data.solvers.beyond.caps import energy as ritz
 from reference_data.solvers.beyond.caps import shooting as shoot
+from reference_data.solvers.beyond.caps import waves_ritz, waves_shooting
 from reference_data.solvers.core.tables import Levels, Series, Table, agreed, steps
 from reference_data.solvers.registry import Builder
 
@@ -19,6 +21,9 @@ ROUNDING_OF_SHOTS = 3e-12
 """The same of shooting, with the error of the flat piece at the pole."""
 AT_CUSP = 1e-11
 """The same of both at cusps, where derivatives are taken twice."""
+OF_WAVES = 1e-11
+"""The same of eigenvalues by both."""
+WAVES = (1, 2, 3)
 
 COLUMNS = {
     "t0": ("1/R_f", "height of the pole above the clamp"),
@@ -27,6 +32,10 @@ COLUMNS = {
     "alpha": ("1", "C2/C1"),
     "angle": ("rad", "angle from the pole to the clamp, at rest"),
     "order": ("1", "number along the line, from 1"),
+    **{
+        f"Lambda_n{n}_1": ("1", f"lowest eigenvalue, wave number {n}, against int |dx|^2 dA at rest")
+        for n in WAVES
+    },
 }
 DEGREES = " and ".join(map(str, ritz.DEGREES))
 SERIES = Series(
@@ -41,6 +50,13 @@ SERIES = Series(
     f"{shoot.LEVELS[0].piece:g} and {shoot.LEVELS[1].piece:g} of the arc; (b) degrees {DEGREES} in the "
     "square of the arc",
     "Newton takes two more steps after the first one below 1e-9: rounding only",
+)
+
+SERIES_OF_WAVES = replace(
+    SERIES,
+    method="Two codes that share no equation: (a) shooting from the pole, of the state and of the linearised "
+    "strong equations of a wave, with a determinant at the clamp; (b) second derivatives of the energy of a "
+    "surface in space, in polynomials that are regular at the pole. The values are (b).",
 )
 
 
@@ -115,6 +131,48 @@ def cusp(name: str, vary: str, alpha: float, angle: float, begin: float, near: A
     return SERIES.table(name, title, "", _other(fine), columns, extra={"keys": ["order"]})
 
 
+def waves(
+    name: str, angle: float, begin: float, pressures: Array, levels: tuple[shoot.Accuracy, ...] = shoot.LEVELS
+) -> Table:
+    """The lowest eigenvalues of waves around a neo-Hookean part of a sphere over the pressure.
+
+    Args:
+        name: Of the table.
+        angle: That of the clamp.
+        begin: Height of the pole of a guess of the first state.
+        pressures: The pressures, below the limit point.
+        levels: Accuracies of shooting.
+    """
+    state, states = ritz.start("angle", 0.0, angle, begin, ritz.DEGREES[0]), []
+    for p in pressures.tolist():
+        state = ritz.under(state, p)
+        states.append((state, ritz.under(ritz.refined(state, ritz.DEGREES[1]), p)))
+    data = [shoot.Data(p, 0.0, angle) for p in pressures.tolist()]
+    poles = [
+        [
+            waves_shooting.pole(fine.numbers["lam_pole"], of, how)
+            for (_, fine), of in zip(states, data, strict=True)
+        ]
+        for how in levels
+    ]
+    columns = SERIES.keys(p=pressures)
+    for n in WAVES:
+        own = np.array([[waves_ritz.lowest(at, n) for at in pair] for pair in states]).T
+        other = [
+            np.array([
+                waves_shooting.eigenvalue(*given, n, near, how)
+                for *given, near in zip(found, data, own[1].tolist(), strict=True)
+            ])
+            for how, found in zip(levels, poles, strict=True)
+        ]  # fmt: skip
+        column = f"Lambda_n{n}_1"
+        pair = Levels(*other, rounding=OF_WAVES), Levels(*own, rounding=OF_WAVES)
+        columns.append(agreed(name, column, *pair, COLUMNS[column], other="shooting", written="energy"))
+    return SERIES_OF_WAVES.table(
+        name, "Waves around a part of a sphere", "", {"alpha": 0.0, "angle": angle}, columns
+    )
+
+
 def _pair(
     name: str,
     by_shots: list[dict[str, Array]],
@@ -145,4 +203,5 @@ TABLES: dict[str, Builder] = {
     "caps_cusp_angle": partial(
         cusp, "caps_cusp_angle", "angle", 0.1, 2.0, 2.65, np.array([1.9, 2.1, 2.4, 2.7])
     ),
+    "caps_waves": partial(waves, "caps_waves", HEMISPHERE, 1.05, steps(0.5, 3.0, 0.5)),
 }  # fmt: skip
