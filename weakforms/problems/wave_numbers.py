@@ -9,6 +9,7 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field
 
 from weakforms.errors import InputError
+from weakforms.problems.column import Column, derived, numbers
 
 MOST_WAVES = 400
 """Largest wave number that can be requested; larger ones were not tested on the default meshes."""
@@ -44,6 +45,48 @@ EIGENVALUE = re.compile(r"Lambda_n(\d+)_(\d+)")
 def eigenvalue_names(n: int) -> list[str]:
     """Names of the lowest eigenvalues of a wave number."""
     return [f"Lambda_n{n}_{k}" for k in range(1, LOWEST + 1)]
+
+
+def eigenvalue_columns(most: int, mass: str, whole: str) -> tuple[Column, ...]:
+    """Declarations of the eigenvalues of all wave numbers.
+
+    Args:
+        most: Largest wave number.
+        mass: The integral against which eigenvalues are.
+        whole: What else the axisymmetric ones are of.
+    """
+    return tuple(
+        Column(
+            name,
+            f"eigenvalue {k} in ascending order at fixed p against {mass}, "
+            + (f"{n} wave{'s' if n > 1 else ''} around" if n else f"axisymmetric without torsion, {whole}"),
+        )
+        for n in range(most + 1)
+        for k, name in enumerate(eigenvalue_names(n), 1)
+    )
+
+
+def count_columns(most: int, whole: str) -> tuple[Column, ...]:
+    """Declarations of the numbers of negative eigenvalues of all wave numbers.
+
+    Args:
+        most: Largest wave number.
+        whole: What the axisymmetric ones are of.
+    """
+    return derived(
+        *numbers(
+            n_negative_volume=f"number of negative eigenvalues at fixed volume, axisymmetric, {whole}",
+            **{
+                f"n_negative_n{n}": "number of negative eigenvalues at fixed p, "
+                + (
+                    f"{n} wave{'s' if n > 1 else ''} around (each of them twice: cos and sin)"
+                    if n
+                    else f"axisymmetric, {whole}"
+                )
+                for n in range(most + 1)
+            },
+        )
+    )
 
 
 def require_waves(problem: str, n: tuple[int, ...], wanted: Iterable[str]) -> None:

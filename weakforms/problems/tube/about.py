@@ -5,6 +5,7 @@ import math
 from weakforms.problems import column
 from weakforms.problems.about import LINE, MORE, SCHEME, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
+from weakforms.problems.wave_numbers import count_columns, eigenvalue_columns
 
 FREE = (
     column.PRESSURE,
@@ -41,27 +42,9 @@ BIFURCATIONS = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, MOST_
 STABILITY = (
     Column("t_min", "smallest principal Cauchy resultant anywhere over {resultant}"),
     Column("Z_t_min", "distance of that place from the mid-plane on the pre-stretched tube over {length}"),
-    *(
-        Column(
-            f"Lambda_n{n}_{k}",
-            f"eigenvalue {k} in ascending order at fixed p against int |dx|^2 dZ, "
-            + (f"{n} wave{'s' if n > 1 else ''} around" if n else "axisymmetric without torsion, whole tube"),
-        )
-        for n in range(MOST_WAVES + 1)
-        for k in (1, 2, 3)
-    ),
-    *derived(
-        *numbers(
-            wrinkled="1 if the membrane is compressed somewhere (t_min < 0), else 0",
-            n_negative_volume="number of negative eigenvalues at fixed volume, axisymmetric, whole tube",
-            **{
-                f"n_negative_n{n}": "number of negative eigenvalues at fixed p, "
-                + (f"{n} wave{'s' if n > 1 else ''} around (each of them twice: cos and sin)" if n else "")
-                + ("" if n else "axisymmetric, whole tube")
-                for n in range(MOST_WAVES + 1)
-            },
-        )
-    ),
+    *eigenvalue_columns(MOST_WAVES, "int |dx|^2 dZ", "whole tube"),
+    *derived(*numbers(wrinkled="1 if the membrane is compressed somewhere (t_min < 0), else 0")),
+    *count_columns(MOST_WAVES, "whole tube"),
 )
 """Columns of free inflation for which wave numbers are asked."""
 

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from itertools import pairwise
-from math import inf
 from typing import Any, ClassVar
 
 import numpy as np
 
 from weakforms.problems.meridian.compression import ONSET, SLOPES
-from weakforms.problems.tube.waves import EXTREMES, Wave
+from weakforms.problems.meridian.families import WaveBranch, WaveFamily
+from weakforms.problems.tube.waves import EXTREMES
 from weakforms.results import Branch, Quantity
 from weakforms.solvers.continuation.crossing import Crossing
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.state import State
-from weakforms.solvers.stability.agreement import same_count
-from weakforms.solvers.stability.modal import ModalBranch, ModalFamily
-from weakforms.solvers.uncertainty.family import BranchFamily
 
 SLACK = 1e-9
 """Resultants below this magnitude count as zero: without pressure the hoop resultant is zero everywhere."""
@@ -27,24 +24,17 @@ PLACES = 6
 """Decimal places of the arc length by which special points are put in order."""
 
 
-class TubeBranch(ModalBranch):
-    """Axisymmetric states over the pressure, with the stability against waves."""
+class TubeBranch(WaveBranch):
+    """Free inflation with the stability against waves."""
 
-    end = inf
-    """``u_max`` at which the branch ends. Its last step goes beyond, on each mesh by another length."""
+    along = "u_max"
 
     limit: Callable[[State], str] = staticmethod(lambda _state: "")
     """Why the law takes no more than a state, where a trace may stall."""
 
-    @property
-    def computed(self) -> Sequence[str]:
-        """The additional columns, and the lowest eigenvalue in the symmetry of the states."""
-        return ("eigenvalue_1", *self.modes.columns)
-
     def special(self) -> list[Solved]:
         """Limit points, zeros of every family and onsets of wrinkling, in order along the branch."""
-        found = [self._flagged(solved) for solved in super().special()]
-        return [s for s in found if s.kind == "limit_point" or s.values["u_max"] <= self.end]
+        return [self._flagged(solved) for solved in super().special()]
 
     def _placed(self) -> list[tuple[float, Solved]]:
         found = super()._placed()
@@ -93,20 +83,17 @@ class TubeBranch(ModalBranch):
         with self.system.at(state):
             return self.modes.counts(own) | {"wrinkled": int(is_wrinkled(self.modes.least_resultant()[0]))}
 
-    def _named(self, n: Wave, direction: float) -> tuple[str, dict[str, float]]:
-        return n.kind, {"n": float(n.n), "parity": float(n.parity), "direction": direction}
-
 
 def is_wrinkled(least: float) -> bool:
     """Whether a smallest principal resultant is compressive."""
     return least < -SLACK
 
 
-class TubeFamily(ModalFamily):
+class TubeFamily(WaveFamily):
     """Free inflation with its stability, on all meshes."""
 
     fine: TubeBranch
-    marks: ClassVar = ("n", "parity", "direction", "wrinkled")
+    marks: ClassVar = (*WaveFamily.marks, "wrinkled")
     located_by: ClassVar = {ONSET: "t_min"}
 
     def branch(self, with_uncertainty: bool = True) -> Branch:
@@ -123,19 +110,6 @@ class TubeFamily(ModalFamily):
     ) -> Quantity:
         found = super()._quantity(values, name, held, in_mean, most)
         return replace(found, uncertainty=_with_rounding({name: found.uncertainty})[name])
-
-    def _trace(self) -> dict[str, np.ndarray]:
-        """Columns of the finest mesh's trace, with the counts."""
-        rows = [self.fine.counted(point.state, point.n_negative) for point in self.fine.points]
-        return super()._trace() | {name: np.array([row[name] for row in rows]) for name in rows[0]}
-
-    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """Numbers of negative eigenvalues; at a special point those of the waves are left out."""
-        found = BranchFamily._diagnostics(self, solved, critical)
-        if critical:
-            return found
-        rows = [level.counted(s.state) for level, s in zip(self.levels, solved, strict=True)]
-        return found | {name: Quantity(same_count(row[name] for row in rows)) for name in rows[0]}
 
 
 def _with_rounding(uncertainty: Mapping[str, Any]) -> dict[str, Any]:
