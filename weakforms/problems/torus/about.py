@@ -3,6 +3,13 @@
 from weakforms.problems import column
 from weakforms.problems.about import LINE, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
+from weakforms.problems.wave_numbers import count_columns, eigenvalue_columns
+
+MOST_WAVES = 6
+"""Largest wave number for which the stability of a torus is computed."""
+
+BIFURCATIONS = ("mirror_breaking", *(f"bifurcation_n{n}" for n in range(1, MOST_WAVES + 1)))
+"""Kinds of special points where an eigenvalue of waves is zero."""
 
 TORUS = About(
     name="torus",
@@ -15,7 +22,13 @@ TORUS = About(
     control="p (compare over V, which increases past limit points)",
     unknown="r and z over the angle t of the cross-section, from the outer equator (t = 0) to the inner one "
     "(t = pi), where z = 0; the other half is the mirror image",
-    forms=("problems.meridian.model:MeridianModel", "forms.loads:gas_potential"),
+    forms=(
+        "problems.meridian.model:MeridianModel",
+        "forms.loads:gas_potential",
+        "forms.revolution:around",
+        "forms.revolution:strain_energy",
+        "forms.revolution:gas_energy",
+    ),
     units=Units("a", "C1", "h"),
     columns=(
         column.PRESSURE,
@@ -32,6 +45,8 @@ TORUS = About(
                 "int (lam1 W_,1 + lam2 W_,2) dA over {energy}; 3 p V in equilibrium, because lengths scale",
             ),
         ),
+        *eigenvalue_columns(MOST_WAVES, "int |dx|^2 dA, not moved as a rigid body", "whole torus"),
+        *count_columns(MOST_WAVES, "whole torus"),
         *column.DIAGNOSTICS,
     ),
     numbers=(
@@ -40,6 +55,10 @@ TORUS = About(
             b="radius of the cross-section over {length}",
             alpha="C2/C1",
             t="angle of the cross-section from the outer equator, in radians",
+            eigenvalue_1="lowest eigenvalue of the second variation at fixed p against int |dx|^2 dA",
+            n="wave number of a bifurcation point",
+            parity="of a bifurcation point about the equatorial plane: 1 even, -1 odd",
+            direction="1 if an eigenvalue becomes negative with growing volume, -1 if it becomes positive",
         ),
         Column("r", "distance from the axis over {length}", "r"),
         Column("z", "height over {length}", "z"),
@@ -48,7 +67,7 @@ TORUS = About(
         column.T1,
         column.T2,
     ),
-    special_points=("limit_point", "bifurcation_point"),
+    special_points=("limit_point", "bifurcation_point", *BIFURCATIONS),
     example=Example("V", "p", {"alpha": 0.0}, numerics={"cells": 16, "levels": 2}),
     tuned=(
         Family(

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Callable
+from functools import partial
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
 
+from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family, MeshNumerics, from_rest
-from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.material_choice import MaterialChoice, require_model
+from weakforms.problems.meridian.families import WaveFamily
 from weakforms.problems.meridian.limits import limit_along, relative_stiffness
-from weakforms.problems.problem import End, Task
-from weakforms.problems.torus.about import TORUS
+from weakforms.problems.problem import End, Requests, Task
+from weakforms.problems.torus.about import MOST_WAVES, TORUS
 from weakforms.problems.torus.model import TorusModel
+from weakforms.problems.torus.waves import TorusBranch, TorusModes
+from weakforms.problems.wave_numbers import eigenvalue_names, require_waves, wave_numbers
 from weakforms.solvers.continuation.branch import EquilibriumBranch
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.uncertainty.family import BranchFamily
@@ -47,12 +53,32 @@ class TorusParameters(MaterialChoice):
     v_end: float = Field(
         4.0, ge=1.5, le=20, description="volume over that of the stress-free torus at which the branch ends"
     )
+    n: Annotated[tuple[int, ...], wave_numbers(MOST_WAVES)] = Field(
+        (),
+        description="wave numbers for which stability is computed, such as 0,1,2; 0: axisymmetric, also "
+        "without the equatorial plane of symmetry",
+    )
 
 
 class Torus(BranchProblem):
     """Inflation of a torus, symmetric about its equatorial plane."""
 
     about, parameters, numerics = TORUS, TorusParameters, TorusNumerics
+
+    def check(self, parameters: TorusParameters, requests: Requests) -> None:
+        """Refuse eigenvalues of other wave numbers, and waves of a law without a form for them.
+
+        Raises:
+            InputError: For either.
+        """
+        require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
+        super().check(parameters, requests)
+        if parameters.n:
+            require_model("torus: waves around the axis", parameters, tuple(LAWS))
+
+    def computed(self, parameters: TorusParameters) -> tuple[str, ...]:
+        """The lowest eigenvalues."""
+        return ("eigenvalue_1", *(name for n in parameters.n for name in eigenvalue_names(n)))
 
     def ends(self, parameters: TorusParameters, _branch: str) -> list[End]:
         """The last volume."""
@@ -67,6 +93,9 @@ class Torus(BranchProblem):
             cells, degree = numerics.meshes[level], numerics.degree
             model = TorusModel(task.comm, given.material, given.b, cells, degree)
             limit = limit_along(model)
+            kind: Callable[..., EquilibriumBranch] = EquilibriumBranch
+            if given.n:
+                kind = partial(TorusBranch, modes=TorusModes(model, given.n))
             usual = relative_stiffness(given.material) / given.b
             branch = from_rest(
                 model.system,
@@ -76,8 +105,11 @@ class Torus(BranchProblem):
                 numerics.step,
                 begin=State(model.system.initial.u, {"p": numerics.start * usual}),
                 usual_load=USUAL_LOAD * usual,
+                kind=kind,
                 gives_way=lambda point: limit(point.state),
             )
+            if isinstance(branch, TorusBranch):
+                branch.end = given.v_end
             last = branch.points[-1]
             if branch.stalled is None and (why := limit(last.state)):
                 branch.ended = (
@@ -87,7 +119,8 @@ class Torus(BranchProblem):
 
         order = 2.0 * numerics.degree
         caps = dict.fromkeys(("z_top",), numerics.degree + 1.0)
-        return {"primary": BranchFamily(make, numerics.levels, order, ("p", "V"), caps=caps)}
+        family = WaveFamily if given.n else BranchFamily
+        return {"primary": family(make, numerics.levels, order, ("p", "V"), caps=caps)}
 
     def points(self, _parameters: TorusParameters) -> np.ndarray:
         """41 angles from the outer to the inner equator."""
