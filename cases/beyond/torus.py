@@ -17,6 +17,7 @@ from weakforms.cases import (
     Panel,
     Points,
     Solutions,
+    Spec,
     decide,
     torus,
 )
@@ -27,6 +28,24 @@ THICK = torus(b=0.6)
 TORI = {"usual": USUAL, "slender": SLENDER, "thick": THICK}
 STATE = At("V", 6.316547, profile=())
 """Twice the volume without stress."""
+
+WAVES = torus(n=(0, 1, 2, 3)).on(degree=5, cells=32, levels=2, step=0.15)
+"""With stability; tori as in the table of bifurcation points."""
+
+
+def waves(b: float, alpha: float, v_end: float) -> Spec:
+    """One torus with its stability."""
+    return WAVES.at(b=b, alpha=alpha, v_end=v_end)
+
+
+SWELLS, NARROW = waves(0.4, 0.0, 4.2), waves(0.2, 0.1, 5.2)
+STIFF, STIFFER = waves(0.4, 0.1, 5.2), waves(0.4, 0.2, 7.2)
+EVEN = {n: f"bifurcation_n{n}" for n in (1, 2, 3)}
+FOUND = {SWELLS: (1, 2), NARROW: (1, 2, 3), STIFF: (1,), STIFFER: ()}
+"""Wave numbers of the bifurcation points of each torus, in the order of their volumes."""
+
+PRESSURE = tuple(f"n_negative_n{n}" for n in range(4))
+VOLUME = ("n_negative_volume", *PRESSURE[1:])
 
 ASKED = 1e-7
 OUTER = 1.7 + 0.2 * np.cos(np.pi * np.arange(10, -1, -1) / 10)
@@ -58,6 +77,32 @@ def work(solutions: Solutions) -> Finding:
     return decide.agree("work of the gas", stored[-1] - stored[0], exact, 1e-6)
 
 
+def order(solutions: Solutions) -> Finding:
+    """The limit point comes first, then bifurcations by their wave numbers."""
+    return decide.all_of(
+        *(
+            decide.less(
+                f"V of special points, {spec}",
+                solutions.point(spec, "limit_point", "V"),
+                *(solutions.point(spec, EVEN[n], "V") for n in found),
+            )
+            for spec, found in FOUND.items()
+            if found
+        )
+    )
+
+
+def counts(solutions: Solutions) -> Finding:
+    """Numbers of negative eigenvalues along the branches, with growing volume; waves count once."""
+    found = []
+    for spec, numbers in FOUND.items():
+        columns = solutions.branch(spec).columns
+        for held, names, more in (("pressure", PRESSURE, 1), ("volume", VOLUME, 0)):
+            runs = decide.runs(sum(columns[name] for name in names))
+            found.append(decide.same(f"{spec}, {held} held", runs, list(range(len(numbers) + more + 1))))
+    return decide.all_of(*found)
+
+
 CASE = Case(
     title="Inflation of a torus",
     source="a benchmark of codes for membranes: the toroidal membrane",
@@ -80,6 +125,43 @@ CASE = Case(
             note="Twice the volume without stress.",
             curves=(Curve(USUAL, r"$b = 0.4,\ \alpha = 0$", reference="torus_meridian", at=STATE, y="lam1"),),
         ),
+        Panel(
+            "held_volume",
+            x=Axis("V", 3, 13.5),
+            y=Axis("p", 0, 5),
+            title="volume held",
+            markers=("limit_point", *EVEN.values()),
+            counted=VOLUME,
+            note="Lines by the number of negative eigenvalues.",
+            curves=(
+                Curve(SWELLS, r"$b = 0.4,\ \alpha = 0$"),
+                Curve(STIFF, r"$b = 0.4,\ \alpha = 0.1$"),
+            ),
+        ),
+        Panel(
+            "eigenvalues",
+            x=Axis("V", 3, 13),
+            y=Axis("Lambda_n1_1", -3, 7),
+            title="lowest eigenvalue for one, two and three waves around",
+            note="Not a figure of the thesis.",
+            curves=(
+                Curve(SWELLS, r"$n = 1$", reference="torus_eigenvalues"),
+                Curve(SWELLS, r"$n = 2$", y="Lambda_n2_1"),
+                Curve(SWELLS, r"$n = 3$", y="Lambda_n3_1"),
+            ),
+        ),
+        Panel(
+            "slender_eigenvalues",
+            x=Axis("V", 0.8, 4.2),
+            y=Axis("Lambda_n1_1", -6, 5),
+            title="the same of a slender torus",
+            note="Not a figure of the thesis.",
+            curves=(
+                Curve(NARROW, r"$n = 1$", reference="torus_slender_eigenvalues"),
+                Curve(NARROW, r"$n = 2$", y="Lambda_n2_1"),
+                Curve(NARROW, r"$n = 3$", y="Lambda_n3_1"),
+            ),
+        ),
     ),
     checks=(
         Count("limit_point", dict.fromkeys(TORI.values(), 1), "number of limit points"),
@@ -93,6 +175,34 @@ CASE = Case(
             tuple((spec, at) for name, spec in TORI.items() for at in states(name)),
             taut,
         ),
+        *(
+            Points(
+                kind,
+                "torus_waves",
+                WAVES,
+                ("b", "alpha", "v_end"),
+                dict.fromkeys(("p", "V", "r_out"), ASKED),
+                {"n": float(n), "parity": 1.0},
+            )
+            for n, kind in EVEN.items()
+        ),
+        *(
+            Count(kind, {spec: int(n in found) for spec, found in FOUND.items()}, f"n = {n}")
+            for n, kind in EVEN.items()
+        ),
+        Count("mirror_breaking", dict.fromkeys(FOUND, 0), "axisymmetric waves, odd"),
+        Claim(
+            "order",
+            "a torus loses its axial symmetry only beyond its limit point, to fewer waves first",
+            tuple((spec, None) for spec, found in FOUND.items() if found),
+            order,
+        ),
+        Claim(
+            "counts",
+            "negative eigenvalues along the branches, at given pressure and at given volume",
+            tuple((spec, None) for spec in FOUND),
+            counts,
+        ),
         Claim(
             "work",
             "the work of the gas is the change of strain energy",
@@ -101,5 +211,6 @@ CASE = Case(
         ),
     ),
     asked=dict.fromkeys(("p", "r_out", "r_in", "U", "virial", "r", "z"), ASKED)
-    | {"z_top": ASKED, "lam1": 1e-6, "lam2": 1e-6},
+    | {"z_top": ASKED, "lam1": 1e-6, "lam2": 1e-6}
+    | {f"Lambda_n{n}_1": ASKED for n in range(4)},
 )

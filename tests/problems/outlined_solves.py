@@ -111,6 +111,7 @@ SOLVES: dict[str, dict[str, Any]] = {
     },
     "annulus": {"s": 1.05, "psi_end": 0.3, "at": {"psi": 0.2}, "numerics": LINE},
     "torus": {"b": 0.3, "v_end": 2.5, "at": {"v": 1.8}, "numerics": LINE},
+    "torus, waves": {"alpha": 0.0, "v_end": 3.5, "n": (0, 1), "at": {"v": 1.8}, "numerics": LINE},
     "material": {"model": "ogden"},
     "sphere": {"model": "biderman"},
     "infinite_tube": {"force": 0.5},

@@ -102,6 +102,11 @@ class Series:
         lam2 = r / (1 + self.b * np.cos(t))
         return {"r": r, "z": z, "lam1": np.sqrt(r_t**2 + z_t**2) / self.b, "lam2": lam2}
 
+    def slopes(self, x: Array, t: Array) -> tuple[Array, Array, Array]:
+        """Distance from the axis, its slope, and that of the height, of a state at angles."""
+        r, _, r_t, z_t = self._meridian(x, self._at(t))
+        return r, r_t, z_t
+
     def _numbers(self, x: Array) -> dict[str, float]:
         r, z, _, _ = self._meridian(x)
         radius, first, second = self._metric(x)
