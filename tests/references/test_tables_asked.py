@@ -24,6 +24,8 @@ UNFINISHED = {
     "beyond.tables_tube_bends.limit_points",
     "beyond.tables_tube_bends.waves",
     "beyond.tables_tube_bends.wrinkling",
+    "beyond.torus.tables_waves.eigenvalues",
+    "beyond.torus.tables_waves.points",
     "materials.tables_disk.limits",
     "materials.tables_liquid_tube.points",
     "paper1.tables_contact.frictionless",
