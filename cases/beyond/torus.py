@@ -127,7 +127,7 @@ CASE = Case(
         ),
         Panel(
             "held_volume",
-            x=Axis("V", 3, 13.5),
+            x=Axis("V", 3, 16),
             y=Axis("p", 0, 5),
             title="volume held",
             markers=("limit_point", *EVEN.values()),
@@ -141,7 +141,7 @@ CASE = Case(
         Panel(
             "eigenvalues",
             x=Axis("V", 3, 13),
-            y=Axis("Lambda_n1_1", -3, 7),
+            y=Axis("Lambda_n1_1", -3, 7, r"\Lambda"),
             title="lowest eigenvalue for one, two and three waves around",
             note="Not a figure of the thesis.",
             curves=(
@@ -153,7 +153,7 @@ CASE = Case(
         Panel(
             "slender_eigenvalues",
             x=Axis("V", 0.8, 4.2),
-            y=Axis("Lambda_n1_1", -6, 5),
+            y=Axis("Lambda_n1_1", -6, 5, r"\Lambda"),
             title="the same of a slender torus",
             note="Not a figure of the thesis.",
             curves=(
