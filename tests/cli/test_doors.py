@@ -258,6 +258,7 @@ def test_what_starts_processes_of_its_own_is_refused_on_several_ranks(
 ):
     ended = []
     two = SimpleNamespace(size=2, rank=0, Get_rank=lambda: 0, Get_size=lambda: 2, Abort=ended.append)
+    two.Isend = two.Irecv = lambda *_: SimpleNamespace(Test=lambda: True)  # the other rank refuses it too
     monkeypatch.setattr(MPI, "COMM_WORLD", two)
     called = weakforms(*words, "--out", tmp_path / "out")
     monkeypatch.undo()

@@ -115,8 +115,8 @@ def compression(
     text = "is compressed from its first state on" if begins else ""
     for same in zip(*found, strict=True):
         at = special_point(same, shown, order, "primary", across, {place: order - 1})
-        spread = at.uncertainty | {place: at.uncertainty[place] + SLOPES}
-        number = {name: f"{name} = {uncertain(at.values[name], spread[name])}" for name in shown}
+        uncertainty = at.uncertainty | {place: at.uncertainty[place] + SLOPES}
+        number = {name: f"{name} = {uncertain(at.values[name], uncertainty[name])}" for name in shown}
         if at.kind == TAUT:
             text = f"{text.removesuffix(' on')} to {number[along]}"
         else:

@@ -58,11 +58,16 @@ RELAXED = (
     Column("wrinkled_fraction", "fraction of the length that is wrinkled, of one zone or of both"),
     Column(
         "Z_front_1",
-        "Z of the end of the wrinkled zone that is nearer to the mid-plane",
+        "Z of the end of the wrinkled zone that is nearer to the mid-plane, over {length}",
         "Z_1",
         dimension="length",
     ),
-    Column("Z_front_2", "Z of its other end; lf/2 if it ends at the disk", "Z_2", dimension="length"),
+    Column(
+        "Z_front_2",
+        "Z of its other end over {length}; lf/2 if it ends at the disk",
+        "Z_2",
+        dimension="length",
+    ),
 )
 """Columns of the relaxed energy only."""
 
