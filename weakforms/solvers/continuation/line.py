@@ -131,7 +131,7 @@ class CriticalLine(SolutionCurve):
             if name in self.loads:
                 raise
             i = int(self.crossings(name, value)[crossing - 1])
-            return self._root(i, lambda solved: solved.values[name] - value, "")
+            return self.zero(i, lambda solved: solved.values[name] - value, "")
 
     def arclength(self, i: int, state: State) -> float:
         """Position of a state after point ``i``."""
