@@ -14,10 +14,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from math import sqrt
 from typing import Any
 
 import numpy as np
+from mpi4py import MPI
 
 from weakforms.errors import AbsentError, ConvergenceError
 from weakforms.problems.tube.model import STEEPEST, UNEVEN, USUAL_LOAD, TubeModel, yielding, yields
@@ -213,6 +215,20 @@ class LopsidedFamily(TubeFamily):
         if len({level.joins for level in self.levels}) > 1:
             raise ConvergenceError("whether the lopsided branch joins free inflation depends on the mesh")
         return [*(level.at_crossing(i).values for level in self.levels[:-1]), row], row
+
+    def left_by_round_off(self, _index: int) -> Mapping[str, float]:
+        """The round-off of eigenvalues, which is that of the largest eigenvalue of the mesh."""
+        return {name: self._round_off for name in self.fine.shown if name.startswith("Lambda_")}
+
+    @cached_property
+    def _round_off(self) -> float:
+        """``eps max K_ii/M_ii`` at the first state."""
+        system = self.fine.system
+        with system.at(self.fine.points[0].state):
+            stiffness = system.tangent().getDiagonal().array
+            mass = system.mass.getDiagonal().array
+        largest = float(np.max(np.abs(stiffness[mass > 0]) / mass[mass > 0], initial=0.0))
+        return float(np.finfo(float).eps) * system.comm.allreduce(largest, op=MPI.MAX)
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace; at a crossing the counts of its neighbour."""
