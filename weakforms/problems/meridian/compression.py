@@ -84,7 +84,10 @@ class PrincipalResultants:
 
 
 def compression(
-    family: BranchFamily | PiecewiseFamily, place: str, order: float, end: tuple[str, float] | None = None
+    family: BranchFamily | PiecewiseFamily,
+    place: str,
+    order: float,
+    end: tuple[str, float, int] | None = None,
 ) -> str:
     """Between which states of a branch its membrane is compressed, as text; empty if it is taut.
 
@@ -92,7 +95,8 @@ def compression(
         family: The branch on all meshes.
         place: Name of the material coordinate.
         order: Order of resultants; their place has one less.
-        end: A column and its value up to which the branch is asked for; its last step goes beyond.
+        end: A column, its value up to which the branch is asked for, and 1 if it rises towards it or -1 if
+            it falls; the last step of the branch goes beyond.
     """
     pieces = [p.family for p in family.pieces] if isinstance(family, PiecewiseFamily) else [family]
     levels = list(zip(*(piece.levels for piece in pieces), strict=True))
@@ -100,12 +104,12 @@ def compression(
     signs = np.concatenate([_signs(curve, errors[-1]) for curve in levels[-1]])
     if not (signs < 0).any():
         return ""
-    column, last = end or (place, np.inf)
+    column, last, way = end or (place, np.inf, 1)
     try:
         zeros = [_zeros(level, place, error) for level, error in zip(levels, errors, strict=True)]
     except ConvergenceError:
         return UNRESOLVED
-    found = [[s for s in level if s.values[column] <= last] for level in zeros]
+    found = [[s for s in level if way * s.values[column] <= way * last - SLACK] for level in zeros]
     kinds = [s.kind for s in found[-1]]
     begins = signs[signs != 0][0] < 0
     if any([s.kind for s in level] != kinds for level in found) or (begins and not signs[0]):

@@ -167,7 +167,9 @@ class Tube(BranchProblem):
         """Where the ordinary tube is compressed; with wave numbers special points say it."""
         if parameters.energy == "relaxed" or parameters.stability:
             return []
-        end = ("u_max", parameters.u_end) if parameters.contact == "none" else None
+        end = ("u_max", parameters.u_end, 1) if parameters.contact == "none" else None
+        if parameters.phase == "deflation":
+            end = "p", 0.0, -1
         place = "Z" if parameters.extent == "half" else "|Z|"
         where = compression(families["primary"], place, numerics.degree, end)
         try:
