@@ -103,6 +103,12 @@ def counts(solutions: Solutions) -> Finding:
     return decide.all_of(*found)
 
 
+def lowest(spec: Spec, table: str) -> tuple[Curve, ...]:
+    """The lowest eigenvalue for one wave, with its table, and for two and three."""
+    more = (Curve(spec, rf"$n = {n}$", y=f"Lambda_n{n}_1") for n in (2, 3))
+    return Curve(spec, r"$n = 1$", reference=table), *more
+
+
 CASE = Case(
     title="Inflation of a torus",
     source="a benchmark of codes for membranes: the toroidal membrane",
@@ -141,26 +147,18 @@ CASE = Case(
         Panel(
             "eigenvalues",
             x=Axis("V", 3, 13),
-            y=Axis("Lambda_n1_1", -3, 7, r"\Lambda"),
+            y=Axis("Lambda_n1_1", -3, 7, r"$\Lambda$"),
             title="lowest eigenvalue for one, two and three waves around",
             note="Not a figure of the thesis.",
-            curves=(
-                Curve(SWELLS, r"$n = 1$", reference="torus_eigenvalues"),
-                Curve(SWELLS, r"$n = 2$", y="Lambda_n2_1"),
-                Curve(SWELLS, r"$n = 3$", y="Lambda_n3_1"),
-            ),
+            curves=lowest(SWELLS, "torus_eigenvalues"),
         ),
         Panel(
             "slender_eigenvalues",
             x=Axis("V", 0.8, 4.2),
-            y=Axis("Lambda_n1_1", -6, 5, r"\Lambda"),
-            title="the same of a slender torus",
+            y=Axis("Lambda_n1_1", -6, 5, r"$\Lambda$"),
+            title="lowest eigenvalue of a slender torus, for one, two and three waves",
             note="Not a figure of the thesis.",
-            curves=(
-                Curve(NARROW, r"$n = 1$", reference="torus_slender_eigenvalues"),
-                Curve(NARROW, r"$n = 2$", y="Lambda_n2_1"),
-                Curve(NARROW, r"$n = 3$", y="Lambda_n3_1"),
-            ),
+            curves=lowest(NARROW, "torus_slender_eigenvalues"),
         ),
     ),
     checks=(

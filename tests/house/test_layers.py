@@ -140,7 +140,7 @@ def test_no_two_test_modules_have_one_name():
     assert len(names) == len(set(names))
 
 
-ROOMS = ("cli", "problems", "references", "results", "solvers", "verification")
+ROOMS = ("cli", "mpi", "problems", "references", "results", "solvers", "verification")
 
 
 def test_no_folder_is_crowded():

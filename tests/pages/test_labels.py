@@ -21,9 +21,9 @@ from weakforms.verification.report.pages import render
 from weakforms.verification.report.wording import kind_of_point, typeset
 
 RAW = re.compile(
-    r"[A-Za-z]\w*_\w|\b(alpha|beta|gamma|delta|eta|kappa|lam|mu|rho|sigma|theta|psi)\d?\b|\b[a-z]+\d+\b"
+    r"[A-Za-z]\w*_\w|\b(alpha|beta|gamma|delta|eta|kappa|lam|mu|rho|sigma|theta|psi)\d?\b|\b[a-z]+\d+\b|\\"
 )
-"""Names of files and programs: underlines, spelled Greek letters, letters with numbers."""
+"""Names of files and programs: underlines, spelled Greek letters, letters with numbers; commands of TeX."""
 
 
 def raw(text):
@@ -82,7 +82,7 @@ def test_no_picture_shows_a_raw_name():
     labels = list(shown())
     assert len(labels) > 250
     assert {place: [t for t in texts if raw(t)] for place, texts in labels if any(map(raw, texts))} == {}
-    assert all(map(raw, ("fold n1", "|lam1 - lam2| < 1e-4", "r_max in mm"))), "what would be seen"
+    assert all(map(raw, ("fold n1", "|lam1 - lam2| < 1e-4", "r_max in mm", r"\Lambda"))), "what would be seen"
 
 
 @pytest.mark.parametrize(

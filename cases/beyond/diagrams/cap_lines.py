@@ -3,8 +3,8 @@
 The hemisphere is the part up to a right angle. Limit points vanish in cusps: in one over C2/C1, where the law
 has become stiff enough, and in one over the angle, where the part has become shallow enough. The lines pass
 through the limit point of the problem hemisphere, and lie between that of the flat disk of circular
-and that of the whole balloon of sphere. No limit point is unstable to waves around the axis. The second
-variation of such waves is compared by the eigenvalues of the hemisphere.
+and that of the whole balloon of sphere. No limit point is unstable to waves around the axis. Two
+other methods check the lowest eigenvalues of these waves on the hemisphere.
 """
 
 from math import sin

@@ -8,6 +8,8 @@ import numpy as np
 from dolfinx import cpp, fem, la
 from petsc4py import PETSc
 
+from weakforms.solvers.support import compat
+
 
 def pattern_of(form: fem.Form) -> cpp.la.SparsityPattern:
     """Places of the entries that the forms on one space can have."""
@@ -37,8 +39,7 @@ class FormMatrix:
         bcs: Sequence[fem.DirichletBC],
         held: np.ndarray,
     ) -> None:
-        self.pattern, self._comm = pattern, space.mesh.comm
-        self._bcs = [bc._cpp_object for bc in bcs]
+        self.pattern, self._bcs, self._comm = pattern, bcs, space.mesh.comm
         self._sum = la.matrix_csr(pattern, la.BlockMode.expanded)
         rows, columns = (self._sum.index_map(i) for i in (0, 1))
         self._starts = self._sum.indptr[: rows.size_local + 1].astype(PETSc.IntType)
@@ -69,11 +70,8 @@ class FormMatrix:
 
     def _add_up(self, form: fem.Form, diagonal: float) -> None:
         self._sum.set_value(0.0)
-        of = form._cpp_object
-        packed = cpp.fem.pack_constants(of), cpp.fem.pack_coefficients(of)
-        cpp.fem.assemble_matrix(self._sum._cpp_object, of, *packed, self._bcs)
+        compat.add_up(self._sum, form, self._bcs)
         self._sum.scatter_reverse()
-        # dolfinx's own function writes to copies of the rows on other ranks too, which would be added up.
         self._sum.data[self._held] = diagonal
 
     def without_zeros(self, form: fem.Form) -> PETSc.Mat:

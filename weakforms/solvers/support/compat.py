@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
 
 import basix.ufl
 import dolfinx
 import numpy as np
 import ufl
-from dolfinx import fem
+from dolfinx import cpp, fem, la
 from dolfinx import mesh as dmesh
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
@@ -47,3 +48,14 @@ def mesh_from_gmsh(model: object, comm: MPI.Intracomm, root: int, dimension: int
     reader = import_module("dolfinx.io." + ("gmshio" if version() < (0, 10) else "gmsh"))
     mesh, *_ = reader.model_to_mesh(model, comm, root, gdim=dimension)
     return mesh
+
+
+def add_up(matrix: la.MatrixCSR, form: fem.Form, bcs: Sequence[fem.DirichletBC]) -> None:
+    """Add the entries of a form, except for rows and columns of Dirichlet conditions.
+
+    ``fem.assemble_matrix`` also writes their diagonal, in 0.9 on every rank that has a copy of the row
+    if the conditions are given in blocks. The copies would be added up. So this calls the function below it.
+    """
+    of = form._cpp_object
+    packed = cpp.fem.pack_constants(of), cpp.fem.pack_coefficients(of)
+    cpp.fem.assemble_matrix(matrix._cpp_object, of, *packed, [bc._cpp_object for bc in bcs])
