@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 PATIENCE = 10.0
 """Seconds in which all ranks of a run must meet an error that one of them has met."""
 
+PARTING = 2.0
+"""Seconds for the launcher to pass the last message on: it may drop what it has not read when it ends the ranks."""
+
 IN_ERROR = 4711
 """Tag of the messages by which they tell each other."""
 
@@ -49,5 +52,6 @@ def end_ranks_that_wait(status: int, text: str) -> None:
         if time.monotonic() > last:
             sys.stderr.write(f"weakforms: rank {comm.rank} alone: {text}\n")
             sys.stderr.flush()
+            time.sleep(PARTING)
             comm.Abort(status)
         time.sleep(0.01)
