@@ -13,7 +13,7 @@ PATIENCE = 10.0
 """Seconds in which all ranks of a run must meet an error that one of them has met."""
 
 PARTING = 2.0
-"""Seconds for the launcher to pass the last message on: it may drop what it has not read when it ends the ranks."""
+"""Seconds for the launcher to pass the last message on: it may drop what is unread when it ends the ranks."""
 
 IN_ERROR = 4711
 """Tag of the messages by which they tell each other."""

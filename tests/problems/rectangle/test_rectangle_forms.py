@@ -39,7 +39,7 @@ def test_flat_sheet_is_uniform_and_stable(degree, whole):
     with of.system.at(of.system.initial):
         found = of.system.monitors()
         assert np.abs(of.system.residual()).max() < 1e-13
-        assert of.variations[0].negative_count() == 0
+        assert of.variation(0).negative_count() == 0
         least = LeastStress(of.mesh, of.least_stress, RULE[degree]).least()[1]
         assert least == pytest.approx(STRESS, rel=COALESCENCE)
         assert Centre(of).stretch() == pytest.approx(DELTA, rel=1e-12)
@@ -122,7 +122,7 @@ def test_a_flat_sheet_ponds_at_the_closed_form(name, waves, c):
     for side, count in ((-1, 0), (1, 1)):
         of = model(gamma=critical * (1 + side * 2e-4), c=c, cells=8)
         with of.system.at(State(0 * of.system.initial.u, of.system.initial.loads | {"zw": 1e-300})):
-            assert of.variations[number].negative_count() == count
+            assert of.variation(number).negative_count() == count
 
 
 def test_an_unstable_pond_counts_alike_by_classes_and_whole():
@@ -132,7 +132,7 @@ def test_an_unstable_pond_counts_alike_by_classes_and_whole():
     for whole in (False, True):
         of = model(gamma=2.6 * critical, whole=whole)
         with of.system.at(State(0 * of.system.initial.u, of.system.initial.loads | {"zw": 1e-300})):
-            counts[whole] = [v.negative_count() for v in of.variations.values()]
+            counts[whole] = [of.variation(n).negative_count() for n in of.classes]
     assert counts == {False: [1, 1, 1, 0], True: [3]}
 
 

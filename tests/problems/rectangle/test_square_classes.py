@@ -64,8 +64,8 @@ def test_both_classes_of_the_diagonals_have_the_eigenvalues_of_their_class_of_th
     model = sheet(load=load)
     loads = {"p": 0.8} if load == "gas" else {"zw": -0.1}
     with model.system.at(State(model.cosine(0.5), model.system.initial.loads | loads)):
-        whole = np.sort(model.variations[n].spectrum(6).eigenvalues)
-        parts = np.sort([value for name in names for value in model.octants[name].spectrum(6).eigenvalues])
+        whole = np.sort(model.variation(n).spectrum(6).eigenvalues)
+        parts = np.sort([value for name in names for value in model.variation(name).spectrum(6).eigenvalues])
     assert parts[:6] == pytest.approx(whole, rel=1e-8)
 
 
@@ -80,7 +80,7 @@ def test_the_class_that_breaks_is_that_of_the_zero_eigenvalue(squares, n, name):
 def test_rates_of_a_class_along_the_states_are_those_of_its_form(name):
     """What locates a zero eigenvalue: the derivative of phi K phi in the states, of the part that is seen."""
     model = sheet(load="gas")
-    system, octant = model.system, model.octants[name]
+    system, octant = model.system, model.variation(name)
     rng = np.random.default_rng(3)
     phi = rng.standard_normal(system.size)
     phi[octant.bc_dofs] = 0.0

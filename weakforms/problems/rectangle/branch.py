@@ -8,9 +8,9 @@ from dataclasses import replace
 from weakforms.problems.gas import Gas, folds_of
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.rectangle.readings import Centre, Diagonal
+from weakforms.problems.rectangle.start import states_at
 from weakforms.problems.triangles.limits import GIVES_WAY, gives_way
 from weakforms.problems.triangles.readings import ZERO, AmountHeld, LeastStress
-from weakforms.problems.triangles.start import first_under_load
 from weakforms.problems.triangles.weak_form import RULE
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import Solved
@@ -47,8 +47,8 @@ class RectangleModes:
         self.folds = folds_of(gas)
         self._held = AmountHeld(model.system, model.sheet.control, self.amount, gas)
         self._counted = {} if model.sheet.whole else COUNTED
-        self._split = {f"n_{name}": name for name in model.octants}
-        self.classes = (*model.octants, "E") if self._split else ()
+        self._split = {f"n_{name}": name for name in model.diagonals}
+        self.classes = (*model.diagonals, "E") if self._split else ()
         self._diagonal = Diagonal(model) if self._split else None
         self.columns = (
             *("lam1_c", "S_least", "X_least", "Y_least", *self._counted.values(), "n_all"),
@@ -65,7 +65,7 @@ class RectangleModes:
 
     def variation(self, n: int | str) -> SecondVariation:
         """The operator of a class; 0 is that of the states."""
-        return self.model.octants[n] if isinstance(n, str) else self.model.variations[n]
+        return self.model.variation(n)
 
     def observe(self) -> dict[str, float]:
         """The columns at the state that the system is lent to.
@@ -105,7 +105,7 @@ class RectangleModes:
         return C4V[min(nearest, key=nearest.__getitem__)]
 
     def _count(self, n: int) -> int:
-        return self.model.variations[1 if self.square and n == 2 else n].negative_count()
+        return self.model.variation(1 if self.square and n == 2 else n).negative_count()
 
 
 class RectangleBranch(FilledBranch):
@@ -150,8 +150,7 @@ def traced(
     control = model.sheet.control
     solver = ExtendedNewton(model.system, [control])
     continuation = Continuation(solver, control=StepControl(first=step / 8, largest=step))
-    frame = {"delta": model.sheet.delta, "delta_y": model.sheet.delta_y}
-    first = first_under_load(solver, start, frame, model.cosine(start), model.weight)
+    first, *_ = states_at(model, solver, [start])
     begin = continuation.start(first, Held("w_c", start), towards={"w_c": 1.0})
 
     given = model.sheet.law, model.law, RULE[model.sheet.degree]

@@ -116,9 +116,8 @@ class RectangleModel:
 
     Attributes:
         system: Residual, tangent and columns in the space of the states.
-        variations: The second variation in each class of displacements, by its number; on a whole sheet 0
-            stands for all of them.
-        octants: On the quarter of a square, that in each class of the diagonals, by its name.
+        classes: Numbers of the classes of displacements; on a whole sheet 0 stands for all of them.
+        diagonals: On the quarter of a square, names of the classes of the diagonals.
     """
 
     def __init__(self, comm: MPI.Intracomm, sheet: Sheet) -> None:
@@ -135,10 +134,9 @@ class RectangleModel:
         self.membrane = self._at(self.unknown)
         self.least_stress = least_stress(self.membrane.cauchy_green, self.law)
         self.system = System(self._formulation())
-        classes = {0: CLASSES[0]} if sheet.whole else CLASSES
-        self.variations = {n: self._variation(name) for n, name in classes.items()}
-        diagonal = DIAGONAL if sheet.has_diagonals else ()
-        self.octants = {name: self._on_octant(name) for name in diagonal}
+        self.classes = (0,) if sheet.whole else tuple(CLASSES)
+        self.diagonals = tuple(DIAGONAL) if sheet.has_diagonals else ()
+        self._variations: dict[int | str, SecondVariation] = {}
 
     def cosine(self, height: float) -> np.ndarray:
         """Owned degrees of freedom of a deflection by half a wave in either direction."""
@@ -219,7 +217,13 @@ class RectangleModel:
 
     # -- conditions and classes ----------------------------------------------------------------
 
-    def _variation(self, name: str) -> SecondVariation:
+    def variation(self, n: int | str) -> SecondVariation:
+        """The second variation in a class, by its number or name; each has a matrix, made when first used."""
+        if n not in self._variations:
+            self._variations[n] = self._on_octant(n) if isinstance(n, str) else self._on_mirrors(CLASSES[n])
+        return self._variations[n]
+
+    def _on_mirrors(self, name: str) -> SecondVariation:
         return self._second(name, lambda q: q, self.sheet.copies, self._conditions(name))
 
     def _on_octant(self, name: str) -> SecondVariation:

@@ -128,15 +128,9 @@ class Square:
 
     def states(self) -> None:
         """Solve at three heights of the centre."""
-        from weakforms.problems.triangles.start import first_under_load
-        from weakforms.solvers.equilibrium.constraints import Held
+        from weakforms.problems.rectangle.start import states_at
 
-        model, first = self._model, self.HEIGHTS[0]
-        frame = {"delta": model.sheet.delta, "delta_y": model.sheet.delta_y}
-        state = first_under_load(self._solver, first, frame, model.cosine(first), model.weight)
-        for height in self.HEIGHTS:
-            state, _ = self._solver.solve(state, [Held("w_c", height)])
-        self._state = state
+        *_, self._state = states_at(self._model, self._solver, self.HEIGHTS)
 
     def inertia(self) -> int:
         """Number of negative eigenvalues at the last height."""
