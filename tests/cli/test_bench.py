@@ -12,7 +12,7 @@ from weakforms.problems.triangles.meshes import tube
 from weakforms.problems.triangles.model import Body, SurfaceModel
 from weakforms.problems.wrinkled.problem import PAPER_GAMMA
 from weakforms.solvers.equilibrium.linear import Factorization
-from weakforms.verification.audit import bench, bench_surface, bench_work
+from weakforms.verification.audit import bench, bench_ranks, bench_surface, bench_work
 
 
 @pytest.fixture
@@ -83,6 +83,16 @@ def test_the_square_is_measured_at_the_height_that_is_stated(monkeypatch):
     assert table["title"].endswith("w_c = 0.8")
     assert row["V"] == pytest.approx(state.quantities["V"].value, rel=1e-9)
     assert row["n_negative"] == state.quantities["n_negative"].value == 0
+
+
+def test_a_run_of_surfaces_is_added_to_a_file(weakforms, tmp_path, monkeypatch):
+    monkeypatch.setattr(bench_surface.Square, "FIRST", 2)
+    path = tmp_path / "scaling.jsonl"
+    called = weakforms("bench", "--surface", "500", "--body", "square", "--history", str(path))
+    assert (called.status, len(path.read_text().splitlines())) == (0, 1)
+    (run,) = bench_ranks.load(path)
+    assert run.rows[0].unknowns == json.loads(path.read_text())["rows"][0]["unknowns"]
+    assert run.machine["cores"]
 
 
 def test_unknown_problem_is_one_line(weakforms):

@@ -34,6 +34,7 @@ PAGES = {
     "audit.html",
     "coverage.html",
     "faults.html",
+    "scaling.html",
     "thesis.html",
     "index.html",
     "junit.xml",

@@ -47,6 +47,7 @@ def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder)
         "audit.html",
         "coverage.html",
         "faults.html",
+        "scaling.html",
         "thesis.html",
         "junit.xml",
         "report.json",
@@ -54,7 +55,7 @@ def test_pages_are_well_formed_and_nothing_half_written_remains(readers, folder)
         "figures",
     }
     assert expected | {"paper2.html"} < set(os.listdir(folder))
-    assert len(os.listdir(folder)) == 13, "with two pages for each of two groups, and the folder of figures"
+    assert len(os.listdir(folder)) == 14, "with two pages for each of two groups, and the folder of figures"
     assert not [path for path in folder.rglob("*") if path.name.startswith(".")]
 
 
@@ -144,6 +145,7 @@ def test_groups_have_pages_of_their_own():
         "coverage.html",
         "index.html",
         "faults.html",
+        "scaling.html",
         "thesis.html",
         "paper2.html",
         "materials.html",

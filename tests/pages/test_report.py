@@ -14,6 +14,7 @@ from canned_run import failing_case, passing_case, sample, surface
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.verification.audit.faults.outcome import SHIPPED, Seeded, load_faults
 from weakforms.verification.report import pdf
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.junit import clean, junit_xml
 from weakforms.verification.report.pages import render
 from weakforms.verification.report.report import load_run, write_report
@@ -38,7 +39,9 @@ def test_report_json_is_strict_and_comes_back(run, folder, tmp_path):
 def test_the_overview_says_that_its_seeded_faults_are_those_of_the_release(run, folder):
     page = (folder / "index.html").read_text("utf-8")
     assert "in the last run before this release; they were not run for this report" in page
-    assert "last run before this release" not in render(run, Seeded(load_faults(SHIPPED)))["index.html"]
+    assert (
+        "last run before this release" not in render(run, Beside(Seeded(load_faults(SHIPPED))))["index.html"]
+    )
 
 
 def test_numpy_numbers_and_infinities_are_written(tmp_path):
@@ -117,6 +120,7 @@ def test_pages_of_an_earlier_report_go_and_other_files_stay(tmp_path):
         "audit.html",
         "coverage.html",
         "faults.html",
+        "scaling.html",
         "thesis.html",
         "index.html",
         "junit.xml",

@@ -13,6 +13,7 @@ from weakforms.verification.audit import same
 from weakforms.verification.audit.elsewhere import NAME, elsewhere, load_elsewhere, write_elsewhere
 from weakforms.verification.audit.same import Run, differences, main, runs, table
 from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.pages import render
 from weakforms.verification.report.report import write_report
 
@@ -178,7 +179,9 @@ def test_another_run_stands_in_the_report(tmp_path):
     assert "ranks 4" in write_report(run, tmp_path, stored=True).read_text("utf-8")
     assert "ranks 4" not in write_report(run, tmp_path).read_text("utf-8"), "other numbers than the compared"
     write_elsewhere([found], tmp_path)
-    page = render(RunOutcome("full", "", "2026-01-01T00:00:00+00:00", 1.0, {}), None, (found,))["index.html"]
+    page = render(RunOutcome("full", "", "2026-01-01T00:00:00+00:00", 1.0, {}), Beside(others=(found,)))[
+        "index.html"
+    ]
     assert "ranks 4" in page
     assert "9.1e-02" in page
     assert load_elsewhere(first) == ()

@@ -133,6 +133,7 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
         "weakforms bench --only tube",
         "weakforms bench --history bench.jsonl",
         "weakforms bench --against bench.jsonl",
+        "mpirun -n 2 weakforms bench --surface 370000 --history out/scaling.jsonl",
     )
 )
 def bench(
@@ -151,7 +152,11 @@ def bench(
         SurfaceBody, typer.Option(help="The surface: a tube under a liquid, or a square under gas.")
     ] = SurfaceBody.TUBE,
     history: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Add this run to a file of JSON lines.")
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Add this run to a file of JSON lines; a report shows scaling.jsonl of its folder.",
+        ),
     ] = None,
     against: Annotated[
         Path | None,
@@ -168,10 +173,10 @@ def bench(
     from weakforms.verification.audit.bench_surface import print_surface_bench, run_surface_bench
 
     api.require_environment()
-    from weakforms.verification.audit import bench_history
+    from weakforms.verification.audit import bench_history, bench_ranks
 
-    if surface and (history or against):
-        raise InputError("bench: --surface has no ratios; --history and --against exclude it")
+    if surface and against:
+        raise InputError("bench: --surface has no ratios; --against excludes it")
     before = bench_history.last(against) if against else {}
     with progress_bar() as progress:
         if surface:
@@ -187,7 +192,7 @@ def bench(
     else:
         print_bench(table, console())
     if history:
-        bench_history.append(history, table)
+        (bench_ranks if surface else bench_history).append(history, table)
     lines, found = bench_history.slower(table, before) if not surface else ([], [])
     for line in lines:
         console(stderr=as_json).print(line, soft_wrap=True)

@@ -34,6 +34,7 @@ from weakforms.verification.audit.any_parameters.outcome import (
 from weakforms.verification.audit.any_parameters.runner import classified, run_audit, solved, solved_set
 from weakforms.verification.audit.any_parameters.verb import audit_verb
 from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.pages import render
 
 NO_CONTACT = {"failures": [], "absent": [{"what": "contact", "reason": "p_end is below first contact"}]}
@@ -263,7 +264,7 @@ def test_the_folder_is_tried_before_anything_is_solved(monkeypatch):
 
 def test_the_report_shows_it_when_it_lies_beside_the_results():
     run = canned_run()
-    page = render(RunOutcome("quick", "all", "", 0.0, {}), audited=Audited(run))["audit.html"]
+    page = render(RunOutcome("quick", "all", "", 0.0, {}), Beside(audited=Audited(run)))["audit.html"]
     for text in (run.headline, "s = 1.5 is out of reach", run.missed[0].command, "67 %"):
         assert escape(text) in page
     assert "There is no audit in the folder" in render(RunOutcome("quick", "all", "", 0.0, {}))["audit.html"]

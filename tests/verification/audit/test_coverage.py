@@ -33,6 +33,7 @@ from weakforms.verification.audit.coverage.outcome import (
 )
 from weakforms.verification.audit.same import Number
 from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.pages import render, render_whole
 
 GOOD = Judged("tube", (("alpha", 0.1),), "quantity p", "quantity", "p", 1e-6, 2e-6, 0.0, 1e-10)
@@ -169,7 +170,7 @@ def test_a_damaged_file_is_shown_as_such(tmp_path, data):
     assert found.run is None
     assert found.problem
     empty = RunOutcome("quick", "all", "", 0.0, {})
-    assert "No test of the uncertainties lies beside" in render(empty, covered=found)["coverage.html"]
+    assert "No test of the uncertainties lies beside" in render(empty, Beside(covered=found))["coverage.html"]
 
 
 def test_both_parts_stand_side_by_side_in_the_report(tmp_path):
@@ -177,12 +178,12 @@ def test_both_parts_stand_side_by_side_in_the_report(tmp_path):
     held.families[0].missed.append(Missed({"alpha": 0.3}, "SNES ended with <X>"))
     (tmp_path / NAME).write_text(json.dumps(Coverage({"tuned": tuned, "hold_out": held}).to_json()))
     empty, covered = RunOutcome("quick", "all", "", 0.0, {}), Covered.beside(tmp_path)
-    page = render(empty, covered=covered)["coverage.html"]
+    page = render(empty, Beside(covered=covered))["coverage.html"]
     for text in ("Tuned sets: 100.0% of 1 number", "Hold-out: 50.0% of 2 numbers", "1 beyond twice it"):
         assert text in page
     for text in ("Claim broken: 1 number beyond 2u", "SNES ended with &lt;X&gt;", "tube &lt;i&gt;"):
         assert text in page
-    assert 'id="coverage-hold_out"' in render_whole(empty, covered=covered)
+    assert 'id="coverage-hold_out"' in render_whole(empty, Beside(covered=covered))
 
 
 def test_the_terminal_shows_the_same():

@@ -43,6 +43,7 @@ from weakforms.verification.audit.faults.runner import run_faults
 from weakforms.verification.cases.discovery import find_cases, get_case
 from weakforms.verification.cases.references import ROOT
 from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.pages import render, render_whole
 
 FAULTS = catalogue()
@@ -367,12 +368,12 @@ def test_the_file_fits_its_schema_and_nothing_else_does(run_with, tmp_path):
 
 def test_the_report_carries_the_table(run_with, tmp_path):
     run, empty = shown(run_with), RunOutcome("quick", "", "2026-01-01T00:00:00+00:00", 1.0, {})
-    pages = render(empty, Seeded(run))
+    pages = render(empty, Beside(Seeded(run)))
     assert FAULTS[0].name in pages["faults.html"]
     assert "caught" in pages["faults.html"]
     assert "closed_form.sphere: t:p" in pages["faults.html"]
     assert 'href="faults.html"' in pages["index.html"]
-    assert 'id="faults"' in render_whole(empty, Seeded(run))
+    assert 'id="faults"' in render_whole(empty, Beside(Seeded(run)))
     without = render(empty)["faults.html"]
     assert "were not run" in without
     assert "weakforms faults --out OUT" in without
@@ -387,14 +388,14 @@ def test_the_report_carries_the_table(run_with, tmp_path):
 
 def test_a_report_without_a_run_shows_the_one_that_the_package_brings(run_with, tmp_path):
     empty = RunOutcome("quick", "", "2026-01-01T00:00:00+00:00", 1.0, {})
-    pages = render(empty, Seeded.beside(tmp_path))
+    pages = render(empty, Beside(Seeded.beside(tmp_path)))
     assert load_faults(SHIPPED).headline in pages["faults.html"]
     assert "The package brings this table" in pages["faults.html"]
-    whole = render_whole(empty, Seeded.beside(tmp_path))
+    whole = render_whole(empty, Beside(Seeded.beside(tmp_path)))
     assert load_faults(SHIPPED).headline in whole
     assert "this print leaves it out" in whole
     assert FAULTS[0].description not in whole
-    own = render(empty, Seeded(shown(run_with)))
+    own = render(empty, Beside(Seeded(shown(run_with))))
     assert "The package brings" not in own["faults.html"]
 
 

@@ -30,6 +30,7 @@ from weakforms.verification.audit.faults.random_faults import (
 from weakforms.verification.audit.faults.random_runner import run_random
 from weakforms.verification.cases.references import ROOT
 from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.pages import render
 
 # -- the changes -------------------------------------------------------------------------------------
@@ -482,11 +483,11 @@ def test_the_report_shows_them(run_one, tmp_path):
     keep_beside(tmp_path / RANDOM, tmp_path / "report", RANDOM)
     beside = Seeded.beside(tmp_path / "report")
     assert (beside.shipped, beside.random) == (True, run)
-    page = render(empty, beside)["faults.html"]
+    page = render(empty, Beside(beside))["faults.html"]
     assert "Random faults" in page
     assert 'id="mutant-x-1-abc"' in page
     assert "3 cases or tests run of 3 that may see it" in page
-    assert "Random faults" not in render(empty, Seeded())["faults.html"]
+    assert "Random faults" not in render(empty)["faults.html"]
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import resource
 import time
 from math import isqrt
@@ -164,6 +165,7 @@ def run_surface_bench(
         A row for each mesh: its size, seconds by stage, peak memory so far over all ranks, and the numbers.
     """
     from weakforms.solvers.support.provenance import versions
+    from weakforms.verification.run.machine import environment
 
     kind, comm, progress = BODIES[body], MPI.COMM_WORLD, progress or WorkProgress()
     meshes, table = kind.sizes(unknowns), []
@@ -193,7 +195,8 @@ def run_surface_bench(
         progress.line(
             ", ".join(f"{name} {text}" for name, text in zip(HEADINGS.values(), _texts(row), strict=True))
         )
-    return {"ranks": comm.size, "title": kind.title, "rows": table, "versions": versions()}
+    about = {"ranks": comm.size, "title": kind.title, "machine": environment(), "load": os.getloadavg()[0]}
+    return {**about, "rows": table, "versions": versions()}
 
 
 HEADINGS = {"mesh": "mesh", "unknowns": "unknowns", "set_up_s": "set up", "states_s": "states"}

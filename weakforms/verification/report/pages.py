@@ -17,10 +17,10 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from weakforms.verification.audit.any_parameters.outcome import STATUSES, Audited
-from weakforms.verification.audit.coverage.outcome import COLUMNS, PARTS, Covered, cells
-from weakforms.verification.audit.elsewhere import Elsewhere
-from weakforms.verification.audit.faults.outcome import FaultOutcome, Seeded
+from weakforms.verification.audit.any_parameters.outcome import STATUSES
+from weakforms.verification.audit.bench_ranks import STAGES
+from weakforms.verification.audit.coverage.outcome import COLUMNS, PARTS, cells
+from weakforms.verification.audit.faults.outcome import FaultOutcome
 from weakforms.verification.judging.consistency import exempt
 from weakforms.verification.judging.outcome import (
     RunOutcome,
@@ -28,7 +28,9 @@ from weakforms.verification.judging.outcome import (
     Verdict,
 )
 from weakforms.verification.report import summary, thesis, wording
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.case_views import case_view, draw, figure_files
+from weakforms.verification.report.figures.scaling import scaling_views
 from weakforms.verification.report.figures.svg import share_letters
 from weakforms.verification.report.formulas import html_formula, svg_formula
 from weakforms.verification.report.junit import clean
@@ -49,6 +51,7 @@ RESERVED = (
     "elsewhere",
     "audit",
     "coverage",
+    "scaling",
     "exempt",
     "thesis",
     "panels",
@@ -88,40 +91,25 @@ GROUPS = {
 """Short name, title and source of known groups; any other has the name of its folder."""
 
 
-def render(
-    run: RunOutcome,
-    seeded: Seeded | None = None,
-    others: tuple[Elsewhere, ...] = (),
-    jobs: int = 1,
-    audited: Audited | None = None,
-    covered: Covered | None = None,
-) -> dict[str, str]:
+def render(run: RunOutcome, beside: Beside | None = None, jobs: int = 1) -> dict[str, str]:
     """Every page of the report.
 
     Args:
         run: Outcome of ``verify``.
-        seeded: Outcome of seeded faults, if the catalogue was run.
-        others: Runs of the same cases on other ranks or releases.
+        beside: Outcomes of other verbs.
         jobs: Number of parallel processes for drawing.
-        audited: Outcome of an audit, if one was made.
-        covered: Comparison of uncertainties with true errors, if one was made.
 
     Returns:
         HTML by file name; the first page is ``index.html``. Pages load no other files.
     """
-    return render_with_files(run, seeded, others, jobs, audited, covered)[0]
+    return render_with_files(run, beside, jobs)[0]
 
 
 def render_with_files(
-    run: RunOutcome,
-    seeded: Seeded | None = None,
-    others: tuple[Elsewhere, ...] = (),
-    jobs: int = 1,
-    audited: Audited | None = None,
-    covered: Covered | None = None,
+    run: RunOutcome, beside: Beside | None = None, jobs: int = 1
 ) -> tuple[dict[str, str], dict[str, str | bytes]]:
     """The pages of :func:`render`, and the files that they offer: every panel as CSV and as SVG."""
-    facts = _facts(run, seeded, others, jobs, audited, covered)
+    facts = _facts(run, beside, jobs)
     pages = {
         group["page"]: share_letters(template("group.html").render(facts, group=group, here=group["page"]))
         for group in facts["groups"]
@@ -129,21 +117,15 @@ def render_with_files(
     for group in (group for group in facts["groups"] if group["long"]):
         page = template("group_checks.html").render(facts, group=group, here=group["checks"])
         pages[group["checks"]] = share_letters(page)
-    for name in ("thesis.html", "faults.html", "audit.html", "coverage.html"):
+    for name in ("thesis.html", "faults.html", "audit.html", "coverage.html", "scaling.html"):
         pages[name] = template(name).render(facts, here=name)
     pages["index.html"] = template("index.html").render(facts, here="index.html")
     return pages, figure_files(facts["cases"])
 
 
-def render_whole(
-    run: RunOutcome,
-    seeded: Seeded | None = None,
-    others: tuple[Elsewhere, ...] = (),
-    audited: Audited | None = None,
-    covered: Covered | None = None,
-) -> str:
+def render_whole(run: RunOutcome, beside: Beside | None = None) -> str:
     """All pages as one, for printing, with links inside the page only."""
-    facts = _facts(run, seeded, others, audited=audited, covered=covered)
+    facts = _facts(run, beside)
     return share_letters(template("whole.html").render(facts, here=None))
 
 
@@ -198,16 +180,10 @@ def _environment() -> Environment:
 # -- data for the templates ---------------------------------------------------------------------
 
 
-def _facts(
-    run: RunOutcome,
-    seeded: Seeded | None = None,
-    others: tuple[Elsewhere, ...] = (),
-    jobs: int = 1,
-    audited: Audited | None = None,
-    covered: Covered | None = None,
-) -> dict[str, Any]:
+def _facts(run: RunOutcome, beside: Beside | None = None, jobs: int = 1) -> dict[str, Any]:
     """All variables of the templates, from the run and the other outcomes in its folder."""
-    taken = set(RESERVED)
+    beside = beside or Beside()
+    seeded, taken = beside.seeded, set(RESERVED)
     shapes = {id(surface): name for name, surface in shape_files(run)}
     views = [case_view(case, taken, shapes) for case in run.cases]
     draw([shown for view in views for shown in (*view["figures"], *view["histories"])], jobs)
@@ -235,15 +211,18 @@ def _facts(
         "differing": _differing(views),
         "panels": thesis.panels(run),
         "statements": thesis.statements(run),
-        "seeded": seeded or Seeded(),
-        "others": others,
-        "audited": audited or Audited(),
+        "seeded": seeded,
+        "others": beside.others,
+        "audited": beside.audited,
         "audit_statuses": STATUSES,
-        "covered": covered or Covered(),
+        "covered": beside.covered,
         "coverage_parts": PARTS,
         "coverage_columns": COLUMNS,
-        "areas": _areas(seeded.run.faults if seeded and seeded.run else ()),
-        "mutants": _areas(seeded.random.faults if seeded and seeded.random else (), "subject"),
+        "surfaces": scaling_views(beside.scaled),
+        "scaled": beside.scaled,
+        "stages": STAGES,
+        "areas": _areas(seeded.run.faults if seeded.run else ()),
+        "mutants": _areas(seeded.random.faults if seeded.random else (), "subject"),
         "look": LOOK,
         "exempt": {
             "not judged": exempt.EXEMPT,
@@ -259,7 +238,7 @@ def _groups(views: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     found: dict[str, list[dict[str, Any]]] = {}
     for view in views:
         found.setdefault(view["case"].id.partition(".")[0], []).append(view)
-    taken = {"index", "thesis", "faults", "audit", "coverage"}
+    taken = {"index", "thesis", "faults", "audit", "coverage", "scaling"}
     out = []
     for key, members in found.items():
         name, title, source = GROUPS.get(key, (key.replace("_", " ").capitalize(), "", ""))

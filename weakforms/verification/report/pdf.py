@@ -9,11 +9,8 @@ import tempfile
 from pathlib import Path
 
 from weakforms.errors import EnvironmentLackError, InputError
-from weakforms.verification.audit.any_parameters.outcome import Audited
-from weakforms.verification.audit.coverage.outcome import Covered
-from weakforms.verification.audit.elsewhere import load_elsewhere
-from weakforms.verification.audit.faults.outcome import Seeded
 from weakforms.verification.judging.outcome import RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.pages import render_whole
 
 NAME = "report.pdf"
@@ -83,8 +80,7 @@ def write_pdf(run: RunOutcome, path: Path) -> Path:
     with tempfile.TemporaryDirectory(prefix="weakforms-pdf-") as name:
         folder = Path(name)
         page, printed = folder / "report.html", folder / "report.pdf"
-        beside = [kind.beside(path.parent) for kind in (Seeded, Audited, Covered)]
-        whole = render_whole(run, beside[0], load_elsewhere(path.parent), *beside[1:])
+        whole = render_whole(run, Beside.read(path.parent))
         page.write_text(whole, encoding="utf-8")
         command = [program, *QUIET, f"--user-data-dir={folder / 'profile'}", "--no-pdf-header-footer"]
         # A browser's own sandbox does not work for root; the page has no script to guard against.

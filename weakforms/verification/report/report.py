@@ -17,12 +17,9 @@ from pydantic import TypeAdapter, ValidationError
 
 from weakforms.errors import EnvironmentLackError, InputError
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
-from weakforms.verification.audit.any_parameters.outcome import Audited
-from weakforms.verification.audit.coverage.outcome import Covered
 from weakforms.verification.audit.elsewhere import NAME as ELSEWHERE
-from weakforms.verification.audit.elsewhere import Elsewhere, load_elsewhere
-from weakforms.verification.audit.faults.outcome import Seeded
 from weakforms.verification.judging.outcome import SCHEMA, RunOutcome
+from weakforms.verification.report.beside import Beside
 from weakforms.verification.report.junit import junit_xml
 from weakforms.verification.report.pages import render_with_files, shape_files
 from weakforms.verification.report.vtu import vtu
@@ -35,9 +32,10 @@ _LISTS = ("x", "y", "reference_x", "reference_y", "residual_x", "residual", "res
 def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int = 1) -> Path:
     """Write the files of the report, each complete or not at all, ``index.html`` last.
 
-    If the folder has a ``faults.json``, an ``audit.json``, a ``coverage.json`` or an ``elsewhere.json``, the
-    report shows the seeded faults, the audit, the test of uncertainties, or the comparison with other runs
-    (until the cases are run again). Without a ``faults.json`` it shows the run that the package brings.
+    If the folder has a ``faults.json``, an ``audit.json``, a ``coverage.json``, a ``scaling.jsonl`` or an
+    ``elsewhere.json``, the report shows the seeded faults, the audit, the test of uncertainties, the time of
+    large surfaces, or the comparison with other runs (until the cases are run again). Without the first or
+    the fourth it shows what the package brings.
 
     Args:
         run: Outcome of ``verify``.
@@ -56,15 +54,14 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
     run = run if stored else _decoded(data)  # drawn as it would be from its file
     numbers = {"report.json": text, "junit.xml": junit_xml(run)}
     folder = Path(folder)
-    others = load_elsewhere(folder) if stored else ()
-    beside = Seeded.beside(folder), others, Audited.beside(folder), Covered.beside(folder)
-    drawn = _redrawn(run, *beside, jobs) if stored else {}
+    beside = Beside.read(folder, others=stored)
+    drawn = _redrawn(run, beside, jobs) if stored else {}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if not stored:
             (folder / ELSEWHERE).unlink(missing_ok=True)  # it compares the numbers of an earlier run
         _write(folder, numbers)  # before anything is drawn: `report` can draw it later
-        drawn = drawn or _drawn(run, *beside, jobs)
+        drawn = drawn or _drawn(run, beside, jobs)
         _write(folder, drawn)
         _sweep(folder, set(drawn))
     except OSError as error:
@@ -72,31 +69,17 @@ def write_report(run: RunOutcome, folder: Path, stored: bool = False, jobs: int 
     return folder / "index.html"
 
 
-def _drawn(
-    run: RunOutcome,
-    seeded: Seeded,
-    others: tuple[Elsewhere, ...],
-    audited: Audited,
-    covered: Covered,
-    jobs: int,
-) -> dict[str, str | bytes]:
+def _drawn(run: RunOutcome, beside: Beside, jobs: int) -> dict[str, str | bytes]:
     """Shapes and pages by name, ``index.html`` last."""
     shapes = {name: vtu(surface) for name, surface in shape_files(run)}
-    pages, files = render_with_files(run, seeded, others, jobs, audited, covered)
+    pages, files = render_with_files(run, beside, jobs)
     return shapes | files | pages
 
 
-def _redrawn(
-    run: RunOutcome,
-    seeded: Seeded,
-    others: tuple[Elsewhere, ...],
-    audited: Audited,
-    covered: Covered,
-    jobs: int,
-) -> dict[str, str | bytes]:
+def _redrawn(run: RunOutcome, beside: Beside, jobs: int) -> dict[str, str | bytes]:
     """The same for a stored run, whose numbers may come from anywhere."""
     try:
-        return _drawn(run, seeded, others, audited, covered, jobs)
+        return _drawn(run, beside, jobs)
     except EnvironmentLackError:
         raise
     except Exception as error:

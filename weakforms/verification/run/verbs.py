@@ -9,6 +9,7 @@ import typer
 
 from weakforms.terminal import complain, console, plain, progress_bar, rank
 from weakforms.verification.audit.any_parameters.outcome import NAME as AUDIT
+from weakforms.verification.audit.bench_ranks import NAME as SCALING
 from weakforms.verification.audit.coverage.outcome import NAME as COVERAGE
 from weakforms.verification.audit.elsewhere import elsewhere, write_elsewhere
 from weakforms.verification.audit.faults.outcome import NAME as FAULTS
@@ -48,7 +49,7 @@ def verify(cases: list[FoundCase], out: Path, profile: str, selection: str, jobs
             complain("interrupted; the same command with --resume continues")
             raise typer.Exit(130) from None
         if first:
-            for name in (FAULTS, RANDOM, AUDIT, COVERAGE):
+            for name in (FAULTS, RANDOM, AUDIT, COVERAGE, SCALING):
                 keep_beside(out / name, out / "report", name)
             page = write_report(run, out / "report", jobs=jobs)
             print_summary(run, console())
@@ -85,7 +86,7 @@ def report(
         load_faults(seeded)
     known = (seeded, folder / FAULTS, stored / FAULTS)
     keep_beside(next((path for path in known if path and path.is_file()), None), out or stored)
-    for name in (RANDOM, AUDIT, COVERAGE):
+    for name in (RANDOM, AUDIT, COVERAGE, SCALING):
         there = (folder / name, stored / name)
         keep_beside(next((path for path in there if path.is_file()), None), out or stored, name)
     if others:
