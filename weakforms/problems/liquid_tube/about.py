@@ -8,6 +8,9 @@ from weakforms.problems.liquid_tube.bent.columns import DERIVED, PRESCRIBED, SLO
 MOST_WAVES = 6
 """Largest wave number that can be requested."""
 
+MOST_FRONTS = 4
+"""Largest number of fronts: those of a wrinkled zone near either ring."""
+
 PRIMARY = (
     Column(
         "zw",
@@ -42,6 +45,21 @@ PRIMARY = (
         LambdaV_n0="lowest axisymmetric eigenvalue at fixed volume",
     ),
 )
+RELAXED = (
+    Column("wrinkled_fraction", "part of the material length that is wrinkled"),
+    *(
+        Column(
+            f"Z_front_{k}",
+            f"Z of the {'lower' if k % 2 else 'upper'} end of wrinkled zone {(k + 1) // 2} from below, over "
+            "{length}; none without it",
+            f"Z_{k}",
+            dimension="length",
+        )
+        for k in range(1, MOST_FRONTS + 1)
+    ),
+)
+"""Columns of the relaxed energy only."""
+
 COLUMNS = (*PRIMARY, *PRESCRIBED, *DERIVED)
 NUMBERS = (
     *numbers(
@@ -63,6 +81,11 @@ NUMBERS = (
     *SLOPES,
     *SURFACE,
 )
+DIRECTION = Column(
+    "direction",
+    "of a bifurcation point with the relaxed energy: 1 if an eigenvalue becomes negative along the branch, "
+    "-1 if it becomes positive",
+)
 
 AXISYMMETRIC = "(r, z) over the material coordinate Z, held at both disks"
 SHARED = {
@@ -82,9 +105,9 @@ FLUID_TUBE = About(
     control="zw (past its maximum compare over V, which increases along the whole primary branch)",
     unknown=f"{AXISYMMETRIC}; waves around enter through the second variation of each wave number",
     forms=("forms.fluid:strain_energy", "forms.fluid:submerged_flux", "forms.fluid:pressure_work"),
-    columns=(*COLUMNS, *column.DIAGNOSTICS),
-    numbers=NUMBERS,
-    special_points=("limit_point", "bifurcation_point"),
+    columns=(*COLUMNS, *RELAXED, *column.DIAGNOSTICS),
+    numbers=(*NUMBERS, DIRECTION),
+    special_points=("limit_point", "bifurcation_point", "zone_opening", "zone_closing"),
     branches=("primary", "secondary"),
     example=Example("zw", "V", {"L": 8, "delta": 2}, numerics={"cells": 24, "levels": 2}),
     tuned=(
@@ -98,6 +121,13 @@ FLUID_TUBE = About(
             fixed={"n_max": 1, "secondary": True},
             label="secondary",
             branch="secondary",
+        ),
+        Family(
+            {"delta": (1.03, 1.06), "gamma": (0.45, 0.6)},
+            **MORE,
+            fixed={"n_max": 1, "energy": "relaxed"},
+            at=(("V", 29.0),),
+            label="relaxed",
         ),
     ),
     audit_numerics={"secondary_cells": 12, "secondary_levels": 2, "secondary_degree": 4},

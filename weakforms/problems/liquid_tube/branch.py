@@ -90,18 +90,11 @@ class FluidPath:
         stiffens = rises and self.data.material is not None
         return level < self.zw_end * self._highest or stiffens or bool(self.locked(point))
 
-    @cached_property
-    def _heaviest(self) -> float:
-        """The level at which the liquid presses as much as :data:`HEAVIEST` says, above the upper ring."""
-        law = self.data.material
-        stiffness = 1 + self.data.alpha if law is None else relative_stiffness(law)
-        return max(2 * self.data.L, HEAVIEST * stiffness / self.data.gamma)
-
     def locked(self, point: CurvePoint) -> str:
         """Why a level that still rises is followed no further, as text; empty if it is followed."""
         if self._volume_of(point) > np.pi * WIDEST**2 * self.data.L:
             return f"the mean radius is {WIDEST:g}"
-        if point.state.loads["zw"] > self._heaviest:
+        if point.state.loads["zw"] > heaviest(self.data):
             return f"the pressure of the liquid is {HEAVIEST:g} times the stiffness of the law"
         return GIVES_WAY if self._yields(point.state) else ""
 
@@ -296,6 +289,13 @@ class FluidPath:
         with self.model.system.at(state):
             found = sampler()
         return [found[name] for name in names]
+
+
+def heaviest(data: TubeData) -> float:
+    """The level at which the liquid presses as much as :data:`HEAVIEST` says, above the upper ring."""
+    law = data.material
+    stiffness = 1 + data.alpha if law is None else relative_stiffness(law)
+    return max(2 * data.L, HEAVIEST * stiffness / data.gamma)
 
 
 def _in_order(state: State) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Self
+from typing import ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -70,5 +70,8 @@ class FluidTubeParameters(MaterialChoice):
     n_max: int = Field(3, ge=1, le=MOST_WAVES, description="largest wave number whose stability is judged")
     zw_end: float = Field(
         ZW_END, ge=0.3, lt=1, description="fraction of the highest level at which the branch ends"
+    )
+    energy: Literal["standard", "relaxed"] = Field(
+        "standard", description="that of the law, or relaxed: a tube that bears no compression"
     )
     secondary: bool = Field(False, description="also solve for the secondary branch (delta up to 8)")

@@ -14,8 +14,8 @@ from weakforms.problems.branch_problem import BranchProblem, Family, asked_cross
 from weakforms.problems.liquid_tube.about import FLUID_TUBE
 from weakforms.problems.liquid_tube.bent.family import secondary_family
 from weakforms.problems.liquid_tube.branch import FluidPath
-from weakforms.problems.liquid_tube.model import TubeData
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
+from weakforms.problems.liquid_tube.relaxed import RelaxedBranch, require_relaxed_possible, tube_data
 from weakforms.problems.material_choice import require_model
 from weakforms.problems.meridian.compression import compression
 from weakforms.problems.meridian.pre_stretch import has_bounded_force, require_bearable, require_width
@@ -66,6 +66,8 @@ class FluidTube(BranchProblem):
                 f"fluid_tube: secondary = true: the force of model = {parameters.model!r} is bounded, and a "
                 "tube of it gives way while it bends; allowed with this law: secondary = false"
             )
+        if parameters.energy == "relaxed":
+            require_relaxed_possible(parameters, requests)
         for wanted in requests.states:
             if wanted.name == "zw" and wanted.value < 0:
                 raise InputError(f"fluid_tube: zw = {wanted.value:g} is below the tube; allowed: zw >= 0")
@@ -93,6 +95,9 @@ class FluidTube(BranchProblem):
     def families(self, task: Task) -> dict[str, Family]:
         """The primary branch on all meshes, and the secondary one if it is requested and there is one."""
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
+        if parameters.energy == "relaxed":
+            progress("primary branch", 0, 1)
+            return {"primary": RelaxedBranch(parameters, numerics, comm)}
         primary = primary_family(parameters, numerics, comm, progress)
         if not parameters.secondary:
             return {"primary": primary}
@@ -109,11 +114,18 @@ class FluidTube(BranchProblem):
         return np.linspace(0, parameters.L / parameters.delta, 61)
 
     def remarks(
-        self, _parameters: FluidTubeParameters, numerics: FluidTubeNumerics, families: Mapping[str, Family]
+        self, parameters: FluidTubeParameters, numerics: FluidTubeNumerics, families: Mapping[str, Family]
     ) -> list[str]:
-        """Where the primary branch is compressed."""
+        """Where the primary branch of the ordinary tube is compressed."""
+        if parameters.energy == "relaxed":
+            return []
         where = compression(families["primary"], "Z", numerics.degree)
-        return [f"the tube {where}; a real one wrinkles there"] if where else []
+        try:
+            require_relaxed_possible(parameters.model_copy(update={"secondary": False}))
+            instead = "energy = relaxed lets it wrinkle"
+        except InputError:
+            instead = "a real one wrinkles there"
+        return [f"the tube {where}; {instead}"] if where else []
 
     def _answer(self, result: Result, families: dict[str, Family], task: Task) -> None:
         """As for any problem; with the secondary branch, a state is computed on every branch that has it."""
@@ -145,16 +157,7 @@ def primary_family(
     paths = []
     for level, cells in enumerate(numerics.meshes):
         progress("primary branch", level, numerics.levels)
-        data = TubeData(
-            parameters.L,
-            parameters.delta,
-            parameters.gamma,
-            parameters.alpha,
-            cells // 2,
-            numerics.degree,
-            numerics.grading,
-            parameters.other_law,
-        )
+        data = tube_data(parameters, numerics, cells)
         paths.append(FluidPath(comm, data, parameters.n_max, parameters.zw_end, numerics.step))
     counts = [len(path.pieces) for path in paths]
     if len(set(counts)) > 1:

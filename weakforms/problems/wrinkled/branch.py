@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
+from math import inf
 
 import numpy as np
 
@@ -56,6 +57,8 @@ class WrinkledBranch:
     """
 
     name = "primary"
+    usual_load = inf
+    """Load above which steps grow in proportion to it."""
 
     def __init__(
         self, membrane: Membrane, load_end: float, volume_end: float, step: float, readings: Readings
@@ -73,7 +76,7 @@ class WrinkledBranch:
     def trace(self) -> SolutionCurve:
         """The branch on the finest plain mesh, by arc length from the unloaded state."""
         load_end, volume_end, step = self._settings
-        steps = StepControl(first=step / 8, largest=step, predictor_error=PREDICTOR)
+        steps = StepControl(step / 8, step, predictor_error=PREDICTOR, usual_load=self.usual_load)
         continuation = Continuation(solver_of(self.membrane.plain_model, (self.control,)), control=steps)
         with self.membrane.weighed():
             start = self._start(continuation)
@@ -82,13 +85,13 @@ class WrinkledBranch:
             def stop(point: CurvePoint) -> bool:
                 load = point.state.loads[self.control]
                 peak[0] = max(peak[0], load)
-                return load > load_end or self._is_past_limit(load, peak[0]) or point.monitors["V"] > most
+                return load > load_end or self._is_past_limit(point, peak[0]) or point.monitors["V"] > most
 
             return SolutionCurve(continuation, self.control, start, stop)
 
-    def _is_past_limit(self, load: float, peak: float) -> bool:
+    def _is_past_limit(self, point: CurvePoint, peak: float) -> bool:
         """Whether the load has decreased so far from its largest value that the branch ends."""
-        return load < PAST_LIMIT * peak
+        return point.state.loads[self.control] < PAST_LIMIT * peak
 
     def _start(self, continuation: Continuation) -> CurvePoint:
         """The start of the trace: no load.

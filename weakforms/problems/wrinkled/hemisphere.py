@@ -200,9 +200,9 @@ class HemisphereBranch(WrinkledBranch):
     past = 0.01
     """Decrease of the load below its maximum at the end of the branch."""
 
-    def _is_past_limit(self, load: float, peak: float) -> bool:
+    def _is_past_limit(self, point: CurvePoint, peak: float) -> bool:
         """Whether the load has decreased so far."""
-        return load < peak - self.past
+        return point.state.loads[self.control] < peak - self.past
 
 
 class Hemisphere(BranchProblem):

@@ -100,11 +100,13 @@ class WrinkledModel(MeridianModel):
 
     @cached_property
     def expressions(self) -> dict[str, Expr]:
-        """Also the wrinkling function and the pressure."""
+        """Also the wrinkling function, the pressure, and the volume of the liquid."""
         e, q = super().expressions, self.q
         depth = q["zw"] - e["z"]
-        pressure = q["p"] + ufl.conditional(self.marked("wet", depth), q["gamma"] * depth, 0.0)
-        return {**e, "gw": wrinkling_function(e["lam1"], e["lam2"]), "pressure": pressure}
+        wet = self.marked("wet", depth)
+        pressure = q["p"] + ufl.conditional(wet, q["gamma"] * depth, 0.0)
+        gw = wrinkling_function(e["lam1"], e["lam2"])
+        return {**e, "gw": gw, "pressure": pressure, "filled": ufl.conditional(wet, e["volume"], 0.0)}
 
     @cached_property
     def full(self) -> SurfaceLaw:
@@ -128,13 +130,14 @@ class WrinkledModel(MeridianModel):
             monitors={
                 **given.monitors,
                 "Pi": (self.strain - e["pressure"] * e["volume"]) * e["width"] * self.dx,
+                "V_f": e["filled"] * e["width"] * self.dx,
                 "N": tension * ends(UPPER if pole else LOWER),
                 **at_pole,
                 "gw": self.point(e["gw"]),
                 "gw_slope": self.point(e["gw"].dx(0) / e["width"]),
                 "z": self.point(e["z"]),
             },
-            internal=("gw", "gw_slope", "z"),
+            internal=("V_f", "gw", "gw_slope", "z"),
             mark=self.mark,
             profile={
                 **{name: e[name] for name in ("r", "z", "lam1", "lam2", "gw")},

@@ -293,7 +293,7 @@ class _Front:
 class _Trace(WrinkledBranch):
     """The branch up to a volume, whatever its load does."""
 
-    def _is_past_limit(self, _load: float, _peak: float) -> bool:
+    def _is_past_limit(self, _point: CurvePoint, _peak: float) -> bool:
         return False
 
 
