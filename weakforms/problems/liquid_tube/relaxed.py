@@ -113,6 +113,10 @@ class FluidReadings(Readings):
         with waves_at(held) as waves:
             return {f"Lambda_n{n}": waves.spectrum(n, 1).eigenvalues[0] / 2 for n in (0, *self.waves)}
 
+    def order(self, name: str) -> float:
+        """As for any wrinkled membrane; eigenvalues have that of fronts, at which their operator jumps."""
+        return self.cap / 2 if name.startswith("Lambda") else super().order(name)
+
     def _resolved(self, _name: str) -> bool:
         return False
 
