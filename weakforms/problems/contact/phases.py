@@ -80,6 +80,8 @@ class ContactPhases(Inflation):
             passes = len(branch.crossings("p", self.p_end)) > 0
             reached = branch.at("p", self.p_end).state.loads["front"] if passes else farthest
             if reached <= span * (1 + BEYOND):
+                if passes:  # the extrapolated history multiplies round-off by far
+                    branch.end_at("p", self.p_end)
                 return history, branch
             found, before, span = (
                 span,
