@@ -85,6 +85,15 @@ def test_lopsided_states_of_a_tube(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_bent_states_of_a_tube(same_on_ranks):
+    surface = {"secondary_cells": 8, "secondary_around": 4, "secondary_degree": 3}
+    bent = {"problem": "tube", "alpha": 0, "lf": 10, "u_end": 0.8, "secondary": True, "secondary_n": 1}
+    (found,) = same_on_ranks([bent | {"numerics": MESH | surface}])
+    assert found.special_points[-1].values["p_2"] < 0 < found.special_points[-1].values["V_2"]
+    assert found.branch("secondary")["u_wave"].max() > 0.3
+
+
+@pytest.mark.paper2
 def test_wrinkled_tubes(same_on_ranks):
     wrinkled = {"problem": "tube", "energy": "relaxed", "numerics": MESH | {"cells": 32}}
     given = (

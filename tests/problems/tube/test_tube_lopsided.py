@@ -6,9 +6,9 @@ from mpi4py import MPI
 
 from weakforms import ConvergenceError, InputError, solve
 from weakforms.problems.problem import Requests, Task
-from weakforms.problems.tube.lopsided import AMPLITUDE
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.problem import Tube
+from weakforms.problems.tube.secondary.lopsided import AMPLITUDE
 from weakforms.solvers.continuation.expansion import Expansion
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton

@@ -6,9 +6,9 @@ from mpi4py import MPI
 
 from weakforms import InputError, solve
 from weakforms.problems.problem import Requests, Task
-from weakforms.problems.tube.imperfect import largest_step
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.problem import Tube
+from weakforms.problems.tube.secondary.imperfect import largest_step
 
 pytestmark = pytest.mark.paper2
 COARSE = {"cells": 16, "levels": 2, "step": 0.2}

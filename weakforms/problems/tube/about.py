@@ -53,6 +53,16 @@ LOPSIDED = (
 )
 """Columns of lopsided states only."""
 
+BENT = (
+    Column(
+        "u_wave",
+        "amplitude of cos(n Theta) in the radial displacement of the mid-plane over {length}, on the branch "
+        "of secondary_n = n; u_max is then the mean around the axis",
+        "u_{wave}",
+    ),
+)
+"""Columns of states with waves around the axis only."""
+
 PRE_STRETCH = Column("delta1", "axial pre-stretch, 1", r"\delta_1")
 RELAXED = (
     Column("wrinkled_fraction", "fraction of the length that is wrinkled, of one zone or of both"),
@@ -99,7 +109,8 @@ WAVES = numbers(
 )
 
 CURVATURES = numbers(
-    p_2="initial curvature of the secondary branch: p = p_c + p_2 w_mid^2, w_mid over R_f, p scaled as p is",
+    p_2="initial curvature of the secondary branch: p = p_c + p_2 w_mid^2, w_mid over R_f, p scaled as p is; "
+    "of secondary_n = 1 and more u_wave instead of w_mid",
     V_2="the same of its volume: V = V_c + V_2 w_mid^2",
     A1="coefficient of (p - p_c) w_mid in the equation of the amplitude, from the third variation of Pi",
     A3="coefficient of w_mid^3 in it, from the third and fourth variation; p_2 = -A3/A1",
@@ -108,7 +119,7 @@ CURVATURES = numbers(
     "as p is: Koiter's law, 3 p_2 |B/(2 A1 p_2)|^(2/3)",
     V_s="the same of the extremum of the volume: 3 V_2 |V' B/(2 A1 V_2)|^(2/3), V' = dV/dp of free inflation",
 )
-"""Values of the mirror-breaking point at which the secondary branch of an even tube begins."""
+"""Values of the point at which a secondary branch begins; ``B``, ``p_s``, ``V_s`` of lopsided states only."""
 
 SHARED = {
     "paper": 2,
@@ -137,7 +148,7 @@ TUBE = About(
         "forms.revolution:strain_energy",
         "forms.revolution:gas_energy",
     ),
-    columns=(*FREE, *LOPSIDED, *STABILITY, *CONTACT, *RELAXED, *column.DIAGNOSTICS),
+    columns=(*FREE, *LOPSIDED, *BENT, *STABILITY, *CONTACT, *RELAXED, *column.DIAGNOSTICS),
     numbers=(*NUMBERS, *WAVES, *CURVATURES),
     special_points=(
         *("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset"),

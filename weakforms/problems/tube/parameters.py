@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from math import ceil, log2
-from typing import Annotated, ClassVar, Literal, TypeVar
+from typing import Annotated, ClassVar, Literal, Self, TypeVar
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.problem import Needs
 from weakforms.problems.tube.about import MOST_WAVES
+from weakforms.problems.tube.secondary.surface import BentMesh
 from weakforms.problems.wave_numbers import wave_numbers
 
 
@@ -18,6 +19,44 @@ class TubeNumerics(MeshNumerics):
     """Meshes of the tube: ``cells`` on the finest half length, half as many on each coarser level."""
 
     grading: float = Field(0.6, ge=0, lt=1, description="concentration of cells at the disks")
+
+
+class SecondaryNumerics(TubeNumerics):
+    """Besides, the meshes of the surface with ``secondary_n`` waves, each twice as fine as the one before."""
+
+    secondary_cells: int = Field(
+        16, ge=8, le=192, description="cells of the surface of secondary_n along half the tube"
+    )
+    secondary_around: int = Field(8, ge=4, le=96, description="its cells around half a wave")
+    secondary_degree: int = Field(5, ge=2, le=6, description="polynomial degree on that surface")
+
+    @model_validator(mode="after")
+    def _nested_surface(self) -> Self:
+        coarsest = 2 ** (self.levels - 1)
+        for name in ("secondary_cells", "secondary_around"):
+            if getattr(self, name) % coarsest:
+                raise ValueError(f"{name} must be a multiple of {coarsest} for {self.levels} levels")
+        return self
+
+    @property
+    def surfaces(self) -> list[BentMesh]:
+        """The meshes of the surface, coarse to fine."""
+        counts = [2**k for k in reversed(range(self.levels))]
+        return [
+            BentMesh(
+                self.secondary_cells // k, self.secondary_around // k, self.secondary_degree, self.grading
+            )
+            for k in counts
+        ]
+
+    def scaled(self, factor: float) -> Self:
+        """The same with so many times as many cells, also of the surface where it allows this."""
+        coarsest = 2 ** (self.levels - 1)
+        surface = {
+            name: max(8, coarsest, int(factor * getattr(self, name)))
+            for name in ("secondary_cells", "secondary_around")
+        }
+        return type(self)(**super().scaled(factor).model_dump() | surface)
 
 
 Meshes = TypeVar("Meshes", bound=MeshNumerics)
@@ -47,6 +86,7 @@ class TubeParameters(MaterialChoice):
         "spring": [{"phase": ("deflation",)}],
         "u_end": [{"contact": ("none",)}],
         "n": [{"contact": ("none",)}],
+        "secondary_n": [{"secondary": (True,)}],
         "secondary_from": [{"secondary": (True,)}],
         "uneven": [{"extent": ("full",), "contact": ("none",)}],
     }
@@ -78,11 +118,18 @@ class TubeParameters(MaterialChoice):
     )
     secondary: bool = Field(
         False,
-        description="also follow the lopsided states of free inflation (extent = full), on which the bulge "
-        "moves to one end; n = 0 is then computed too",
+        description="also follow a secondary branch of free inflation: lopsided states (extent = full), on "
+        "which the bulge moves to one end, or those of secondary_n",
+    )
+    secondary_n: int = Field(
+        0,
+        ge=0,
+        le=MOST_WAVES,
+        description="its waves around the axis: 0 for lopsided states; 1 for bent ones, symmetric about "
+        "mid-length (extent = half), and so on; stability is computed for this n too",
     )
     secondary_from: int = Field(
-        1, ge=1, le=9, description="which of the points where the mirror symmetry breaks they begin at"
+        1, ge=1, le=9, description="which of the points that are neutral to these waves it begins at"
     )
     uneven: float = Field(
         0.0,
@@ -94,8 +141,9 @@ class TubeParameters(MaterialChoice):
 
     @property
     def stability(self) -> tuple[int, ...]:
-        """Wave numbers that are computed: those asked for, and 0 with lopsided states."""
-        return self.n if 0 in self.n or not self.secondary else (0, *self.n)
+        """Wave numbers that are computed: those asked for, and that of the secondary branch."""
+        own = self.secondary_n
+        return self.n if own in self.n or not self.secondary else (own, *self.n)
 
 
 class TubeFoldParameters(MaterialChoice):

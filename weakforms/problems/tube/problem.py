@@ -18,17 +18,21 @@ from weakforms.problems.meridian.pre_stretch import require_stretched
 from weakforms.problems.problem import End, Progress, Requests, Task
 from weakforms.problems.tube.about import TUBE, TUBE_FOLD
 from weakforms.problems.tube.contact_family import contact_family
-from weakforms.problems.tube.imperfect import LEAST, detached_family, largest_step
-from weakforms.problems.tube.lopsided import AMPLITUDE, WholeTube, lopsided_family
 from weakforms.problems.tube.model import FIRST_U, TubeMesh, TubeModel, fold_line_between, free_branch
 from weakforms.problems.tube.parameters import (
     LONGEST_WHOLE,
+    SecondaryNumerics,
     TubeFoldParameters,
     TubeNumerics,
     TubeParameters,
     resolving,
 )
 from weakforms.problems.tube.relaxed_family import relaxed_family, require_relaxed_possible
+from weakforms.problems.tube.secondary import lopsided, surface
+from weakforms.problems.tube.secondary.bent import bent_family
+from weakforms.problems.tube.secondary.crossed import require_secondary_possible
+from weakforms.problems.tube.secondary.imperfect import LEAST, detached_family, largest_step
+from weakforms.problems.tube.secondary.lopsided import WholeTube, lopsided_family
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
 from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
@@ -57,7 +61,7 @@ class Tube(BranchProblem):
 
     about = TUBE
     parameters = TubeParameters
-    numerics = TubeNumerics
+    numerics = SecondaryNumerics
 
     def check(self, parameters: TubeParameters, requests: Requests) -> None:
         """Refuse wrong combinations of parameters and requests.
@@ -68,9 +72,9 @@ class Tube(BranchProblem):
         require_waves(self.name, parameters.n, (wanted.name for wanted in requests.states))
         super().check(parameters, requests)
         require_stretched(self.name, parameters.material, parameters.delta1, "delta1")
-        if parameters.n:
+        if parameters.n or parameters.secondary_n:
             _require_waves_possible(parameters)
-        _require_lopsided_possible(parameters, requests)
+        require_secondary_possible(parameters, requests)
         if parameters.energy == "relaxed":
             require_relaxed_possible(parameters)
         if parameters.contact == "none" and parameters.phase == "deflation":
@@ -111,7 +115,8 @@ class Tube(BranchProblem):
                 End("u_end", "V", None, "its volume is that at which free inflation of an even tube ends")
             ]
         if branch == "secondary":
-            joined = End("primary", AMPLITUDE, 0.0, "it joins free inflation again")
+            amplitude = surface.AMPLITUDE if parameters.secondary_n else lopsided.AMPLITUDE
+            joined = End("primary", amplitude, 0.0, "it joins free inflation again")
             return [joined, End("u_end", "V", None, "its volume is that at the end of free inflation")]
         if parameters.contact == "none":
             return [End("u_end", "u_max", parameters.u_end, largest=True)]
@@ -138,7 +143,7 @@ class Tube(BranchProblem):
         return {"primary": _with_stability(make, numerics)}
 
     def _with_secondary(self, task: Task) -> dict[str, Family]:
-        """Free inflation with its stability, and the lopsided states if there are any."""
+        """Free inflation with its stability, and the secondary branch if there is one."""
         parameters, numerics, progress = task.parameters, task.numerics, task.progress
         primary = _with_stability(branch_maker(parameters, numerics, task.comm, progress), numerics)
         number, step = parameters.secondary_from, numerics.step
@@ -147,6 +152,8 @@ class Tube(BranchProblem):
                 even = parameters.model_copy(update={"uneven": 0.0})
                 crossed = _with_stability(branch_maker(even, numerics, task.comm, progress), numerics)
                 secondary = detached_family(crossed, parameters.uneven, number, step, progress)
+            elif parameters.secondary_n:
+                secondary = bent_family(parameters, numerics, primary, task.comm, progress)
             else:
                 secondary = lopsided_family(primary, number, step, progress)
         except AbsentError as error:
@@ -199,21 +206,6 @@ def _require_waves_possible(parameters: TubeParameters) -> None:
     require_model("tube: waves around the axis", parameters, tuple(LAWS))
 
 
-def _require_lopsided_possible(parameters: TubeParameters, requests: Requests) -> None:
-    """Refuse lopsided states of a tube that has none, and states of a branch that is not solved for."""
-    if not parameters.secondary:
-        if any(wanted.branch == "secondary" for wanted in requests.states):
-            raise InputError("tube: the secondary branch is solved for only with secondary = true")
-        return
-    if parameters.contact != "none":
-        raise InputError(
-            f"tube: secondary = true with contact = {parameters.contact!r}: lopsided states are those of "
-            "free inflation; set contact = 'none'"
-        )
-    if parameters.extent == "half":
-        raise InputError("tube: secondary = true: lopsided states are not symmetric; set extent = 'full'")
-
-
 def _with_stability(make: Callable[[int], SolutionCurve], numerics: TubeNumerics) -> TubeFamily:
     """Free inflation with its stability on all meshes."""
     # Resultants are derivatives: inside of a cell they have the order of the degree.
@@ -235,7 +227,7 @@ def branch_maker(
             numerics.grading,
             full=parameters.extent == "full",
         )
-        whole = parameters.secondary or parameters.uneven
+        whole = parameters.extent == "full" and (parameters.secondary or parameters.uneven)
         tube, uneven = (WholeTube, parameters.uneven) if whole else (TubeModel, None)
         model = tube.free(comm, parameters.material, parameters.delta1, parameters.lf, at, uneven)
         kind: Callable[..., SolutionCurve] = EquilibriumBranch

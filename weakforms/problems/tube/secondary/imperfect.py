@@ -18,16 +18,15 @@ import numpy as np
 
 from weakforms.errors import AbsentError
 from weakforms.problems.gas import folds_of
-from weakforms.problems.tube.lopsided import (
+from weakforms.problems.tube.model import USUAL_LOAD, made_uneven, yielding, yields
+from weakforms.problems.tube.secondary.crossed import require_crossings
+from weakforms.problems.tube.secondary.lopsided import (
     ACROSS,
     AMPLITUDE,
     CROSSED,
+    LOST,
     LopsidedBranch,
-    ending,
-    expanded,
-    require_crossings,
 )
-from weakforms.problems.tube.model import USUAL_LOAD, made_uneven, yielding, yields
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.solvers.continuation.amounts import AmountCurve
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
@@ -57,7 +56,7 @@ def detached_side(even: TubeBranch, crossing: Solved, uneven: float) -> float:
 
     Before the crossing the force of the uneven thickness displaces the middle to the side that it pushes to.
     """
-    about = expanded(ExtendedNewton(even.system, [even.control]), crossing)
+    about = LopsidedBranch.expanded(ExtendedNewton(even.system, [even.control]), crossing)
     place = crossing.values["u_max"]
     before = [point.n_negative for point in even.points if point.monitors["u_max"] < place]
     after = [point.n_negative for point in even.points if point.monitors["u_max"] > place]
@@ -92,7 +91,8 @@ class DetachedBranch(AmountCurve, TubeBranch):
         extremum = abs(lopsided.expansion.amplitude_of_extremum(uneven))
         steps = StepControl(first=min(step, extremum) / 16, largest=step, usual_load=USUAL_LOAD)
         continuation = Continuation(solver, control=steps)
-        start, stop = _first(lopsided, continuation, uneven, extremum, begin), ending(even, lopsided.side)
+        start = _first(lopsided, continuation, uneven, extremum, begin)
+        stop = lopsided.ending(even, lopsided.side)
         super().__init__(continuation, even.control, start, stop, even.modes)
         self.end_at_limit(even.limit)
         if yields(self.points[-1]):
@@ -168,7 +168,7 @@ def detached_family(
         ConvergenceError: If there is no first state.
     """
     crossings = even.located(CROSSED)
-    require_crossings(len(crossings), number, even.fine)
+    require_crossings(len(crossings), number, even.fine, *LOST)
     side = detached_side(even.fine, crossings[number - 1][-1], uneven)
 
     made: list[DetachedBranch] = []

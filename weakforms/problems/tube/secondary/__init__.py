@@ -1,0 +1,1 @@
+"""Branches that leave free inflation of the tube where a symmetry breaks."""

@@ -1,0 +1,163 @@
+r"""Bent states of the free tube, and others with ``n`` waves around its axis, symmetric about mid-length.
+
+They leave free inflation where an even wave of wave number ``n`` is neutral. The amplitude is the part of
+:math:`\cos n\Theta` in the radial displacement of the mid-plane,
+
+.. math:: ξ = u_{wave} = \frac{2n}\pi \int_0^{\pi/n} (X - 1)\cos n\Theta \,\mathrm d\Theta \quad (Z = 0),
+
+positive here; the branch turned by ``pi/n`` has the opposite sign. The crossing is located anew on each mesh
+of the surface: the axisymmetric state at which its own second variation is singular.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from mpi4py import MPI
+from scipy.interpolate import make_interp_spline
+
+from weakforms.problems.meridian.families import EVEN, Wave
+from weakforms.problems.problem import Progress
+from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
+from weakforms.problems.tube.secondary.crossed import CrossedBranch, CrossedFamily, require_crossings
+from weakforms.problems.tube.secondary.surface import AMPLITUDE, BentTube
+from weakforms.problems.tube.stability import TubeBranch, TubeFamily
+from weakforms.results import Field
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.equilibrium.constraints import Plane
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.stability.modes import OwnVariation, Singular, judged, rated
+from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.support.sampling import Sampler
+
+ACROSS = "V", AMPLITUDE
+"""Columns of the plane in which meshes are compared: one of them changes at every point of the branch."""
+
+READINGS, SPLINE = 400, 5
+"""Number of positions at which free inflation is read for a first guess, and degree of the spline."""
+
+
+class BentModes:
+    """Stability of bent states in their own symmetry: ``n`` waves, both mirrors.
+
+    Args:
+        model: The surface.
+    """
+
+    wave_numbers: Sequence[Wave] = ()
+    columns: Sequence[str] = ()
+
+    def __init__(self, model: BentTube) -> None:
+        self.model, self._own = model, Stability(model.system)
+
+    def observe(self) -> dict[str, float]:
+        """The lowest eigenvalue."""
+        return {"eigenvalue_1": judged(self._own, self.model.system.state(), 1).eigenvalues[0]}
+
+    def counts(self, _own: int | None = None) -> dict[str, int]:
+        """Negative eigenvalues at fixed volume, by inertia."""
+        return {"n_negative_volume": rated(self.model.system, self._own.factor, "p").count_at_fixed}
+
+
+class BentBranch(CrossedBranch):
+    """The branch on one mesh of the surface.
+
+    Args:
+        primary: Free inflation of the half tube, on a mesh of the meridian.
+        crossings: Its points at which an even wave is neutral.
+        begin: Index of the one at which the branch begins.
+        step: Largest step.
+        model: The surface.
+    """
+
+    along, amplitude = "V", AMPLITUDE
+
+    def __init__(
+        self, primary: TubeBranch, crossings: Sequence[Solved], begin: int, step: float, model: BentTube
+    ) -> None:
+        self.kind, self.called = Wave(model.n, EVEN).kind, f"n = {model.n}"
+        self.family = {"n": float(model.n), "parity": float(EVEN)}
+        located = [on_surface(primary, solved, model) for solved in crossings]
+        super().__init__(primary, located, begin, step, own=(model.system, BentModes(model)))
+
+
+def on_surface(primary: TubeBranch, crossing: Solved, model: BentTube) -> Solved:
+    """The axisymmetric state of a surface's mesh at which its second variation is singular.
+
+    With a force ``mu b`` along the mode, ``R + mu b = 0``, ``g = 0`` and ``b.x = 0`` are regular, and
+    ``mu`` is zero by symmetry.
+
+    Raises:
+        ConvergenceError: If Newton's method does not converge.
+    """
+    x = np.linspace(0, 1, READINGS)
+    meridian, variation = primary.modes.model, primary.modes.variation
+    with primary.system.at(crossing.state):
+        e, loads = meridian.expressions, crossing.state.loads
+        position = Sampler(meridian.unknown, {"r": e["r"], "z": e["z"]}, x)()
+        wave = variation(Wave(model.n, EVEN))
+        vector = wave.nearest().vector
+        wave.mode.x.array[: wave.size] = vector
+        wave.mode.x.scatter_forward()
+        mode = Sampler(wave.mode, {name: wave.mode[i] for i, name in enumerate("uqw")}, x)()
+        places = meridian.material(x, loads)
+    r, z, u, q, w = (
+        make_interp_spline(places, values, SPLINE) for values in (*position.values(), *mode.values())
+    )
+    n, system = model.n, model.system
+    guess = model.state_of(lambda s, _: np.vstack([r(s), 0 * s, z(s)]), loads["p"])
+    displacement = model.interpolated(
+        lambda s, t: np.vstack([u(s) * np.cos(n * t), q(s) * np.sin(n * t), w(s) * np.cos(n * t)])
+    )
+    displacement[system.bc_dofs] = 0.0
+    dual = system.mass_times(displacement)
+    border = dual / np.sqrt(system.dot(displacement, dual))
+    solver = ExtendedNewton(system, ["p"], unfolding=border)
+    singular = Singular(lambda: OwnVariation(solver), border)
+    state, _ = solver.solve(guess, [singular, Plane(border, {}, 0.0)])
+    with system.at(state):
+        return Solved({"p": state.loads["p"], **system.monitors()}, state)
+
+
+class BentFamily(CrossedFamily):
+    """The branch on all meshes of the surface."""
+
+    fine: BentBranch
+    levels: list[BentBranch]
+
+    def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
+        """Columns along both meridians that are mirrors, one after the other."""
+        meridians = 0.0, np.pi / self.fine.modes.model.n
+        z, theta = np.tile(points, 2), np.repeat(meridians, len(points))
+        found = super()._profile(solved, np.column_stack([z, theta]))
+        keys = {"Z": z, "Theta": theta}
+        return Field(found.name, {**found.columns, **keys}, {**found.uncertainty, **dict.fromkeys(keys, 0.0)})
+
+
+def bent_family(
+    parameters: TubeParameters,
+    numerics: SecondaryNumerics,
+    primary: TubeFamily,
+    comm: MPI.Intracomm,
+    progress: Progress,
+) -> BentFamily:
+    """The branch from one crossing of free inflation of the half tube, on all meshes of the surface.
+
+    Raises:
+        AbsentError: If there are not as many crossings.
+    """
+    n, meshes, number = parameters.secondary_n, numerics.surfaces, parameters.secondary_from
+    every = [same[-1] for same in primary.located(Wave(n, EVEN).kind)]
+    crossings = [solved for solved in every if solved.values["parity"] == EVEN]
+    where = f"even waves of n = {n} are neutral", "delta1 or lf, or another secondary_n"
+    require_crossings(len(crossings), number, primary.fine, *where)
+
+    def make(level: int) -> BentBranch:
+        progress(f"branch of n = {n}", level, len(meshes))
+        tube = parameters.material, parameters.delta1, parameters.lf / 2
+        model = BentTube(comm, *tube, n, meshes[level])
+        return BentBranch(primary.fine, crossings, number - 1, numerics.step, model)
+
+    # Twice the degree is reached only on meshes that resolve the layer at the disk.
+    return BentFamily(make, len(meshes), numerics.secondary_degree, ACROSS, "secondary")
