@@ -23,8 +23,10 @@ def test_membrane(same_on_ranks):
     bag["numerics"] = {**coarse, "degree": 1, "p_start": 0.05}
     pond = {"problem": "membrane", "load": "liquid", "gamma": 5.0, "w_end": 1.2, "at": [("zw", 0.03)]}
     pond |= {"thickness": "1 + 0.2*X"}
-    found = same_on_ranks([disk, slack, bag, pond | {"numerics": coarse}])
-    assert [len(result.special_points) for result in found] == [1, 0, 0, 2]
+    pond |= {"numerics": coarse}
+    tilted = pond | {"tilt": 20.0}
+    found = same_on_ranks([disk, slack, bag, pond, tilted])
+    assert [len(result.special_points) for result in found] == [1, 0, 0, 2, 1]
 
 
 def test_adapted_meshes(same_on_ranks):

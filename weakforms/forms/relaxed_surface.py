@@ -168,7 +168,7 @@ def head(z: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:
 
 
 def pressure_potential(
-    z: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr, edge: Expr | float | None = None
+    z: Expr, flux: Expr, p: Expr, zw: Expr, gamma: Expr, edge: Expr | float | None = None
 ) -> Expr:
     r"""Potential :math:`\Phi(z)\,N_z` of gas and liquid inside a surface, per reference area.
 
@@ -179,7 +179,7 @@ def pressure_potential(
 
     Args:
         z: Height.
-        normal: Outward normal times area per reference area.
+        flux: Upward part :math:`N_z` of the outward normal times area per reference area.
         p: Gas pressure.
         zw: Level of the liquid.
         gamma: Its weight.
@@ -187,7 +187,7 @@ def pressure_potential(
             carry no load. For held edges the difference is a constant.
     """
     below = 0.0 if edge is None else head(edge, p, zw, gamma)
-    return (head(z, p, zw, gamma) - below) * normal[2]
+    return (head(z, p, zw, gamma) - below) * flux
 
 
 def printed_potential(at: Expr, normal: Expr, p: Expr, zw: Expr, gamma: Expr) -> Expr:

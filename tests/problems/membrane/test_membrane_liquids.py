@@ -20,6 +20,9 @@ from weakforms.solvers.equilibrium.state import State
 ALPHA, DELTA, GAMMA = 0.1, 1.1, 3.0
 STRESS = 2 * (1 - DELTA**-6) * (1 + ALPHA * DELTA**2)
 COARSE = {"cells": 4, "levels": 2}
+TILT = 0.4
+TILTED = np.array([np.sin(TILT), 0, np.cos(TILT)])
+"""The vertical of a tilted weight."""
 
 
 def model(reference, **given):
@@ -52,6 +55,15 @@ def rollers():
     return Reference(points, given.cells, seam[side], given.mirrors, slides={"Z": seam[~side]})
 
 
+def mirrored():
+    """Half of a bowl, beside its plane of symmetry that is vertical whatever the tilt."""
+    given = airbag(3)
+    edges = np.vstack([given.slides["Z"], given.mirrors["X"]])
+    points = given.points.copy()
+    points[:, 2] = 0.4 * points[:, 0] ** 2 + 0.2 * points[:, 1] ** 2 - 0.3 * points[:, 0]
+    return Reference(points, given.cells, edges, {"Y": given.mirrors["Y"]})
+
+
 def written(path, points, cells, **groups):
     """A file with groups of edges."""
     kind = "triangle6" if cells.shape[1] == 6 else "triangle"
@@ -63,14 +75,15 @@ def written(path, points, cells, **groups):
     return str(path)
 
 
-@pytest.mark.parametrize("shape", [bowl, rollers])
+@pytest.mark.parametrize(("shape", "tilt"), [(bowl, 0.0), (rollers, 0.0), (bowl, TILT), (mirrored, TILT)])
 @pytest.mark.parametrize("degree", [1, 2])
-def test_the_load_is_a_pressure_against_the_normals_with_any_supports(shape, degree):
-    """Of the potential, against its virtual work: edges that slide in their plane bear no load."""
-    of = model(shape(), degree=degree)
+def test_the_load_is_a_pressure_against_the_normals_with_any_supports(shape, tilt, degree):
+    """Of the potential, against its virtual work: edges that move in their plane bear no load."""
+    of = model(shape(), degree=degree, tilt=tilt)
     at, test, level = of.membrane, ufl.TestFunction(of.space), 3.0
     exact = ufl.Measure("dx", of.mesh, metadata={"quadrature_degree": 12})
-    pushed = fem.form(GAMMA * (level - at.position[2]) * ufl.dot(at.normal, test) * exact)
+    height = at.position[0] * TILTED[0] + at.position[2] * TILTED[2] if tilt else at.position[2]
+    pushed = fem.form(GAMMA * (level - height) * ufl.dot(at.normal, test) * exact)
     derived = fem.form(ufl.derivative(at.load * exact, of.unknown, test))
     with of.system.at(shaken(of, level)):
         wanted, found = (fem.assemble_vector(form).array for form in (pushed, derived))
@@ -83,10 +96,10 @@ def test_the_load_is_a_pressure_against_the_normals_with_any_supports(shape, deg
 
 
 @pytest.mark.parametrize("level", [0.2, 3.0])
-@pytest.mark.parametrize("shape", [bowl, rollers])
-def test_the_level_derives_the_liquid(shape, level):
+@pytest.mark.parametrize(("shape", "tilt"), [(bowl, 0.0), (rollers, 0.0), (bowl, TILT)])
+def test_the_level_derives_the_liquid(shape, tilt, level):
     """DPi/dzw + gamma V_f is that of the reference surface, at any displacement, wet or partly wet."""
-    of = model(shape())
+    of = model(shape(), tilt=tilt)
     left, h = [], 1e-6
     for seed in (0, 1):
         values = []
@@ -98,13 +111,16 @@ def test_the_level_derives_the_liquid(shape, level):
 
 
 @pytest.mark.parametrize("degree", [1, 2])
-@pytest.mark.parametrize("shape", [bowl, lambda: square(3)])
-def test_the_supports_bear_the_liquid(shape, degree):
+@pytest.mark.parametrize(
+    ("shape", "tilt"), [(bowl, 0.0), (lambda: square(3), 0.0), (bowl, TILT), (lambda: square(3), TILT)]
+)
+def test_the_supports_bear_the_liquid(shape, tilt, degree):
     """The sum of all vertical nodal forces is the weight of the liquid between vertical walls, exactly."""
-    of = model(shape(), degree=degree)
+    of = model(shape(), degree=degree, tilt=tilt)
     forces = fem.form(of.system.formulation.residual)
     with of.system.at(shaken(of, 0.05)):
-        total = fem.assemble_vector(forces).array[2::3].sum()
+        nodal = fem.assemble_vector(forces).array.reshape(-1, 3)
+        total = (nodal @ TILTED if tilt else nodal[:, 2]).sum()
         held = of.system.monitor("V_f")
     assert total == pytest.approx(GAMMA * held, rel=1e-11)
 
@@ -177,6 +193,33 @@ def test_a_bowl_of_a_file_holds_the_liquid_on_its_upper_side(tmp_path):
     assert found[0]["V_f"] > 0
 
 
+def test_a_tilted_weight_is_a_surface_turned_the_other_way(tmp_path):
+    """One body, turned as a whole, has the same numbers: of a bowl that is wet in part, and of a disk."""
+    angle = 20.0
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    turn = np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])  # takes the vertical to Z
+    for name, of, tilts in (("bowl", bowl(), (angle, 0.0)), ("disk", disk(4, 2), (angle + 5, 5.0))):
+        found = []
+        for tilt, motion in zip(tilts, (np.eye(3), turn), strict=True):
+            path = written(tmp_path / f"{name}{tilt:g}.msh", of.points @ motion.T, of.cells)
+            given = {"load": "liquid", "gamma": 3.0, "w_end": 0.31, "at": {"w_c": 0.3}, "tilt": tilt}
+            (state,) = solve("membrane", mesh=path, **given, numerics={"levels": 2}).states
+            found.append({n: state.quantities[n].value for n in ("zw", "V_f", "Pi", "U", "w_max")})
+        assert found[0] == pytest.approx(found[1], rel=1e-9)
+        assert found[0]["w_max"] > 0.3 + 1e-3  # the tilt is seen
+
+
+def test_edges_that_move_in_no_vertical_plane_are_refused_under_a_tilted_weight(tmp_path):
+    of = airbag(3)
+    groups = {"left": of.mirrors["X"], "bottom": of.mirrors["Y"], "seam": of.slides["Z"]}
+    path = written(tmp_path / "quarter.msh", of.points, of.cells, **groups)
+    given = {"mesh": path, "load": "liquid", "tilt": 10.0}
+    with pytest.raises(InputError, match="move in a plane X = constant, which is not vertical"):
+        solve("membrane", mirror="left,bottom", **given)
+    with pytest.raises(InputError, match="move in a plane Z = constant, which is not vertical"):
+        solve("membrane", mirror="bottom", slide="seam", **given)
+
+
 def test_a_sheet_on_rollers_sinks_under_a_liquid(tmp_path):
     """One side held, the other one sliding: it begins at a level, and its potential is a minimum."""
     of = rollers()
@@ -221,6 +264,7 @@ def test_edges_that_move_at_two_heights_are_refused(tmp_path):
         ),
         ({"gamma": 0.0}, "gamma = 0.0: input should be greater than 0"),
         ({"gamma": 31.0}, "gamma = 31.0: input should be less than or equal to 30"),
+        ({"tilt": 81.0}, "tilt = 81.0: input should be less than or equal to 80"),
         ({"load": "oil"}, "load = 'oil'"),
         ({"model": "varga", "gamma": 2.0}, "gamma = 2: the force of model = 'varga' is bounded"),
         ({"model": "varga", "delta": 2.5}, "delta = 2.5: the force of model = 'varga' is bounded"),

@@ -10,7 +10,8 @@ Edges on a plane of symmetry, and edges that slide in a plane, stay in the plane
 horizontal one, at which the edges of the membrane then carry no load. Conjugate to ``p`` is the volume ``V``
 between the membrane and its stretched reference surface, to ``gamma z_w`` the liquid ``V_f`` between vertical
 walls at the edges; above edges that move in their plane the walls are those of the reference surface. The
-unknown is the displacement from the stretched surface.
+unknown is the displacement from the stretched surface. Under a liquid whose weight is tilted, ``z`` and
+``N_z`` are components along the vertical ``(sin tilt, 0, cos tilt)``.
 """
 
 from __future__ import annotations
@@ -50,6 +51,11 @@ class Motion:
     """The coordinate along the line."""
 
 
+def vertical(tilt: float) -> np.ndarray:
+    """Unit vector upwards, at an angle from the axis ``Z`` towards ``X``."""
+    return np.array([sin(tilt), 0.0, cos(tilt)])
+
+
 @dataclass(frozen=True)
 class Body:
     """The membrane on one mesh."""
@@ -68,6 +74,8 @@ class Body:
     """Weight of the liquid."""
     thickness: Thickness | None = None
     """Thickness over ``h``, by the place in the reference surface; by default 1."""
+    tilt: float = 0.0
+    """Angle from the axis ``Z`` to the vertical, towards ``X``."""
     motion: Motion | None = None
     """Motion of the edges :attr:`Reference.moved`."""
 
@@ -89,11 +97,16 @@ class Body:
         return 1.0 if self.load == "gas" else -1.0
 
     @property
+    def up(self) -> np.ndarray:
+        """Unit vector along which heights are measured."""
+        return vertical(self.tilt)
+
+    @property
     def top(self) -> float:
         """Largest height of the stretched reference surface: a level below it wets a part only."""
         given = self.reference
-        highest = (given.middle + self.delta * (given.points - given.middle))[:, 2].max()
-        return float(highest + (max(self.motion.shift[2], 0.0) if self.motion else 0.0))
+        highest = ((given.middle + self.delta * (given.points - given.middle)) @ self.up).max()
+        return float(highest + (max(self.up @ self.motion.shift, 0.0) if self.motion else 0.0))
 
 
 class MembraneModel:
@@ -181,9 +194,10 @@ class MembraneModel:
         given = (self.mesh, self.law, self.scalars, self.weight)
         position = start if displacement is None else sum(self._lifted, start + displacement)
         edge, own = self.body.reference.edge, self.body.thickness
+        up = fem.Constant(self.mesh, self.body.up) if self.body.tilt else None
         x, y, z = ufl.SpatialCoordinate(self.mesh)
         thick = own(x, {"Y": y, "Z": z}) if own else 1.0
-        return Membrane.at(position, *given, thickness=thick, relaxed=self.body.relaxed, edge=edge)
+        return Membrane.at(position, *given, thick, self.body.relaxed, edge, up)
 
     def _formulation(self) -> Formulation:
         at, start = self.membrane, self._at(None)
@@ -223,7 +237,7 @@ class MembraneModel:
             return -ufl.diff(at.load - start.load, self.scalars["p"][1])
         zw = self.scalars["zw"][1]
         over = depth(self.body.reference.edge, zw)
-        return (depth(at.position[2], zw) - over) * at.normal[2] + over * start.normal[2]
+        return (depth(at.height, zw) - over) * at.flux + over * start.flux
 
     def _at_node(self, node: int) -> fem.Function:
         """The weight that reads a displacement at a corner of the reference surface."""

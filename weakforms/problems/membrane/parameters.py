@@ -11,7 +11,7 @@ from pydantic import AfterValidator, Field
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.gas import Gas, GasChoice
 from weakforms.problems.membrane.files import from_file
-from weakforms.problems.membrane.model import Body, Motion
+from weakforms.problems.membrane.model import Body, Motion, vertical
 from weakforms.problems.membrane.reference import AXES, Reference
 from weakforms.problems.membrane.shapes import airbag, disk, square
 from weakforms.problems.meridian.thickness import Thickness, text_over
@@ -68,7 +68,7 @@ class MembraneParameters(GasChoice):
         **{name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide", "moved")},
         **{name: [{"moved": ()}] for name in ("shift_x", "shift_y", "shift_z", "turn")},
         "axis": [{"turn": ()}],
-        "gamma": [{"load": ("liquid",)}],
+        **dict.fromkeys(("gamma", "tilt"), ({"load": ("liquid",)},)),
         **dict.fromkeys(("kappa", "p_atm", "V_r"), ({"load": ("gas",)},)),
     }
     movable: ClassVar = {"w_end": "le"}
@@ -100,6 +100,9 @@ class MembraneParameters(GasChoice):
         "gas", description="gas along the normals, or a liquid that stands on the surface"
     )
     gamma: float = Field(1.0, gt=0, le=30, description="rho g a^2/(C1 h), weight of the liquid")
+    tilt: float = Field(
+        0.0, ge=-80, le=80, description="liquid: angle, degrees, from Z to the vertical, towards X"
+    )
     delta: float = Field(1.1, ge=1, le=3, description="pre-stretch: stretch of the supports about a point")
     alpha: float = Field(0.1, ge=0, le=1, description="C2/C1 of mooney_rivlin; 0 is neo-Hookean")
     thickness: text_over("X", "Y", "Z") = Field(  # type: ignore[valid-type]
@@ -150,6 +153,15 @@ class MembraneParameters(GasChoice):
         return Motion(shift, float(np.radians(self.turn)), AXES.index(self.axis))
 
     @property
+    def up(self) -> np.ndarray:
+        """Unit vector upwards."""
+        return vertical(self._tilt)
+
+    @property
+    def _tilt(self) -> float:
+        return float(np.radians(self.tilt))
+
+    @property
     def own_thickness(self) -> Thickness | None:
         """The thickness, if one is given."""
         return None if self.thickness is None else Thickness(self.thickness, "X", ("Y", "Z"))
@@ -179,7 +191,7 @@ class MembraneParameters(GasChoice):
         """
         reference = self.surface(numerics.meshes[level], numerics.degree, level)
         if self.load == "liquid":
-            reference = reference.upwards()
+            reference = reference.upwards(self.up)
         relaxed, load = self.energy == "relaxed", (self.load, self.gamma)
-        about = self.material, self.delta, relaxed, numerics.degree, *load, self.own_thickness, self.motion
-        return Body(reference, *about)
+        about = self.material, self.delta, relaxed, numerics.degree, *load, self.own_thickness
+        return Body(reference, *about, self._tilt, self.motion)

@@ -165,15 +165,21 @@ def _require_basin(parameters: MembraneParameters) -> None:
         )
     if not parameters.is_file:
         return
-    given = parameters.given()
+    given, up = parameters.given(), parameters.up
     if "Z" in given.mirrors:
         raise InputError(
             "membrane: load = 'liquid': a horizontal plane is no plane of symmetry of a liquid, whose "
             "pressure grows with depth; name that group in slide or held instead of mirror"
         )
-    if abs(given.slope) < LEVEL:
+    moving = "".join(sorted({*given.mirrors, *given.slides} - {"Y"}))
+    if parameters.tilt and moving:
+        raise InputError(
+            f"membrane: tilt = {parameters.tilt:g}: edges of mesh = {parameters.mesh} move in a plane "
+            f"{moving[0]} = constant, which is not vertical; allowed: planes Y = constant, or tilt = 0"
+        )
+    if abs(span := given.slope(up)) < LEVEL:
         raise InputError(
             f"membrane: load = 'liquid': the open edges of mesh = {parameters.mesh} span a horizontal area "
-            f"of {abs(given.slope):.1g} times that of the surface, so that no side of it is the upper one; "
+            f"of {abs(span):.1g} times that of the surface, so that no side of it is the upper one; "
             f"allowed: from {LEVEL:g} on, such as sheets and bowls"
         )

@@ -22,6 +22,9 @@ OPPOSITE = ((1, 2), (2, 0), (0, 1))
 NODES = np.array([(0, 0), (1, 0), (0, 1), (0.5, 0.5), (0, 0.5), (0.5, 0)])
 """Places of the six nodes on the triangle of reference."""
 
+UP = np.array([0.0, 0.0, 1.0])
+"""The vertical of a weight that is not tilted."""
+
 CHILDREN = ((0, 5, 4), (5, 1, 3), (4, 3, 2), (3, 4, 5))
 """Corners of the four parts of a triangle, among its six nodes."""
 
@@ -135,15 +138,22 @@ class Reference:
         out[nodes[free]] = spsolve(matrix[free][:, free].tocsc(), (load - matrix @ given)[free])
         return out
 
-    @property
-    def slope(self) -> float:
-        """Vertical part of the area that the open edges span, over the area of the surface."""
-        normals = self.normals
-        return float(normals[:, 2].sum() / np.linalg.norm(normals, axis=1).sum())
+    def slope(self, up: np.ndarray = UP) -> float:
+        """Vertical part of the area that the open edges span, over the area of the surface.
 
-    def upwards(self) -> Reference:
-        """The same surface with normals whose sum points upwards."""
-        if self.slope >= 0:
+        Args:
+            up: Unit vector upwards; by default along ``Z``.
+        """
+        normals = self.normals
+        return float((normals @ up).sum() / np.linalg.norm(normals, axis=1).sum())
+
+    def upwards(self, up: np.ndarray = UP) -> Reference:
+        """The same surface with normals whose sum points upwards.
+
+        Args:
+            up: Unit vector upwards; by default along ``Z``.
+        """
+        if self.slope(up) >= 0:
             return self
         turned = [0, 2, 1, 3, 5, 4][: self.cells.shape[1]]
         return replace(self, cells=self.cells[:, turned])

@@ -51,6 +51,10 @@ class Membrane:
     """``N``: the deformed normal times area."""
     strain: Expr
     """``H W(C)``."""
+    height: Expr
+    """Height of the position."""
+    flux: Expr
+    """Upward part of ``N``."""
     load: Expr
     """Potential of gas and liquid."""
     resultants: Expr
@@ -67,6 +71,7 @@ class Membrane:
         thickness: Expr | float = 1.0,
         relaxed: bool = True,
         edge: Expr | float | None = None,
+        up: Expr | None = None,
     ) -> Membrane:
         """The terms at a position.
 
@@ -79,10 +84,12 @@ class Membrane:
             thickness: ``H`` over its mean.
             relaxed: Whether the sheet bears no compression.
             edge: Height of the edges, see :func:`weakforms.forms.relaxed_surface.pressure_potential`.
+            up: Unit vector along which heights are measured; by default ``e_z``.
         """
         patch = Patch.of(position, mesh)
         c, normal = patch.cauchy_green(), patch.area_vector()
         energy = relaxed_energy if relaxed else full_energy
-        load = pressure_potential(position[2], normal, loads["p"][1], loads["zw"][1], gamma, edge)
+        height, flux = (v[2] if up is None else ufl.dot(up, v) for v in (position, normal))
+        load = pressure_potential(height, flux, loads["p"][1], loads["zw"][1], gamma, edge)
         tension = resultants(patch, lambda c: thickness * energy(c, law))
-        return cls(position, c, normal, thickness * energy(c, law), load, tension)
+        return cls(position, c, normal, thickness * energy(c, law), height, flux, load, tension)
