@@ -264,6 +264,7 @@ def test_edges_that_move_at_two_heights_are_refused(tmp_path):
         ),
         ({"gamma": 0.0}, "gamma = 0.0: input should be greater than 0"),
         ({"gamma": 31.0}, "gamma = 31.0: input should be less than or equal to 30"),
+        ({"mesh": "tube", "delta": 1}, "a horizontal plane is no plane of symmetry of a liquid"),
         ({"tilt": 81.0}, "tilt = 81.0: input should be less than or equal to 80"),
         ({"load": "oil"}, "load = 'oil'"),
         ({"model": "varga", "gamma": 2.0}, "gamma = 2: the force of model = 'varga' is bounded"),

@@ -13,17 +13,18 @@ from weakforms.problems.gas import Gas, GasChoice
 from weakforms.problems.membrane.files import from_file
 from weakforms.problems.membrane.model import Body, Motion, vertical
 from weakforms.problems.membrane.reference import AXES, Reference
-from weakforms.problems.membrane.shapes import airbag, disk, square
+from weakforms.problems.membrane.shapes import airbag, disk, square, tube
 from weakforms.problems.meridian.thickness import Thickness, text_over
 from weakforms.problems.problem import Needs
 from weakforms.problems.triangles.files import SUFFIXES
 
-BUILT_IN = ("disk", "square", "airbag")
+BUILT_IN = ("disk", "square", "airbag", "tube")
 
 
 def _known(mesh: str) -> str:
     if mesh not in BUILT_IN and Path(mesh).suffix.lower() not in SUFFIXES:
-        raise ValueError(f"'disk', 'square', 'airbag' or a file ending in {', '.join(SUFFIXES)} is required")
+        given = ", ".join(f"{name!r}" for name in BUILT_IN)
+        raise ValueError(f"{given} or a file ending in {', '.join(SUFFIXES)} is required")
     return mesh
 
 
@@ -37,7 +38,10 @@ class MembraneNumerics(MeshNumerics):
 
     degree: int = Field(2, ge=1, le=2, description="polynomial degree of the unknowns")
     cells: int = Field(
-        16, ge=4, le=512, description="disk, square: triangles along the radius or half a side, finest mesh"
+        16,
+        ge=4,
+        le=512,
+        description="finest mesh: triangles along the radius, half a side or half the circumference",
     )
     refine: int = Field(
         0,
@@ -68,6 +72,7 @@ class MembraneParameters(GasChoice):
         **{name: [{"mesh": ("FILE",)}] for name in ("unit", "held", "mirror", "slide", "moved")},
         **{name: [{"moved": ()}] for name in ("shift_x", "shift_y", "shift_z", "turn")},
         "axis": [{"turn": ()}],
+        "lf": [{"mesh": ("tube",)}],
         **dict.fromkeys(("gamma", "tilt"), ({"load": ("liquid",)},)),
         **dict.fromkeys(("kappa", "p_atm", "V_r"), ({"load": ("gas",)},)),
     }
@@ -75,9 +80,10 @@ class MembraneParameters(GasChoice):
 
     mesh: Annotated[str, AfterValidator(_known)] = Field(
         "disk",
-        description="disk, square, airbag (a quarter of one sheet), or a file with triangles (msh, vtu, stl)",
-        examples=["disk", "square", "airbag"],
+        description="disk, square, airbag and tube (a quarter), or a file with triangles (msh, vtu, stl)",
+        examples=["disk", "square", "airbag", "tube"],
     )
+    lf: float = Field(10.0, ge=1, le=40, description="tube: length between its held ends over the radius")
     unit: float = Field(
         1.0, gt=0, le=1e9, description="file: the length, as in the file, by which lengths are divided"
     )
@@ -119,7 +125,7 @@ class MembraneParameters(GasChoice):
         return self.mesh not in BUILT_IN
 
     def _has(self, name: str, values: tuple[Any, ...]) -> bool:
-        return self.is_file if name == "mesh" else super()._has(name, values)
+        return self.is_file if values == ("FILE",) else super()._has(name, values)
 
     @property
     def gas(self) -> Gas | None:
@@ -178,6 +184,8 @@ class MembraneParameters(GasChoice):
             return square(cells)
         if self.mesh == "airbag":
             return airbag(cells)
+        if self.mesh == "tube":
+            return tube(cells, self.lf, degree)
         reference = self.given()
         for _ in range(level):
             reference = reference.refined()

@@ -163,13 +163,11 @@ def _require_basin(parameters: MembraneParameters) -> None:
             f"membrane: load = 'liquid': no edge of mesh = {parameters.mesh} is held; allowed: a surface "
             "with held edges, or load = 'gas'"
         )
-    if not parameters.is_file:
-        return
-    given, up = parameters.given(), parameters.up
+    given, up = parameters.surface(MembraneNumerics().cells, 1, 0), parameters.up
     if "Z" in given.mirrors:
         raise InputError(
             "membrane: load = 'liquid': a horizontal plane is no plane of symmetry of a liquid, whose "
-            "pressure grows with depth; name that group in slide or held instead of mirror"
+            "pressure grows with depth; allowed: a file with that group in slide or held, or load = 'gas'"
         )
     moving = "".join(sorted({*given.mirrors, *given.slides} - {"Y"}))
     if parameters.tilt and moving:

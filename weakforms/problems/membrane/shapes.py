@@ -1,4 +1,4 @@
-"""Stress-free surfaces that need no file: a disk, a square, and a quarter of one sheet of a square airbag."""
+"""Stress-free surfaces without a file: disk, square, quarters of a square airbag's sheet and a tube."""
 
 from __future__ import annotations
 
@@ -37,16 +37,22 @@ def _held(points: np.ndarray, cells: np.ndarray, degree: int) -> Reference:
     """A disk with its edge held."""
     rim = boundary(cells)
     if degree == 2:
-        edges = edges_of(cells)[0]
+        edges, more = _middles(cells)
         middle = points[edges].mean(axis=1)
         outer = np.isin(edges, rim).all(axis=1) & (np.linalg.norm(points[edges], axis=2) > 1 - 1e-9).all(
             axis=1
         )
         middle[outer] /= np.linalg.norm(middle[outer], axis=1)[:, None]
-        number = {tuple(edge): len(points) + i for i, edge in enumerate(edges.tolist())}
-        more = [[number[tuple(sorted((c[a], c[b])))] for a, b in OPPOSITE] for c in cells.tolist()]
-        points, cells = np.vstack([points, middle]), np.column_stack([cells, more])
+        points, cells = np.vstack([points, middle]), np.column_stack([cells, len(points) + more])
     return Reference(points, cells, rim, {}, edge_at=_on_circle)
+
+
+def _middles(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges of triangles, ``(k, 2)``, and which of them is opposite to each corner, ``(m, 3)``."""
+    edges = edges_of(cells)[0]
+    number = {tuple(edge): i for i, edge in enumerate(edges.tolist())}
+    found = [[number[tuple(sorted((c[a], c[b])))] for a, b in OPPOSITE] for c in cells.tolist()]
+    return edges, np.array(found)
 
 
 def _on_circle(points: np.ndarray) -> np.ndarray:
@@ -59,7 +65,8 @@ def square(cells: int) -> Reference:
     Args:
         cells: Squares along half a side.
     """
-    points, found = _crossed(np.linspace(-1, 1, 2 * cells + 1))
+    line = np.linspace(-1, 1, 2 * cells + 1)
+    points, found = _crossed(line, line)
     return Reference(points, found, boundary(found), {})
 
 
@@ -71,7 +78,8 @@ def airbag(cells: int) -> Reference:
     Args:
         cells: Squares along half a side.
     """
-    points, found = _crossed(np.linspace(0, 1, cells + 1))
+    line = np.linspace(0, 1, cells + 1)
+    points, found = _crossed(line, line)
     edges = boundary(found)
     x, y = points[edges, :2].max(axis=1).T
     mirrors = {"X": edges[x == 0], "Y": edges[y == 0]}
@@ -79,15 +87,43 @@ def airbag(cells: int) -> Reference:
     return Reference(points, found, np.empty((0, 2), int), mirrors, slides={"Z": seam})
 
 
-def _crossed(line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and triangles of a square cut into squares with both diagonals."""
-    n = len(line) - 1
-    corners = np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2)
-    half = (line[1:] + line[:-1]) / 2
-    centres = np.stack(np.meshgrid(half, half, indexing="ij"), axis=-1).reshape(-1, 2)
+def tube(cells: int, length: float, degree: int) -> Reference:
+    """A quarter of a tube of radius 1 whose ends are held: ``Y >= 0``, and ``Z`` from the middle upwards.
+
+    Triangles are shorter at the held end, where a tube without pre-stretch has a thin layer.
+
+    Args:
+        cells: Rectangles around the half circumference, on average as long as wide.
+        length: Of the whole tube.
+        degree: Of the triangles' sides: 1 straight, 2 curved.
+    """
+    share = np.linspace(0, 1, max(2, round(cells * length / (2 * np.pi))) + 1)
+    along = length / 2 * np.sin(np.pi / 2 * share)
+    flat, found = _crossed(np.linspace(0, np.pi, cells + 1), along)
+    edges = boundary(found)
+    if degree == 2:
+        pairs, more = _middles(found)
+        found = np.column_stack([found, len(flat) + more])
+        flat = np.vstack([flat, flat[pairs].mean(axis=1)])
+    angle, z, _ = flat.T
+
+    def at(values: np.ndarray, value: float) -> np.ndarray:
+        return edges[np.isclose(values[edges], value).all(axis=1)]
+
+    mirrors = {"Y": np.vstack([at(angle, 0), at(angle, np.pi)]), "Z": at(z, 0)}
+    points = np.column_stack([np.cos(angle), np.sin(angle), z])
+    return Reference(points, found, at(z, length / 2), mirrors)
+
+
+def _crossed(one: np.ndarray, other: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and triangles of a rectangle cut into rectangles with both diagonals."""
+    n, m = len(one) - 1, len(other) - 1
+    corners = np.stack(np.meshgrid(one, other, indexing="ij"), axis=-1).reshape(-1, 2)
+    halves = [(line[1:] + line[:-1]) / 2 for line in (one, other)]
+    centres = np.stack(np.meshgrid(*halves, indexing="ij"), axis=-1).reshape(-1, 2)
     flat = np.vstack([corners, centres])
-    i, j = np.divmod(np.arange(n * n), n)
-    around = [(i + a) * (n + 1) + j + b for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    middle = (n + 1) ** 2 + np.arange(n * n)
+    i, j = np.divmod(np.arange(n * m), m)
+    around = [(i + a) * (m + 1) + j + b for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    middle = (n + 1) * (m + 1) + np.arange(n * m)
     triangles = [np.column_stack([around[k], around[(k + 1) % 4], middle]) for k in range(4)]
     return np.column_stack([flat, 0 * flat[:, 0]]), np.stack(triangles, axis=1).reshape(-1, 3)

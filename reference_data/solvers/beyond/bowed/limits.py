@@ -1,0 +1,178 @@
+r"""Limit pressures of tubes that are thinner on one side, and the law of Koiter that they tend to.
+
+On the even tube phi is the null vector where it begins to bow, with an offset of one in the middle. A bowed
+state has p = p_c + p_2 A^2, A the offset. With A1 the rate of phi.K.phi along free inflation, over its
+pressure, and B = phi.F_,eps, the limit pressure of the thickness 1 + eps cos(Theta) is
+
+.. math:: p = p_c + 3 p_2 \Big(\frac{\varepsilon |B|}{2 |A_1 p_2|}\Big)^{2/3} + O(\varepsilon^{4/3}).
+
+The left null vector takes the place of phi where the equations are not the derivative of an energy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import brentq
+
+from reference_data.solvers.beyond.bowed.collocation import Collocation
+from reference_data.solvers.beyond.bowed.galerkin import Galerkin
+from reference_data.solvers.core.collocation import Array, lagrange
+
+STEPS, SMALL = 30, 1e-11
+COARSE = 20, 2
+"""Degree and waves of the first axisymmetric state."""
+NEAR = 1e-3
+"""Difference of pressures over which the eigenvalue's rate is a central difference."""
+OFFSETS = 0.1, 0.2, 0.3, 0.4
+"""Offsets of bowed states of the even tube, through which a polynomial of A^2 is fitted."""
+
+
+AROUND = 0.7, 1.25
+"""Offsets over that of the law between which a limit is sought."""
+
+
+@dataclass(frozen=True)
+class State:
+    """A state of one method."""
+
+    of: Galerkin | Collocation
+    x: Array
+    p: float
+    uneven: float = 0.0
+
+    @property
+    def offset(self) -> float:
+        """Mean of x in the middle."""
+        return float(self.of.offset @ self.x[self.of.free])
+
+    @property
+    def volume(self) -> float:
+        """Volume of a quarter beyond that at rest."""
+        return self.of.volume(self.x)
+
+
+def solve(guess: State, row: Array, value: float, bows: bool = True) -> State:
+    """The state at which a row reads a value, with unknown pressure.
+
+    Args:
+        guess: A state nearby.
+        row: The row.
+        value: Its value.
+        bows: If not, a force that vanishes keeps the offset at zero: the equations are regular also where the
+            tube begins to bow.
+
+    Raises:
+        RuntimeError: If Newton's method fails.
+    """
+    x, p, free = guess.x.copy(), guess.p, guess.of.free
+    rows = np.array([row] if bows else [row, guess.of.offset])
+    wanted, last = np.array([value, 0.0])[: len(rows)], np.inf
+    for _ in range(STEPS):
+        f, k, load, _ = guess.of.evaluate(x, p, guess.uneven)
+        more = np.column_stack([load, *rows[1:]])
+        matrix = np.block([[k, more], [rows, np.zeros((len(rows),) * 2)]])
+        step = np.linalg.solve(matrix, np.append(-f, wanted - rows @ x[free]))
+        x[free] += step[: len(f)]
+        p += step[len(f)]
+        size = np.abs(step).max()
+        if size < SMALL or (size < 1e-8 and size >= last / 2):
+            return replace(guess, x=x, p=float(p))
+        last = size
+    raise RuntimeError(f"bowed tube: Newton's method fails: last step {size:.1e}")
+
+
+def rate(state: State) -> float:
+    """Pressure over the offset along the branch of a state."""
+    _, k, load, _ = state.of.evaluate(state.x, state.p, state.uneven)
+    row = state.of.offset
+    out = np.linalg.solve(
+        np.block([[k, load[:, None]], [row, np.zeros((1, 1))]]), np.append(np.zeros(len(k)), 1.0)
+    )
+    return float(out[-1])
+
+
+@dataclass(frozen=True)
+class Law:
+    """Where the even tube begins to bow, and the constants of the law."""
+
+    start: State
+    mode: Array
+    p_2: float
+    rate: float
+    push: float
+
+    @property
+    def constant(self) -> float:
+        """(p - p_c)/eps^(2/3) as eps vanishes."""
+        return 3 * self.p_2 * (abs(self.push) / (2 * abs(self.rate * self.p_2))) ** (2 / 3)
+
+    def offset(self, uneven: float) -> float:
+        """Offset at the limit pressure, to leading order."""
+        return float(np.cbrt(-uneven * self.push / (2 * self.rate * self.p_2)))
+
+
+def straight(of: Galerkin | Collocation, radius: float, guess: State | None = None) -> State:
+    """The axisymmetric state with a radius in the middle; the first by steps from a smaller one, coarsely."""
+    if guess is None:
+        coarse = type(of)(2 * of.half, *COARSE)
+        near = State(coarse, coarse.tube(1 + 0.1 * (1 - coarse.nodes**6), of.half * coarse.nodes), 0.6)
+        for r in np.linspace(1.1, radius, 6):
+            near = solve(near, coarse.radius, float(r), bows=False)
+        rows = lagrange(coarse.nodes, of.nodes)
+        guess = State(of, of.tube(*(rows @ part for part in coarse.meridian(near.x))), near.p)
+    return solve(guess, of.radius, radius, bows=False)
+
+
+def _bordered(state: State, transposed: bool = False) -> tuple[Array, float]:
+    """Vector of offset one that K (or its transpose) takes to a multiple of the offset, and the multiple."""
+    _, k, *_ = state.of.evaluate(state.x, state.p, 0.0)
+    row = state.of.offset
+    matrix = np.block([[k.T if transposed else k, row[:, None]], [row, np.zeros((1, 1))]])
+    out = np.linalg.solve(matrix, np.append(np.zeros(len(row)), 1.0))
+    return out[:-1], -float(out[-1])
+
+
+def law(of: Galerkin | Collocation, low: float, high: float) -> Law:
+    """Where the even tube bows, between two radii in its middle, and the constants there."""
+    first = straight(of, low)
+    at = brentq(lambda r: _bordered(straight(of, r, first))[1], low, high, xtol=1e-13)
+    start = straight(of, at, first)
+    mode, left = _bordered(start)[0], _bordered(start, transposed=True)[0]
+    slope = (straight(of, at + NEAR, start).p - straight(of, at - NEAR, start).p) / (2 * NEAR)
+    beside = [straight(of, at + side * NEAR, start) for side in (-1, 1)]
+    values = [left @ of.evaluate(s.x, s.p, 0.0)[1] @ mode for s in beside]
+    push = float(left @ of.evaluate(start.x, start.p, 0.0)[3])
+    states = []
+    for offset in OFFSETS:
+        guess = states[-1] if states else start
+        x = guess.x.copy()
+        x[of.free] += (offset - guess.offset) * mode
+        states.append(solve(replace(guess, x=x), of.offset, offset))
+    squares = np.square(OFFSETS)
+    found = np.polyfit(np.append(0, squares), [start.p, *(s.p for s in states)], len(OFFSETS))
+    return Law(start, mode, float(found[-2]), (values[1] - values[0]) / (2 * NEAR) / slope, push)
+
+
+def limits(about: Law, uneven: Sequence[float]) -> list[State]:
+    """The limits of the pressure of uneven tubes on their branches from rest, with growing unevenness."""
+    of, found = about.start.of, []
+    for value in uneven:
+        size = about.offset(value)
+        near = found[-1] if found else about.start
+        x = near.x.copy()
+        if not found:
+            x[of.free] += size * about.mode
+        begin = size if not found else near.offset
+        states = [solve(replace(near, x=x, uneven=value), of.offset, begin)]
+
+        def slope(factor: float, states: list[State] = states, size: float = size) -> float:
+            near = min(states, key=lambda s: abs(s.offset - factor * size))
+            states.append(solve(near, of.offset, factor * size))
+            return rate(states[-1])
+
+        at = brentq(slope, *AROUND, xtol=1e-9)
+        found.append(solve(states[-1], of.offset, at * size))
+    return found
