@@ -11,7 +11,7 @@ The left null vector takes the place of phi where the equations are not the deri
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,8 +20,8 @@ from scipy.optimize import brentq
 from reference_data.solvers.beyond.bowed.collocation import Collocation
 from reference_data.solvers.beyond.bowed.galerkin import Galerkin
 from reference_data.solvers.core.collocation import Array, lagrange
+from reference_data.solvers.core.newton import newton
 
-STEPS, SMALL = 30, 1e-11
 COARSE = 20, 2
 """Degree and waves of the first axisymmetric state."""
 NEAR = 1e-3
@@ -67,21 +67,23 @@ def solve(guess: State, row: Array, value: float, bows: bool = True) -> State:
     Raises:
         RuntimeError: If Newton's method fails.
     """
-    x, p, free = guess.x.copy(), guess.p, guess.of.free
-    rows = np.array([row] if bows else [row, guess.of.offset])
-    wanted, last = np.array([value, 0.0])[: len(rows)], np.inf
-    for _ in range(STEPS):
-        f, k, load, _ = guess.of.evaluate(x, p, guess.uneven)
+    of, rows = guess.of, np.array([row] if bows else [row, guess.of.offset])
+    wanted = np.array([value, 0.0])[: len(rows)]
+
+    def correct(at: State) -> tuple[float, Callable[[float], State]]:
+        f, k, load, _ = of.evaluate(at.x, at.p, at.uneven)
         more = np.column_stack([load, *rows[1:]])
         matrix = np.block([[k, more], [rows, np.zeros((len(rows),) * 2)]])
-        step = np.linalg.solve(matrix, np.append(-f, wanted - rows @ x[free]))
-        x[free] += step[: len(f)]
-        p += step[len(f)]
-        size = np.abs(step).max()
-        if size < SMALL or (size < 1e-8 and size >= last / 2):
-            return replace(guess, x=x, p=float(p))
-        last = size
-    raise RuntimeError(f"bowed tube: Newton's method fails: last step {size:.1e}")
+        step = np.linalg.solve(matrix, np.append(-f, wanted - rows @ at.x[of.free]))
+
+        def advance(share: float) -> State:
+            x = at.x.copy()
+            x[of.free] += share * step[: len(f)]
+            return replace(at, x=x, p=float(at.p + share * step[len(f)]))
+
+        return float(np.abs(step).max()), advance
+
+    return newton(guess, correct, "bowed tube")
 
 
 def rate(state: State) -> float:
