@@ -1,49 +1,21 @@
 """What a verdict on a user's curve accepts and what it does not."""
 
 import json
-from dataclasses import replace
-from types import SimpleNamespace
 
-import jsonschema
 import numpy as np
 import pytest
+from curves_of_tables import FREE, PIECE, TUBE, columns_of, verdict_on
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from weakforms import InputError, compare, dimensional
+from weakforms import InputError, compare
 from weakforms.results import Branch, Result
 from weakforms.verification.cases import references
-from weakforms.verification.cases.discovery import find_cases
-from weakforms.verification.crosscheck.rows import (
-    FLOOR,
-    JudgedColumn,
-    interpolated,
-    judge_column,
-    met,
-    scale_of,
-)
-from weakforms.verification.crosscheck.targets import tables_of
-from weakforms.verification.run.requests import schema
+from weakforms.verification.crosscheck.rows import FLOOR, interpolated, judge_column, met, scale_of
 
-FREE = ("paper1.free", "free_alpha_0.1_beta_2")
-TUBE = ("paper2.fig03", "fig03a_delta1_1.1")
-PIECE = ("closed_form.test_pieces", "uniaxial_neo_hookean")
 ASKED = 5e-10
 """Accuracy that the case of the test piece asks of our own code."""
 FAST = settings(max_examples=40, deadline=None)
-
-
-def columns_of(which, part=slice(None), **factors):
-    paper = which[0].split(".")[0]
-    table = references.load(int(paper[-1]) if paper.startswith("paper") else paper, which[1])
-    return {name: values[part] * factors.get(name, 1.0) for name, values in table.columns.items()}
-
-
-def verdict_on(which, curve, *more, **how):
-    verdicts = compare(which[0], curve, which[1], *more, **how)
-    jsonschema.validate(verdicts.to_json(), schema("verdicts"))
-    json.dumps(verdicts.to_json(), allow_nan=False)
-    return verdicts
 
 
 def stress(lam):
@@ -279,72 +251,6 @@ def test_rows_are_numbered_as_they_were_given():
     assert found.row == found.largest["row"] == 32
 
 
-# -- units ---------------------------------------------------------------------------------------
-
-SI = {"R_f": 0.02, "C1": 4e5, "h": 1.5e-4}
-
-
-@pytest.mark.parametrize(
-    ("factor", "constants", "said"),
-    [
-        (4e5 * 1.5e-4 / 0.02, None, "yours / ours = 3000 in every row: C1 h/R_f (see --constant)?"),
-        (4e5, SI, "yours / ours = 400000 in every row: C1?"),
-        (2 / 0.02**2, SI, "yours / ours = 5000 in every row: 2/R_f^2?"),
-        (-1.0, SI, "yours / ours = -1 in every row: the other sign?"),
-        (1.2345, SI, "yours / ours = 1.2345 in every row"),
-        (1.01, SI, "yours / ours = 1.01 in every row: is C1 h/R_f 1 % too large?"),
-        (0.995, None, "yours / ours = 0.995 in every row: is C1 h/R_f 0.5 % too small?"),
-        (0.1, None, "yours / ours = 0.1 in every row: alpha or C1 h/R_f (see --constant)?"),
-    ],
-)
-def test_a_forgotten_unit_is_recognised(factor, constants, said):
-    curve = columns_of(FREE)
-    if constants:
-        curve = dimensional("circular", curve, **constants)
-    curve["p"] = curve["p"] * factor
-    for accuracy in (1e-6, None):
-        verdicts = verdict_on(FREE, curve, accuracy, constants=constants)
-        slip = abs(factor - 1) < 0.1  # which a curve of a coarse mesh may have too
-        assert verdicts.status == ("not judged" if slip and not accuracy else "failed")
-        units = [v.units for v in verdicts.verdicts]
-        assert units == [said, *[""] * (len(units) - 1)]
-
-
-def test_a_curve_that_is_just_wrong_is_no_matter_of_units():
-    curve = columns_of(FREE)
-    curve["p"] = curve["p"] * np.linspace(1.4, 1.6, len(curve["p"]))
-    curve["V"] = curve["V"] + 0.1
-    assert [v.units for v in verdict_on(FREE, curve).verdicts] == [""] * 4
-    assert [v.units for v in verdict_on(FREE, columns_of(FREE)).verdicts] == [""] * 4
-
-
-def test_an_abscissa_in_units_is_recognised():
-    with pytest.raises(InputError, match=r"nothing to compare; is t0 in units of R_f \(see --constant\)"):
-        compare(FREE[0], columns_of(FREE, t0=1e-3), FREE[1])
-    verdicts = verdict_on(FREE, columns_of(FREE, t0=0.02))
-    assert verdicts.status == "failed"
-    assert "is t0 in units of R_f" in verdicts.verdicts[0].units
-    t0 = columns_of(FREE)["t0"]
-    rows = slice(*np.searchsorted(0.02 * t0, [t0.min() / 2, np.inf]))
-    half = {name: values[rows] for name, values in columns_of(FREE, t0=0.02, p=3000).items()}
-    inside = np.sum(half["t0"] >= t0.min())
-    assert len(half["t0"]) / 2 < inside < len(half["t0"])
-    assert "is t0 in units of R_f" in verdict_on(FREE, half).verdicts[0].units
-
-
-@pytest.mark.parametrize(
-    ("which", "problem", "constants"),
-    [
-        (PIECE, "homogeneous", {"S": 3e5}),
-        (("closed_form.sphere", "sphere_gent"), "sphere", {"S": 3e5, "r_o": 0.1, "h_o": 1e-3}),
-    ],
-)
-def test_closed_forms_take_units_too(which, problem, constants):
-    curve = dimensional(problem, columns_of(which), **constants)
-    assert verdict_on(which, curve).status == "failed"
-    assert verdict_on(which, curve, constants=constants).passed
-
-
 # -- parameters ----------------------------------------------------------------------------------
 
 
@@ -374,81 +280,3 @@ def result(problem, parameters, columns, branch="primary"):
     provenance = {**versions, "ranks": 1, "wall_s": 0.0}
     branches = [Branch(branch, "p", columns)]
     return Result(problem, parameters, {}, {}, provenance, branches).to_json()
-
-
-# -- any table, and any mistake ------------------------------------------------------------------
-
-
-def tables():
-    for found in find_cases():
-        for name in tables_of(found):
-            curves = [c for p in found.case.panels for c in p.curves if c.reference == name]
-            yield found, name, {k: v for c in curves for k, v in c.asked.items()}
-
-
-ALL = list(tables())
-
-
-@settings(max_examples=20, deadline=None)
-@given(st.data())
-def test_every_table_passes_itself_and_no_wrong_row_does(data):
-    found, name, asked = ALL[data.draw(st.integers(0, len(ALL) - 1))]
-    table = references.load_curve(found.paper, name)
-    verdicts = compare(found.id, table.columns, name)
-    too_coarse = (found.id, name) == ("paper5.fig06", "mode_n_100_zw_3")
-    assert verdicts.status == ("not judged" if too_coarse else "passed")
-    assert not verdicts.missing
-    column = data.draw(st.sampled_from([v.column for v in verdicts.verdicts if v.status == "passed"]))
-    row = data.draw(st.integers(0, len(table) - 1))
-    size = np.abs(table.columns[column]).max()
-    wrong = table.columns[column].copy()
-    away = 3 * max(asked[column], 2 * table.uncertainty[column] / (size or 1)) * (size or 1)
-    wrong[row] += data.draw(st.sampled_from([-1, 1])) * away
-    judged = compare(found.id, {**table.columns, column: wrong}, name, asked[column])
-    assert judged.status == "failed"
-    (bad,) = [v for v in judged.verdicts if v.status == "failed"]
-    assert (bad.column, bad.row) == (column, row + 1)
-
-
-def test_hardly_a_table_is_too_coarse_for_its_own_case():
-    """At the tables' own rows, only these columns are not known accurately enough."""
-    left = set()
-    for found, name, _ in ALL:
-        table = references.load_curve(found.paper, name)
-        for verdict in compare(found.id, table.columns, name).verdicts:
-            assert verdict.status != "failed"
-            if verdict.status == "not judged":
-                left.add((found.id, verdict.check))
-    assert left == {("paper5.fig06", "mode_n_100_zw_3:meridional")}
-
-
-def test_a_table_of_few_rows_is_judged_at_them_only():
-    which = ("closed_form.test_pieces", "uniaxial_saint_venant_kirchhoff")
-    assert len(columns_of(which)["lam"]) == 5
-    assert verdict_on(which, columns_of(which)).passed
-    with pytest.raises(InputError, match=r"too short to interpolate: give the curve at its own, 1\.1, 1\.2"):
-        compare(which[0], columns_of(which, lam=1.001), which[1])
-
-
-def test_numbers_without_measure_fail_and_leave_no_infinity():
-    curve = columns_of(TUBE)
-    curve["p"][3] = 1e308
-    curve["V"][4] = -1e308
-    verdicts = verdict_on(TUBE, curve)
-    assert [v.status for v in verdicts.verdicts] == ["failed", "passed", "passed", "failed"]
-
-
-def test_one_row_beyond_a_wide_bound_is_a_judged_row():
-    table = replace(references.load(2, TUBE[1]), uncertainty={"u_max": 0.0, "p": 1.0})
-    x = table.columns["u_max"]
-    right, wrong = table.columns["p"], table.columns["p"] + 2.5
-    numbers = np.arange(1, len(x) + 1)
-    assert judge_column(table, "p", x, right, 1e-8, numbers).verdict.status == "not judged"
-    assert judge_column(table, "p", x, wrong, 1e-8, numbers).verdict.status == "failed"
-
-
-def test_a_difference_at_a_zero_of_the_column_is_relative_to_its_floor():
-    judged = JudgedColumn(
-        SimpleNamespace(scale_floor=0.2), expected=np.array([0.0, 4.0]), error=np.array([0.5, 0.01])
-    )
-    assert judged.difference == pytest.approx([0.1, 0.04])
