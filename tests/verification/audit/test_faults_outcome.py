@@ -198,7 +198,7 @@ def test_the_report_carries_the_table(run_with, tmp_path):
     damaged = Seeded.beside(tmp_path / "report")
     assert damaged.run is None
     assert not damaged.shipped
-    assert "<script>" not in render(empty, damaged)["faults.html"]
+    assert "<script>" not in render(empty, Beside(damaged))["faults.html"]
 
 
 def test_a_report_without_a_run_shows_the_one_that_the_package_brings(run_with, tmp_path):
