@@ -4,6 +4,7 @@ import io
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 
@@ -12,6 +13,7 @@ from weakforms.cli import app
 from weakforms.problems import registry
 from weakforms.results import Branch, Result
 from weakforms.terminal import guarded
+from weakforms.verification.run import solving
 
 
 @dataclass(frozen=True)
@@ -81,3 +83,32 @@ def canned() -> Result:
         provenance={**versions, "ranks": 1, "wall_s": 0.0},
         branches=[Branch("primary", "p", {"p": [0.0, 1.0]})],
     )
+
+
+def listing(folder: Path) -> dict[Path, object]:
+    """Every file with its content, except Python's caches."""
+    paths = [p for p in sorted(folder.rglob("*")) if "__pycache__" not in p.parts]
+    return {p: p.read_bytes() if p.is_file() else None for p in paths}
+
+
+def changed(before: dict, after: dict) -> list[Path]:
+    return [p for p in {**before, **after} if before.get(p, "none") != after.get(p, "none")]
+
+
+@pytest.fixture
+def refused(weakforms, solves, tmp_path, monkeypatch):
+    """Call the program in a separate folder and assert that it only reported an error."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(solving, "solve_spec", lambda spec, _: solves.append(spec))
+
+    def call(words: str | list[str], *said: str) -> None:
+        before = listing(tmp_path)
+        called = weakforms(*(words.split() if isinstance(words, str) else words))
+        assert (called.status, called.out, solves) == (2, "", [])
+        assert called.err.startswith("weakforms: ")
+        assert called.err.count("\n") == 1
+        assert len(called.err) < 700
+        assert [word for word in said if word not in called.err] == []
+        assert changed(before, listing(tmp_path)) == []
+
+    return call

@@ -17,7 +17,7 @@ from weakforms.cli import app
 from weakforms.results import load_result, validate
 from weakforms.terminal import guarded
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 TUBE = ("solve", "tube", "delta1=1.1", "--mesh", "cells=32", "--mesh", "levels=2")
 VERBS = [info.name or info.callback.__name__ for info in app.registered_commands if not info.hidden]
 ANSI = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")

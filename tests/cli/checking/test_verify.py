@@ -4,30 +4,21 @@ import json
 import os
 import re
 import shutil
-import signal
-import subprocess
-import sys
 import time
 from io import StringIO
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 from rich.progress import Progress, TextColumn, TimeRemainingColumn
 
-from weakforms import api, terminal, tube
+from weakforms import api, terminal
 from weakforms.errors import ConvergenceError
 from weakforms.verification.audit.any_parameters.outcome import NAME as AUDIT
 from weakforms.verification.audit.coverage.outcome import NAME as COVERAGE
 from weakforms.verification.audit.faults.outcome import RANDOM
 from weakforms.verification.cases import catalogue, discovery
-from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.run import runner, solving
-from weakforms.verification.run.effort import Effort
-from weakforms.verification.run.plan import Plan
-from weakforms.verification.run.runner import expectation
-from weakforms.verification.run.usual import usual_megabytes, usual_times
 
 PAGES = {
     "figures",
@@ -42,7 +33,6 @@ PAGES = {
     "paper2-checks.html",
     "report.json",
 }
-
 TINY = '''"""Two short branches."""
 from weakforms import At, Axis, Case, Claim, Curve, Panel, tube
 
@@ -263,135 +253,3 @@ def test_a_worker_that_dies_is_one_clear_line(weakforms, tiny, tmp_path, monkeyp
     called = weakforms("verify", "-j", "2", "--out", tmp_path / "out")
     assert (called.status, len(called.complaints)) == (4, 1)
     assert "a worker process ended unexpectedly" in called.complaints[0]
-
-
-# -- an interrupted run --------------------------------------------------------------------------
-
-MANY = '''"""Many short branches."""
-from weakforms import At, Case, Claim, tube
-
-TUBES = [tube(delta1=1.5 + i / 16, u_end=0.3).on(cells=16, levels=2) for i in range(16)]
-
-def wider(solutions):
-    u = [solutions.value(spec, At("p", 0.5), "u_max") for spec in TUBES]
-    return min(u) > 0, f"{u}"
-
-CASE = Case(
-    title="many",
-    source="tests",
-    checks=(Claim("wider", "bulges", tuple((spec, At("p", 0.5)) for spec in TUBES), wider),),
-)
-'''
-
-
-def starter(tree):
-    """How to start ``verify`` in a separate process on a tree whose only case has many branches."""
-    path = tree / "cases" / "paper2" / "many.py"
-    path.parent.mkdir(parents=True)
-    path.write_text(MANY)
-    code = (
-        "import sys; from pathlib import Path; from weakforms.verification.cases import discovery\n"
-        f"find = discovery.find_cases; discovery.find_cases = lambda: find(Path({str(tree)!r}))\n"
-        "sys.argv[0] = 'weakforms'; from weakforms.cli import main; main()"
-    )
-
-    def start(*words: object) -> subprocess.Popen:
-        command = [sys.executable, "-c", code, "verify", *map(str, words)]
-        return subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-        )
-
-    return start
-
-
-@pytest.fixture
-def many(tmp_path, monkeypatch):
-    """That tree's cases for runs in this process."""
-    find = discovery.find_cases
-    for module in (discovery, catalogue):
-        monkeypatch.setattr(module, "find_cases", lambda: find(tmp_path))
-    yield
-    find.cache_clear()
-
-
-undisturbed: list[str] = []
-"""The results of an uninterrupted run."""
-
-
-def details(out) -> list[str]:
-    """The results of the checks with all digits."""
-    data = json.loads((out / "report" / "report.json").read_text())
-    return [v["detail"] for case in data["cases"] for v in case["verdicts"]]
-
-
-@pytest.mark.parametrize(
-    ("ending", "jobs", "status"),
-    [(signal.SIGINT, 1, 130), (signal.SIGKILL, 1, -signal.SIGKILL), (signal.SIGKILL, 2, -signal.SIGKILL)],
-)
-def test_an_interrupted_run_goes_on_where_it_was(weakforms, many, tmp_path, ending, jobs, status):
-    start, out = starter(tmp_path), tmp_path / "out"
-    running = start("-j", jobs, "--out", out)
-    stored, end = out / "solutions", time.monotonic() + 300
-    while len(list(stored.glob("tube-*.json"))) < 2 and time.monotonic() < end:
-        time.sleep(0.002)
-    os.killpg(running.pid, ending) if jobs == 1 else running.send_signal(ending)
-    _, said = running.communicate(timeout=120)
-    assert running.returncode == status, said
-    assert ("--resume" in said) == (ending == signal.SIGINT)
-    assert said.count("weakforms:") <= 1  # Python may say something about a killed process of its own
-    kept = {p: p.read_bytes() for p in stored.glob("tube-*.json")}
-    assert 2 <= len(kept) < 16, "the run was over before it could be interrupted"
-    assert not (out / "report" / "index.html").exists()
-
-    assert weakforms("verify", "--out", out, "--resume").status == 0
-    assert {p: p.read_bytes() for p in kept} == kept, "what was stored is not solved again"
-    assert len(list(stored.glob("tube-*.json"))) == 16
-    if not undisturbed:
-        assert weakforms("verify", "--out", tmp_path / "undisturbed").status == 0
-        undisturbed.extend(details(tmp_path / "undisturbed"))
-    assert details(out) == undisturbed
-
-
-def test_a_first_run_is_estimated_by_the_shipped_times_at_the_pace_of_this_machine(tmp_path):
-    specs = [tube(alpha=a) for a in (0, 0.1, 0.2)]
-    usual = {str(spec): seconds for spec, seconds in zip(specs, (10.0, 20.0, 30.0), strict=True)}
-    effort = Effort(tmp_path / "times.json", specs, usual)
-    assert (effort.expected(2), effort.is_of_this_machine) == (30.0, False)
-    effort.finish(specs[0], 5.0)
-    assert effort.share() == (5.0, 30.0), "this machine is twice as fast"
-    effort.finish(specs[1], 25.0)
-    effort.finish(specs[2], 30.0)
-    assert effort.is_of_this_machine
-
-
-def test_times_of_most_solutions_are_shipped():
-    states, shipped = Plan.of(find_cases()).states, usual_times()
-    known = [spec for spec in states if str(spec) in shipped]
-    assert len(known) >= 0.9 * len(states), "write them again: see weakforms/verification/run/usual.py"
-    assert usual_megabytes(known[:10]) == pytest.approx(
-        usual_megabytes([*known[:10], tube(alpha=0.77)]) / 1.1
-    )
-    text = expectation(Effort(Path("nowhere"), states, shipped), [*states], 2)
-    assert re.fullmatch(r", about .+ min( .+ s)? by the times of a machine with two cores, \d+ MB", text)
-
-
-def test_progress_counts_seconds_not_solutions(tmp_path):
-    specs = [tube(alpha=a) for a in (0, 0.1, 0.2)]
-    first = Effort(tmp_path / "times.json", specs)
-    assert first.share() == (0, 3.0)
-    first.finish(specs[0], 30.0)
-    assert first.share() == (30.0, 90.0), "those not seen yet count as their like"
-    first.finish(specs[1], 1.0)
-    first.finish(specs[2], 2.0)
-    first.keep()
-    again = Effort(tmp_path / "times.json", specs)
-    again.finish(specs[1])
-    assert again.share() == (1.0, 33.0)
-    assert again.count == "1 of 3"
-    assert again.expected(2) == 16.0
-    assert first.expected(1) == 0
-    assert Effort(tmp_path / "times.json", [*specs, tube(alpha=0.3)]).expected(1) == 44.0
-    new = [tube(alpha=a) for a in (0.3, 0.4, 0.5, 0.6)]
-    assert Effort(tmp_path / "times.json", [*specs, *new]).expected(1) is None, "fewer than half are known"
-    (tmp_path / "times.json").write_text("[1")
-    assert Effort(tmp_path / "times.json", specs).share() == (0, 3.0)
