@@ -5,29 +5,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from contact_data import LONG_STEPS, MESH, data
 from mpi4py import MPI
 
 import weakforms.problems.tube.model as tube_module
 from weakforms import ConvergenceError, InputError, reference, solve
 from weakforms.forms import loads
-from weakforms.problems.material_choice import Chosen, mooney_rivlin_of
-from weakforms.problems.tube.contact import ContactData
+from weakforms.problems.material_choice import Chosen
 from weakforms.problems.tube.model import TubeMesh, TubeModel, free_branch
 from weakforms.problems.tube.parameters import TubeNumerics, resolving
 from weakforms.problems.tube.phases import TubePhases
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.support.sampling import Sampler
 
 pytestmark = pytest.mark.paper2
-MESH = {"cells": 48, "levels": 2}
-LONG_STEPS = MESH | {"step": 0.3}
-"""For states and ends, which do not depend on how many points the trace has."""
-
-
-def data(**changes):
-    given = {"alpha": 0.1, "delta1": 1.0, "lf": 6.0, "k": 20.0, "s": 1.3} | changes
-    return ContactData(mooney_rivlin_of(given.pop("alpha")), **given, cells=12, degree=4, grading=0.6)
 
 
 @pytest.fixture(scope="module")
@@ -277,131 +268,3 @@ def test_eigenvalues_do_not_depend_on_the_mesh_that_follows_the_front():
     depth = contact["u_max"].value
     free = solve("tube", u_end=depth + 0.1, at={"u_max": depth}, numerics=numerics).states[0].quantities
     assert contact["eigenvalue_1"].value == pytest.approx(free["eigenvalue_1"].value, rel=1e-8)
-
-
-# -- a spring that only pushes ----------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def unilateral():
-    given = replace(data(delta1=2.0), unilateral=True)
-    return TubePhases(MPI.COMM_SELF, given, p_end=3.0, step=0.08, terms=19)
-
-
-def test_the_mesh_follows_the_place_where_the_spring_lets_go(unilateral):
-    pressed, going, released = (getattr(unilateral, part) for part in unilateral.deflations)
-    front, places = pressed.points[0].state.loads["front"], going.over_points("let_go")
-    assert places[0] == pytest.approx(front, rel=1e-4)
-    assert np.all(np.diff(places) < 0)
-    assert places[-1] == pytest.approx(0.012, abs=1e-12)
-    for point in going.points:
-        assert abs(point.monitors["let_go_gap"]) < 1e-11
-        assert point.state.loads["front"] == front
-    u = [branch.over_points("u_max") for branch in (pressed, going, released)]
-    assert u[0][-1] == pytest.approx(u[1][0], abs=1e-10)
-    assert u[2][0] == pytest.approx(0.3, abs=1e-12)
-    assert u[1][-1] == pytest.approx(0.3, abs=1e-5)
-    assert np.all(np.diff(np.concatenate(u)) < 1e-9)
-
-
-def test_the_spring_pushes_up_to_where_it_lets_go_and_not_beyond(unilateral):
-    going = unilateral.letting_go
-    system, point = going.system, going.points[len(going.points) // 2]
-    places = np.array([0.5, 0.99, 1.01, 1.1]) * point.state.loads["let_go"]
-    with system.at(point.state):
-        at = system.formulation.locate(places, point.state.loads)
-        f_k = Sampler(system.unknown, system.formulation.profile, at)()["f_k"]
-    assert np.all(f_k[:2] < 0)
-    assert np.all(f_k[2:] == 0)
-
-
-def lets_go(alpha, at=()):
-    given = {"contact": "adhesive", "phase": "deflation", "spring": "unilateral", "delta1": 2.0}
-    return solve("tube", alpha=alpha, **given, at=at, numerics=LONG_STEPS)
-
-
-@pytest.fixture(scope="module")
-def of_the_table():
-    """Deflation with some of the rows of a table, and these rows."""
-    table = reference(2, "fig06b_deflation_unilateral_alpha_0.1_delta1_2")
-    rows = [list(table.columns["p"]).index(p) for p in (2.8, 1.2, 0.0)]
-    return lets_go(0.1, [("p", float(table.columns["p"][row])) for row in rows]), table, rows
-
-
-@pytest.mark.parametrize("alpha", [0.0, 0.1])
-def test_tractions_where_a_spring_just_lets_go_have_the_uncertainty_of_round_off(alpha, of_the_table):
-    """The state at which the mesh begins to follow that place is there twice, on both meshes."""
-    (branch,) = (of_the_table[0] if alpha else lets_go(alpha)).branches
-    (i,) = np.flatnonzero(np.diff(branch.columns["p"]) == 0)[:1]
-    for name in ("traction_max", "traction_front", "line_force", "V"):
-        values, uncertainty = branch.columns[name][i : i + 2], branch.uncertainty[name][i : i + 2]
-        assert abs(values[1] - values[0]) <= 2 * np.hypot(*uncertainty), name
-        assert 2 * uncertainty.max() < 1e-3, "sharp enough to be judged"
-
-
-def test_tractions_of_a_unilateral_spring_are_those_of_the_table(of_the_table):
-    result, table, rows = of_the_table
-    for row, state in zip(rows, result.states, strict=True):
-        for name in ("traction_max", "line_force", "u_max"):
-            found, theirs = state.quantities[name], table.columns[name][row]
-            bound = 2 * np.hypot(found.uncertainty, table.uncertainty[name])
-            assert abs(found.value - theirs) <= bound < 1e-4
-
-
-# -- the whole tube ----------------------------------------------------------------------------------
-
-PHASES = (
-    {"contact": "frictionless"},
-    {"contact": "adhesive"},
-    {"contact": "adhesive", "phase": "deflation"},
-    {"contact": "adhesive", "phase": "deflation", "spring": "unilateral"},
-)
-
-
-@pytest.mark.parametrize("phase", PHASES, ids=lambda phase: "_".join(phase.values()))
-def test_the_whole_tube_has_the_states_of_the_half_one(phase):
-    given = {**phase, "delta1": 1.2, "p_end": 2.2, "at": {"p": 2.0}, "numerics": LONG_STEPS}
-    half, whole = (solve("tube", extent=extent, **given) for extent in ("half", "full"))
-    assert whole.failures == []
-    assert [point.kind for point in whole.special_points] == [point.kind for point in half.special_points]
-    doubled = {"V", "Pi"}
-    modal = {"eigenvalue_1", "n_negative"}
-    of_half, of_whole = (found.states[0].quantities for found in (half, whole))
-    assert of_half.keys() == of_whole.keys()
-    for name in of_half.keys() - modal:
-        factor = 2 if name in doubled else 1
-        allowed = factor * of_half[name].uncertainty + of_whole[name].uncertainty
-        assert abs(factor * of_half[name].value - of_whole[name].value) <= allowed
-    assert of_whole["eigenvalue_1"].value <= of_half["eigenvalue_1"].value + 1e-9
-    upper, profile = half.states[0].fields[0].columns, whole.states[0].fields[0].columns
-    middle = len(profile["Z"]) // 2
-    for name, parity in {"rho": 1, "eta": -1, "lam1": 1, "t2": 1, "f_k": 1}.items():
-        values = profile[name]
-        assert values[middle:][::2] == pytest.approx(upper[name][::4], abs=1e-8)
-        assert values == pytest.approx(parity * values[::-1], abs=1e-8)
-
-
-def test_both_fronts_of_the_whole_tube_touch():
-    run = TubePhases(MPI.COMM_SELF, replace(data(), full=True), p_end=1.8, step=0.08, terms=14)
-    for branch in (run.frictionless, run.adhesive):
-        for point in branch.points:
-            assert abs(point.monitors["gap"]) + abs(point.monitors["gap_lower"]) < 1e-11
-            # The slope at the edge of the first, tiny patch is 2e-5: a gap of round-off moves it by 1e-7.
-            fronts = point.state.loads["front"], point.state.loads["front_lower"]
-            assert fronts[0] == pytest.approx(-fronts[1], abs=1e-6 if point is branch.points[0] else 1e-9)
-
-
-def test_a_substrate_behind_the_limit_point_breaks_the_symmetry_in_contact():
-    given = {"alpha": 0.0, "contact": "frictionless", "s": 2.2, "p_end": 1.8, "numerics": LONG_STEPS}
-    whole = solve("tube", extent="full", **given)
-    (point,) = whole.points("bifurcation_point")
-    half = solve("tube", extent="half", **given, at={"u_max": point.values["u_max"]})
-    kinds = ["limit_point", "contact_onset", "limit_point"]
-    assert [point.kind for point in half.special_points] == kinds
-    assert [point.kind for point in whole.special_points] == [*kinds, "bifurcation_point"]
-    assert half.branch().columns["n_negative"][-1] == 0
-    assert whole.branch().columns["n_negative"][-1] == 1
-    assert point.values["Z_front"] > 0
-    allowed = 2 * point.uncertainty["p"]
-    (same,) = half.states
-    assert same.quantities["p"].value == pytest.approx(point.values["p"], abs=allowed)
