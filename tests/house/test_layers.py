@@ -140,25 +140,18 @@ def test_no_two_test_modules_have_one_name():
     assert len(names) == len(set(names))
 
 
-ROOMS = ("cli", "mpi", "problems", "references", "results", "solvers", "verification")
-
-
 def test_no_folder_is_crowded():
     crowded = {}
-    for top in ("weakforms", "reference_data", "cases", *(f"tests/{room}" for room in ROOMS)):
-        for folder in {path.parent for path in files(top)}:
-            modules = [path.name for path in folder.glob("*.py") if path.name != "__init__.py"]
-            if len(modules) > 15:
-                crowded[folder.relative_to(ROOT).as_posix()] = len(modules)
+    for folder in {path.parent for path in files(*TREES)}:
+        modules = [path.name for path in folder.glob("*.py") if path.name != "__init__.py"]
+        if len(modules) > 15:
+            crowded[folder.relative_to(ROOT).as_posix()] = len(modules)
     assert crowded == {}
 
 
 def test_no_module_is_long():
     """A module beyond this has two subjects; it is split by them, not by its length."""
-    lengths = {
-        path: len(path.read_text("utf-8").splitlines())
-        for path in files("weakforms", "reference_data", "cases")
-    }
+    lengths = {path: len(path.read_text("utf-8").splitlines()) for path in files(*TREES)}
     assert {path.relative_to(ROOT).as_posix(): lines for path, lines in lengths.items() if lines > 350} == {}
 
 
