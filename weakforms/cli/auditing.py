@@ -133,7 +133,7 @@ def faults(  # noqa: PLR0913, PLR0917  (one verb, its options)
         "weakforms bench --only tube",
         "weakforms bench --history bench.jsonl",
         "weakforms bench --against bench.jsonl",
-        "mpirun -n 2 weakforms bench --surface 370000 --history out/scaling.jsonl",
+        "weakforms bench --surface 370000 --history out/scaling.jsonl",
     )
 )
 def bench(

@@ -36,8 +36,8 @@ LONG = "test_every_case_ranks.py"
 SPEAKS_OF_RANKS = re.compile(r"comm\b|\branks?\b|bcast|gather|reduce\b|scatter|ghost|owne[rd]|size_local")
 """What a line contains if its change may show on several ranks only."""
 
-FEW = 4
-"""Number of tests on ranks that are run for such a line: each takes half a minute."""
+FEW = 8
+"""Number of tests on ranks that are run for such a line. Each takes half a minute, and problems share files."""
 
 REGISTRY = "reference_data/solvers/registry.py"
 REGISTERED = re.compile(r"reference_data/solvers/\w+/tables\w*\.py")
