@@ -37,7 +37,7 @@ SPEAKS_OF_RANKS = re.compile(r"comm\b|\branks?\b|bcast|gather|reduce\b|scatter|g
 """What a line contains if its change may show on several ranks only."""
 
 FEW = 8
-"""Number of tests on ranks that are run for such a line. Each takes half a minute, and problems share files."""
+"""Number of tests on ranks run for such a line: each takes half a minute, and problems share files."""
 
 REGISTRY = "reference_data/solvers/registry.py"
 REGISTERED = re.compile(r"reference_data/solvers/\w+/tables\w*\.py")
