@@ -5,9 +5,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 
 from weakforms import solve
-from weakforms.errors import InputError
+from weakforms.errors import ConvergenceError, InputError
+from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
+from weakforms.problems.liquid_tube.relaxed import WHOLE, RelaxedBranch
 from weakforms.verification.cases.references import ROOT
 
 pytestmark = pytest.mark.paper3
@@ -92,3 +95,23 @@ def test_what_is_not_known_of_wrinkled_tubes_is_refused(given, named):
 def test_states_are_asked_for_by_load_volume_and_points_alone():
     with pytest.raises(InputError, match="no state is solved for by r_mid; allowed: zw, V"):
         solve("fluid_tube", energy="relaxed", at={"r_mid": 1.5})
+
+
+def heavy(**numerics):
+    """The branch of a tube whose zone is 0.6 long at ``V = 29``."""
+    tube = {"delta": 1.0585, "gamma": 0.588, "n_max": 1, "energy": "relaxed", "zw_end": 0.3}
+    return RelaxedBranch(FluidTubeParameters(**tube), FluidTubeNumerics(**numerics), MPI.COMM_WORLD)
+
+
+def test_a_state_is_found_where_newtons_method_fails_on_the_mesh_of_the_trace():
+    branch = heavy(cells=48, degree=6, levels=2)
+    with branch.membrane.weighed(), pytest.raises(ConvergenceError, match="DIVERGED_MAX_IT"):
+        branch.trace.at("V_f", 29.0 / WHOLE["V"][1])
+    found = branch.state("V", 29.0).quantities
+    assert found["Z_front_2"].value > found["Z_front_1"].value + 0.5
+    assert max(found[name].uncertainty for name in ("zw", "Z_front_1", "Z_front_2")) < 1e-6
+
+
+def test_a_mesh_that_is_too_coarse_for_a_state_is_named():
+    with pytest.raises(ConvergenceError, match=r"on the mesh of 1\d cells: .*; raise cells"):
+        heavy(cells=32, degree=4, levels=3).state("V", 29.0)

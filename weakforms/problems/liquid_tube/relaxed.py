@@ -50,6 +50,9 @@ WHOLE = {"V": ("V_f", 2 * pi), "Pi": ("Pi", pi)}
 PRESCRIBED = ("zw", *WHOLE, "limit_point", "bifurcation_point", "zone_opening", "zone_closing")
 """What a state can be asked for by."""
 
+NODAL = ("Z_front", "r_front")
+"""Columns that are values at a node, the free surface."""
+
 FIELDS = ("r", "z", "lam1", "lam2", "T1", "T2", "H")
 
 
@@ -114,17 +117,26 @@ class FluidReadings(Readings):
             return {f"Lambda_n{n}": waves.spectrum(n, 1).eigenvalues[0] / 2 for n in (0, *self.waves)}
 
     def order(self, name: str) -> float:
-        """As for any wrinkled membrane; eigenvalues have that of fronts, at which their operator jumps."""
-        return self.cap / 2 if name.startswith("Lambda") else super().order(name)
+        """As for any wrinkled membrane, but for eigenvalues that of fronts, at which their operator jumps.
 
-    def _resolved(self, _name: str) -> bool:
-        return False
+        The surface is a node; the radius at the mid-plane is a value of the unknown inside of a cell.
+        """
+        own = {**dict.fromkeys(NODAL, self.cap), "r_mid": self.cap / 2 + 1}
+        return self.cap / 2 if self._resolved(name) else own.get(name, super().order(name))
+
+    def _resolved(self, name: str) -> bool:
+        """Eigenvalues: the part of their error that is of fronts is small, and seen on fine meshes only.
+
+        Modes are small in the zone above the ring. The rest of the error is of twice the order of the
+        elements.
+        """
+        return name.startswith("Lambda")
 
     def estimate(self, name: str, values: list, resolved: bool = False) -> Estimate:
         """As for any wrinkled membrane; a number without a value has no error."""
         if np.isnan(values[-1]).all():
             return Estimate(np.array(np.nan), np.array(0.0), np.array(np.nan))
-        return super().estimate(name, values, resolved)
+        return super().estimate(name, values, resolved or self._resolved(name))
 
     def quantities(self, levels: Sequence[ZonedState], critical: float) -> dict[str, Quantity]:
         """All columns of a state that have a value, and the number of negative eigenvalues at fixed level.

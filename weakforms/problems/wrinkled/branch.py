@@ -133,14 +133,21 @@ class WrinkledBranch:
         return quadrature_degree(self.membrane.plain_model.system.formulation.residual)
 
     def near(self, name: str, value: float, crossing: int = 1) -> Solved:
-        """The state of the plain mesh at a value of a column.
+        """The state of the plain mesh at a value of a column, from which fitted meshes start.
+
+        Where a front is inside of a cell, Newton's method may go back and forth between two states of the
+        cell. Then it is the state between two points of the trace, which fitted meshes can start from too.
 
         Raises:
             InputError: If the column does not take the value that often.
         """
         trace = self.trace
         with self.membrane.weighed():
-            return trace.at(name, value, crossing)
+            try:
+                return trace.at(name, value, crossing)
+            except ConvergenceError:
+                before = int(trace.crossings(name, value)[crossing - 1])
+                return Solved({name: value}, trace.interpolated(before, name, value))
 
     def _fitted(self, solved: Solved, name: str, fine_only: bool = False) -> list[ZonedState]:
         plain = self.membrane.plain(solved.state)

@@ -108,9 +108,18 @@ class FittedMembrane:
         raise last
 
     def others(self, fine: ZonedState, constraint: Constraint) -> list[ZonedState]:
-        """A state of the finest mesh on the coarser ones."""
-        coarser = range(len(self.meshes) - 1)
-        out = [self.fit(k, fine, fine.zones, (constraint,), same=True) for k in coarser]
+        """A state of the finest mesh on the coarser ones.
+
+        Raises:
+            ConvergenceError: If one of them has no such state; the message says which.
+        """
+        out = []
+        for k, mesh in enumerate(self.meshes[:-1]):
+            try:
+                out.append(self.fit(k, fine, fine.zones, (constraint,), same=True))
+            except ConvergenceError as error:
+                cells = mesh.cells * fine.model.blocks
+                raise ConvergenceError(f"on the mesh of {cells} cells: {error}; raise cells") from error
         for held in out if fine.slivers else ():
             shown = held.shown_zones(VERGE_FITTED, self.liquid)
             own = fine.zones.left_out_of(shown)
