@@ -1,11 +1,12 @@
-"""Lines of critical points of the wrinkled tube under gas, with relaxed energy.
+"""Lines of critical points of the wrinkled tube under gas, and under a liquid, with relaxed energy.
 
 The limit pressure is followed over the thickness at the lower end, the radius of the disks and the
 pre-stretch. The membrane is wrinkled at both disks, at one, or at none, and the fronts are unknowns of the
 lines. A line ends where a zone opens or closes; the next one begins there. Wide disks leave the membrane taut
 at its limit pressure, and the line of first wrinkling meets that of limit points at one radius. At the lowest
 pressures the membrane of disks of its own radius is wrinkled in the middle, up to a line that ends at the
-thickness at which even the unloaded membrane is taut.
+thickness at which even the unloaded membrane is taut. The same for the highest level of a light liquid, which
+fills the tube, and of a heavy one, whose free surface is one more unknown.
 """
 
 from weakforms.cases import (
@@ -33,6 +34,9 @@ OVER_AF = diagram(**OF_TWO, x="Af", Af=0.7, kind="fold", low=0.53).on(cells=96, 
 OVER_DELTA = diagram(**TUBE, x="delta", delta=2.0, Af=0.5, kind="fold", low=1.5, high=3.2).on(
     cells=96, levels=2
 )
+LIQUID = OF_TWO | {"y": "zw", "Af": 0.5, "M": 0.5, "low": 0.45, "high": 0.55, "kind": "fold"}
+FULL = diagram(**LIQUID, gamma=0.05).on(cells=96, levels=2)
+PARTLY = diagram(**LIQUID, gamma=0.3).on(cells=96, levels=2)
 SINGLE = wrinkled_tube(M=0.5, delta=2, Af=0.5, load="gas", c2=0.01, load_end=1.0).on(levels=2)
 AT_TWO, UNLOADED = At("delta", 2.0, branch="fold"), At("p", 0.0, branch="wrinkling")
 
@@ -115,6 +119,16 @@ CASE = Case(
                 Curve(OVER_DELTA, "at the upper one", "wrinkled_fold_delta_far", branch="fold_2"),
             ),
         ),
+        Panel(
+            "e",
+            x=Axis("M", 0.44, 0.56),
+            y=Axis("zw", 5, 21),
+            title=r"highest levels, $\delta = 2$, $A_f = 0.5$",
+            curves=(
+                Curve(FULL, r"$\gamma = 0.05$, full", "wrinkled_fold_M_full", branch="fold"),
+                Curve(PARTLY, r"$\gamma = 0.3$, filled in part", "wrinkled_fold_M_partly", branch="fold"),
+            ),
+        ),
     ),
     checks=(
         Count("wrinkling_fold", {OVER_AF: 1}, "the limit point is about to wrinkle at one radius"),
@@ -145,6 +159,6 @@ CASE = Case(
             wrinkled_or_not,
         ),
     ),
-    asked={"p": 1e-7, "V": 1e-6},
+    asked={"p": 1e-7, "zw": 1e-7, "V": 1e-6},
     slow=True,
 )

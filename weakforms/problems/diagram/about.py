@@ -60,7 +60,7 @@ DIAGRAM = About(
         column.PRESSURE,
         Column(
             "zw",
-            "level of the liquid in the fluid tube (full: static head) over {length}",
+            "level of the liquid in the fluid or wrinkled tube (full: static head) over {length}",
             "z_w",
         ),
         Column("delta1", "axial pre-stretch of the tube, 1", r"\delta_1"),
@@ -73,7 +73,12 @@ DIAGRAM = About(
         ),
         Column("M", "thickness at the wrinkled tube's lower end over its mean h (2 - M at the upper end)"),
         Column("Af", "radius of the wrinkled tube's disks over {length}"),
-        Column("gamma", "rho g A^2/(mu H) of the liquid, mu = 2 C1, 1", r"\gamma"),
+        Column(
+            "gamma",
+            "weight of the liquid: rho g A^2/(mu H) of the fluid tube, mu = 2 C1; rho g Ao^2/(C1 h) of the "
+            "wrinkled tube, 1",
+            r"\gamma",
+        ),
         Column("angle", "angle from the pole to the clamp of the hemisphere, rad"),
         Column("u_max", "radial displacement of the tube's mid-plane over {length}", "u_{max}"),
         Column("t0", "height of the pole over the clamp, over {length}", "t_0"),

@@ -28,9 +28,13 @@ LONGEST_MIRRORED = 12.0
 middle falls exponentially with the length: at 18 its eigenvalue is 1e-10 where others are 1, on any mesh."""
 
 ONLY = {name: ({"body": (name,)},) for name in ("tube", "circular", "hemisphere")}
-LONG, FILLED = {"body": ("infinite_tube",)}, ({"body": ("fluid_tube",)},)
+LONG = {"body": ("infinite_tube",)}
 WRINKLED, STRETCHED = ({"body": ("wrinkled_tube",)},), ({"body": ("fluid_tube", "wrinkled_tube")},)
-INFLATED = ({"body": ("tube", "circular", "hemisphere", "sphere", "infinite_tube", "wrinkled_tube")},)
+FILLED = ({"body": ("fluid_tube",)}, *({"body": ("wrinkled_tube",), axis: ("zw",)} for axis in "xy"))
+INFLATED = (
+    {"body": ("tube", "circular", "hemisphere", "sphere", "infinite_tube")},
+    *({"body": ("wrinkled_tube",), axis: ("p",)} for axis in "xy"),
+)
 
 
 class DiagramNumerics(MeshNumerics):
@@ -59,7 +63,11 @@ class DiagramParameters(MaterialChoice):
         "tube", "circular", "hemisphere", "sphere", "infinite_tube", "fluid_tube", "wrinkled_tube"
     ] = Field("tube", description="membrane")
     x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
-    y: str = Field("p", description="second axis; one of both is p, or zw of the fluid tube, its default")
+    y: str = Field(
+        "p",
+        description="second axis; one of both is p, or zw: of the fluid tube, its default, or of the "
+        "wrinkled tube under liquid",
+    )
     kind: str = Field(
         "all", description=f"kinds of lines, with commas: {', '.join(LINES)}; all: those without waves"
     )
@@ -99,7 +107,13 @@ class DiagramParameters(MaterialChoice):
     Af: float = Field(
         1.0, ge=0.1, le=2, description="radius of the wrinkled tube's disks over its undeformed radius"
     )
-    gamma: float = Field(0.116, ge=0.01, le=2, description="rho g A^2/(mu H) of the liquid, mu = 2 C1")
+    gamma: float = Field(
+        0.116,
+        ge=0.01,
+        le=2,
+        description="weight of the liquid: rho g A^2/(mu H) of the fluid tube, mu = 2 C1; rho g Ao^2/(C1 h) "
+        "of the wrinkled tube",
+    )
     V_end: float = Field(
         40.0, gt=0.1, le=1000, description="largest volume in the fluid or wrinkled tube over 2 pi A^3"
     )
@@ -109,7 +123,8 @@ class DiagramParameters(MaterialChoice):
     @property
     def subject(self) -> Subject:
         """What the diagram is drawn of."""
-        return SUBJECTS.get(f"{self.body}, {self.ends}", SUBJECTS[self.body])
+        other = "liquid" if "zw" in (self.x, self.y) else self.ends
+        return SUBJECTS.get(f"{self.body}, {other}", SUBJECTS[self.body])
 
     @property
     def axes(self) -> tuple[str, str]:

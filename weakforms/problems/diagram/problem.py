@@ -135,7 +135,8 @@ class Diagram(BranchProblem):
         if given.body == "fluid_tube":
             found.append(End("brim", given.load, None, "the liquid reaches the upper ring"))
         if given.body == "wrinkled_tube":
-            found.append(End("zones", given.load, None, "a zone opens or closes"))
+            fills = ", or the liquid reaches a ring" if given.load == "zw" else ""
+            found.append(End("zones", given.load, None, f"a zone opens or closes{fills}"))
         return [*found, End("closed", given.vary, None, "the line returns to its first point")]
 
     def families(self, task: Task) -> dict[str, Family]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 
 from mpi4py import MPI
@@ -89,7 +89,24 @@ BY_ITS_OWN_PROBLEM = (
 )
 TAUT = "is in tension at any pressure"
 
+WRINKLED = Subject(
+    VariedWrinkledTube,
+    VariedWrinkledTube.depth,
+    ("M", "delta", "L", "Af"),
+    "V_end",
+    ("fold", "wrinkling"),
+    without={
+        "mirror": NO_MIRROR,
+        "localisation": NO_LONG_WAVES,
+        "contact": NO_OBSTACLE,
+        **dict.fromkeys(WAVES, BY_ITS_OWN_PROBLEM),
+    },
+    size=3.0,
+)
+
 SUBJECTS = {
+    "wrinkled_tube": WRINKLED,
+    "wrinkled_tube, liquid": replace(WRINKLED, parameters=(*WRINKLED.parameters, "gamma"), load="zw"),
     "tube": Subject(
         lambda comm, law, values, cells, degree: VariedTube(comm, law, values, cells, degree, GRADING),
         VariedTube.depth,
@@ -182,19 +199,5 @@ SUBJECTS = {
         load="zw",
         size=3.0,
     ),
-    "wrinkled_tube": Subject(
-        VariedWrinkledTube,
-        VariedWrinkledTube.depth,
-        ("M", "delta", "L", "Af"),
-        "V_end",
-        ("fold", "wrinkling"),
-        without={
-            "mirror": NO_MIRROR,
-            "localisation": NO_LONG_WAVES,
-            "contact": NO_OBSTACLE,
-            **dict.fromkeys(WAVES, BY_ITS_OWN_PROBLEM),
-        },
-        size=3.0,
-    ),
 }
-"""Subjects by the name of the body, with what holds its ends if that is another one."""
+"""Subjects by the name of the body, with what holds its ends, or fills it, if that is another one."""

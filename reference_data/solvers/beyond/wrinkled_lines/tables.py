@@ -1,4 +1,4 @@
-"""Tables of critical points of the wrinkled tube under gas, over one parameter, and of points that are two.
+"""Tables of critical points of the wrinkled tube under gas or liquid, over one parameter, and where two meet.
 
 The methods are those of paper 4: collocation with fronts as unknown breakpoints, and shooting that is given
 no pattern of zones. Each point is solved for on its own, from the unloaded membrane.
@@ -39,9 +39,9 @@ OFFSET = 1e-3
 """Relative offsets of shooting's other values, for slopes only."""
 
 
-def tube(**given: float) -> Membrane:
+def tube(load: str = "gas", **given: float) -> Membrane:
     """The membrane that the parameters are varied of."""
-    return Membrane(**({"M": 0.5, "delta": 2.0, "Af": 0.5} | given), load="gas")
+    return Membrane(**({"M": 0.5, "delta": 2.0, "Af": 0.5} | given), load=load)
 
 
 def besides(membrane: Membrane, *varied: str) -> dict[str, object]:
@@ -50,17 +50,19 @@ def besides(membrane: Membrane, *varied: str) -> dict[str, object]:
     return {name: value for name, value in given.items() if name not in varied}
 
 
-def folds(name: str, over: str, values: Array, **given: float) -> Table:
-    """Limit pressures over a parameter."""
-    found = [lim.limit(tube(**given, **{over: float(x)}), FIRST, CLIMB).values for x in values]
-    columns = SERIES.keys(**{over: values})
-    for key, column in (("load", "p"), ("V", "V")):
+def folds(
+    name: str, over: str, values: Array, load: str = "gas", first: float = FIRST, **given: float
+) -> Table:
+    """Limit pressures, or levels of a liquid, over a parameter; ``first`` is a load below all of them."""
+    found = [lim.limit(tube(load, **given, **{over: float(x)}), first, CLIMB).values for x in values]
+    of, columns = tube(load, **given, **{over: float(values[0])}), SERIES.keys(**{over: values})
+    for key, column in (("load", of.control), ("V", "V")):
         columns.append(
             cas.agreed(name, column, *cas.stacked([x[key] for x in found]), SERIES.columns[column])
         )
-    of = tube(**given, **{over: float(values[0])})
+    what = "pressures" if load == "gas" else "levels of a liquid"
     return SERIES.table(
-        name, f"Line of limit pressures over {over}", "", besides(of, over), columns, grid=AT_LIMITS
+        name, f"Line of limit {what} over {over}", "", besides(of, over), columns, grid=AT_LIMITS
     )
 
 
@@ -153,6 +155,12 @@ TABLES: dict[str, Builder] = {
     "wrinkled_fold_delta_far": partial(folds, "wrinkled_fold_delta_far", "delta", steps(2.25, 3.0, 0.25)),
     "wrinkled_fold_Af": partial(folds, "wrinkled_fold_Af", "Af", steps(0.55, 0.8, 0.05)),
     "wrinkled_fold_Af_taut": partial(folds, "wrinkled_fold_Af_taut", "Af", steps(0.85, 1.0, 0.05)),
+    "wrinkled_fold_M_full": partial(
+        folds, "wrinkled_fold_M_full", "M", steps(0.45, 0.55, 0.05), load="fluid", first=17.5, gamma=0.05
+    ),
+    "wrinkled_fold_M_partly": partial(
+        folds, "wrinkled_fold_M_partly", "M", steps(0.45, 0.55, 0.05), load="fluid", first=5.0, gamma=0.3
+    ),
     "wrinkled_onset_M": lambda: onsets("wrinkled_onset_M"),
     "wrinkled_meetings": lambda: meetings("wrinkled_meetings"),
 }

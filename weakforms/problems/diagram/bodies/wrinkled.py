@@ -1,8 +1,9 @@
-r"""The pre-stretched tube of papers 4 and 5 under gas, with relaxed energy, in the planes of diagrams.
+r"""The pre-stretched tube of papers 4 and 5 with relaxed energy, in the planes of diagrams.
 
-Its states are those of the problem ``wrinkled_tube``. The parts of a branch, and so the lines, have one
-pattern of taut and wrinkled zones each; the fronts between them are scalar unknowns. Where a zone opens or
-closes, lines end. The material coordinate is the fraction ``S = Z/L`` of the meridian, so that the mesh does
+Its states are those of the problem ``wrinkled_tube`` under gas or liquid. The parts of a branch, and so the
+lines, have one pattern of taut and wrinkled zones each; the fronts between them, and the free surface of a
+liquid inside of the tube, are scalar unknowns. Where a zone opens or closes, or the surface meets a front or
+a ring, lines end. The material coordinate is the fraction ``S = Z/L`` of the meridian, so that the mesh does
 not depend on the length; every parameter is a constant of the forms.
 """
 
@@ -22,9 +23,10 @@ from weakforms.errors import ConvergenceError
 from weakforms.forms.materials import SurfaceLaw, stress_resultants, surface_law
 from weakforms.problems.diagram.followed import PLACE, Part
 from weakforms.problems.material_choice import MOONEY_RIVLIN, Chosen
+from weakforms.problems.meridian.blocks import UPPER
 from weakforms.problems.meridian.fields import carried
 from weakforms.problems.meridian.limits import limit_along
-from weakforms.problems.meridian.model import DRY, Marks
+from weakforms.problems.meridian.model import DRY, WET, Marks
 from weakforms.problems.wrinkled.body import CYLINDER
 from weakforms.problems.wrinkled.branch import WrinkledBranch
 from weakforms.problems.wrinkled.fields import Zones
@@ -72,17 +74,19 @@ UNIT = replace(
 """The tube over the fraction of its length."""
 
 OPENS = "there a zone opens or closes; lines of other zones are separate"
+OPENS_OR_FILLS = "there a zone opens or closes, or the liquid reaches a ring or a front; other lines go on"
 
 
 class VariedWrinkledTube(WrinkledModel):
     """The tube; its loads are ``p``, ``M``, ``delta``, ``L``, ``Af``, and the constants of the law.
 
-    Break points that are no fronts divide the zones between them in fixed ratios.
+    With a liquid they are ``zw`` and ``gamma`` in place of ``p``. Break points that are neither fronts nor
+    the free surface divide the zones between them in fixed ratios.
 
     Args:
         comm: Ranks.
         material: The law.
-        values: First values of ``M``, ``delta``, ``L`` and ``Af``.
+        values: First values of ``M``, ``delta``, ``L`` and ``Af``, and of ``gamma`` if there is a liquid.
         cells: Cells of the mesh.
         degree: Degree of the elements.
     """
@@ -94,6 +98,8 @@ class VariedWrinkledTube(WrinkledModel):
     ) -> None:
         self.anchors: np.ndarray = np.array([], dtype=int)
         self.given = np.linspace(0.0, 1.0, BLOCKS + 1)
+        self.liquid = "gamma" in values
+        self.control = "zw" if self.liquid else "p"
         body = replace(UNIT, parameters=(*UNIT.parameters, *dict(material.constants)))
         values = {**values, **dict(material.constants)}
         super().__init__(comm, body, values, BLOCKS, max(1, cells // BLOCKS), degree, material=material)
@@ -102,7 +108,7 @@ class VariedWrinkledTube(WrinkledModel):
     # -- the moving mesh -----------------------------------------------------------------------
 
     def mark(self, marks: Marks) -> None:
-        """Write the marks of a state into the form; the nodes between different marks are fronts."""
+        """Write the marks of a state into the form; nodes between different marks are unknown."""
         super().mark(marks)
         self.anchors = anchors(marks)
         self.move()
@@ -158,17 +164,19 @@ class VariedWrinkledTube(WrinkledModel):
         return (u * v + w * y) / BLOCKS * self.dx
 
     def formulation(self) -> Formulation:
-        """The weak form with the least principal resultant, and what says that zones open or close."""
+        """The weak form with the least principal resultant, and what says that its marks hold."""
         given, e, (t1, t2) = super().formulation(), self.expressions, self.resultants
         wrong = ufl.max_value(self._by_cell["taut"] * (1 - e["gw"]), 0.0)
-        kept = {name: given.monitors[name] for name in ("V", "Pi", "gw")}
+        kept = {name: given.monitors[name] for name in ("V", "Pi", "gw", "z")}
+        over = {"over": (self.q["zw"] - e["z"]) * self.ends(UPPER)}
         placed = {"rho": e["r"], "eta": e["z"], "lam1": e["lam1"], "lam2": e["lam2"]}
         return replace(
             given,
-            monitors={**kept, "crowded": 1 / e["width"] * self.dx, "wrong": wrong * e["width"] * self.dx},
+            monitors=kept
+            | {"crowded": 1 / e["width"] * self.dx, "wrong": wrong * e["width"] * self.dx, **over},
             maxima={"minus_t": ufl.max_value(-t1, -t2)},
             derived={"t_min": lambda values: -values["minus_t"]},
-            internal=("gw", "crowded", "wrong", "minus_t", *self.fronts),
+            internal=("gw", "z", "crowded", "wrong", "over", "minus_t", *self.fronts),
             profile={**placed, "t1": t1, "t2": t2},
             abscissa="S",
         )
@@ -200,14 +208,20 @@ class VariedWrinkledTube(WrinkledModel):
     # -- parts of the branch -------------------------------------------------------------------
 
     def part(self, state: State) -> Part:
-        """The states with the same zones."""
-        fronts = {f"b{k}": AtBreak(self, "gw", k) for k in anchors(state.marks).tolist()}
-        return Part(fronts, (("wrong", WRONG, 1), ("crowded", CROWDED, 1)), OPENS, _in_order)
+        """The states with the same zones, and with the free surface in the same one."""
+        wet, bounds = state.marks.wet, [("wrong", WRONG, 1), ("crowded", CROWDED, 1)]
+        fronts = {
+            f"b{k}": AtBreak(self, "gw", k) if wet[k - 1] == wet[k] else AtBreak(self, "z", k, minus="zw")
+            for k in anchors(state.marks).tolist()
+        }
+        if wet[-1] == WET:
+            bounds.append(("over", 0.0, -1))
+        return Part(fronts, tuple(bounds), OPENS_OR_FILLS if self.liquid else OPENS, _in_order)
 
     def primary(self, end: float, step: float) -> list[FittedBranch]:
-        """Parts of the branch over ``p`` at the loads of the initial state, up to ``V = end``.
+        """Parts of the branch over the load at the loads of the initial state, up to ``V = end``.
 
-        Their zones are those of a trace on a plain mesh.
+        Their zones are those of a trace on a plain mesh. A tube without liquid is left out.
 
         Raises:
             ConvergenceError: If the trace does not come so far.
@@ -218,21 +232,29 @@ class VariedWrinkledTube(WrinkledModel):
         trace = _Trace(membrane, inf, end / least, PLAIN_STEP, Readings(membrane, 2.0)).trace
         if trace.stalled:
             raise ConvergenceError(trace.stalled)
-        plain = [(membrane.plain(p.state), p.monitors["V"]) for p in trace.points if p.monitors["V"] <= end]
+        plain = [
+            (membrane.plain(p.state), p.monitors["V"])
+            for p in trace.points
+            if p.monitors["V"] <= end and (not self.liquid or p.state.loads["zw"] > 0)
+        ]
         for held, _ in plain:
             held.zones = held.zones.thicker_than(THIN, membrane.length)
-        patterns = [list(same) for _, same in groupby(plain, key=lambda pair: pair[0].zones.kind)]
-        parts = (self._followed(same, end, step) for same in patterns)
+
+        def pattern(pair: tuple[ZonedState, float]) -> bytes:
+            return np.concatenate(marks_of(pair[0].zones, membrane.length)).tobytes()
+
+        parts = (self._followed(list(same), end, step) for _, same in groupby(plain, key=pattern))
         return [part for part in parts if part is not None]
 
     def _membrane(self, loads: Mapping[str, float]) -> Membrane:
         """The tube of some loads on a plain mesh."""
-        values, law = {name: loads[name] for name in CYLINDER.parameters}, self.material_law
+        names = (*CYLINDER.parameters, *(["gamma"] if self.liquid else []))
+        values, law = {name: loads[name] for name in names}, self.material_law
         other = replace(law, constants=tuple((name, loads[name]) for name, _ in law.constants))
         if law.model == MOONEY_RIVLIN:
             values["c2"], other = loads["alpha"], None
         mesh = [self.cells], self.degree
-        return Membrane(self.mesh.comm, CYLINDER, values, False, *mesh, "relaxed", (), other)
+        return Membrane(self.mesh.comm, CYLINDER, values, self.liquid, *mesh, "relaxed", (), other)
 
     def _followed(self, same: list[tuple[ZonedState, float]], end: float, step: float) -> FittedBranch | None:
         """The part of the branch with the zones of some plain states, from one end to the other.
@@ -243,7 +265,7 @@ class VariedWrinkledTube(WrinkledModel):
             guess = self._moved(held)
             part = self.part(guess)
             steps = StepControl(first=step / 4, largest=step, smallest=CLOSE, usual_load=1.0)
-            solver = ExtendedNewton(self.system, ["p", *part.fronts])
+            solver = ExtendedNewton(self.system, [self.control, *part.fronts])
             fitted = [*part.fronts.values()]
             continuation = Continuation(solver, fitted, steps, allowed=part.allowed)
             try:
@@ -252,23 +274,26 @@ class VariedWrinkledTube(WrinkledModel):
                 continue
 
             def outside(point: CurvePoint, part: Part = part) -> bool:
-                return any(point.monitors[name] > most for name, most, _ in part.bounds)
+                return any(side * (point.monitors[name] - most) > 0 for name, most, side in part.bounds)
 
             def beyond(point: CurvePoint, volume: float = volume) -> bool:
                 here = point.monitors["V"]
                 return here > end or (here > volume and outside(point))
 
-            back = FittedBranch(continuation, "p", begin, lambda q: outside(q) or q.state.loads["p"] < 0)
-            return FittedBranch(continuation, "p", back.points[-1].reversed(), beyond)
+            def before(point: CurvePoint, part: Part = part) -> bool:
+                return outside(point, part) or point.state.loads[self.control] < 0
+
+            back = FittedBranch(continuation, self.control, begin, before)
+            return FittedBranch(continuation, self.control, back.points[-1].reversed(), beyond)
         return None
 
     def _moved(self, held: ZonedState) -> State:
         """A plain state on the mesh of its zones."""
         loads, length = dict(self.system.initial.loads), held.state.loads["L"]
-        loads["p"], marks = held.state.loads["p"], marks_of(held.zones)
+        loads[self.control], marks = held.state.loads[self.control], marks_of(held.zones, length)
         self.anchors = anchors(marks)  # for the places of nodes
-        for k, front in zip(self.anchors.tolist(), held.zones.fronts, strict=True):
-            loads[f"b{k}"] = front / length
+        for k, place in zip(self.anchors.tolist(), places(held.zones), strict=True):
+            loads[f"b{k}"] = place / length
         u = carried(lambda s: held.sampled(s * length), self, loads)
         u[self.system.bc_dofs] = 0.0
         return State(u, loads, marks)
@@ -299,14 +324,21 @@ class _Trace(WrinkledBranch):
 
 def anchors(marks: Marks) -> np.ndarray:
     """Nodes between blocks of different marks."""
-    return np.flatnonzero(np.diff(marks.taut)) + 1
+    return np.flatnonzero(np.diff(marks.taut).astype(bool) | np.diff(marks.wet).astype(bool)) + 1
 
 
-def marks_of(zones: Zones) -> Marks:
-    """The marks of blocks, shared evenly among zones."""
-    nodes = np.round(np.linspace(0, BLOCKS, len(zones.fronts) + 2)).astype(int)
-    state = zones.first * (-1.0) ** np.arange(len(nodes) - 1)
-    return Marks(np.repeat(state, np.diff(nodes)), np.full(BLOCKS, DRY))
+def places(zones: Zones) -> list[float]:
+    """Fronts and the free surface, in order."""
+    return sorted([*zones.fronts, *([] if zones.surface is None else [zones.surface])])
+
+
+def marks_of(zones: Zones, length: float) -> Marks:
+    """The marks of blocks, shared evenly among zones, which the free surface divides too."""
+    edges = np.array([0.0, *places(zones), length])
+    counts = np.diff(np.round(np.linspace(0, BLOCKS, len(edges))).astype(int))
+    middles = (edges[1:] + edges[:-1]) / 2
+    under = zones.wet & (middles < (length if zones.surface is None else zones.surface))
+    return Marks(np.repeat(zones.states(middles), counts), np.repeat(np.where(under, WET, DRY), counts))
 
 
 def _in_order(state: State) -> bool:
