@@ -71,6 +71,13 @@ def test_a_damaged_file_is_shown_as_such(tmp_path, text):
 def test_the_page_shows_times_and_ratios(file):
     empty, beside = RunOutcome("quick", "all", "", 0.0, {}), Beside.read(file.parent)
     page = render(empty, beside)["scaling.html"]
-    for text in ("Tube &lt;t&gt;: 100 000 unknowns in 20", "1.33", "0.80", "Strong scaling", "<svg"):
+    for text in (
+        "up to 200\u00a0000 unknowns, on 1 and 2 ranks",
+        "Tube &lt;t&gt;",
+        "1.33",
+        "0.80",
+        "Strong scaling",
+        "<svg",
+    ):
         assert text in page
     assert 'id="scaling"' in render_whole(empty, beside)

@@ -100,6 +100,16 @@ class Scaled:
         """The surfaces."""
         return tuple(dict.fromkeys(run.title for run in self.runs))
 
+    @property
+    def largest(self) -> int:
+        """Unknowns of the largest mesh."""
+        return max((row.unknowns for run in self.runs for row in run.rows), default=0)
+
+    @property
+    def ranks(self) -> list[int]:
+        """Numbers of ranks."""
+        return sorted({run.ranks for run in self.runs})
+
     def of(self, title: str) -> list[Refinement]:
         """The last run of a surface on each number of ranks."""
         last = {run.ranks: run for run in self.runs if run.title == title}
