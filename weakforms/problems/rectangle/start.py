@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from dolfinx import fem
 
+from weakforms.errors import ConvergenceError
 from weakforms.problems.rectangle.model import RectangleModel
 from weakforms.problems.triangles.start import first_under_load
 from weakforms.solvers.equilibrium.constraints import Held
@@ -35,13 +36,24 @@ def states_at(model: RectangleModel, solver: ExtendedNewton, heights: Sequence[f
     if sheet.cells >= COARSER * COARSEST:
         coarse = RectangleModel(model.system.comm, replace(sheet, cells=sheet.cells // COARSER))
         known = states_at(coarse, ExtendedNewton(coarse.system, solver.scalars), heights)
-        guesses = _transferred(known, coarse, model)
-        return [solver.solve(guess, [*at])[0] for guess, at in zip(guesses, held, strict=True)]
+        states, missed = [], np.zeros(model.system.size)  # what the coarser mesh missed at the state before
+        for guess, at in zip(_transferred(known, coarse, model), held, strict=True):
+            states.append(_near(solver, State(guess.u + missed, guess.loads), at))
+            missed = states[-1].u - guess.u
+        return states
     frame = {"delta": sheet.delta, "delta_y": sheet.delta_y}
     states = [first_under_load(solver, heights[0], frame, model.cosine(heights[0]), model.weight)]
     for at in held[1:]:
         states.append(solver.solve(states[-1], at)[0])
     return states
+
+
+def _near(solver: ExtendedNewton, guess: State, held: Sequence[Held]) -> State:
+    """The state near a guess that is good enough for one factorisation; else by Newton's method."""
+    try:
+        return solver.solve(guess, held, chord=True)[0]
+    except ConvergenceError:
+        return solver.solve(guess, held)[0]
 
 
 def _transferred(states: Sequence[State], coarse: RectangleModel, fine: RectangleModel) -> list[State]:
