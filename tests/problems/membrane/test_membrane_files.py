@@ -288,7 +288,7 @@ def test_other_files(tmp_path, sheet):
         (text, "cannot be read"),
         (empty, "is an empty file"),
         (tmp_path / "none.stl", "no such file"),
-        ("part.step", "'disk', 'square', 'airbag' or a file ending in .msh, .vtu, .stl is required"),
+        ("part.step", "'disk', 'square', 'airbag', 'tube' or a file ending in .msh, .vtu, .stl is required"),
     ):
         with pytest.raises(InputError, match=what):
             solve("membrane", mesh=str(path))
