@@ -136,7 +136,7 @@ def test_the_wheel_has_everything_under_one_name(built):
         paths = (path for ending in endings for path in (ROOT / part).rglob(f"*{ending}"))
         return {path.relative_to(ROOT).as_posix() for path in paths}
 
-    own = files("weakforms", ".py", ".pyi", ".json", ".html", ".css", ".js", ".toml", ".typed")
+    own = files("weakforms", ".py", ".pyi", ".json", ".jsonl", ".html", ".css", ".js", ".toml", ".typed")
     cases = {f"weakforms/_{name}" for name in files("cases", ".py")}
     tables = {f"weakforms/_{name}" for name in files("reference_data", ".csv", ".toml")}
     assert min(len(own), len(cases), len(tables)) > 80

@@ -41,7 +41,8 @@ def test_a_liquid_tube_that_does_not_bend_keeps_its_primary_branch(monkeypatch):
     primary = SimpleNamespace(pieces=[SimpleNamespace(family=SimpleNamespace(name="primary", absent=[]))])
     monkeypatch.setattr(liquid_tube, "primary_family", lambda *_: primary)
     monkeypatch.setattr(liquid_tube, "secondary_family", no_bifurcation)
-    given = {"parameters": SimpleNamespace(secondary=True), "numerics": None, "comm": None, "progress": None}
+    chosen = SimpleNamespace(secondary=True, energy="standard")
+    given = {"parameters": chosen, "numerics": None, "comm": None, "progress": None}
     problem, states = registry.get("fluid_tube"), [SimpleNamespace(branch="secondary")]
     found = problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=[])))
     assert list(found) == ["primary"]
