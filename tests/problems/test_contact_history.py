@@ -33,7 +33,8 @@ class Stretched(ContactPhases):
     def _follow(self, _model: object, _begin: object) -> SimpleNamespace:
         state = SimpleNamespace(loads={"front": FRONT})
         point = SimpleNamespace(state=state)
-        return SimpleNamespace(points=[point], crossings=lambda *_: [0], at=lambda *_: point)
+        ends = {"crossings": lambda *_: [0], "at": lambda *_: point, "end_at": lambda *_: None}
+        return SimpleNamespace(points=[point], **ends)
 
 
 def test_a_history_that_is_found_for_a_short_patch_first_grows_to_the_whole_one(monkeypatch):
