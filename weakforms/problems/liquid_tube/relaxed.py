@@ -117,18 +117,18 @@ class FluidReadings(Readings):
             return {f"Lambda_n{n}": waves.spectrum(n, 1).eigenvalues[0] / 2 for n in (0, *self.waves)}
 
     def order(self, name: str) -> float:
-        """As for any wrinkled membrane, but for eigenvalues that of fronts, at which their operator jumps.
+        """As for any wrinkled membrane; of eigenvalues, whose operator jumps at fronts, the order of fronts.
 
-        The surface is a node; the radius at the mid-plane is a value of the unknown inside of a cell.
+        The surface is a node. The radius at the mid-plane is a value of the unknown inside of a cell.
         """
         own = {**dict.fromkeys(NODAL, self.cap), "r_mid": self.cap / 2 + 1}
         return self.cap / 2 if self._resolved(name) else own.get(name, super().order(name))
 
     def _resolved(self, name: str) -> bool:
-        """Eigenvalues: the part of their error that is of fronts is small, and seen on fine meshes only.
+        """Whether the observed order may be higher than that of fronts, as it is for eigenvalues.
 
-        Modes are small in the zone above the ring. The rest of the error is of twice the order of the
-        elements.
+        Modes are small in the zone above the ring, so that the error of its fronts dominates on fine meshes
+        only. The rest of the error has twice the order of the elements.
         """
         return name.startswith("Lambda")
 

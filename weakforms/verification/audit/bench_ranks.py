@@ -7,7 +7,7 @@ rank as many unknowns; a direct solver's work grows faster than they do.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -128,7 +128,8 @@ class Scaled:
         return list(_pairs(self.of(title), alike))
 
 
-def _pairs(runs: list[Refinement], belong: Any) -> Iterable[Scaling]:
+def _pairs(runs: list[Refinement], belong: Callable[[Row, Row, int], bool]) -> Iterator[Scaling]:
+    """Meshes on several ranks with those on one rank that belong to them."""
     ones = [run for run in runs if run.ranks == 1]
     for run in runs:
         for row in run.rows if run.ranks > 1 else ():

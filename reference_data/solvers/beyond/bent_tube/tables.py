@@ -10,6 +10,7 @@ import numpy as np
 from reference_data.solvers.beyond.bent_tube import energy, strong
 from reference_data.solvers.beyond.tube_waves.ritz import Basis
 from reference_data.solvers.core.collocation import Array, Mesh
+from reference_data.solvers.core.curvatures import beginnings
 from reference_data.solvers.core.mooney_rivlin import Tube
 from reference_data.solvers.core.tables import Column, Levels, Series, Table, agreed, rule
 
@@ -145,42 +146,15 @@ def branch(name: str) -> Table:
     return SERIES.table(table, title, "", given, [*SERIES.keys(V=volumes), *found])
 
 
-def fit(amplitudes: Array, values: Array) -> tuple[float, float]:
-    """Value and curvature at zero of an even polynomial through all values."""
-    largest = amplitudes.max()
-    found = np.polynomial.polynomial.polyfit((amplitudes / largest) ** 2, values, len(values) - 1)
-    return float(found[0]), float(found[1] / largest**2)
-
-
 def crossings() -> Table:
     """Where the branches begin, with their curvatures."""
     table, names = "bent_tube_crossings", list(ASKED)
-    found: dict[str, list[list[list[float]]]] = {k: [] for k in ("p", "V", "u_max", "p_2", "V_2")}
-    spread = dict.fromkeys(found, 0.0)
-    for name in names:
-        rows: dict[str, list[list[float]]] = {k: [[], []] for k in found}
-        for share in (1.0, 1.5):  # the difference of two fits is a part of the uncertainty
-            amplitudes = ASKED[name].fitted * share * np.sqrt(np.linspace(0.06, 1, NODES))
-            both = states(name, amplitudes, "u_wave", NEAR)
-            for key, part, curvature in (("p", "p", "p_2"), ("V", "volume", "V_2"), ("u_max", "u_max", "")):
-                for m, levels in enumerate(read(both, part)):
-                    for values in levels:
-                        value, second = fit(amplitudes, values)
-                        rows[key][m].append(value)
-                        if curvature:
-                            rows[curvature][m].append(second)
-        for key, (a, b) in rows.items():
-            spread[key] = max(spread[key], *(abs(x[i + 2] - x[i]) for x in (a, b) for i in (0, 1)))
-            found[key].append([a[:2], b[:2]])
-    columns = [
-        column(
-            table,
-            key,
-            *([np.array([row[m][level] for row in rows]) for level in (0, 1)] for m in (0, 1)),
-            floor=spread[key],
-        )
-        for key, rows in found.items()
-    ]
+    found = beginnings(
+        {name: asked.fitted for name, asked in ASKED.items()},
+        lambda name, amplitudes: states(name, amplitudes, "u_wave", NEAR),
+        NODES,
+    )
+    columns = [column(table, key, *values, floor=spread) for key, (values, spread) in found.items()]
     tubes = {key: [getattr(ASKED[n].tube, key) for n in names] for key in ("alpha", "delta1", "lf")}
     keys = SERIES.keys(**tubes, u_end=[ASKED[n].u_end for n in names])
     title = "Points of free inflation at which bent states begin, and their curvatures there"

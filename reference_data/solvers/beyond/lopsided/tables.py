@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from reference_data.solvers.beyond.lopsided import energy, strong
 from reference_data.solvers.core.collocation import Array
+from reference_data.solvers.core.curvatures import beginnings
 from reference_data.solvers.core.mooney_rivlin import Tube
 from reference_data.solvers.core.tables import Column, Levels, Series, Table, agreed, rule
 
@@ -157,52 +158,20 @@ def keys(names: list[str]) -> list[Column]:
     return SERIES.keys(**tubes, u_end=[ASKED[n].u_end for n in names])
 
 
-def fit(w: Array, values: Array) -> tuple[float, float]:
-    """Value and curvature at w = 0 of an even polynomial through all values."""
-    largest = w.max()
-    found = np.polynomial.polynomial.polyfit((w / largest) ** 2, values, len(w) - 1)
-    return float(found[0]), float(found[1] / largest**2)
-
-
 def crossings() -> Table:
     """Where the branches begin, with their curvatures."""
     table, names = "lopsided_crossings", list(ASKED)
-    found: dict[str, list[list[list[float]]]] = {k: [] for k in ("p", "V", "u_max", "p_2", "V_2")}
-    spread = dict.fromkeys(found, 0.0)
-    for name in names:
-        most = ASKED[name].fitted
-        rows: dict[str, list[list[float]]] = {k: [[], []] for k in found}
-        for share in (1.0, 1.5):  # the difference of two fits is a part of the uncertainty
-            w = most * share * np.sqrt(np.linspace(0.06, 1, NODES))
-            both = states(name, w, "w")
-            for m, levels in enumerate((both.by_energy, both.by_equations)):
-                for level in levels:
-                    fits = {k: fit(w, np.array([getattr(s, a) for s in level])) for k, a in PARTS.items()}
-                    values = {k: v[0] for k, v in fits.items()} | {
-                        "p_2": fits["p"][1],
-                        "V_2": fits["V"][1],
-                    }
-                    for k, v in values.items():
-                        rows[k][m].append(v)
-        for k, (b, a) in rows.items():
-            spread[k] = max(spread[k], *(abs(x[i + 2] - x[i]) for x in (a, b) for i in (0, 1)))
-            found[k].append([b[:2], a[:2]])
-    columns = [
-        column(
-            table,
-            k,
-            *([np.array([row[m][level] for row in rows]) for level in (0, 1)] for m in (0, 1)),
-            floor=spread[k],
-        )
-        for k, rows in found.items()
-    ]
+
+    def amplitudes(name: str, w: Array) -> tuple[list[list[energy.State]], list[list[strong.State]]]:
+        both = states(name, w, "w")
+        return both.by_energy, both.by_equations
+
+    found = beginnings({name: asked.fitted for name, asked in ASKED.items()}, amplitudes, NODES)
+    columns = [column(table, key, *values, floor=spread) for key, (values, spread) in found.items()]
     title = "Points of free inflation at which lopsided branches begin, and their curvatures there"
     notes = "V and V_2 are those of the whole tube."
     extra = {"keys": ["alpha", "delta1", "lf", "u_end"]}
     return SERIES.table(table, title, "", {}, [*keys(names), *columns], notes=notes, extra=extra)
-
-
-PARTS = {"p": "p", "V": "volume", "u_max": "u_max"}
 
 
 def limits() -> Table:
