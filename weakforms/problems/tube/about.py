@@ -60,6 +60,20 @@ BENT = (
         "of secondary_n = n; u_max is then the mean around the axis",
         "u_{wave}",
     ),
+    *derived(
+        *numbers(
+            n_negative_even_odd="number of negative eigenvalues at fixed p and at fixed V, displacements of a "
+            "state with waves that keep its mirrors Theta = 0 and pi/n and break that at mid-length",
+            n_negative_odd_even="the same of those that break the former and keep the latter, without the "
+            "rotation of the pattern about the axis, whose eigenvalue is zero",
+            n_negative_odd_odd="the same of those that break all of them",
+            n_negative_alternating="of secondary_n = 2, the same of those that change sign from one wave to "
+            "the next: they break one of the mirrors Theta = 0 and pi/2",
+            n_negative_all="of secondary_n = 1 and 2, number of negative eigenvalues at fixed p, all "
+            "displacements: n_negative and those of all other classes",
+            n_negative_all_volume="the same at fixed V: n_negative_volume and those of all other classes",
+        )
+    ),
 )
 """Columns of states with waves around the axis only."""
 

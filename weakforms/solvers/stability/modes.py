@@ -196,14 +196,21 @@ def rated(system: System, factor: Factorization, load: str) -> Rated:
     :math:`-d^T K^{-1} d`; less one negative eigenvalue it is that of ``K`` on :math:`d^T x = 0`. Where ``K``
     is exactly singular, at a limit point, its zero eigenvalue does not count as negative.
     """
+    return across(system, factor, system.load_derivative(load))
+
+
+def across(system: System, factor: Factorization, border: np.ndarray) -> Rated:
+    """The same of any vector ``d``, such as the dual of a displacement that needs no energy.
+
+    ``K`` on the displacements normal to that one has neither its zero eigenvalue nor the error of it.
+    """
     factor.update()
     if factor.failed:
         system.shift(CRITICAL)
         factor.refactor()
-    count, force = factor.negative_count(), system.load_derivative(load)
-    answer = factor.solve(force)
-    size = np.sqrt(system.dot(force, force) * system.dot(answer, answer))
-    return Rated(count, system.dot(force, answer), float(size))
+    count, answer = factor.negative_count(), factor.solve(border)
+    size = np.sqrt(system.dot(border, border) * system.dot(answer, answer))
+    return Rated(count, system.dot(border, answer), float(size))
 
 
 class SingularForm(Protocol):

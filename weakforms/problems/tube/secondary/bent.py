@@ -20,15 +20,15 @@ from scipy.interpolate import make_interp_spline
 from weakforms.problems.meridian.families import EVEN, Wave
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
-from weakforms.problems.tube.secondary.crossed import CrossedBranch, CrossedFamily, require_crossings
+from weakforms.problems.tube.secondary.crossed import CrossedFamily, FlaggedBranch, require_crossings
+from weakforms.problems.tube.secondary.outside import BentModes
 from weakforms.problems.tube.secondary.surface import AMPLITUDE, BentTube
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.results import Field
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
-from weakforms.solvers.stability.modes import OwnVariation, Singular, judged, rated
-from weakforms.solvers.stability.spectra import Stability
+from weakforms.solvers.stability.modes import OwnVariation, Singular
 from weakforms.solvers.support.sampling import Sampler
 
 ACROSS = "V", AMPLITUDE
@@ -38,29 +38,7 @@ READINGS, SPLINE = 400, 5
 """Number of positions at which free inflation is read for a first guess, and degree of the spline."""
 
 
-class BentModes:
-    """Stability of bent states in their own symmetry: ``n`` waves, both mirrors.
-
-    Args:
-        model: The surface.
-    """
-
-    wave_numbers: Sequence[Wave] = ()
-    columns: Sequence[str] = ()
-
-    def __init__(self, model: BentTube) -> None:
-        self.model, self._own = model, Stability(model.system)
-
-    def observe(self) -> dict[str, float]:
-        """The lowest eigenvalue."""
-        return {"eigenvalue_1": judged(self._own, self.model.system.state(), 1).eigenvalues[0]}
-
-    def counts(self, _own: int | None = None) -> dict[str, int]:
-        """Negative eigenvalues at fixed volume, by inertia."""
-        return {"n_negative_volume": rated(self.model.system, self._own.factor, "p").count_at_fixed}
-
-
-class BentBranch(CrossedBranch):
+class BentBranch(FlaggedBranch):
     """The branch on one mesh of the surface.
 
     Args:
@@ -120,7 +98,7 @@ def on_surface(primary: TubeBranch, crossing: Solved, model: BentTube) -> Solved
         return Solved({"p": state.loads["p"], **system.monitors()}, state)
 
 
-class BentFamily(CrossedFamily):
+class BentFamily(CrossedFamily, TubeFamily):
     """The branch on all meshes of the surface."""
 
     fine: BentBranch

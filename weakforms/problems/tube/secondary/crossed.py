@@ -199,6 +199,14 @@ class CrossedBranch(WaveBranch):
         return [begin, *super().special(), *end]
 
 
+class FlaggedBranch(CrossedBranch, TubeBranch):
+    """A branch whose states, and both of whose ends, say whether the membrane is compressed."""
+
+    def at_crossing(self, i: int) -> Solved:
+        """One of the crossings, with all columns and marks."""
+        return self._flagged(super().at_crossing(i))
+
+
 class CrossedFamily(WaveFamily):
     """The branch on all meshes; its first special point has the coefficients of the expansion."""
 

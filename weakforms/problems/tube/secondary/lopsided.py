@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from weakforms.problems.tube.model import UNEVEN, TubeModel, yielding, yields
-from weakforms.problems.tube.secondary.crossed import CrossedBranch, CrossedFamily, require_crossings
+from weakforms.problems.tube.secondary.crossed import CrossedFamily, FlaggedBranch, require_crossings
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.results import Quantity
 from weakforms.solvers.continuation.continuation import CurvePoint
@@ -46,7 +46,7 @@ class WholeTube(TubeModel):
         return replace(given, monitors={**given.monitors, AMPLITUDE: self.at_middle(self.expressions["z"])})
 
 
-class LopsidedBranch(CrossedBranch, TubeBranch):
+class LopsidedBranch(FlaggedBranch):
     """The branch on one mesh, that of free inflation of the whole tube."""
 
     kind, amplitude, imperfection, called = "mirror_breaking", AMPLITUDE, UNEVEN, "lopsided"
@@ -70,10 +70,6 @@ class LopsidedBranch(CrossedBranch, TubeBranch):
         """As for any branch beside free inflation, or where the law gives way."""
         stop = super().ending(primary, side)
         return lambda point: stop(point) or yields(point)
-
-    def at_crossing(self, i: int) -> Solved:
-        """One of the crossings, with all columns and marks."""
-        return self._flagged(super().at_crossing(i))
 
 
 class LopsidedFamily(CrossedFamily, TubeFamily):

@@ -29,11 +29,13 @@ from ufl.core.expr import Expr
 from weakforms.forms import revolution
 from weakforms.forms.fluid import Surface
 from weakforms.forms.materials import stress_resultants
+from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import one_end
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.stability.modes import SecondVariation
 
 AMPLITUDE = "u_wave"
 """Column of the amplitude, ``c.x``: the part of ``cos(n Theta)`` in the mid-plane's radial displacement."""
@@ -43,6 +45,36 @@ MIDDLE = 1
 
 Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Components ``(X, Y, Z)``, or a displacement, of shape ``(3, k)``, at ``Z`` and ``Theta``."""
+
+
+EVEN, ODD = "even", "odd"
+"""Parity about a mirror: it maps a displacement to itself, or to the reverse."""
+
+TURNING, TURN = "turning", "turn"
+"""Functionals of a class: the product of a displacement with the rotation of the pattern, and the latter's
+square."""
+
+
+@dataclass(frozen=True)
+class Parities:
+    """A class of displacements by its parities about the meridians ``Theta = 0``, ``pi/n`` and mid-length."""
+
+    first: str
+    last: str
+    middle: str
+
+    @property
+    def vanishing(self) -> list[tuple[tuple[int, ...], str]]:
+        """Components that are zero on a mirror, with its name: across it if even, along it if odd."""
+        given = {"first": (self.first, 1), "last": (self.last, 1), "middle": (self.middle, 2)}
+        return [
+            ((across,) if parity == EVEN else tuple({0, 1, 2} - {across}), mirror)
+            for mirror, (parity, across) in given.items()
+        ]
+
+
+OWN = Parities(EVEN, EVEN, EVEN)
+"""The class of the states."""
 
 
 @dataclass(frozen=True)
@@ -89,11 +121,11 @@ class BentTube:
         self.middle = ufl.Measure("ds", self.mesh, subdomain_data=tags, metadata=rule)(MIDDLE)
         self.system = System(self.formulation())
 
-    def surface(self) -> Surface:
-        """The position with its derivatives; the frame turns with ``Theta``."""
-        x = self.unknown
+    @staticmethod
+    def surface(x: Expr) -> Surface:
+        """A position with its derivatives; the frame turns with ``Theta``."""
         a, b = x.dx(0), x.dx(1)
-        return Surface(ufl.as_vector(list(x)), a, ufl.as_vector([b[0] - x[1], b[1] + x[0], b[2]]))
+        return Surface(ufl.as_vector([*x]), a, ufl.as_vector([b[0] - x[1], b[1] + x[0], b[2]]))
 
     def metric(self, at: Surface) -> Expr:
         """Right Cauchy-Green tensor of the stress-free tube."""
@@ -107,7 +139,7 @@ class BentTube:
 
     def formulation(self) -> Formulation:
         """The weak form with its columns; ``u_max`` is the mean around the axis."""
-        at, share = self.surface(), self.n / np.pi
+        at, share = self.surface(self.unknown), self.n / np.pi
         trial, test = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
         energy = share * self.potential(at) * self.dx
         wave = ufl.cos(self.n * ufl.SpatialCoordinate(self.mesh)[1])
@@ -115,7 +147,7 @@ class BentTube:
             unknown=self.unknown,
             residual=ufl.derivative(energy, self.unknown, test),
             loads=self.loads,
-            bcs=self.conditions(),
+            bcs=self.conditions(OWN, np.array([1.0, self.half])),
             mass=share * ufl.inner(trial, test) * self.dx,
             monitors={
                 "u_max": share * (at.x[0] - 1) * self.middle,
@@ -133,22 +165,52 @@ class BentTube:
         t1, t2 = stress_resultants(self._law.stretches, lam1, lam2)
         return {"rho": at.x[0], "eta": at.x[2], "lam1": lam1, "lam2": lam2, "t1": t1, "t2": t2}
 
-    def conditions(self) -> list[fem.DirichletBC]:
-        """The ring at the disk, the height at mid-length, and the direction around on both meridians."""
-        width = np.pi / self.n
-        ring = dmesh.locate_entities_boundary(self.mesh, 1, lambda x: np.isclose(x[0], self.half))
-        held = fem.Function(self.space)
-        held.interpolate(lambda x: np.vstack([np.ones_like(x[0]), 0 * x[0], np.full_like(x[0], self.half)]))
-        out = [fem.dirichletbc(held, fem.locate_dofs_topological(self.space, 1, ring))]
-        mirrors = (
-            (2, lambda x: np.isclose(x[0], 0.0)),
-            (1, lambda x: np.isclose(x[1], 0.0) | np.isclose(x[1], width)),
+    def principal_resultants(self) -> dict[str, Expr]:
+        """Principal Cauchy resultants, that of the larger stretch first."""
+        resultants = stress_resultants(
+            self._law.stretches, *principal_stretches(self.metric(self.surface(self.unknown)))
         )
-        for component, where in mirrors:
-            facets, part = dmesh.locate_entities_boundary(self.mesh, 1, where), self.space.sub(component)
-            dofs = fem.locate_dofs_topological(part, 1, facets)
-            out.append(fem.dirichletbc(np.array(0.0), dofs, part))
+        return dict(zip(("first", "second"), resultants, strict=True))
+
+    def variation(self, parities: Parities) -> SecondVariation:
+        r"""The second variation in a class of displacements ``q``.
+
+        The pattern of a state is turned about the axis by :math:`-x_{,\Theta}` in its components.
+        """
+        q, share = fem.Function(self.space, name="displacement"), self.n / np.pi
+        trial, test = ufl.TrialFunction(self.space), ufl.TestFunction(self.space)
+        energy = share * self.potential(self.surface(self.unknown + q)) * self.dx
+        turn = -self.unknown.dx(1)
+        return SecondVariation(
+            Formulation(
+                unknown=q,
+                residual=ufl.derivative(energy, q, test),
+                loads=self.loads,
+                bcs=self.conditions(parities, np.zeros(2)),
+                mass=share * ufl.inner(trial, test) * self.dx,
+                monitors={
+                    TURNING: share * ufl.inner(turn, q) * self.dx,
+                    TURN: share * ufl.inner(turn, turn) * self.dx,
+                },
+            ),
+            self.system,
+        )
+
+    def conditions(self, parities: Parities, ring: np.ndarray) -> list[fem.DirichletBC]:
+        """The ring at the disk, of a radius and a height, and the mirrors' conditions on a class."""
+        edges = {"middle": (0, 0.0), "first": (1, 0.0), "last": (1, np.pi / self.n)}
+        held = fem.Function(self.space)
+        held.interpolate(lambda x: np.vstack([0 * x[0] + ring[0], 0 * x[0], 0 * x[0] + ring[1]]))
+        out = [fem.dirichletbc(held, self._on(self.space, 0, self.half))]
+        for components, mirror in parities.vanishing:
+            for part in map(self.space.sub, components):
+                out.append(fem.dirichletbc(np.array(0.0), self._on(part, *edges[mirror]), part))
         return out
+
+    def _on(self, space: fem.FunctionSpace, axis: int, value: float) -> np.ndarray:
+        """Degrees of freedom on an edge."""
+        edge = dmesh.locate_entities_boundary(self.mesh, 1, lambda x: np.isclose(x[axis], value))
+        return fem.locate_dofs_topological(space, 1, edge)
 
     def interpolated(self, shape: Shape) -> np.ndarray:
         """Owned degrees of freedom of a position or a displacement."""
