@@ -2,16 +2,26 @@
 
 import numpy as np
 import pytest
+import ufl
+from dolfinx import fem
+from dolfinx import mesh as dmesh
 from mpi4py import MPI
 
 from weakforms import InputError, solve
+from weakforms.problems.meridian.families import EVEN as WAVE_EVEN
+from weakforms.problems.meridian.families import ODD as WAVE_ODD
+from weakforms.problems.meridian.families import Wave
 from weakforms.problems.problem import Requests, Task
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
 from weakforms.problems.tube.problem import Tube
 from weakforms.problems.tube.secondary.bent import AMPLITUDE
+from weakforms.problems.tube.secondary.outside import TURNED
+from weakforms.problems.tube.secondary.surface import EVEN, ODD, TURNING, Parities
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.support.least import Least
+from weakforms.solvers.support.sampling import Sampler
 
 pytestmark = pytest.mark.paper2
 SURFACE = {"secondary_cells": 8, "secondary_around": 4, "secondary_degree": 4}
@@ -92,6 +102,98 @@ def test_bent_states_are_stable_if_the_volume_is_held(families):
     columns = families["secondary"].branch().columns
     assert set(columns["n_negative"]) == {1}
     assert set(columns["n_negative_volume"]) == {0}
+
+
+def test_a_bent_state_is_stable_against_all_displacements_if_its_volume_is_held(families):
+    columns = families["secondary"].branch(with_uncertainty=False).columns
+    outside = sum(columns[f"n_negative_{name}"] for name in ("even_odd", "odd_even", "odd_odd"))
+    assert set(outside) == {0}
+    assert columns["n_negative_all"] == pytest.approx(columns["n_negative"])
+    assert columns["n_negative_all_volume"] == pytest.approx(columns["n_negative_volume"])
+
+
+def test_without_its_rotation_a_tube_has_one_negative_eigenvalue_less_or_none(branch):
+    modes, found = branch.modes, set()
+    for point in branch.points[1::3]:
+        with branch.system.at(point.state):
+            count, rotation = modes.turned()
+            whole = modes.variation(TURNED).negative_count()
+        assert abs(rotation) < 1e-4
+        assert whole == count + (rotation < 0)
+        found.add(rotation < 0)
+    assert True in found  # the inertia of the matrix alone would be wrong
+
+
+def test_the_rotation_of_the_pattern_needs_no_energy(branch):
+    system, point = branch.system, branch.points[len(branch.points) // 2]
+    variation = branch.modes.variation(TURNED)
+    with system.at(point.state):
+        dual, _ = variation.monitor_gradient(TURNING, ())
+        variation.factor.update()
+        turn = variation.factor.solve(dual)
+        # It is the derivative of the position around the axis, also where no degree of freedom is.
+        q = fem.Function(branch.modes.model.space)
+        q.x.array[:] = turn / np.sqrt(variation.dot(turn, variation.mass_times(turn)))
+        x = branch.modes.model.unknown
+        both = fem.assemble_scalar(fem.form(ufl.inner(q, x.dx(1)) * ufl.dx))
+        alone = fem.assemble_scalar(fem.form(ufl.inner(x.dx(1), x.dx(1)) * ufl.dx))
+    assert abs(both) / np.sqrt(np.pi * alone) == pytest.approx(1, rel=1e-3)
+
+
+@pytest.mark.parametrize("parities", [Parities(EVEN, EVEN, ODD), TURNED, Parities(ODD, ODD, ODD)])
+def test_classes_of_a_round_tube_are_families_of_waves(families, branch, parities):
+    """The lowest eigenvalues of a class at an axisymmetric state, by those of the meridian."""
+    meridian = families["primary"].fine
+    middle = WAVE_EVEN if parities.middle == EVEN else WAVE_ODD
+    state, _ = ExtendedNewton(branch.system, ["p"]).solve(branch.crossed[0].state, [Held("u_max", 0.5)])
+    with meridian.system.at(meridian.at("u_max", 0.5).state):
+        waves = range(parities.first == ODD or parities.middle == EVEN, 4)
+        each = [meridian.modes.variation(Wave(n, middle)).spectrum(1).eigenvalues[0] for n in waves]
+    with branch.system.at(state):
+        found = branch.modes.variation(parities).spectrum(1).eigenvalues[0]
+    assert found == pytest.approx(min(each), rel=2e-3)
+
+
+def test_a_second_bent_branch_begins_with_a_bulge_that_would_move_to_one_end():
+    """The counts outside are those of the ordinary tube: one of n = 0, odd about mid-length."""
+    given = {"alpha": 0.0, "lf": 6.0, "u_end": 1.7, "secondary_from": 2, "n": (0, 2)}
+    found = solve("tube", **BENDING | given, numerics=COARSE | {"secondary_cells": 16})
+    columns = found.branch("secondary").columns
+    assert {name: int(columns[f"n_negative_{name}"][1]) for name in ("even_odd", "odd_even", "odd_odd")} == {
+        "even_odd": 1, "odd_even": 0, "odd_odd": 0
+    }  # fmt: skip
+    assert columns["n_negative_all_volume"][1] == columns["n_negative_volume"][1] + 1
+    assert set(columns["wrinkled"]) == {1}
+
+
+def test_where_the_branch_begins_the_smallest_resultant_is_that_of_the_meridian():
+    fine = COARSE | {"secondary_cells": 32, "secondary_degree": 6}
+    found = solve("tube", **BENDING, numerics=fine)
+    first, second = (point for point in found.special_points if point.kind == "bifurcation_n1")
+    left = abs(first.values["t_min"] - second.values["t_min"])
+    assert left < first.uncertainty["t_min"] + second.uncertainty["t_min"] < 2e-3
+
+
+def test_no_place_has_a_smaller_resultant(branch):
+    """The smallest one is at the disk, between the plane of bending and the axis normal to it."""
+    state, model = branch.at("V", 6.2), branch.modes.model
+    places = np.array([(z, theta) for z in np.linspace(0, 5, 41) for theta in np.linspace(0, np.pi, 181)])
+    with branch.system.at(state.state):
+        found = Sampler(model.unknown, model.principal_resultants(), places)()
+    least = min(values.min() for values in found.values())
+    z, theta = places[np.argmin(found["second"])]
+    assert z == 5 and 0.3 < theta < np.pi - 0.3
+    assert least - 1e-3 < state.values["t_min"] <= least
+
+
+def test_the_smallest_value_on_cells_is_found_between_nodes():
+    mesh = dmesh.create_unit_square(MPI.COMM_SELF, 3, 2, dmesh.CellType.quadrilateral)
+    unknown = fem.Function(fem.functionspace(mesh, ("Lagrange", 2, (3,))))
+    x, y = ufl.SpatialCoordinate(mesh)
+    bowl = (x - 0.47) ** 2 + 2 * (y - 0.81) ** 2 + (x - 0.47) * (y - 0.81) - 0.3
+    nothing = unknown[0]
+    assert Least(unknown, {"a": bowl + nothing, "b": nothing})() == pytest.approx(-0.3, abs=1e-14)
+    assert Least(unknown, {"b": nothing + x - 2 * y})() == pytest.approx(-2, abs=1e-13)
 
 
 def test_a_profile_has_both_meridians_of_the_plane_of_bending(families):

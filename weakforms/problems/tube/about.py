@@ -60,10 +60,14 @@ BENT = (
         "of secondary_n = n; u_max is then the mean around the axis",
         "u_{wave}",
     ),
+    Column(
+        "Lambda_rotation",
+        "eigenvalue of the rotation of the pattern about the axis: exactly 0, its size shows the error",
+    ),
     *derived(
         *numbers(
-            n_negative_even_odd="number of negative eigenvalues at fixed p and at fixed V, displacements of a "
-            "state with waves that keep its mirrors Theta = 0 and pi/n and break that at mid-length",
+            n_negative_even_odd="number of negative eigenvalues at fixed p and at fixed V of a state "
+            "with waves, displacements that keep its mirrors Theta = 0 and pi/n and break that at mid-length",
             n_negative_odd_even="the same of those that break the former and keep the latter, without the "
             "rotation of the pattern about the axis, whose eigenvalue is zero",
             n_negative_odd_odd="the same of those that break all of them",

@@ -24,16 +24,20 @@ class Asked(NamedTuple):
     volumes: tuple[Any, ...]
     fitted: float
     """Largest amplitude from which the curvatures are extrapolated."""
+    n: int = 1
+    """Wave number."""
 
-
-WAVES = 1
-"""Wave number of all branches."""
 
 ASKED = {
     "neo_hookean": Asked(Tube(0.0, 1.0, 10.0), (5.8, 6.1), 0.8, (6.0, 6.15, 6.3, 6.45), 0.2),
     "alpha_0_1": Asked(Tube(0.1, 1.0, 10.0), (6.8, 7.1), 0.95, (7.0, 7.15, 7.3), 0.2),
     "short": Asked(Tube(0.0, 1.0, 6.0), (4.85, 5.1), 1.3, (), 0.15),
+    "oval": Asked(Tube(0.0, 2.0, 3.0), (2.5, 2.7), 1.5, (2.63, 2.7, 2.8), 0.1, n=2),
 }
+CALLED = {1: "bent", 2: "oval"}
+"""Names of states by their wave number."""
+CROSSINGS = {"bent_tube_crossings": 1, "bent_tube_oval_crossings": 2}
+"""Tables of beginnings, and their wave numbers."""
 FIRST = 0.1
 """Amplitude of the first state."""
 NODES = 5
@@ -49,20 +53,20 @@ class Grids(NamedTuple):
     nets: tuple[strong.Net, strong.Net]
 
 
-def grids(harmonics: tuple[int, int], angles: tuple[int, int]) -> Grids:
-    """Functions and nets that differ in their resolution around the axis."""
+@cache
+def grids(n: int, harmonics: tuple[int, int], angles: tuple[int, int]) -> Grids:
+    """Functions and nets of a wave number that differ in their resolution around the axis."""
     bases, degrees = (Basis(7, 9), Basis(8, 11)), ((7, 11), (8, 13))
     return Grids(
-        tuple(energy.Series(WAVES, k, basis) for k, basis in zip(harmonics, bases, strict=True)),
+        tuple(energy.Series(n, k, basis) for k, basis in zip(harmonics, bases, strict=True)),
         tuple(
-            strong.Net(WAVES, count, Mesh.graded(*mesh, 2.0))
-            for count, mesh in zip(angles, degrees, strict=True)
+            strong.Net(n, count, Mesh.graded(*mesh, 2.0)) for count, mesh in zip(angles, degrees, strict=True)
         ),
     )
 
 
-FAR, NEAR = grids((7, 10), (9, 11)), grids((4, 6), (6, 8))
-"""Grids of branches, and of states of small amplitude."""
+FAR, NEAR = ((7, 10), (9, 11)), ((4, 6), (6, 8))
+"""Harmonics and angles of branches, and of states of small amplitude."""
 
 COLUMNS = {
     "alpha": ("1", "C2/C1"),
@@ -104,11 +108,12 @@ class Both(NamedTuple):
 def first(name: str) -> energy.State:
     """The first state of a branch."""
     asked = ASKED[name]
-    return energy.beside(asked.tube, NEAR.series[0], asked.between, 0, FIRST)
+    return energy.beside(asked.tube, grids(asked.n, *NEAR).series[0], asked.between, 0, FIRST)
 
 
-def states(name: str, values: Array, held: str, on: Grids) -> Both:
+def states(name: str, values: Array, held: str, resolution: tuple[tuple[int, int], ...]) -> Both:
     """States of a branch at rising volumes or amplitudes."""
+    on = grids(ASKED[name].n, *resolution)
     coarse, at = [], energy.on(first(name), on.series[0])
     for value in map(float, values):
         at = energy.solve(at, held, value)
@@ -141,28 +146,28 @@ def branch(name: str) -> Table:
     parts = {"p": "p", "u_max": "u_max", "u_wave": "amplitude"}
     found = [column(table, key, *read(both, part), floor=0.0) for key, part in parts.items()]
     tube = asked.tube
-    given = {"alpha": tube.alpha, "delta1": tube.delta1, "lf": tube.lf, "n": WAVES}
-    title = "Bent states of the inflated tube over their volume"
+    given = {"alpha": tube.alpha, "delta1": tube.delta1, "lf": tube.lf, "n": asked.n}
+    title = f"{CALLED[asked.n].capitalize()} states of the inflated tube over their volume"
     return SERIES.table(table, title, "", given, [*SERIES.keys(V=volumes), *found])
 
 
-def crossings() -> Table:
-    """Where the branches begin, with their curvatures."""
-    table, names = "bent_tube_crossings", list(ASKED)
+def crossings(table: str, n: int) -> Table:
+    """Where the branches of a wave number begin, with their curvatures."""
+    names = [name for name, asked in ASKED.items() if asked.n == n]
     found = beginnings(
-        {name: asked.fitted for name, asked in ASKED.items()},
+        {name: ASKED[name].fitted for name in names},
         lambda name, amplitudes: states(name, amplitudes, "u_wave", NEAR),
         NODES,
     )
     columns = [column(table, key, *values, floor=spread) for key, (values, spread) in found.items()]
     tubes = {key: [getattr(ASKED[n].tube, key) for n in names] for key in ("alpha", "delta1", "lf")}
     keys = SERIES.keys(**tubes, u_end=[ASKED[n].u_end for n in names])
-    title = "Points of free inflation at which bent states begin, and their curvatures there"
+    title = f"Points of free inflation at which {CALLED[n]} states begin, and their curvatures there"
     extra = {"keys": [k.name for k in keys]}
-    return SERIES.table(table, title, "", {"n": WAVES}, [*keys, *columns], extra=extra)
+    return SERIES.table(table, title, "", {"n": n}, [*keys, *columns], extra=extra)
 
 
 TABLES = {
     **{f"bent_tube_{name}": partial(branch, name) for name, asked in ASKED.items() if asked.volumes},
-    "bent_tube_crossings": crossings,
+    **{name: partial(crossings, name, n) for name, n in CROSSINGS.items()},
 }

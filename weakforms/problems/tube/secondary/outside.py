@@ -1,19 +1,21 @@
 r"""Stability of bent states, inside and outside of their own symmetry.
 
-A state has the mirrors ``Theta = 0`` and ``pi/n`` and that at mid-length. Displacements of other parities about
-them do not mix in the second variation with those of the states' own class nor with each other: each class has
-a matrix on the same mesh, with conditions of its own on the mirrors, and the inertia of this matrix is its
-number of negative eigenvalues. A class that is odd about one of the mirrors does not change the volume to first
-order: its number is the same at fixed pressure and at fixed volume.
+A state has the mirrors ``Theta = 0`` and ``pi/n`` and that at mid-length. Displacements of other parities
+about them do not mix in the second variation with those of the states' own class nor with each other. Each
+class has a matrix on the same mesh, with conditions of its own on the mirrors, and the inertia of this matrix
+is its number of negative eigenvalues. A class that is odd about one of the mirrors does not change the volume
+to first order: its number is the same at fixed pressure and at fixed volume.
 
-The state may be turned about the axis. This displacement, :math:`t = -x_{,\Theta}` in the turning frame, is odd
-about both meridians and even about mid-length, and needs no energy. Its eigenvalue is zero, and the computed one
-of either sign shows the error. The count is therefore that on the displacements normal to it, :math:`b^T q = 0`
-with :math:`b_i = \int t\cdot\varphi_i`: the inertia of :math:`(K, b; b^T, 0)` less one negative eigenvalue. That
-``t`` is the rotation is tested by its eigenvalue, :math:`\int |t|^2 / b^T K^{-1} b`.
+The state may be turned about the axis. This displacement, :math:`t = -x_{,\Theta}` in the turning frame, is
+odd about both meridians and even about mid-length, and needs no energy. Its eigenvalue is zero, and the
+computed one, of either sign, shows the error. The count is therefore that on the displacements normal to it,
+:math:`b^T q = 0` with :math:`b_i = \int t\cdot\varphi_i`: the inertia of :math:`(K, b; b^T, 0)` less one
+negative eigenvalue. That ``t`` is a zero mode is tested by its overlap with :math:`K^{-1} b`, which such a
+mode dominates.
 
 With ``n = 1`` these classes are all displacements. With ``n = 2`` those that change sign from one wave to the
-next, odd about one of the meridians and even about the other, complete them. With more waves others are left out.
+next, odd about one of the meridians and even about the other, complete them. With more waves others are left
+out, and no total is given.
 """
 
 from __future__ import annotations
@@ -49,8 +51,8 @@ ALTERNATING = {
 WHOLE = {1: CLASSES, 2: CLASSES | ALTERNATING}
 """All classes outside of the states' own, for the numbers of waves for which they are all displacements."""
 
-NEUTRAL = 1e-3
-"""Magnitude above which the eigenvalue of the rotation is not accepted as zero."""
+LIKENESS = 0.9
+"""Smallest accepted overlap between the rotation and ``K^-1 b``: of a zero mode it is 1."""
 
 SMALLEST_TURN = 1e-6
 """Root mean square of the rotation below which there is no pattern to turn: at the crossing."""
@@ -64,7 +66,7 @@ class BentModes:
     """
 
     wave_numbers: Sequence[Wave] = ()
-    columns: Sequence[str] = ("t_min",)
+    columns: Sequence[str] = ("t_min", "Lambda_rotation")
     full = False
 
     def __init__(self, model: BentTube) -> None:
@@ -74,9 +76,10 @@ class BentModes:
         self._least = Least(model.unknown, model.principal_resultants())
 
     def observe(self) -> dict[str, float]:
-        """The lowest eigenvalue of the states' own class, and the smallest principal resultant."""
+        """The lowest eigenvalue of the states' own class, the smallest resultant, and the rotation's."""
         own = judged(self._own, self.model.system.state(), 1).eigenvalues[0]
-        return {"eigenvalue_1": own, "t_min": self.least_resultant()[0]}
+        least, (_, rotation) = self.least_resultant()[0], self.turned()
+        return {"eigenvalue_1": own, "t_min": least, "Lambda_rotation": rotation}
 
     def least_resultant(self) -> tuple[float]:
         """Smallest of both principal resultants anywhere."""
@@ -122,10 +125,11 @@ class BentModes:
         square, found = variation.monitor(TURN), across(variation, variation.factor, dual)
         if np.sqrt(square / self.model.half) < SMALLEST_TURN:
             return found.count_at_fixed, 0.0
-        eigenvalue = square / found.rate
-        if not abs(eigenvalue) < NEUTRAL:
+        answer = variation.factor.solve(dual)
+        largest = np.sqrt(square * variation.dot(answer, variation.mass_times(answer)))
+        if not abs(found.rate) > LIKENESS * largest:
             raise ConvergenceError(
-                f"stability: to turn the pattern about the axis needs energy, with an eigenvalue of "
-                f"{eigenvalue:.1e}: raise secondary_cells or secondary_around"
+                "stability: the rotation of the pattern about the axis is not a zero mode, overlap "
+                f"{abs(found.rate) / largest:.2f}: raise secondary_cells or secondary_around"
             )
-        return found.count_at_fixed, eigenvalue
+        return found.count_at_fixed, float(square / found.rate)
