@@ -90,7 +90,10 @@ def test_bent_states_of_a_tube(same_on_ranks):
     bent = {"problem": "tube", "alpha": 0, "lf": 10, "u_end": 0.8, "secondary": True, "secondary_n": 1}
     (found,) = same_on_ranks([bent | {"numerics": MESH | surface}])
     assert found.special_points[-1].values["p_2"] < 0 < found.special_points[-1].values["V_2"]
-    assert found.branch("secondary")["u_wave"].max() > 0.3
+    columns = found.branch("secondary").columns
+    assert columns["u_wave"].max() > 0.3
+    assert set(columns["n_negative_all_volume"]) == {0}
+    assert columns["t_min"][0] > columns["t_min"][-1]
 
 
 @pytest.mark.paper2

@@ -1,10 +1,13 @@
 """A long tube under gas bends: the branch that leaves free inflation of Paper 2 before its limit point.
 
 Paper 2 inflates axisymmetric states. A neo-Hookean tube of ten radii without pre-stretch becomes neutral to
-bending (n = 1) before its limit point. The branch of bent states is compared over the volume with two codes
-for the surface in space, and its curvatures at the beginning with fits of states of small amplitude and with
-the solved branch itself.
+bending (n = 1) before its limit point, and a short one of pre-stretch 2 to an oval section (n = 2). The
+branches are compared over the volume with two codes for the surface in space, and their curvatures at the
+beginning with fits of states of small amplitude and with the solved branch itself. Where a branch begins, its
+negative eigenvalues outside of its symmetry, and its smallest resultant, are those of free inflation.
 """
+
+import numpy as np
 
 from weakforms.cases import (
     At,
@@ -30,16 +33,25 @@ TABLES = {
     NEO: ("bent_tube_neo_hookean", r"$\alpha = 0,\ l_f = 10$"),
     STIFFER: ("bent_tube_alpha_0_1", r"$\alpha = 0.1,\ l_f = 10$"),
 }
-BRANCH, KIND = "secondary", "bifurcation_n1"
+OVAL = BASE.at(secondary_n=2, alpha=0.0, delta1=2.0, lf=3.0, u_end=1.5)
+SECOND = SHORT.at(secondary_from=2, u_end=1.7, n=(0, 2))
+"""The second point at which the short tube bends: its bulge would move to one end there."""
+OVAL_TABLE = "bent_tube_oval"
+BRANCH, KIND, OVAL_KIND = "secondary", "bifurcation_n1", "bifurcation_n2"
+OUTSIDE = tuple(f"n_negative_{name}" for name in ("even_odd", "odd_even", "odd_odd"))
+TAUT = (NEO, STIFFER, OVAL)
 SMALL = tuple(At("u_wave", u, branch=BRANCH) for u in (0.15, 0.3))
 EXTRAPOLATED = 2e-3
 """Largest relative error of a limit from two amplitudes of ratio 2, which is of fourth order in them."""
+RESULTANT = 1e-3
+"""Part of the smallest resultant to which meshes are asked to agree: a derivative in the layer at a disk."""
 
 
-def begins(solutions: Solutions, spec: Spec, name: str) -> decide.Number:
-    """A value of the point at which bent states begin, on their branch; free inflation has it too."""
-    branches = [point.branch for point in solutions.points(spec, KIND)]
-    return solutions.point(spec, KIND, name, branches.index(BRANCH))
+def begins(solutions: Solutions, spec: Spec, name: str, branch: str = BRANCH) -> decide.Number:
+    """A value of the point at which a branch with waves begins, on a branch; free inflation has it too."""
+    kind = OVAL_KIND if spec == OVAL else KIND
+    branches = [point.branch for point in solutions.points(spec, kind)]
+    return solutions.point(spec, kind, name, branches.index(branch))
 
 
 def curvatures(solutions: Solutions) -> Finding:
@@ -61,7 +73,7 @@ def signs(solutions: Solutions) -> Finding:
                 decide.negative(f"p_2, {spec}", begins(solutions, spec, "p_2")),
                 decide.positive(f"V_2, {spec}", begins(solutions, spec, "V_2")),
             )
-            for spec in (NEO, STIFFER, SHORT)
+            for spec in (NEO, STIFFER, SHORT, OVAL)
         )
     )
 
@@ -75,6 +87,77 @@ def stability(solutions: Solutions) -> Finding:
             for name, wanted in (("n_negative", [1]), ("n_negative_volume", [0]))
         )
     )
+
+
+def outside(solutions: Solutions) -> Finding:
+    """No displacement outside of their symmetry lowers the energy of the long tubes."""
+    wanted = {name: [0] for name in (*OUTSIDE, "n_negative_all_volume")} | {"n_negative_all": [1]}
+    return decide.all_of(
+        decide.same(f"{name}, {spec}", decide.runs(solutions.branch(spec, BRANCH).columns[name]), counts)
+        for spec in TABLES
+        for name, counts in wanted.items()
+    )
+
+
+def counts_beside(solutions: Solutions, spec: Spec) -> dict[str, int]:
+    """Negative eigenvalues of free inflation at the point of its trace before a branch begins."""
+    columns = solutions.branch(spec).columns
+    crossings = [p for p in solutions.result(spec).special_points if p.branch == BRANCH]
+    before = int(np.flatnonzero(columns["V"] < crossings[0].values["V"])[-1])
+    return {name: int(values[before]) for name, values in columns.items() if name.startswith("n_negative")}
+
+
+def families(solutions: Solutions) -> Finding:
+    """Counts of the first state are those of families of waves of the ordinary tube.
+
+    Of two mirrors the class that breaks only mid-length has the axisymmetric waves of odd parity, that which
+    breaks only the plane of bending the even ones of n = 2, and each of them those of n = 2, odd.
+    """
+    ordinary = counts_beside(solutions, SECOND)
+    bent = solutions.branch(SECOND, BRANCH).columns
+    lopsided = ordinary["n_negative_n0"] - ordinary["n_negative"]
+    wanted = dict(zip(OUTSIDE, (lopsided, 0, 0), strict=True))
+    return decide.all_of(
+        decide.same("lopsided waves of free inflation", lopsided, 1),
+        decide.same("waves of n = 2", ordinary["n_negative_n2"], 0),
+        *(decide.same(name, int(bent[name][1]), count) for name, count in wanted.items()),
+    )
+
+
+def held(solutions: Solutions) -> Finding:
+    """A held volume removes one negative eigenvalue where the pressure falls with the volume, else none."""
+    found = []
+    for spec in (*TABLES, OVAL, SECOND):
+        columns = solutions.branch(spec, BRANCH).columns
+        removed = columns["n_negative_all"] - columns["n_negative_all_volume"]
+        p, v = (np.gradient(columns[name]) for name in ("p", "V"))
+        found.append(decide.every(f"counts by the sign of dV/dp, {spec}", (removed == (p * v < 0))[1:-1]))
+    return decide.all_of(*found)
+
+
+def oval(solutions: Solutions) -> Finding:
+    """Oval states lose their stability at fixed volume to a displacement that alternates."""
+    columns = solutions.branch(OVAL, BRANCH).columns
+    wanted = {"n_negative_volume": [0], "n_negative_alternating": [0, 1], "n_negative_all_volume": [0, 1]}
+    return decide.all_of(
+        *(decide.same(name, decide.runs(columns[name]), counts) for name, counts in wanted.items()),
+        *(decide.same(name, decide.runs(columns[name]), [0]) for name in OUTSIDE),
+        decide.same("wrinkled", decide.runs(columns["wrinkled"]), [0]),
+    )
+
+
+def resultants(solutions: Solutions) -> Finding:
+    """The smallest resultant is that of free inflation where a branch begins, and bent tubes wrinkle."""
+    found = []
+    for spec in TAUT:
+        surface, meridian = (begins(solutions, spec, "t_min", branch) for branch in (BRANCH, "primary"))
+        found.append(decide.agree(f"t_min, {spec}", surface, meridian, RESULTANT))
+    for spec in TABLES:
+        onset = solutions.points(spec, "wrinkling_onset")
+        marks = decide.runs(solutions.branch(spec, BRANCH).columns["wrinkled"])
+        found.append(decide.same(f"wrinkled, {spec}", marks, [0, 1]))
+        found.append(decide.same(f"branch of the onset, {spec}", [p.branch for p in onset], [BRANCH]))
+    return decide.all_of(*found)
 
 
 def first(solutions: Solutions) -> Finding:
@@ -117,6 +200,18 @@ CASE = Case(
                 Curve(spec, label, reference=table, branch=BRANCH) for spec, (table, label) in TABLES.items()
             ),
         ),
+        Panel(
+            "d",
+            x=Axis("V", 2.5, 3.4),
+            y=Axis("p", 2.6, 3.1),
+            title=r"$\alpha = 0,\ \delta_1 = 2,\ l_f = 3$: axisymmetric, and from the crossing on oval",
+            markers=(OVAL_KIND,),
+            counted=("n_negative_all",),
+            curves=(
+                Curve(OVAL, "axisymmetric"),
+                Curve(OVAL, "oval", reference=OVAL_TABLE, branch=BRANCH),
+            ),
+        ),
     ),
     checks=(
         Points(
@@ -137,7 +232,7 @@ CASE = Case(
         Claim(
             "signs",
             "p falls and V grows from the crossing on",
-            tuple((s, None) for s in (NEO, STIFFER, SHORT)),
+            tuple((s, None) for s in (NEO, STIFFER, SHORT, OVAL)),
             signs,
         ),
         Claim(
@@ -145,6 +240,39 @@ CASE = Case(
             "bent states are stable to displacements of their own symmetry if the volume is held",
             tuple((s, None) for s in TABLES),
             stability,
+        ),
+        Points(
+            OVAL_KIND,
+            "bent_tube_oval_crossings",
+            BASE.at(secondary_n=2),
+            KEYS,
+            {"p": 1e-6, "u_max": 1e-5, "V": 1e-5, "p_2": 5e-5, "V_2": 1e-4},
+            branch=BRANCH,
+        ),
+        Claim(
+            "outside",
+            "bent states of long tubes are stable to every displacement if the volume is held",
+            tuple((s, None) for s in TABLES),
+            outside,
+        ),
+        Claim(
+            "families",
+            "where bent states begin, the counts outside of their symmetry are those of the ordinary tube",
+            ((SECOND, None),),
+            families,
+        ),
+        Claim(
+            "held",
+            "a held volume removes one negative eigenvalue where the pressure falls with the volume",
+            tuple((s, None) for s in (*TABLES, OVAL, SECOND)),
+            held,
+        ),
+        Claim("oval", "oval states lose their stability to alternating displacements", ((OVAL, None),), oval),
+        Claim(
+            "resultants",
+            "the smallest resultant begins at that of free inflation, and bent tubes wrinkle",
+            tuple((s, None) for s in TAUT),
+            resultants,
         ),
         Claim("first", "the long neo-Hookean tube bends before its limit point", ((NEO, None),), first),
     ),

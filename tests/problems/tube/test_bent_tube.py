@@ -7,7 +7,10 @@ from dolfinx import fem
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
 
-from weakforms import InputError, solve
+from reference_data.solvers.beyond.bent_tube import energy, outside
+from reference_data.solvers.beyond.tube_waves.ritz import Basis
+from reference_data.solvers.core.mooney_rivlin import Tube as ReferenceTube
+from weakforms import ConvergenceError, InputError, solve
 from weakforms.problems.meridian.families import EVEN as WAVE_EVEN
 from weakforms.problems.meridian.families import ODD as WAVE_ODD
 from weakforms.problems.meridian.families import Wave
@@ -15,8 +18,8 @@ from weakforms.problems.problem import Requests, Task
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
 from weakforms.problems.tube.problem import Tube
 from weakforms.problems.tube.secondary.bent import AMPLITUDE
-from weakforms.problems.tube.secondary.outside import TURNED
-from weakforms.problems.tube.secondary.surface import EVEN, ODD, TURNING, Parities
+from weakforms.problems.tube.secondary.outside import CLASSES, TURNED, BentModes
+from weakforms.problems.tube.secondary.surface import EVEN, ODD, TURNING, BentMesh, BentTube, Parities
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -182,7 +185,8 @@ def test_no_place_has_a_smaller_resultant(branch):
         found = Sampler(model.unknown, model.principal_resultants(), places)()
     least = min(values.min() for values in found.values())
     z, theta = places[np.argmin(found["second"])]
-    assert z == 5 and 0.3 < theta < np.pi - 0.3
+    assert z == 5
+    assert 0.3 < theta < np.pi - 0.3
     assert least - 1e-3 < state.values["t_min"] <= least
 
 
@@ -203,6 +207,54 @@ def test_a_profile_has_both_meridians_of_the_plane_of_bending(families):
     outer, inner = columns["rho"][:11], columns["rho"][11:]
     assert outer[0] - inner[0] == pytest.approx(2 * state.quantities[AMPLITUDE].value, rel=0.05)
     assert (outer[-1], inner[-1]) == pytest.approx((1.0, 1.0), abs=1e-12)
+
+
+OVAL = {"delta1": 2.0, "lf": 3.0, "u_end": 1.3, "secondary_n": 2}
+
+
+def test_an_oval_tube_loses_its_stability_to_waves_that_alternate():
+    found = solve("tube", **BENDING | OVAL, numerics=COARSE)
+    columns = found.branch("secondary").columns
+    assert found.special_points[-1].values["p_2"] == pytest.approx(-0.893059, rel=1e-4)
+    assert columns["n_negative_alternating"][:4].tolist() == [0, 0, 1, 1]
+    for name, own in (("all", "n_negative"), ("all_volume", "n_negative_volume")):
+        assert (columns[f"n_negative_{name}"] - columns[own] == columns["n_negative_alternating"]).all()
+
+
+ROUND = {(EVEN, EVEN): (False, False), (ODD, ODD): (True, False)}
+TURNS = {(EVEN, ODD): (False, True), (ODD, EVEN): (True, True)}
+
+
+def test_eigenvalues_of_all_classes_are_those_of_another_code():
+    """An oval state by Fourier series and polynomials, and by finite elements; three of each class."""
+    tube = ReferenceTube(0.0, 2.0, 3.0)
+    state = energy.beside(tube, energy.Series(2, 6, Basis(6, 8)), (2.5, 2.7), 0, 0.1)
+    state = energy.solve(state, "V", 2.63)
+    given, numerics = TubeParameters(**BENDING | OVAL), SecondaryNumerics(**COARSE | {"secondary_degree": 5})
+    task = Task(given, numerics, Requests(), MPI.COMM_SELF, lambda *_: None)
+    oval = Tube().families(task)["secondary"].fine
+    at = oval.at("V", 2.63)
+    assert at.values["p"] == pytest.approx(state.p, rel=1e-6)
+    for (first, last), (odd, alternating) in (ROUND | TURNS).items():
+        for middle in (EVEN, ODD):
+            theirs = outside.eigenvalues(state, odd, middle == ODD, alternating)[:3]
+            with oval.system.at(at.state):
+                ours = oval.modes.variation(Parities(first, last, middle)).spectrum(3).eigenvalues[:3]
+            assert ours == pytest.approx(theirs, rel=1e-4, abs=1e-6)
+
+
+def test_waves_for_which_the_classes_are_not_all_displacements_have_no_total():
+    model = BentTube(MPI.COMM_SELF, TubeParameters(**BENDING).material, 1.0, 3.0, 3, BentMesh(4, 2, 2, 0.0))
+    modes = BentModes(model)
+    with model.system.at(State(model.system.initial.u, {"p": 0.5})):
+        assert sorted(modes.counts()) == sorted(["n_negative_volume", *CLASSES])
+
+
+def test_a_rotation_that_is_no_zero_mode_is_refused(branch, monkeypatch):
+    monkeypatch.setattr("weakforms.problems.tube.secondary.outside.LIKENESS", 1.1)
+    words = r"is not a zero mode, overlap 1\.00: raise secondary_cells"
+    with branch.system.at(branch.points[3].state), pytest.raises(ConvergenceError, match=words):
+        branch.modes.turned()
 
 
 @pytest.mark.parametrize(

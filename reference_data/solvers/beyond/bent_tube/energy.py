@@ -28,6 +28,30 @@ OVERSAMPLED = 2.5
 """Midpoints in half a wave over the highest harmonic: the energy is no polynomial of it."""
 
 
+def directions(angles: Array, waves: tuple[Array, Array, Array], odd: bool = False) -> tuple[Array, Array]:
+    """The nine numbers (x, x_z, x_theta) by value and by slope of functions of theta, at angles.
+
+    Args:
+        angles: The angles.
+        waves: Wave numbers of the functions of X, Y and Z.
+        odd: Sines for X and Z and cosines for Y, in place of cosines and sines.
+    """
+    first = np.cumsum([0, *map(len, waves)])
+    by_value = np.zeros((len(angles), first[-1], 9))
+    shift = -np.pi / 2 if odd else 0.0
+    for a, angle in enumerate(angles):
+        c, s = np.cos(angle), np.sin(angle)
+        radial, hoop, axial = np.array([c, s, 0]), np.array([-s, c, 0]), np.array([0, 0, 1.0])
+        units = (radial, hoop), (hoop, -radial), (axial, 0 * axial)
+        for i, (k, (unit, turned)) in enumerate(zip(waves, units, strict=True)):
+            part, phase = slice(first[i], first[i + 1]), shift - np.pi / 2 * (i == 1)
+            value, slope = np.cos(k * angle + phase)[:, None], (-k * np.sin(k * angle + phase))[:, None]
+            by_value[a, part, :3], by_value[a, part, 6:] = value * unit, slope * unit + value * turned
+    by_slope = np.zeros_like(by_value)
+    by_slope[..., 3:6] = by_value[..., :3]
+    return by_value, by_slope
+
+
 @dataclass(frozen=True)
 class Series:
     """Harmonics 0..K of the wave number n, and polynomials along the tube."""
@@ -56,21 +80,8 @@ class Series:
     @cached_property
     def directions(self) -> tuple[Array, Array]:
         """The nine numbers (x, x_z, x_theta) by value and by slope of each function, at all angles."""
-        by_value = np.zeros((len(self.angles), self.count, 9))
-        x, y, z = self.parts
-        for a, angle in enumerate(self.angles):
-            c, s = np.cos(angle), np.sin(angle)
-            radial, hoop, axial = np.array([c, s, 0]), np.array([-s, c, 0]), np.array([0, 0, 1.0])
-            k = self.n * np.arange(self.highest + 1)
-            cos, sin = np.cos(k * angle)[:, None], np.sin(k * angle)[:, None]
-            k = k[:, None]
-            by_value[a, x, :3], by_value[a, x, 6:] = cos * radial, -k * sin * radial + cos * hoop
-            by_value[a, y, :3] = sin[1:] * hoop
-            by_value[a, y, 6:] = k[1:] * cos[1:] * hoop - sin[1:] * radial
-            by_value[a, z, :3], by_value[a, z, 6:] = cos * axial, -k * sin * axial
-        by_slope = np.zeros_like(by_value)
-        by_slope[..., 3:6] = by_value[..., :3]
-        return by_value, by_slope
+        k = self.n * np.arange(self.highest + 1)
+        return directions(self.angles, (k, k[1:], k))
 
     def held(self) -> tuple[Array, Array]:
         """Flat places of the numbers that the disk and the mid-plane fix, and those of X = 1 and Z = lf/2."""
@@ -133,31 +144,37 @@ class State:
 
 def linear(state: State) -> tuple[Array, Array, Array]:
     """Residual, its matrix, and its derivative by p, for all nodal values."""
-    series = state.series
-    by_value, by_slope = series.directions
-    nine = state.fields()
-    at = np.split(nine, 3)
+    by_value, by_slope = state.series.directions
+    at = np.split(state.fields(), 3)
     first = np.concatenate(ritz.gradient(state.tube, state.p, *at))
     pull = np.concatenate(ritz.gradient(state.tube, 1.0, *at)) - np.concatenate(
         ritz.gradient(state.tube, 0.0, *at)
     )
-    second = ritz.hessian(state.tube, state.p, *at)
-    blocks = {
-        (i, j): np.einsum("amp,pqga,anq->gmn", own, second, other, optimize=True)
-        for i, own in enumerate((by_value, by_slope))
-        for j, other in enumerate((by_value, by_slope))
-    }
-    _, _, phi, dphi = series.basis.rule
+    _, _, phi, dphi = state.series.basis.rule
     rows = phi, dphi / state.tube.length
-    w, m, nodes = state.weights, series.count, len(series.basis.nodes)
 
     def tested(vector: Array) -> Array:
         parts = (
-            np.einsum("g,gi,amp,pga->mi", w, f, own, vector, optimize=True)
+            np.einsum("g,gi,amp,pga->mi", state.weights, f, own, vector, optimize=True)
             for f, own in zip(rows, (by_value, by_slope), strict=True)
         )
         return sum(parts).ravel()
 
+    return tested(first), stiffness(state, state.series.directions), tested(pull)
+
+
+def stiffness(state: State, directions: tuple[Array, Array]) -> Array:
+    """Second derivatives of the potential for nodal values of functions of theta, by their directions."""
+    series, w, (by_value, *_) = state.series, state.weights, directions
+    second = ritz.hessian(state.tube, state.p, *np.split(state.fields(), 3))
+    blocks = {
+        (i, j): np.einsum("amp,pqga,anq->gmn", own, second, other, optimize=True)
+        for i, own in enumerate(directions)
+        for j, other in enumerate(directions)
+    }
+    _, _, phi, dphi = series.basis.rule
+    rows = phi, dphi / state.tube.length
+    m, nodes = by_value.shape[1], len(series.basis.nodes)
     matrix = np.zeros((m, nodes, m, nodes))
     count, degree = len(w) // series.basis.elements, series.basis.degree
     for e in range(series.basis.elements):
@@ -167,7 +184,7 @@ def linear(state: State) -> tuple[Array, Array, Array]:
             matrix[:, i, :, i] += np.einsum(
                 "gi,gmn,gj->minj", rows[a][g, i], weighed, rows[b][g, i], optimize=True
             )
-    return tested(first), matrix.reshape(m * nodes, -1), tested(pull)
+    return matrix.reshape(m * nodes, -1)
 
 
 def solve(state: State, held: str, target: float) -> State:
