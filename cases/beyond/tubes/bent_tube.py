@@ -25,7 +25,7 @@ from weakforms.cases import (
 )
 
 KEYS = ("alpha", "delta1", "lf", "u_end")
-BASE = tube(secondary=True, secondary_n=1).on(degree=6, cells=48, step=0.3, secondary_degree=6)
+BASE = tube(secondary=True, secondary_n=1).on(degree=6, cells=48, step=0.3, secondary_degree=6, grading=0.85)
 NEO = BASE.at(alpha=0.0, delta1=1.0, lf=10.0, u_end=0.8)
 STIFFER = BASE.at(alpha=0.1, delta1=1.0, lf=10.0, u_end=0.95)
 SHORT = BASE.at(alpha=0.0, delta1=1.0, lf=6.0, u_end=1.3)
@@ -153,10 +153,8 @@ def resultants(solutions: Solutions) -> Finding:
         surface, meridian = (begins(solutions, spec, "t_min", branch) for branch in (BRANCH, "primary"))
         found.append(decide.agree(f"t_min, {spec}", surface, meridian, RESULTANT))
     for spec in TABLES:
-        onset = solutions.points(spec, "wrinkling_onset")
         marks = decide.runs(solutions.branch(spec, BRANCH).columns["wrinkled"])
         found.append(decide.same(f"wrinkled, {spec}", marks, [0, 1]))
-        found.append(decide.same(f"branch of the onset, {spec}", [p.branch for p in onset], [BRANCH]))
     return decide.all_of(*found)
 
 
@@ -206,7 +204,7 @@ CASE = Case(
             y=Axis("p", 2.6, 3.1),
             title=r"$\alpha = 0,\ \delta_1 = 2,\ l_f = 3$: axisymmetric, and from the crossing on oval",
             markers=(OVAL_KIND,),
-            counted=("n_negative_all",),
+            counted=("n_negative",),
             curves=(
                 Curve(OVAL, "axisymmetric"),
                 Curve(OVAL, "oval", reference=OVAL_TABLE, branch=BRANCH),

@@ -190,6 +190,15 @@ def test_no_place_has_a_smaller_resultant(branch):
     assert least - 1e-3 < state.values["t_min"] <= least
 
 
+def test_a_state_whose_meshes_do_not_agree_that_it_is_wrinkled_does_not_say_so(families, monkeypatch):
+    family, (coarse, fine) = families["secondary"], families["secondary"].levels
+    given = fine.counted
+    monkeypatch.setattr(coarse, "counted", lambda state: given(fine.points[3].state) | {"wrinkled": 0})
+    assert family.state("V", 6.1).quantities["wrinkled"].value == 0
+    monkeypatch.setattr(coarse, "counted", lambda state: given(fine.points[3].state) | {"wrinkled": 1})
+    assert "wrinkled" not in family.state("V", 6.1).quantities
+
+
 def test_the_smallest_value_on_cells_is_found_between_nodes():
     mesh = dmesh.create_unit_square(MPI.COMM_SELF, 3, 2, dmesh.CellType.quadrilateral)
     unknown = fem.Function(fem.functionspace(mesh, ("Lagrange", 2, (3,))))

@@ -24,15 +24,20 @@ from weakforms.problems.tube.secondary.crossed import CrossedFamily, FlaggedBran
 from weakforms.problems.tube.secondary.outside import BentModes
 from weakforms.problems.tube.secondary.surface import AMPLITUDE, BentTube
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
-from weakforms.results import Field
+from weakforms.results import Field, Quantity
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
+from weakforms.solvers.stability.agreement import same_count
 from weakforms.solvers.stability.modes import OwnVariation, Singular
 from weakforms.solvers.support.sampling import Sampler
+from weakforms.solvers.uncertainty.family import BranchFamily
 
 ACROSS = "V", AMPLITUDE
 """Columns of the plane in which meshes are compared: one of them changes at every point of the branch."""
+
+WRINKLED, FINEST = "wrinkled", 2
+"""Name of the flag, and number of meshes that must agree on it."""
 
 READINGS, SPLINE = 400, 5
 """Number of positions at which free inflation is read for a first guess, and degree of the spline."""
@@ -58,6 +63,10 @@ class BentBranch(FlaggedBranch):
         self.family = {"n": float(model.n), "parity": float(EVEN)}
         located = [on_surface(primary, solved, model) for solved in crossings]
         super().__init__(primary, located, begin, step, own=(model.system, BentModes(model)))
+
+    def _onsets(self) -> list[int]:
+        """None: the coarsest mesh of a surface does not resolve the smallest resultant, beside the disk."""
+        return []
 
 
 def on_surface(primary: TubeBranch, crossing: Solved, model: BentTube) -> Solved:
@@ -103,6 +112,20 @@ class BentFamily(CrossedFamily, TubeFamily):
 
     fine: BentBranch
     levels: list[BentBranch]
+
+    def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """As for any branch; ``wrinkled`` is left out if both of the finest meshes do not agree on it.
+
+        Raises:
+            ConvergenceError: If a number of negative eigenvalues depends on the mesh.
+        """
+        found = BranchFamily._diagnostics(self, solved, critical)
+        if critical:
+            return found
+        rows = [level.counted(s.state) for level, s in zip(self.levels, solved, strict=True)]
+        flags = {row.pop(WRINKLED) for row in rows[-FINEST:]}
+        counts = {name: Quantity(same_count(row[name] for row in rows)) for name in rows[-1]}
+        return found | counts | ({WRINKLED: Quantity(flags.pop())} if len(flags) == 1 else {})
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         """Columns along both meridians that are mirrors, one after the other."""
