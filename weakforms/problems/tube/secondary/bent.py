@@ -114,18 +114,25 @@ class BentFamily(CrossedFamily, TubeFamily):
     levels: list[BentBranch]
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """As for any branch; ``wrinkled`` is left out if both of the finest meshes do not agree on it.
+        """As for any branch, without what both of the finest meshes, or of a wrinkled state all, contradict.
+
+        A compressed membrane is unstable to short waves, of which a finer mesh has more.
 
         Raises:
-            ConvergenceError: If a number of negative eigenvalues depends on the mesh.
+            ConvergenceError: If a number of negative eigenvalues of a taut state depends on the mesh.
         """
         found = BranchFamily._diagnostics(self, solved, critical)
         if critical:
             return found
         rows = [level.counted(s.state) for level, s in zip(self.levels, solved, strict=True)]
-        flags = {row.pop(WRINKLED) for row in rows[-FINEST:]}
-        counts = {name: Quantity(same_count(row[name] for row in rows)) for name in rows[-1]}
-        return found | counts | ({WRINKLED: Quantity(flags.pop())} if len(flags) == 1 else {})
+        flags = {row[WRINKLED] for row in rows[-FINEST:]}
+        if len(flags) == 1:
+            found[WRINKLED] = Quantity(rows[-1][WRINKLED])
+        for name in (key for key in rows[-1] if key != WRINKLED):
+            counts = {row[name] for row in rows}
+            if len(counts) == 1 or flags == {0}:
+                found[name] = Quantity(same_count(counts))
+        return found
 
     def _profile(self, solved: Sequence[Solved], points: np.ndarray) -> Field:
         """Columns along both meridians that are mirrors, one after the other."""
