@@ -25,7 +25,9 @@ from weakforms.cases import (
 )
 
 KEYS = ("alpha", "delta1", "lf", "u_end")
-BASE = tube(secondary=True, secondary_n=1).on(degree=6, cells=48, step=0.3, secondary_degree=6, grading=0.85)
+BASE = tube(secondary=True, secondary_n=1).on(
+    degree=6, cells=48, step=0.3, grading=0.9, secondary_cells=24, secondary_degree=6
+)
 NEO = BASE.at(alpha=0.0, delta1=1.0, lf=10.0, u_end=0.8)
 STIFFER = BASE.at(alpha=0.1, delta1=1.0, lf=10.0, u_end=0.95)
 SHORT = BASE.at(alpha=0.0, delta1=1.0, lf=6.0, u_end=1.3)
