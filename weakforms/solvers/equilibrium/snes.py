@@ -9,6 +9,7 @@ from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.support.compat import PETSC_ERRORS
 
 _REASONS = {value: name for name, value in vars(PETSc.SNES.ConvergedReason).items() if isinstance(value, int)}
 
@@ -40,7 +41,7 @@ def run_snes(snes: PETSc.SNES, x: PETSc.Vec, callbacks: Deferred) -> None:
             snes.solve(None, x)
         finally:
             callbacks.release()
-    except (ConvergenceError, PETSc.Error, ArithmeticError, np.linalg.LinAlgError) as error:
+    except (ConvergenceError, *PETSC_ERRORS, ArithmeticError, np.linalg.LinAlgError) as error:
         reason = snes.getConvergedReason()
         raise ConvergenceError(f"SNES ended with {_REASONS.get(reason, reason)}: {error}") from error
 

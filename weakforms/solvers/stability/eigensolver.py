@@ -11,6 +11,7 @@ from petsc4py import PETSc
 from slepc4py import SLEPc
 
 from weakforms.solvers.equilibrium.callbacks import Deferred
+from weakforms.solvers.support.compat import PETSC_ERRORS
 
 Inverse = Callable[[np.ndarray], np.ndarray]
 
@@ -52,7 +53,7 @@ def by_inverse(eps: SLEPc.EPS, callbacks: Deferred) -> ExactInverse:
 
 def give_back(eps: SLEPc.EPS) -> None:
     """Destroy a solver; after an error some of its parts are in use, and the first error counts."""
-    with suppress(PETSc.Error):
+    with suppress(*PETSC_ERRORS):
         eps.destroy()
 
 

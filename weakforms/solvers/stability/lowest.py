@@ -17,6 +17,7 @@ from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.eigensolver import by_inverse, give_back, shift_and_invert
 from weakforms.solvers.stability.spectra import LOWEST, Mode
+from weakforms.solvers.support.compat import PETSC_ERRORS
 
 ROUGH, SHARP = 1e-2, 1e-11
 """Relative residuals of the first search and of the returned modes."""
@@ -184,7 +185,7 @@ class Lowest:
                 vector = self.system.matrix.createVecRight()
                 out.append((float(eps.getEigenpair(i, vector).real) + target, vector))
             return out
-        except PETSc.Error as error:
+        except PETSC_ERRORS as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
         finally:
             give_back(eps)

@@ -24,6 +24,7 @@ from weakforms.solvers.stability.eigensolver import (
     give_back,
     shift_and_invert,
 )
+from weakforms.solvers.support.compat import PETSC_ERRORS
 
 LOWEST = -1e12
 """Lower limit of the search for eigenvalues."""
@@ -336,7 +337,7 @@ class Stability:
                 eps.solve()
             finally:
                 self._callbacks.release()
-        except (ConvergenceError, PETSc.Error) as error:
+        except (ConvergenceError, *PETSC_ERRORS) as error:
             raise ConvergenceError(f"SLEPc failed: {error}") from error
 
 

@@ -13,9 +13,13 @@ from dolfinx import cpp, fem, la
 from dolfinx import mesh as dmesh
 from dolfinx.mesh import Mesh
 from mpi4py import MPI
+from petsc4py import PETSc
 
 SUPPORTED = ((0, 9), (0, 12))
 """First supported release, and the first release that is not supported."""
+
+PETSC_ERRORS = (PETSc.Error, SystemError)
+"""What a call raises if PETSc fails. slepc4py 3.25 with Python 3.14 wraps its error in a ``SystemError``."""
 
 
 def version() -> tuple[int, int]:
