@@ -47,7 +47,8 @@ class Recovery:
         size = stress.ufl_shape[0]
         space = fem.functionspace(mesh, ("Lagrange", degree, (size,)))
         one, places = space.sub(0).collapse()
-        self._places = np.asarray(places)[:, None] + np.arange(size)
+        # dolfinx 0.11 gives the places as the one item of a list.
+        self._places = np.ravel(places)[:, None] + np.arange(size)
         u, v = ufl.TrialFunction(one), ufl.TestFunction(one)
         self._mass = petsc.assemble_matrix(fem.form(u * v * dx))
         self._mass.assemble()
