@@ -22,6 +22,7 @@ from weakforms.problems.contact.model import Bond
 from weakforms.problems.contact.series import Series
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, mirrored, one_end
+from weakforms.problems.tube.folds import FRONTS
 from weakforms.problems.tube.model import TubeModel
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
@@ -51,6 +52,9 @@ class ContactData:
     """Whether the mesh follows the place where the spring lets go of the patch."""
     full: bool = False
     """Whether the tube is the whole one, with a front on either side of the mid-plane."""
+    zone: tuple[float, ...] = ()
+    """First positions of the ends of a wrinkled zone on half the tube, if the mesh follows them: of both, or
+    of one if the zone ends at the disk."""
 
     @property
     def length(self) -> float:
@@ -83,6 +87,10 @@ class ContactModel(TubeModel):
         if data.letting_go:
             grading, names = [*grading, grading[-1]], ["let_go", "front"]
             breaks.insert(1, first / 2)
+        if data.zone:
+            grading += [both_ends(0.0)] * len(data.zone)
+            names += FRONTS[: len(data.zone)]
+            breaks[-1:-1] = data.zone
         if data.full:
             grading = [*(mirrored(block) for block in reversed(grading)), *grading]
             breaks = [-at for at in breaks[:0:-1]] + breaks
@@ -99,7 +107,8 @@ class ContactModel(TubeModel):
         )
         mesh = Blocks(breaks, data.cells, data.degree, 2 * data.degree + 4, ends, grading)
         values = {"p": 0.0, "k": 0.0, "s": data.s, "delta1": data.delta1}
-        super().__init__(comm, data.law, values, data.length, mesh)
+        energy = "relaxed" if data.zone else "standard"
+        super().__init__(comm, data.law, values, data.length, mesh, energy)
         terms, span = (bond.terms, bond.span) if bond else (0, 1.0)
         self._span = fem.Constant(self.mesh, span)
         lengths = {"slope": terms, "position": terms + 1}

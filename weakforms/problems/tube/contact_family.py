@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from mpi4py import MPI
 
@@ -64,34 +64,16 @@ class TubeContactFamily(BranchFamily):
         return dict.fromkeys((*TRACTIONS, *LINE_FORCES), EPSILON / width**2)
 
 
-def contact_family(
-    parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
-) -> PiecewiseFamily:
-    """The branch of a constrained tube: free and in contact, or in deflation."""
+def contact_caps(numerics: TubeNumerics, frozen: bool) -> dict[str, float]:
+    """Lower orders of some columns, of a patch that has a history or that slides."""
     cap = 2 * numerics.degree
-    runs = [_run(level, parameters, numerics, comm) for level in range(numerics.levels)]
-
-    def family(part: Callable[[TubePhases], SolutionCurve], frozen: bool) -> BranchFamily:
-        def make(level: int) -> SolutionCurve:
-            progress("branch", level, numerics.levels)
-            return part(runs[level])
-
-        caps = dict.fromkeys(AT_FRONT, cap - 1) | dict.fromkeys(TRACTIONS, cap - 1 if frozen else 2.0)
-        caps["f_t"] = numerics.degree if frozen else 2.0
-        slow = SERIES if frozen else None
-        return TubeContactFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
-
-    def onset() -> SpecialPoint:
-        shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
-        return special_point([run.onset for run in runs], shown, cap, "primary", "p", {"t2_min": 2.0})
-
-    none = NO_PATCH | {"kappa": float("nan")}
-    sticks, deflates = parameters.contact == "adhesive", parameters.phase == "deflation"
-    return contact_branch(runs, family, sticks, deflates, none, onset)
+    caps = dict.fromkeys(AT_FRONT, cap - 1) | dict.fromkeys(TRACTIONS, cap - 1 if frozen else 2.0)
+    return caps | {"f_t": numerics.degree if frozen else 2.0}
 
 
-def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm) -> TubePhases:
-    data = ContactData(
+def contact_data(parameters: TubeParameters, numerics: TubeNumerics, level: int) -> ContactData:
+    """Tube, substrate and the mesh of a level."""
+    return ContactData(
         law=parameters.material,
         delta1=parameters.delta1,
         lf=parameters.lf,
@@ -103,4 +85,43 @@ def _run(level: int, parameters: TubeParameters, numerics: TubeNumerics, comm: M
         unilateral=parameters.phase == "deflation" and parameters.spring == "unilateral",
         full=parameters.extent == "full",
     )
-    return TubePhases(comm, data, parameters.p_end, numerics.step, FIRST_TERMS + MORE_TERMS * level)
+
+
+def contact_family(
+    parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
+) -> PiecewiseFamily:
+    """The branch of a constrained tube: free and in contact, or in deflation."""
+    runs = [
+        TubePhases(
+            comm,
+            contact_data(parameters, numerics, level),
+            parameters.p_end,
+            numerics.step,
+            FIRST_TERMS + MORE_TERMS * level,
+        )
+        for level in range(numerics.levels)
+    ]
+    return contact_parts(runs, parameters, numerics, progress)
+
+
+def contact_parts(
+    runs: Sequence[TubePhases], parameters: TubeParameters, numerics: TubeNumerics, progress: Progress
+) -> PiecewiseFamily:
+    """The parts of the branch that the phases on all meshes have."""
+    cap = 2 * numerics.degree
+
+    def family(part: Callable[[TubePhases], SolutionCurve], frozen: bool) -> BranchFamily:
+        def make(level: int) -> SolutionCurve:
+            progress("branch", level, numerics.levels)
+            return part(runs[level])
+
+        caps, slow = contact_caps(numerics, frozen), SERIES if frozen else None
+        return TubeContactFamily(make, numerics.levels, cap, across=("p", "u_max"), caps=caps, slow=slow)
+
+    def onset() -> SpecialPoint:
+        shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
+        return special_point([run.onset for run in runs], shown, cap, "primary", "p", {"t2_min": 2.0})
+
+    none = NO_PATCH | {"kappa": float("nan")}
+    sticks, deflates = parameters.contact == "adhesive", parameters.phase == "deflation"
+    return contact_branch(runs, family, sticks, deflates, none, onset)

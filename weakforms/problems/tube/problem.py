@@ -27,7 +27,11 @@ from weakforms.problems.tube.parameters import (
     TubeParameters,
     resolving,
 )
-from weakforms.problems.tube.relaxed_family import relaxed_family, require_relaxed_possible
+from weakforms.problems.tube.relaxed_family import (
+    relaxed_contact_family,
+    relaxed_family,
+    require_relaxed_possible,
+)
 from weakforms.problems.tube.secondary import lopsided, surface
 from weakforms.problems.tube.secondary.bent import bent_family
 from weakforms.problems.tube.secondary.crossed import require_secondary_possible
@@ -131,7 +135,8 @@ class Tube(BranchProblem):
         """The branch on all meshes: free, or in contact."""
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         if parameters.contact != "none":
-            return {"primary": contact_family(parameters, numerics, comm, progress)}
+            made = relaxed_contact_family if parameters.energy == "relaxed" else contact_family
+            return {"primary": made(parameters, numerics, comm, progress)}
         if parameters.secondary:
             return self._with_secondary(task)
         caps = dict.fromkeys(MIDDLE, order_at_middle(numerics.degree))

@@ -11,51 +11,37 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
-import ufl
 from mpi4py import MPI
-from ufl.core.expr import Expr
 
 from weakforms.errors import AbsentError, ConvergenceError
-from weakforms.forms.wrinkling import wrinkling_function
 from weakforms.problems.contact.guesses import transferred
 from weakforms.problems.material_choice import Chosen
-from weakforms.problems.meridian.blocks import BREAK, Blocks, both_ends, mirrored, one_end
-from weakforms.problems.meridian.compression import ONSET
-from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.blocks import Blocks, both_ends, mirrored, one_end
 from weakforms.problems.meridian.limits import limit_along
-from weakforms.problems.meridian.model import TAUT, WET, WRINKLED, Marks
+from weakforms.problems.tube.folds import (
+    CLOSED,
+    FRACTION,
+    FRONTS,
+    Folds,
+    Verge,
+    at_disk,
+    point_at,
+    unlike,
+    zone_breaks,
+)
 from weakforms.problems.tube.model import USUAL_LOAD, TubeMesh, TubeModel, free_branch, yielding, yields
 from weakforms.problems.tube.parameters import TubeParameters
 from weakforms.solvers.continuation.branch import EquilibriumBranch, MirroredBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 
-SMALLEST, AT_DISK = 2e-3, 2e-5
-"""Fraction of the length of the smallest wrinkled zone that is followed, inside and at the disk. Inside a
-zone opens with the root of what ``u_max`` has grown by, at the disk in proportion to it."""
 
-VERGE = 1e-9
-"""Deviation of ``gw`` from 1 that counts as zero: without pressure a pre-stretched tube has ``gw = 1``."""
-
-MISFIT = 1e-5
-"""Deviation of ``gw`` to the wrong side of 1 on the finest mesh beyond which another zone opens; below it is
-the mesh's error."""
-
-CLOSED = 0.999
-"""Share of the smallest zone below which it closes."""
-
-FRONTS = ("Z_front_1", "Z_front_2")
-FRACTION = "wrinkled_fraction"
-
-
-class FoldedTube(TubeModel):
+class FoldedTube(Folds):
     """Weak form of the tube with a mesh that follows the ends of its wrinkled zone.
 
     Loads: ``p``, ``delta1`` and the fronts ``Z_front_1 < Z_front_2``; a whole tube has their mirror images
@@ -79,56 +65,20 @@ class FoldedTube(TubeModel):
         at: TubeMesh,
         to_disk: bool = False,
     ) -> None:
-        half, self.smallest, inside = (lf / 2, AT_DISK, 1) if to_disk else (lf / 2, SMALLEST, 2)
-        breaks = [0.0, *(half * (1 - k * self.smallest) for k in range(inside, 0, -1)), half]
-        states, grading = (
-            [TAUT, WRINKLED, TAUT][: inside + 1],
-            [one_end(at.grading), *[both_ends(0.0)] * inside],
-        )
+        half, inside = lf / 2, 1 if to_disk else 2
+        breaks = [0.0, *zone_breaks(half, to_disk), half]
+        grading = [one_end(at.grading), *[both_ends(0.0)] * inside]
         ends = dict(zip(FRONTS, range(1, inside + 1), strict=False))
         if at.full:
             grading = [*(mirrored(block) for block in reversed(grading)), *grading]
             breaks = [-s for s in breaks[:0:-1]] + breaks
-            middle, states = len(states), [*reversed(states), *states]
-            sides = {"": 1, "_lower": -1}
+            middle, sides = inside + 1, {"": 1, "_lower": -1}
             ends = {
                 name + side: middle + sign * k for side, sign in sides.items() for name, k in ends.items()
             }
-        self.gaps = {name: f"gap_{name}" for name in ends}
         mesh = Blocks(breaks, at.cells, at.degree, 2 * at.degree + 4, ends, grading)
         super().__init__(comm, material, {"p": 0.0, "delta1": delta1}, half, mesh, "relaxed")
-        self.marks = Marks(np.array(states), np.full(self.blocks, WET))
-
-    @cached_property
-    def gw(self) -> Expr:
-        """The wrinkling function, 1 at both ends of a zone."""
-        return gw_of(self)
-
-    def formulation(self) -> Formulation:
-        """The weak form with the equations of the fronts, and how far any block is from its own state."""
-        given, taut = super().formulation(), ufl.gt(self._by_cell["taut"], 0.0)
-        places = {name: self.inner(BREAK + k - 1) for name, k in self.fronts.items()}
-        share = ufl.conditional(taut, 0.0, 1.0) / (self.breaks[-1] - self.breaks[0])
-        return replace(
-            given,
-            monitors={
-                **given.monitors,
-                FRACTION: share * self.expressions["width"] * self.dx,
-                **{self.gaps[name]: ufl.avg(self.gw - 1) * at for name, at in places.items()},
-            },
-            maxima={
-                "misfit": ufl.conditional(taut, 1 - self.gw, self.gw - 1),
-                "slack": ufl.conditional(taut, 1 - across_of(self), 1 - self.expressions["lam1"]),
-            },
-            mark=self.mark,
-            internal=(
-                *given.internal,
-                *(name for name in self.fronts if name not in FRONTS),
-                *self.gaps.values(),
-                "misfit",
-                "slack",
-            ),
-        )
+        self.fold(to_disk)
 
 
 class RelaxedTube:
@@ -148,7 +98,7 @@ class RelaxedTube:
         given = comm, parameters.material, parameters.delta1, parameters.lf, at
         self.taut, self._given = TubeModel.free(*given), given
         self.parameters, self.step, self.finest = parameters, step, finest
-        self._meridian = Meridian(self.taut, {"gw": gw_of(self.taut), "across": across_of(self.taut)})
+        self.verge = Verge(self.taut)
 
     # -- taut ----------------------------------------------------------------------------------
 
@@ -156,10 +106,10 @@ class RelaxedTube:
     def free(self) -> EquilibriumBranch:
         """The taut tube, up to the first wrinkle if there is one."""
         branch = self._inflated(None)
-        at = self._touching(branch)
+        at = self.verge.passed(branch)
         if at:
-            i, self.onset = at[0], self._touch(branch, at[0])
-            branch.points[i + 1 :] = [_point(branch, i, self.onset)]
+            i, self.onset = at[0], self.verge.touch(branch, at[0])
+            branch.points[i + 1 :] = [point_at(branch, i, self.onset)]
             branch.stalled = branch.ended = None
         return branch
 
@@ -172,17 +122,17 @@ class RelaxedTube:
         last = self.wrinkled.points[-1]
         begin = transferred(self.folded, last.state, self.taut, {})
         branch = self._inflated((begin, Held("u_max", last.monitors["u_max"])))
-        at = self._touching(branch)
+        at = self.verge.passed(branch)
         if not at or at[0] > 0:
             raise ConvergenceError(
                 f"tube: the wrinkled zone closes after u_max = {last.monitors['u_max']:.6g}, but the tube "
                 "does not become taut there; raise cells"
             )
-        self.closing = self._touch(branch, 0)
-        branch.points[0] = _point(branch, 0, self.closing)
+        self.closing = self.verge.touch(branch, 0)
+        branch.points[0] = point_at(branch, 0, self.closing)
         if len(at) > 1:
-            solved = self._touch(branch, at[1])
-            branch.points[at[1] + 1 :] = [_point(branch, at[1], solved)]
+            solved = self.verge.touch(branch, at[1])
+            branch.points[at[1] + 1 :] = [point_at(branch, at[1], solved)]
             again = f"tube: at u_max = {solved.values['u_max']:.6g} it wrinkles for a second time"
             branch.stalled, branch.ended = None, f"{again}, which is not followed; lower u_end"
         return branch
@@ -194,9 +144,8 @@ class RelaxedTube:
         limit, given = limit_along(self.taut), self.parameters
         inflation = self.taut.system, given.delta1, given.u_end, self.step
         branch = free_branch(*inflation, EquilibriumBranch, limit, begin)
-        across = [self.least(point.state, "across")[0] for point in branch.points]
-        slack = np.flatnonzero(np.array(across) < -VERGE)
-        if self.finest and len(slack):
+        slack = self.verge.slack(branch.points) if self.finest else ()
+        if len(slack):
             at = branch.points[slack[0]].monitors["u_max"]
             if slack[0] < 2:
                 raise AbsentError(
@@ -207,31 +156,12 @@ class RelaxedTube:
             branch.ended = f"tube: at u_max = {at:.6g} its meridian is compressed; lower u_end"
         return branch
 
-    def least(self, state: State, name: str = "gw") -> tuple[float, float]:
-        """Smallest ``gw - 1`` of a state of the taut tube, and the distance of its place from mid-length."""
-        with self.taut.system.at(state):
-            value, x = self._meridian.extreme_at(name, -1)
-        return value - 1, abs(float(self.taut.material(np.array([x]), {})[0]))
-
-    def _touching(self, branch: EquilibriumBranch) -> list[int]:
-        """Points of a trace after which the smallest ``gw - 1`` changes its sign."""
-        least = np.array([self.least(point.state)[0] for point in branch.points])
-        sign = np.where(np.abs(least) > VERGE, np.sign(least), 0.0)
-        known = np.flatnonzero(sign)
-        return [int(j) - 1 for i, j in pairwise(known) if sign[i] * sign[j] < 0]
-
-    def _touch(self, branch: EquilibriumBranch, i: int) -> Solved:
-        """The state between two points of a trace at which ``gw`` just reaches 1, with its place."""
-        found = branch.zero(i, lambda solved: self.least(solved.state)[0], ONSET)
-        place = self.least(found.state)[1]
-        return replace(found, values=found.values | dict.fromkeys(FRONTS, place))
-
     # -- wrinkled ------------------------------------------------------------------------------
 
     @property
     def to_disk(self) -> bool:
         """Whether the first wrinkle is at the disk."""
-        return self.onset.values[FRONTS[0]] > (1 - SMALLEST / 2) * self.taut.half
+        return at_disk(self.onset, self.taut.half)
 
     @cached_property
     def folded(self) -> FoldedTube:
@@ -241,11 +171,8 @@ class RelaxedTube:
     @cached_property
     def wrinkled(self) -> MirroredBranch:
         """The tube with a wrinkled zone, or with one at either disk."""
-        model, place, half = self.folded, self.onset.values[FRONTS[0]], self.taut.half
-        apart = model.smallest * half / (1 if self.to_disk else 2)
-        near = dict(zip(FRONTS, (place - apart, place + apart), strict=True))
-        near |= {f"{name}_lower": -z for name, z in near.items()}
-        fronts = {name: near[name] for name in model.fronts}
+        model = self.folded
+        fronts = model.first_fronts(self.onset.values[FRONTS[0]])
         continuation = Continuation(
             ExtendedNewton(model.system, ["p", *model.fronts]),
             [Held(gap, 0.0) for gap in model.gaps.values()],
@@ -262,11 +189,7 @@ class RelaxedTube:
         def ends(point: CurvePoint) -> str:
             if yields(point):
                 return yielding(point)
-            if self.finest and point.monitors["misfit"] > MISFIT:
-                return "another part of it wrinkles, or becomes taut, which is not followed"
-            if self.finest and point.monitors["slack"] > MISFIT:
-                return "a part of it has no tension along the meridian, which is not followed"
-            return ""
+            return unlike(point) if self.finest else ""
 
         def stop(point: CurvePoint) -> bool:
             return point.monitors["u_max"] > end or closes(point) or bool(ends(point))
@@ -285,20 +208,3 @@ class RelaxedTube:
 
     closes = False
     """Whether the zone closes before the end; known after :attr:`wrinkled`."""
-
-
-def gw_of(model: TubeModel) -> Expr:
-    """The wrinkling function of a tube."""
-    return wrinkling_function(model.expressions["lam1"], model.expressions["lam2"])
-
-
-def across_of(model: TubeModel) -> Expr:
-    """The same with the stretches exchanged: below 1 a taut tube is compressed along the meridian."""
-    return wrinkling_function(model.expressions["lam2"], model.expressions["lam1"])
-
-
-def _point(branch: EquilibriumBranch, i: int, solved: Solved) -> CurvePoint:
-    """A state that was solved for after a point of a trace, as a point of it."""
-    before, after = branch.points[i : i + 2]
-    arclength = before.arclength + branch.continuation.distance(solved.state, before.state)
-    return branch.continuation.point(solved.state, after.record, before.tangent, arclength)

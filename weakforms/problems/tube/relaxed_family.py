@@ -12,9 +12,12 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.meridian.compression import SLOPES
 from weakforms.problems.problem import Progress
+from weakforms.problems.tube.contact_family import contact_caps, contact_data, contact_parts
+from weakforms.problems.tube.folds import FRACTION, FRONTS
 from weakforms.problems.tube.model import TubeMesh
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
-from weakforms.problems.tube.relaxed import FRACTION, FRONTS, RelaxedTube
+from weakforms.problems.tube.relaxed import RelaxedTube
+from weakforms.problems.tube.relaxed_contact import RelaxedContact
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
@@ -58,6 +61,25 @@ class WrinkledFamily(BranchFamily):
         }
 
 
+def alike(answers: Sequence[bool]) -> bool:
+    """What the runs on all meshes say.
+
+    Raises:
+        ConvergenceError: If they disagree.
+    """
+    if len(set(answers)) > 1:
+        raise ConvergenceError("tube: a zone of wrinkles is on some meshes only; raise cells")
+    return answers[-1]
+
+
+def first_wrinkle(solved: Sequence[Solved], shown: Sequence[str], degree: int) -> SpecialPoint:
+    """The state on all meshes at which a zone opens or closes, with the place."""
+    # Where ``gw`` touches 1 inside of a cell it has the order of stretches, and its place that of slopes.
+    lower = dict.fromkeys(FRONTS, degree - 1.0)
+    at = special_point(solved, shown, float(degree), "primary", "p", lower)
+    return replace(at, uncertainty=at.uncertainty | {n: at.uncertainty[n] + SLOPES for n in FRONTS})
+
+
 def relaxed_family(
     parameters: TubeParameters,
     numerics: TubeNumerics,
@@ -90,31 +112,58 @@ def relaxed_family(
 
         return kind(make, numerics.levels, order, across=("p", "u_max"), caps=caps)
 
-    def alike(known: Callable[[RelaxedTube], bool]) -> bool:
-        answers = [known(run) for run in runs]
-        if len(set(answers)) > 1:
-            raise ConvergenceError("tube: a zone of wrinkles is on some meshes only; raise cells")
-        return answers[-1]
-
     def joint(solved: Callable[[RelaxedTube], Solved]) -> SpecialPoint:
-        # Where ``gw`` touches 1 inside of a cell it has the order of stretches, and its place that of slopes.
-        shown, lower = (*runs[-1].free.shown, *FRONTS), dict.fromkeys(FRONTS, numerics.degree - 1.0)
-        at = special_point(
-            [solved(run) for run in runs], shown, float(numerics.degree), "primary", "p", lower
-        )
-        return replace(at, uncertainty=at.uncertainty | {n: at.uncertainty[n] + SLOPES for n in FRONTS})
+        shown = (*runs[-1].free.shown, *FRONTS)
+        return first_wrinkle([solved(run) for run in runs], shown, numerics.degree)
 
     pieces, joints = [Piece(family(lambda run: run.free), NO_ZONE)], []
-    if alike(lambda run: run.onset is not None):
+    if alike([run.onset is not None for run in runs]):
         joints.append(lambda run: run.onset)
-        fixed = {FRONTS[1]: parameters.lf / 2} if alike(lambda run: run.to_disk) else {}
+        fixed = {FRONTS[1]: parameters.lf / 2} if alike([run.to_disk for run in runs]) else {}
         wrinkled = family(lambda run: run.wrinkled, WrinkledFamily)
         wrinkled.noise = EPSILON * numerics.degree**2 * meshes[-1].cells / (parameters.lf / 2) ** 2
         pieces.append(Piece(wrinkled, fixed))
-        if alike(lambda run: run.closes):
+        if alike([run.closes for run in runs]):
             joints.append(lambda run: run.closing)
             pieces.append(Piece(family(lambda run: run.smooth), NO_ZONE))
     return PiecewiseFamily(pieces, lambda: [joint(at) for at in joints])
+
+
+def relaxed_contact_family(
+    parameters: TubeParameters, numerics: TubeNumerics, comm: MPI.Intracomm, progress: Progress
+) -> PiecewiseFamily:
+    """The branch of a tube with the relaxed energy that is inflated against its substrate, on all meshes.
+
+    Raises:
+        ConvergenceError: If the meshes disagree about whether, or where, it wrinkles.
+    """
+    finest = numerics.levels - 1
+    runs = [
+        RelaxedContact(
+            comm, contact_data(parameters, numerics, level), parameters.p_end, numerics.step, level == finest
+        )
+        for level in range(numerics.levels)
+    ]
+    whole = contact_parts(runs, parameters, numerics, progress)
+    whole.pieces = [replace(piece, fixed={**NO_ZONE, **piece.fixed}) for piece in whole.pieces]
+    if len(whole.pieces) < 2 or not alike([run.wrinkle is not None for run in runs]):
+        return whole
+    caps = contact_caps(numerics, frozen=False) | dict.fromkeys((FRACTION, *FRONTS), float(numerics.degree))
+
+    def make(level: int) -> SolutionCurve:
+        progress("branch", level, numerics.levels)
+        return runs[level].wrinkled
+
+    wrinkled = WrinkledFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"), caps=caps)
+    cells = numerics.meshes[-1] // 2
+    wrinkled.noise = EPSILON * numerics.degree**2 * cells / (parameters.lf / 2) ** 2
+    fixed = {FRONTS[1]: parameters.lf / 2} if alike([run.to_disk for run in runs]) else {}
+
+    def joints() -> list[SpecialPoint]:
+        shown = [*whole.pieces[1].family.fine.shown, *FRONTS]
+        return [*whole.joints(), first_wrinkle([run.wrinkle for run in runs], shown, numerics.degree)]
+
+    return PiecewiseFamily([*whole.pieces, Piece(wrinkled, fixed)], joints)
 
 
 def require_relaxed_possible(parameters: TubeParameters) -> None:
@@ -123,11 +172,16 @@ def require_relaxed_possible(parameters: TubeParameters) -> None:
     Raises:
         InputError: With a message that names the parameter.
     """
-    others = {"contact": "none", "n": (), "secondary": False, "uneven": 0.0}
+    if parameters.contact == "adhesive":
+        raise InputError(
+            "tube: energy = 'relaxed' with contact = 'adhesive': the history of a patch that sticks is known "
+            "of a taut tube only; set contact = 'frictionless' or 'none', or energy = 'standard'"
+        )
+    others = {"n": (), "secondary": False, "uneven": 0.0}
     for name, without in others.items():
         if getattr(parameters, name) != without:
             raise InputError(
-                f"tube: energy = 'relaxed' is for axisymmetric free inflation of an even tube; set {name} = "
+                f"tube: energy = 'relaxed' is for axisymmetric inflation of an even tube; set {name} = "
                 f"{without!r}, or energy = 'standard'"
             )
     require_foldable("tube: energy = 'relaxed'", parameters, invariants=False)

@@ -38,7 +38,7 @@ class PiecewiseFamily:
         joints: Callable[[], Sequence[SpecialPoint]] = tuple,
         absent: Sequence[Absence] = (),
     ) -> None:
-        self.pieces, self._joints, self._absent = list(pieces), joints, absent
+        self.pieces, self.joints, self._absent = list(pieces), joints, absent
         self.name = self.pieces[0].family.name
 
     @property
@@ -83,7 +83,7 @@ class PiecewiseFamily:
 
     def special_points(self) -> list[SpecialPoint]:
         """Special points of all parts and joints, in order."""
-        joints = list(self._joints())
+        joints = list(self.joints())
         points: list[SpecialPoint] = []
         for i, piece in enumerate(self.pieces):
             points.extend(_point_with_fixed(p, piece.fixed) for p in piece.family.special_points())

@@ -6,7 +6,8 @@ the relaxed energy. With the momenta m (of rho) and F (of eta, which is constant
 
 .. math:: \rho' = l_1 m/N,\quad \eta' = l_1 (F + \tfrac12 p \rho^2)/N,\quad m' = W_2 - p \rho \eta'
 
-with l1 from N and rho. A point is wrinkled if the stretch l that has the tension N in uniaxial tension has
+with l1 from N and rho. Against a substrate :math:`\tfrac12 p \rho^2` is replaced by its g(rho) where rho > s;
+the integration stops where rho is s, too. A point is wrinkled if the stretch l that has the tension N in uniaxial tension has
 :math:`l\,(\rho/r_0)^2 < 1`. No front is an unknown: the integration stops where this quantity is 1 and goes
 on with the other state. The radius at the mid-plane is given; N there and p are such that the disk is met.
 """

@@ -1,0 +1,170 @@
+"""A wrinkled zone of a tube: its ends on the mesh, and where a taut tube begins to wrinkle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+import ufl
+from ufl.core.expr import Expr
+
+from weakforms.forms.wrinkling import wrinkling_function
+from weakforms.problems.meridian.blocks import BREAK
+from weakforms.problems.meridian.compression import ONSET
+from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.model import TAUT, WET, WRINKLED, Marks
+from weakforms.problems.tube.model import TubeModel
+from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import SolutionCurve, Solved
+from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.state import State
+
+SMALLEST, AT_DISK = 2e-3, 2e-5
+"""Fraction of the length of the smallest wrinkled zone that is followed, inside and at the disk. Inside a
+zone opens with the root of what ``u_max`` has grown by, at the disk in proportion to it."""
+
+VERGE = 1e-9
+"""Deviation of ``gw`` from 1 that counts as zero: without pressure a pre-stretched tube has ``gw = 1``."""
+
+MISFIT = 1e-5
+"""Deviation of ``gw`` to the wrong side of 1 on the finest mesh beyond which another zone opens; below it is
+the mesh's error."""
+
+CLOSED = 0.999
+"""Share of the smallest zone below which it closes."""
+
+FRONTS = ("Z_front_1", "Z_front_2")
+FRACTION = "wrinkled_fraction"
+
+
+def zone_breaks(half: float, to_disk: bool) -> list[float]:
+    """First positions of the ends of the smallest zone on half a tube, without the disk."""
+    least, inside = (AT_DISK, 1) if to_disk else (SMALLEST, 2)
+    return [half * (1 - k * least) for k in range(inside, 0, -1)]
+
+
+class Folds(TubeModel):
+    """What a model of the tube has besides, if break points of its mesh are the ends of a wrinkled zone.
+
+    Such a model calls :meth:`fold` when its mesh is known.
+    """
+
+    def fold(self, to_disk: bool) -> None:
+        """Mark the blocks of a zone that ends at the disk, or before; the whole tube has another one."""
+        self.smallest = AT_DISK if to_disk else SMALLEST
+        self.gaps = {name: f"gap_{name}" for name in self.fronts if name.startswith(FRONTS)}
+        states = [WRINKLED] if to_disk else [WRINKLED, TAUT]
+        full = self.breaks[0] < 0
+        rest = self.blocks // (1 + full) - len(states)
+        states = [TAUT] * rest + states
+        states = [*reversed(states), *states] if full else states
+        self.marks = Marks(np.array(states), np.full(self.blocks, WET))
+
+    @cached_property
+    def gw(self) -> Expr:
+        """The wrinkling function, 1 at both ends of a zone."""
+        return gw_of(self)
+
+    def formulation(self) -> Formulation:
+        """The weak form with the equations of the fronts, and how far any block is from its own state."""
+        given, taut = super().formulation(), ufl.gt(self._by_cell["taut"], 0.0)
+        places = {name: self.inner(BREAK + self.fronts[name] - 1) for name in self.gaps}
+        share = ufl.conditional(taut, 0.0, 1.0) / (self.breaks[-1] - self.breaks[0])
+        return replace(
+            given,
+            monitors={
+                **given.monitors,
+                FRACTION: share * self.expressions["width"] * self.dx,
+                **{self.gaps[name]: ufl.avg(self.gw - 1) * at for name, at in places.items()},
+            },
+            maxima={
+                **given.maxima,
+                "misfit": ufl.conditional(taut, 1 - self.gw, self.gw - 1),
+                "slack": ufl.conditional(taut, 1 - across_of(self), 1 - self.expressions["lam1"]),
+            },
+            mark=self.mark,
+            internal=(
+                *given.internal,
+                *(name for name in self.gaps if name not in FRONTS),
+                *self.gaps.values(),
+                "misfit",
+                "slack",
+            ),
+        )
+
+    def first_fronts(self, place: float) -> dict[str, float]:
+        """Guesses of the ends of the smallest zone about the place of the first wrinkle."""
+        apart = self.smallest * self.half / (1 if self.smallest == AT_DISK else 2)
+        near = dict(zip(FRONTS, (place - apart, place + apart), strict=True))
+        near |= {f"{name}_lower": -z for name, z in near.items()}
+        return {name: near[name] for name in self.gaps}
+
+
+class Verge:
+    """Where the states of a model of the taut tube begin to wrinkle, or cease to.
+
+    Args:
+        model: The model.
+    """
+
+    def __init__(self, model: TubeModel) -> None:
+        self.model = model
+        self._meridian = Meridian(model, {"gw": gw_of(model), "across": across_of(model)})
+
+    def least(self, state: State, name: str = "gw") -> tuple[float, float]:
+        """Smallest ``gw - 1`` of a state of the taut tube, and the distance of its place from mid-length."""
+        with self.model.system.at(state):
+            value, x = self._meridian.extreme_at(name, -1)
+        return value - 1, abs(float(self.model.material(np.array([x]), state.loads)[0]))
+
+    def passed(self, branch: SolutionCurve) -> list[int]:
+        """Points of a trace after which the smallest ``gw - 1`` changes its sign."""
+        least = np.array([self.least(point.state)[0] for point in branch.points])
+        sign = np.where(np.abs(least) > VERGE, np.sign(least), 0.0)
+        known = np.flatnonzero(sign)
+        return [int(j) - 1 for i, j in pairwise(known) if sign[i] * sign[j] < 0]
+
+    def slack(self, points: Sequence[CurvePoint]) -> np.ndarray:
+        """Indices of points at which the taut tube is compressed along the meridian."""
+        across = [self.least(point.state, "across")[0] for point in points]
+        return np.flatnonzero(np.array(across) < -VERGE)
+
+    def touch(self, branch: SolutionCurve, i: int) -> Solved:
+        """The state between two points of a trace at which ``gw`` just reaches 1, with its place."""
+        found = branch.zero(i, lambda solved: self.least(solved.state)[0], ONSET)
+        place = self.least(found.state)[1]
+        return replace(found, values=found.values | dict.fromkeys(FRONTS, place))
+
+
+def at_disk(onset: Solved, half: float) -> bool:
+    """Whether the first wrinkle is at the disk."""
+    return onset.values[FRONTS[0]] > (1 - SMALLEST / 2) * half
+
+
+def unlike(point: CurvePoint) -> str:
+    """Why the marks of the blocks do not fit a wrinkled state, as text; empty if they do."""
+    if point.monitors["misfit"] > MISFIT:
+        return "another part of it wrinkles, or becomes taut, which is not followed"
+    if point.monitors["slack"] > MISFIT:
+        return "a part of it has no tension along the meridian, which is not followed"
+    return ""
+
+
+def gw_of(model: TubeModel) -> Expr:
+    """The wrinkling function of a tube."""
+    return wrinkling_function(model.expressions["lam1"], model.expressions["lam2"])
+
+
+def across_of(model: TubeModel) -> Expr:
+    """The same with the stretches exchanged: below 1 a taut tube is compressed along the meridian."""
+    return wrinkling_function(model.expressions["lam2"], model.expressions["lam1"])
+
+
+def point_at(branch: SolutionCurve, i: int, solved: Solved) -> CurvePoint:
+    """A state that was solved for after a point of a trace, as a point of it."""
+    before, after = branch.points[i : i + 2]
+    arclength = before.arclength + branch.continuation.distance(solved.state, before.state)
+    return branch.continuation.point(solved.state, after.record, before.tangent, arclength)
