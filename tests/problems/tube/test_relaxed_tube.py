@@ -87,7 +87,7 @@ def test_a_taut_tube_has_no_wrinkle():
 @pytest.mark.parametrize(
     ("given", "named"),
     [
-        ({"contact": "frictionless"}, "contact"),
+        ({"contact": "adhesive"}, "contact"),
         ({"n": (0, 1)}, "n"),
         ({"extent": "full", "secondary": True}, "secondary"),
         ({"extent": "full", "uneven": 0.1}, "uneven"),

@@ -7,7 +7,8 @@ no component, so that the tension is constant there, and with it l1:
 
 .. math:: l_1' = 0, \qquad b' = -\frac{p \rho l_1}{r_0 W'(l_1)}
 
-All of y is continuous at a front, where l1 l2^2 = 1.
+All of y is continuous at a front, where l1 l2^2 = 1. Against a substrate the zone before these is the patch,
+up to z_f, where rho = s.
 """
 
 from __future__ import annotations
@@ -23,21 +24,27 @@ from reference_data.solvers.core.collocation import Array, Ends, Mesh, Problem, 
 from reference_data.solvers.core.collocation import Zone as Part
 from reference_data.solvers.core.mooney_rivlin import Tube, plain_pressure, slope
 from reference_data.solvers.paper2.collocation import equations as taut
+from reference_data.solvers.paper2.collocation import states as touching
 from reference_data.solvers.paper2.collocation.critical import start
+from reference_data.solvers.paper2.substrate import Substrate
 
 MESHES = Mesh.graded(8, 10, 2.0), Mesh.graded(12, 12, 2.0)
+SURELY_RISES, LOAD_STEP = 0.3, 0.05
+"""Edge of the patch, over the length, up to which it is given: at high pressure it returns. From there on the
+pressure is given, in steps of at most this."""
 PLACES = 2001
 """Places at which the first fronts are looked for."""
 
 
 @dataclass(frozen=True)
 class State:
-    """One state; nodal values of each zone, and the numbers p, z_1 and, inside of the tube, z_2."""
+    """One state; nodal values of each zone, and the numbers p, z_f in contact, z_1 and, inside, z_2."""
 
     tube: Tube
     mesh: Mesh
     y: tuple[Array, ...]
     c: Array
+    substrate: Substrate | None = None
 
     @property
     def p(self) -> float:
@@ -55,7 +62,7 @@ class State:
         return float(self.y[0][0, 0, 0]) - 1
 
     def front(self, k: int) -> float:
-        """Z of a front, 1 or 2, on the pre-stretched tube."""
+        """Z of a front, counted from 1 at mid-length, on the pre-stretched tube."""
         return float(self.c[k]) * self.tube.delta1
 
 
@@ -73,8 +80,10 @@ def wrinkled(tube: Tube, y: list[Any], p: Any) -> list[Any]:
     ]
 
 
-def problem(tube: Tube, mesh: Mesh, fronts: int, u_max: float) -> Problem:
-    """The equations with the displacement of the mid-plane given."""
+def problem(state: State, held: str, value: float) -> Problem:
+    """The equations with the pressure ``p`` or the displacement of the mid-plane ``u_max`` given."""
+    tube, substrate, mesh = state.tube, state.substrate, state.mesh
+    patch = 0 if substrate is None else 1
     base = taut.State(tube, (), (), np.zeros(1))
 
     def edges(c: list[Any]) -> list[Any]:
@@ -82,30 +91,54 @@ def problem(tube: Tube, mesh: Mesh, fronts: int, u_max: float) -> Problem:
 
     def rates(d: int, y: list[Any], _s: Array, c: list[Any]) -> list[Any]:
         length = edges(c)[d + 1] - edges(c)[d]
-        if d == 1:
+        if d == 1 + patch:
             found = wrinkled(tube, y, c[0])
         else:
-            found = taut.free(base, y, None, lambda rho: plain_pressure(rho, c[0]))
+            push = substrate.push if d < patch else plain_pressure
+            found = taut.free(base, y, None, lambda rho: push(rho, c[0]))
         return [length * f for f in found]
 
-    def conditions(left: Ends, right: Ends, _c: list[Any]) -> list[Any]:
+    def conditions(left: Ends, right: Ends, c: list[Any]) -> list[Any]:
         first, disk = left[0], right[-1]
         ends = [first[1], first[3], first[4], disk[0] - 1, disk[1] - tube.lf / 2]
-        at_fronts = [y[2] * (y[0] / tube.r0) ** 2 - 1 for y in left[1:]]
-        return [*ends, *joined(left, right), *at_fronts, first[0] - 1 - u_max]
+        at_edge = [y[0] - substrate.s for y in left[1 : 1 + patch]]
+        at_fronts = [y[2] * (y[0] / tube.r0) ** 2 - 1 for y in left[1 + patch :]]
+        given = {"u_max": first[0] - 1, "p": c[0]}[held]
+        return [*ends, *joined(left, right), *at_edge, *at_fronts, given - value]
 
-    return Problem(tuple(Part(mesh, partial(rates, d)) for d in range(fronts + 1)), conditions)
+    return Problem(tuple(Part(mesh, partial(rates, d)) for d in range(len(state.c))), conditions)
 
 
-def solve(guess: State, u_max: float) -> State:
-    """The state with a displacement of the mid-plane.
+def solve(guess: State, value: float, held: str = "u_max") -> State:
+    """The state with a displacement of the mid-plane, or with a pressure.
 
     Raises:
         RuntimeError: If Newton's method does not converge.
     """
-    given = problem(guess.tube, guess.mesh, len(guess.c) - 1, u_max)
-    y, c = given.solve(guess.y, guess.c, f"wrinkled {guess.tube} at u_max = {u_max}")
+    what = f"wrinkled {guess.tube} at {held} = {value}"
+    y, c = problem(guess, held, value).solve(guess.y, guess.c, what)
     return replace(guess, y=y, c=c)
+
+
+def first_in_contact(tube: Tube, substrate: Substrate, mesh: Mesh, p: float) -> State:
+    """A state in contact not far beyond the first wrinkle, from the one that bears compression."""
+    how = touching.RESOLUTIONS[0]
+    begin = touching.touch(tube, substrate, how.free)
+    reached = np.linspace(0.04, SURELY_RISES, 8) * tube.length
+    ordinary = touching.frictionless_near_touch(begin, how, float(reached[0]))
+    for z in reached:
+        ordinary = touching.at_front(ordinary, float(z))
+    for load in np.linspace(ordinary.p, p, 2 + int((p - ordinary.p) / LOAD_STEP))[1:]:
+        ordinary = taut.solve(ordinary, p=float(load), rho=substrate.s)
+    z = np.linspace(float(ordinary.fronts[0]), tube.length, PLACES)
+    y = taut.profile(ordinary, z)
+    compressed = z[y[:, 2] * (y[:, 0] / tube.r0) ** 2 < 1]
+    fronts = [float(ordinary.fronts[0]), compressed[0], compressed[-1]]
+    guess = [
+        taut.profile(ordinary, np.ravel(low + (high - low) * mesh.x))[:, :5].reshape(*mesh.x.shape, 5)
+        for low, high in pairwise([0.0, *fronts, tube.length])
+    ]
+    return solve(State(tube, mesh, tuple(guess), np.array([p, *fronts]), substrate), p, "p")
 
 
 def first(tube: Tube, mesh: Mesh, u_max: float) -> State:
@@ -127,4 +160,5 @@ def first(tube: Tube, mesh: Mesh, u_max: float) -> State:
 def again(state: State, mesh: Mesh) -> State:
     """The same state on another mesh."""
     y = tuple(state.mesh.evaluate(part, mesh.x) for part in state.y)
-    return solve(replace(state, mesh=mesh, y=y), state.u_max)
+    value, held = (state.u_max, "u_max") if state.substrate is None else (state.p, "p")
+    return solve(replace(state, mesh=mesh, y=y), value, held)

@@ -1,16 +1,19 @@
-"""Tables of the free tube with the relaxed energy, beyond its first wrinkle."""
+"""Tables of the tube with the relaxed energy, free and in contact, beyond its first wrinkle."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from reference_data.solvers.beyond.relaxed import shooting, strong
+from reference_data.solvers.beyond.relaxed.shooting import NONE, Spring
 from reference_data.solvers.core.collocation import Array
 from reference_data.solvers.core.mooney_rivlin import Tube, slope
 from reference_data.solvers.core.tables import Column, Levels, Series, Table, agreed, rule
+from reference_data.solvers.paper2.substrate import Substrate
 
 
 class Asked(NamedTuple):
@@ -18,10 +21,21 @@ class Asked(NamedTuple):
 
     tube: Tube
     begin: float
-    """Displacement, not far beyond the first wrinkle, at which the zones are found."""
+    """Displacement, or pressure in contact, not far beyond the first wrinkle, where the zones are found."""
     places: tuple[float, ...]
-    """Displacements of the rows."""
+    """Displacements, or pressures, of the rows."""
     fronts: int
+    spring: Spring = NONE
+
+    @property
+    def touches(self) -> bool:
+        """Whether there is a substrate."""
+        return self.spring.k > 0
+
+    @property
+    def key(self) -> str:
+        """What is given."""
+        return "p" if self.touches else "u_max"
 
 
 ASKED = {
@@ -31,8 +45,18 @@ ASKED = {
 }
 """A neo-Hookean tube of figure 2(a) of paper 2, one that stiffens, and one that wrinkles at the disks."""
 
+IN_CONTACT = {
+    "contact": Asked(
+        Tube(0.02, 1.0, 6.0), 5.6, (5.35, 5.4, 5.5, 5.6, 5.8, 6.0, 6.2, 6.4), 3, Spring(20.0, 1.8)
+    ),
+    "contact_stretched": Asked(
+        Tube(0.0, 1.2, 8.0), 5.8, (5.55, 5.6, 5.7, 5.8, 6.0, 6.3, 6.6, 7.0, 7.4), 3, Spring(20.0, 1.8)
+    ),
+}
+"""Tubes that touch a substrate first, and then wrinkle; the edge of the patch counts among the fronts."""
+
 STEP = 0.05
-"""Largest step of the displacement between two guesses."""
+"""Largest step of the displacement, or of the pressure in contact, between two guesses."""
 ROUNDING = 3e-12, 1e-10
 """Relative rounding of columns by (a) and by (b), whose disk is missed by the errors of the integration."""
 
@@ -40,6 +64,7 @@ COLUMNS = {
     "u_max": ("(R_mid - R_f)/R_f", "radial displacement of the mid-plane"),
     "p": ("P R_f/(C1 h_o)", "pressure"),
     "V": ("2 pi R_f^3", "volume of the half tube"),
+    "Z_front": ("delta1 z/R_f", "edge of the patch in contact"),
     "Z_front_1": ("delta1 z/R_f", "end of the wrinkled zone that is nearer to the mid-plane"),
     "Z_front_2": ("delta1 z/R_f", "its other end"),
 }
@@ -57,17 +82,30 @@ GRID = (
 SOURCE = "beyond Patil, Nordmark & Eriksson, Proc. R. Soc. A 470 (2014) 20140282, figure 2"
 SERIES = Series("beyond", SOURCE, COLUMNS, METHOD, GRID, "Newton takes one more step below 1e-8")
 
+CONTACT = replace(
+    SERIES,
+    method="Two codes with the relaxed energy, which share the data of the tube: (a) collocation of the "
+    "strong equations in four zones, with the edge of the patch, where rho = s, and the ends of the wrinkled "
+    "zone, where l1 l2^2 = 1, as unknowns; (b) Hamilton's equations by an explicit method from the mid-plane "
+    "to the disk, which lets go of the substrate where rho = s, and switches between both states where it "
+    "meets a front. " + rule("a"),
+)
+
 
 def followed(asked: Asked) -> list[strong.State]:
     """The states of the rows on the coarse mesh."""
-    begin, found = strong.first(asked.tube, strong.MESHES[0], asked.begin), {}
+    tube, mesh, at, found = asked.tube, strong.MESHES[0], asked.begin, {}
+    if asked.touches:
+        begin = strong.first_in_contact(tube, Substrate(*asked.spring), mesh, at)
+    else:
+        begin = strong.first(tube, mesh, at)
     for side in (-1, 1):
         state, last = begin, asked.begin
         for place in sorted(asked.places, key=lambda u: side * u):
             if side * (place - asked.begin) < 0:
                 continue
             for u in np.linspace(last, place, 2 + int(abs(place - last) / STEP))[1:]:
-                state = strong.solve(state, float(u))
+                state = strong.solve(state, float(u), asked.key)
             found[place], last = state, place
     return [found[place] for place in asked.places]
 
@@ -75,24 +113,27 @@ def followed(asked: Asked) -> list[strong.State]:
 def shot(fine: list[strong.State], asked: Asked, rtol: float) -> list[shooting.Shot]:
     """The same states by shooting, from those of the other method."""
     tube, found = asked.tube, []
-    for state, u_max in zip(fine, asked.places, strict=True):
+    for state in fine:
         rho, _, l1, _, _ = state.y[0][0, 0]
         tension = tube.r0 * slope(l1, rho / tube.r0, tube.alpha)
-        found.append(shooting.solve(tube, u_max, float(tension), state.p, rtol))
+        found.append(shooting.solve(tube, state.u_max, float(tension), state.p, rtol, asked.spring))
     return found
 
 
 def branch(name: str) -> Table:
-    """One branch over the displacement of the mid-plane."""
-    asked, table = ASKED[name], f"relaxed_tube_{name}"
+    """One branch over the displacement of the mid-plane, or over the pressure in contact."""
+    asked, table = (ASKED | IN_CONTACT)[name], f"relaxed_tube_{name}"
     coarse = followed(asked)
     fine = [strong.again(state, strong.MESHES[1]) for state in coarse]
     shots = [shot(fine, asked, rtol) for rtol in shooting.TOLERANCES]
+    if any(len(s.fronts) != asked.fronts for level in shots for s in level):
+        raise RuntimeError(f"{table}: shooting meets other fronts than {asked.fronts}")
 
     def column(name: str, a: list[Array], b: list[Array]) -> Column:
         own, other = (Levels(*of, rounding=r) for of, r in zip((a, b), ROUNDING, strict=True))
         return agreed(table, name, other, own, COLUMNS[name], "shooting", "collocation")
 
+    found = {"u_max": "u_max", "p": "p", "V": "volume"}
     columns = [
         column(
             key,
@@ -101,16 +142,23 @@ def branch(name: str) -> Table:
                 for levels in ((coarse, fine), shots)
             ),
         )
-        for key, k in {"p": "p", "V": "volume"}.items()
+        for key, k in found.items()
+        if key != asked.key
     ]
-    for k in range(asked.fronts):
+    names = ["Z_front"] * asked.touches + ["Z_front_1", "Z_front_2"]
+    for k, front in enumerate(names[: asked.fronts]):
         of_a = [np.array([s.front(k + 1) for s in level]) for level in (coarse, fine)]
         of_b = [np.array([s.fronts[k] for s in level]) for level in shots]
-        columns.append(column(f"Z_front_{k + 1}", of_a, of_b))
+        columns.append(column(front, of_a, of_b))
     tube = asked.tube
     given = {"alpha": tube.alpha, "delta1": tube.delta1, "lf": tube.lf}
-    title = "Free inflation of a tube that bears no compression, beyond its first wrinkle"
-    return SERIES.table(table, title, "", given, [*SERIES.keys(u_max=np.array(asked.places)), *columns])
+    what, more = "Free inflation", {}
+    if asked.touches:
+        what, more = "Frictionless contact", {"k": asked.spring.k, "s": asked.spring.s}
+    title = f"{what} of a tube that bears no compression, beyond its first wrinkle"
+    series = CONTACT if asked.touches else SERIES
+    keys = series.keys(**{asked.key: np.array(asked.places)})
+    return series.table(table, title, "", given | more, [*keys, *columns])
 
 
-TABLES = {f"relaxed_tube_{name}": partial(branch, name) for name in ASKED}
+TABLES = {f"relaxed_tube_{name}": partial(branch, name) for name in ASKED | IN_CONTACT}

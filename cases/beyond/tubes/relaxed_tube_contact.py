@@ -1,0 +1,162 @@
+"""The tube of Paper 2 in frictionless contact with the relaxed energy: it wrinkles between patch and disk.
+
+At high pressure the ordinary membrane of a tube against its substrate is in hoop compression where it turns
+in before the disk. With the relaxed energy it wrinkles there. Displacement, volume, the edge of the patch and
+both ends of the zone are compared with two other codes. Up to the first wrinkle the states are those of the
+ordinary membrane.
+"""
+
+from weakforms.cases import (
+    At,
+    Axis,
+    Case,
+    Claim,
+    Count,
+    Curve,
+    Finding,
+    Panel,
+    Solutions,
+    decide,
+    tube,
+)
+
+MESH = {"degree": 6, "cells": 48}
+SOFT = tube(
+    energy="relaxed", contact="frictionless", alpha=0.02, delta1=1.0, lf=6.0, k=20.0, s=1.8, p_end=6.5
+).on(**MESH)
+STRETCHED = SOFT.at(alpha=0.0, delta1=1.2, lf=8.0, p_end=7.5)
+WHOLE = SOFT.at(extent="full", p_end=5.8)
+TABLES = {SOFT: "relaxed_tube_contact", STRETCHED: "relaxed_tube_contact_stretched"}
+ORDINARY = {spec: spec.at(energy="standard") for spec in TABLES}
+LEGEND = {
+    SOFT: r"$\alpha = 0.02,\ \delta_1 = 1,\ l_f = 6$",
+    STRETCHED: r"$\alpha = 0,\ \delta_1 = 1.2,\ l_f = 8$",
+}
+BEYOND, BEFORE, FULL = At("p", 6.4), At("p", 5.0), At("p", 5.6)
+ONSET = "wrinkling_onset"
+
+
+def unchanged(solutions: Solutions) -> Finding:
+    """First contact, and a state in contact before the first wrinkle, are those of the ordinary membrane."""
+    asked = [(f"p = 5, {name}", BEFORE, name) for name in ("u_max", "V", "Z_front")]
+    return decide.all_of(
+        [
+            *(
+                decide.agree(
+                    f"first contact, {name}, {LEGEND[spec]}",
+                    solutions.point(spec, "contact_onset", name),
+                    solutions.point(ORDINARY[spec], "contact_onset", name),
+                    1e-9,
+                )
+                for spec in TABLES
+                for name in ("p", "V")
+            ),
+            *(
+                decide.agree(
+                    what, solutions.number(SOFT, at, name), solutions.number(ORDINARY[SOFT], at, name), 1e-9
+                )
+                for what, at, name in asked
+            ),
+        ]
+    )
+
+
+def softer(solutions: Solutions) -> Finding:
+    """At the same pressure the potential of the tube that wrinkles is lower: the energy is."""
+    return decide.all_of(
+        decide.less(
+            f"potential at p = 6.4, {LEGEND[spec]}",
+            solutions.number(spec, BEYOND, "Pi"),
+            solutions.number(ORDINARY[spec], BEYOND, "Pi"),
+        )
+        for spec in TABLES
+    )
+
+
+def differs(solutions: Solutions) -> Finding:
+    """The ordinary membrane is compressed at a pressure at which the one that wrinkles is not."""
+    return decide.all_of(
+        decide.less(
+            f"t2 at p = 6.4, {LEGEND[spec]}",
+            solutions.number(ORDINARY[spec], BEYOND, "t2_min"),
+            solutions.number(spec, BEYOND, "t2_min"),
+        )
+        for spec in TABLES
+    )
+
+
+def both_sides(solutions: Solutions) -> Finding:
+    """A whole tube, with an edge of contact and a zone on either side, has the states of half of it."""
+    names = ("u_max", "Z_front", "Z_front_1", "Z_front_2", "wrinkled_fraction", "lam1_mid")
+    return decide.all_of(
+        decide.agree(name, solutions.number(WHOLE, FULL, name), solutions.number(SOFT, FULL, name), 1e-7)
+        for name in names
+    )
+
+
+CASE = Case(
+    title="The tube in contact that wrinkles instead of being compressed",
+    source="beyond Patil, Nordmark & Eriksson (2014), figure 7",
+    panels=(
+        *(
+            Panel(
+                name,
+                x=Axis("p", 5.0, 7.6),
+                y=Axis(column, *axis),
+                title=title,
+                markers=(ONSET,) if column == "u_max" else (),
+                curves=tuple(Curve(spec, LEGEND[spec], reference=table) for spec, table in TABLES.items()),
+            )
+            for name, column, axis, title in (
+                ("a", "u_max", (0.95, 1.15), "Displacement of the mid-plane"),
+                ("b", "V", (7, 15), "Volume"),
+                ("c", "Z_front", (1.5, 3.0), "Edge of the patch"),
+                ("d", "Z_front_1", (2.0, 3.8), "End of the zone nearer to mid-length"),
+                ("e", "Z_front_2", (2.5, 4.0), "Its other end"),
+            )
+        ),
+        Panel(
+            "f",
+            x=Axis("Z", 1.6, 3.0),
+            y=Axis("t2", -1.0, 2.0),
+            title="Hoop resultant between patch and disk, $p = 6.4$",
+            curves=tuple(
+                Curve(spec, name, at=BEYOND, y="t2")
+                for spec, name in ((SOFT, "relaxed energy"), (ORDINARY[SOFT], "ordinary membrane"))
+            ),
+        ),
+    ),
+    checks=(
+        Claim(
+            "unchanged",
+            "up to the first wrinkle the states are those of the ordinary membrane",
+            (
+                *((spec, None) for both in ORDINARY.items() for spec in both),
+                (SOFT, BEFORE),
+                (ORDINARY[SOFT], BEFORE),
+            ),
+            unchanged,
+        ),
+        Claim(
+            "softer",
+            "at the same pressure its potential is lower than that of the ordinary membrane",
+            tuple((spec, BEYOND) for both in ORDINARY.items() for spec in both),
+            softer,
+        ),
+        Claim(
+            "differs",
+            "the ordinary membrane is compressed where the one that wrinkles is not",
+            tuple((spec, BEYOND) for both in ORDINARY.items() for spec in both),
+            differs,
+        ),
+        Claim(
+            "both_sides",
+            "half a tube is half of the whole one, with an edge of contact and a zone on either side",
+            ((WHOLE, FULL), (SOFT, FULL)),
+            both_sides,
+        ),
+        Count(ONSET, {SOFT: 1, STRETCHED: 1}, "zones that open"),
+    ),
+    asked=dict.fromkeys(("p", "u_max", "V", "Z_front", "Z_front_1", "Z_front_2"), 1e-7),
+    slow=True,
+)
