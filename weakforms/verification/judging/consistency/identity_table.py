@@ -43,12 +43,13 @@ def _free(given: Given) -> bool:
     return given.get("contact", "none") == "none"
 
 
-def _in_contact(given: Given) -> bool:
-    return not _free(given) and given.get("phase") != "peeling"
+def _smooth_in_contact(given: Given) -> bool:
+    # A wrinkled zone has kinks at its ends, which the points of a profile do not resolve.
+    return not _free(given) and given.get("phase") != "peeling" and given.get("energy") != "relaxed"
 
 
 def _inflating(given: Given) -> bool:
-    return _in_contact(given) and given.get("phase") != "deflation"
+    return not _free(given) and given.get("phase") not in ("peeling", "deflation")
 
 
 def _half(given: Given) -> bool:
@@ -147,13 +148,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         read("lam2_mid", "hoop stretch of the middle", origin("lam2")),
         field("lam2", "lam2 = rho/sqrt(delta1)", formulas.hoop_stretch),
         read("t1_mid", "resultant of the middle", end("t1", 0), _half),
-        # A wrinkled zone has kinks at its ends, which the points of a profile do not resolve.
-        read(
-            "t2_min",
-            SMALLEST_RESULTANT,
-            extreme(SMALLEST, "t2"),
-            lambda g: _in_contact(g) and g.get("energy") != "relaxed",
-        ),
+        read("t2_min", SMALLEST_RESULTANT, extreme(SMALLEST, "t2"), _smooth_in_contact),
         read("V", "volume within the profile", enclosed("rho", "eta", 0.5), _half),
         read("spring_max", "largest of the springs", extreme(SMALLEST, "f_k", factor=-1.0), _inflating),
         read(
