@@ -96,7 +96,7 @@ def both_sides(solutions: Solutions) -> Finding:
 
 CASE = Case(
     title="The tube in contact that wrinkles instead of being compressed",
-    source="beyond Patil, Nordmark & Eriksson (2014), figure 7",
+    source="beyond Patil, Nordmark & Eriksson (2014), constrained inflation",
     panels=(
         *(
             Panel(
