@@ -273,11 +273,8 @@ class Stability:
 
     def _pairs(self, eps: SLEPc.EPS) -> list[Mode]:
         vector, _ = self.system.matrix.createVecs()
-        found = []
-        for i in range(eps.getConverged()):
-            value = eps.getEigenpair(i, vector).real
-            found.append(self._mode(value, vector.array.copy()))
-        return found
+        values = (eps.getEigenpair(i, vector).real for i in range(eps.getConverged()))  # also the vector
+        return [self._mode(value, vector.array.copy()) for value in values]
 
     def _improved(self, mode: Mode, target: float) -> Mode:
         """The mode with its Rayleigh quotient; the matrix is ``K - target M``."""
