@@ -14,12 +14,13 @@ from weakforms import ConvergenceError, InputError, solve
 from weakforms.problems.meridian.families import EVEN as WAVE_EVEN
 from weakforms.problems.meridian.families import ODD as WAVE_ODD
 from weakforms.problems.meridian.families import Wave
+from weakforms.problems.meridian.sector import SectorMesh
 from weakforms.problems.problem import Requests, Task
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
 from weakforms.problems.tube.problem import Tube
 from weakforms.problems.tube.secondary.bent import AMPLITUDE
 from weakforms.problems.tube.secondary.outside import CLASSES, TURNED, BentModes
-from weakforms.problems.tube.secondary.surface import EVEN, ODD, TURNING, BentMesh, BentTube, Parities
+from weakforms.problems.tube.secondary.surface import EVEN, ODD, TURNING, BentTube, Parities
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
@@ -268,7 +269,7 @@ def test_eigenvalues_of_all_classes_are_those_of_another_code():
 
 
 def test_waves_for_which_the_classes_are_not_all_displacements_have_no_total():
-    model = BentTube(MPI.COMM_SELF, TubeParameters(**BENDING).material, 1.0, 3.0, 3, BentMesh(4, 2, 2, 0.0))
+    model = BentTube(MPI.COMM_SELF, TubeParameters(**BENDING).material, 1.0, 3.0, 3, SectorMesh(4, 2, 2, 0.0))
     modes = BentModes(model)
     with model.system.at(State(model.system.initial.u, {"p": 0.5})):
         assert sorted(modes.counts()) == sorted(["n_negative_volume", *CLASSES])

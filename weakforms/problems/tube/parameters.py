@@ -9,9 +9,9 @@ from pydantic import Field, model_validator
 
 from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.material_choice import MaterialChoice
+from weakforms.problems.meridian.sector import SectorMesh
 from weakforms.problems.problem import Needs
 from weakforms.problems.tube.about import MOST_WAVES
-from weakforms.problems.tube.secondary.surface import BentMesh
 from weakforms.problems.wave_numbers import wave_numbers
 
 
@@ -39,11 +39,11 @@ class SecondaryNumerics(TubeNumerics):
         return self
 
     @property
-    def surfaces(self) -> list[BentMesh]:
+    def surfaces(self) -> list[SectorMesh]:
         """The meshes of the surface, coarse to fine."""
         counts = [2**k for k in reversed(range(self.levels))]
         return [
-            BentMesh(
+            SectorMesh(
                 self.secondary_cells // k, self.secondary_around // k, self.secondary_degree, self.grading
             )
             for k in counts

@@ -93,7 +93,7 @@ def on_surface(primary: TubeBranch, crossing: Solved, model: BentTube) -> Solved
         make_interp_spline(places, values, SPLINE) for values in (*position.values(), *mode.values())
     )
     n, system = model.n, model.system
-    guess = model.state_of(lambda s, _: np.vstack([r(s), 0 * s, z(s)]), loads["p"])
+    guess = model.state_of(lambda s, _: np.vstack([r(s), 0 * s, z(s)]), {"p": loads["p"]})
     displacement = model.interpolated(
         lambda s, t: np.vstack([u(s) * np.cos(n * t), q(s) * np.sin(n * t), w(s) * np.cos(n * t)])
     )

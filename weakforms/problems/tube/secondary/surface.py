@@ -15,10 +15,9 @@ mirrors contain the axis or are normal to it. An axisymmetric state is the same 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
-import basix.ufl
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -32,8 +31,8 @@ from weakforms.forms.materials import stress_resultants
 from weakforms.forms.wrinkling import principal_stretches
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import one_end
+from weakforms.problems.meridian.sector import Sector, SectorMesh
 from weakforms.solvers.equilibrium.formulation import Formulation
-from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.modes import SecondVariation
 
@@ -42,10 +41,6 @@ AMPLITUDE = "u_wave"
 
 MIDDLE = 1
 """Tag of the edge at mid-length."""
-
-Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""Components ``(X, Y, Z)``, or a displacement, of shape ``(3, k)``, at ``Z`` and ``Theta``."""
-
 
 EVEN, ODD = "even", "odd"
 """Parity about a mirror: it maps a displacement to itself, or to the reverse."""
@@ -77,17 +72,7 @@ OWN = Parities(EVEN, EVEN, EVEN)
 """The class of the states."""
 
 
-@dataclass(frozen=True)
-class BentMesh:
-    """Cells along half the tube, and around one half wave; polynomial degree, grading towards the disk."""
-
-    cells: int
-    around: int
-    degree: int
-    grading: float
-
-
-class BentTube:
+class BentTube(Sector):
     """Weak form of the surface; load ``p``.
 
     Args:
@@ -100,16 +85,10 @@ class BentTube:
     """
 
     def __init__(
-        self, comm: MPI.Intracomm, material: Chosen, delta1: float, half: float, n: int, at: BentMesh
+        self, comm: MPI.Intracomm, material: Chosen, delta1: float, half: float, n: int, at: SectorMesh
     ) -> None:
-        self.half, self.n, self.delta1 = half, n, delta1
-        corners = [np.zeros(2), np.array([1.0, np.pi / n])]
-        self.mesh = dmesh.create_rectangle(comm, corners, [at.cells, at.around], dmesh.CellType.quadrilateral)
-        nodes = self.mesh.geometry.x
-        nodes[:, 0] = half * one_end(at.grading)(nodes[:, 0])
-        element = basix.ufl.element("Lagrange", "quadrilateral", at.degree, shape=(3,))
-        self.space = fem.functionspace(self.mesh, element)
-        self.unknown = fem.Function(self.space, name="bent_tube")
+        super().__init__(comm, half, n, at, one_end(at.grading))
+        self.half, self.delta1 = half, delta1
         self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), 0 * x[0], x[0]]))
         self._law = material.surface_law(self.mesh)
         pressure = fem.Constant(self.mesh, 0.0)
@@ -120,12 +99,6 @@ class BentTube:
         self.dx = ufl.Measure("dx", self.mesh, metadata=rule)
         self.middle = ufl.Measure("ds", self.mesh, subdomain_data=tags, metadata=rule)(MIDDLE)
         self.system = System(self.formulation())
-
-    @staticmethod
-    def surface(x: Expr) -> Surface:
-        """A position with its derivatives; the frame turns with ``Theta``."""
-        a, b = x.dx(0), x.dx(1)
-        return Surface(ufl.as_vector([*x]), a, ufl.as_vector([b[0] - x[1], b[1] + x[0], b[2]]))
 
     def metric(self, at: Surface) -> Expr:
         """Right Cauchy-Green tensor of the stress-free tube."""
@@ -198,26 +171,15 @@ class BentTube:
 
     def conditions(self, parities: Parities, ring: np.ndarray) -> list[fem.DirichletBC]:
         """The ring at the disk, of a radius and a height, and the mirrors' conditions on a class."""
-        edges = {"middle": (0, 0.0), "first": (1, 0.0), "last": (1, np.pi / self.n)}
-        held = fem.Function(self.space)
-        held.interpolate(lambda x: np.vstack([0 * x[0] + ring[0], 0 * x[0], 0 * x[0] + ring[1]]))
-        out = [fem.dirichletbc(held, self._on(self.space, 0, self.half))]
-        for components, mirror in parities.vanishing:
-            for part in map(self.space.sub, components):
-                out.append(fem.dirichletbc(np.array(0.0), self._on(part, *edges[mirror]), part))
-        return out
+        edges = {"middle": (0, 0.0), "first": (1, 0.0), "last": (1, self.width)}
+        places = {name: partial(_on, axis=axis, value=value) for name, (axis, value) in edges.items()}
+        disk = self.held(
+            partial(_on, axis=0, value=self.half),
+            lambda s, _: np.vstack([0 * s + ring[0], 0 * s, 0 * s + ring[1]]),
+        )
+        zero = [(part, places[mirror]) for parts, mirror in parities.vanishing for part in parts]
+        return [disk, *self.vanishing(zero)]
 
-    def _on(self, space: fem.FunctionSpace, axis: int, value: float) -> np.ndarray:
-        """Degrees of freedom on an edge."""
-        edge = dmesh.locate_entities_boundary(self.mesh, 1, lambda x: np.isclose(x[axis], value))
-        return fem.locate_dofs_topological(space, 1, edge)
 
-    def interpolated(self, shape: Shape) -> np.ndarray:
-        """Owned degrees of freedom of a position or a displacement."""
-        function = fem.Function(self.space)
-        function.interpolate(lambda x: shape(x[0], x[1]))
-        return function.x.array[: self.system.size].copy()
-
-    def state_of(self, shape: Shape, p: float) -> State:
-        """The state with a position and a pressure."""
-        return State(self.interpolated(shape), {"p": p})
+def _on(x: np.ndarray, axis: int, value: float) -> np.ndarray:
+    return np.isclose(x[axis], value)
