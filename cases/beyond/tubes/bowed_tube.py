@@ -49,22 +49,10 @@ def drops(solutions: Solutions) -> decide.Number:
     return decide.stack(start - solutions.point(thinner(e), "limit_point", "p") for e in UNEVEN)
 
 
-def vanishing(values: decide.Number, sizes: np.ndarray) -> decide.Number:
-    """The limit of a series in powers of a size as it vanishes; what the last term changes is the bound."""
-
-    def at_zero(first: int) -> decide.Number:
-        x = sizes[:first]
-        weights = [np.prod([b / (b - a) for b in x if b != a]) for a in x]
-        return sum(float(w) * values[i] for i, w in enumerate(weights))
-
-    best, before = at_zero(len(sizes)), at_zero(len(sizes) - 1)
-    return decide.Number(best.value, best.uncertainty + abs((best - before).value) / 2)
-
-
 def koiter(solutions: Solutions) -> Finding:
     """The constant of the law, against that of the even tube by two other methods."""
     sizes = np.array(UNEVEN) ** POWER
-    constant = -1 * vanishing(drops(solutions) * (1 / sizes), sizes)
+    constant = -1 * decide.vanishing(drops(solutions) * (1 / sizes), sizes)
     return decide.agree(
         "(p - p_c)/e^(2/3)", constant, reference("beyond", "bowed_law").number("p_s")[0], KOITER
     )
@@ -75,7 +63,7 @@ def power(solutions: Solutions) -> Finding:
     steps = np.diff(np.log(UNEVEN))
     between = np.sqrt(np.array(UNEVEN[1:]) * UNEVEN[:-1]) ** POWER
     return decide.agree(
-        "power", vanishing(drops(solutions).log().diff() * (1 / steps), between), POWER, KOITER
+        "power", decide.vanishing(drops(solutions).log().diff() * (1 / steps), between), POWER, KOITER
     )
 
 

@@ -47,6 +47,7 @@ __all__ = [
     "same",
     "sides",
     "stack",
+    "vanishing",
     "work",
     "zero",
 ]
@@ -277,6 +278,22 @@ def every(what: str, found: Any) -> Finding:
     mask = np.asarray(list(found) if not isinstance(found, np.ndarray) else found)
     good = mask.dtype == bool and mask.size > 0 and mask.all()
     return Finding(bool(good), f"{what}: {int(np.sum(mask == True))} of {mask.size}")  # noqa: E712
+
+
+def vanishing(values: Number, sizes: Any) -> Number:
+    """The limit of a series in powers of a size as it vanishes; half of what the last term changes is added.
+
+    Args:
+        values: The series at the sizes.
+        sizes: The sizes, the smallest one first.
+    """
+
+    def at_zero(x: np.ndarray) -> Number:
+        weights = [np.prod([b / (b - a) for b in x if b != a]) for a in x]
+        return sum(float(w) * values[i] for i, w in enumerate(weights))
+
+    best, before = at_zero(np.asarray(sizes)), at_zero(np.asarray(sizes)[:-1])
+    return Number(best.value, best.uncertainty + abs((best - before).value) / 2)
 
 
 def all_of(*findings: Finding | Iterable[Finding]) -> Finding:

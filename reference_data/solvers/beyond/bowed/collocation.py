@@ -86,15 +86,25 @@ class Collocation:
         b = np.stack([self.around[even] @ part for even, part in zip(EVEN, parts, strict=True)], axis=-1)
         return a, b
 
+    def load(self, _place: Array, p: float, _uneven: float) -> tuple[Array, Array, Array, Array]:
+        """Pressure over mu at the nodes, its derivatives by p, by the unevenness and by x (nodes, 3)."""
+        one = np.ones(self.size)
+        return p / 2 * one, one / 2, 0 * one, np.zeros((self.size, 3))
+
+    def thickness(self, uneven: float) -> tuple[Array, Array]:
+        """Thickness at the nodes, its derivative by the unevenness."""
+        side = np.tile(np.cos(self.theta), self.shape[0])
+        return 1 + uneven * side, side
+
     def evaluate(self, x: Array, p: float, uneven: float) -> tuple[Array, Array, Array, Array]:
         """Residual, its derivatives by x, p and the unevenness, of the free values."""
         a, b = self._tangents(x)
-        side = np.tile(np.cos(self.theta), self.shape[0])
-        h = 1 + uneven * side
-        f, d, normal = forces(a, b), rates(a, b), np.cross(b, a) / 2
+        h, side = self.thickness(uneven)
+        pressure, by_p, by_uneven, by_place = self.load(x.reshape(3, -1).T, p, uneven)
+        f, d, normal = forces(a, b), rates(a, b), np.cross(b, a)
         turned = self.shape[1]
         matrix = np.zeros((3, self.size, 3, self.size))
-        by_a, by_b = spun(b) / 2, -spun(a) / 2  # of b x a / 2
+        by_a, by_b = spun(b), -spun(a)  # of b x a
 
         def balance(weight: Array, c: int) -> Array:
             return self.along @ (weight * f[0][:, c]) + self.around[not EVEN[c]] @ (weight * f[1][:, c])
@@ -108,12 +118,15 @@ class Collocation:
                     for i in (0, 1)
                 )
                 inner = self.along @ first + self.around[not EVEN[c]] @ second
-                inner += p * (by_a[:, c, e][:, None] * columns[e][0] + by_b[:, c, e][:, None] * columns[e][1])
+                inner += (pressure * by_a[:, c, e])[:, None] * columns[e][0]
+                inner += (pressure * by_b[:, c, e])[:, None] * columns[e][1]
+                inner += np.diag(normal[:, c] * by_place[:, e])
                 inner[:turned] = first[:turned]  # no force along x and y on the plane of symmetry
                 matrix[c, :, e] = inner
         own, by_side = (np.stack([balance(w, c) for c in range(3)]) for w in (h, side))
-        push = normal.T.copy()
-        own += p * push
+        push = by_p * normal.T
+        own += pressure * normal.T
+        by_side += by_uneven * normal.T
         for values, weight in ((own, h), (by_side, side)):
             values[:, :turned] = (weight[:, None] * f[0])[:turned].T
         push[:, :turned] = 0.0
@@ -122,8 +135,8 @@ class Collocation:
         residual, load, thick = vectors
         return residual, matrix[np.ix_(free, free)], load, thick
 
-    def volume(self, x: Array) -> float:
-        """Volume of this quarter of the tube, less that of the tube at rest."""
+    def enclosed(self, x: Array) -> float:
+        """Volume inside of the half circumference."""
         a, b = self._tangents(x)
         place = x.reshape(3, -1).T
         flux = (np.cross(b, a) * place)[:, :2].sum(axis=1).reshape(self.shape) / 2
@@ -133,4 +146,8 @@ class Collocation:
         series = chebyshev.chebfit(2 * self.nodes - 1, rings, len(self.nodes) - 1)
         whole = chebyshev.chebint(series)
         ends = chebyshev.chebval(np.array([1.0, -1.0]), whole)
-        return float(ends[0] - ends[1]) / 2 * self.half - np.pi * self.half / 2
+        return float(ends[0] - ends[1]) / 2 * self.half
+
+    def volume(self, x: Array) -> float:
+        """Volume of this quarter of the tube, less that of the tube at rest."""
+        return self.enclosed(x) - np.pi * self.half / 2

@@ -38,7 +38,7 @@ class Galerkin:
         theta = np.pi * (np.arange(around) + 0.5) / around
         m = np.arange(waves + 1)[:, None]
         cos, sin = np.cos(m * theta), np.sin(m * theta)
-        self.thicker = np.tile(theta, (len(points), 1)).ravel()
+        self.theta = np.tile(theta, (len(points), 1)).ravel()
         self.weight = np.repeat(weights / 2 * self.half, around) * np.pi / around
         self.size = len(nodes) * (waves + 1)
 
@@ -94,16 +94,26 @@ class Galerkin:
         a, b, place = (np.stack(kind, axis=-1) for kind in kinds)
         return a, b, place
 
-    def evaluate(self, x: Array, p: float, uneven: float) -> tuple[Array, Array, Array, Array]:
-        """Residual, its derivatives by x, p and the unevenness, of the free coefficients."""
-        a, b, _ = self._at(x)
-        side = np.cos(self.thicker)
+    def local(self, at: tuple[Array, Array, Array], p: float, uneven: float) -> tuple[Array, ...]:
+        """Factors of (v_,Z, v_,Theta, v), their derivatives by these of x, by p and by the unevenness."""
+        a, b, _ = at
+        side = np.cos(self.theta)
         strain = 2 * weak.residual(a, b, np.zeros(len(a)))
         push = weak.residual(a, b, np.ones(len(a))) - strain / 2
         stiff = 2 * weak.tangent(a, b, np.zeros(len(a)), np.zeros(len(a)))
         turn = weak.tangent(a, b, np.ones(len(a)), np.zeros(len(a))) - stiff / 2
         h = 1 + uneven * side
-        d = (h[:, None, None] * stiff + p * turn) * self.weight[:, None, None]
+        return (
+            h[:, None] * strain + p * push,
+            h[:, None, None] * stiff + p * turn,
+            push,
+            side[:, None] * strain,
+        )
+
+    def evaluate(self, x: Array, p: float, uneven: float) -> tuple[Array, Array, Array, Array]:
+        """Residual, its derivatives by x, p and the unevenness, of the free coefficients."""
+        own, d, *others = self.local(self._at(x), p, uneven)
+        d = d * self.weight[:, None, None]
         k = np.zeros((3, 3, self.size, self.size))
         for c in range(3):
             for e in range(3):
@@ -118,10 +128,14 @@ class Galerkin:
                 self.free
             ]
 
-        own = h[:, None] * strain + p * push
-        return vector(own), matrix[np.ix_(self.free, self.free)], vector(push), vector(side[:, None] * strain)
+        load, thick = (vector(f) for f in others)
+        return vector(own), matrix[np.ix_(self.free, self.free)], load, thick
+
+    def enclosed(self, x: Array) -> float:
+        """Volume inside of the half circumference."""
+        a, b, place = self._at(x)
+        return float(self.weight @ weak.flux_of_radius(place, a, b))
 
     def volume(self, x: Array) -> float:
         """Volume of this quarter of the tube, less that of the tube at rest."""
-        a, b, place = self._at(x)
-        return float(self.weight @ weak.flux_of_radius(place, a, b)) - np.pi * self.half / 2
+        return self.enclosed(x) - np.pi * self.half / 2

@@ -30,6 +30,9 @@ OFFSETS = 0.1, 0.2, 0.3, 0.4
 """Offsets of bowed states of the even tube, through which a polynomial of A^2 is fitted."""
 
 
+BESIDE = 1e-3
+"""Part of an offset by which states are apart whose volumes are compared at an extremum."""
+
 AROUND = 0.7, 1.25
 """Offsets over that of the law between which a limit is sought."""
 
@@ -105,15 +108,26 @@ class Law:
     p_2: float
     rate: float
     push: float
+    volume_2: float
+    """V - V_c over the square of the offset."""
+    volume_rate: float
+    """dV/dp along the axisymmetric states."""
 
     @property
     def constant(self) -> float:
         """(p - p_c)/eps^(2/3) as eps vanishes."""
         return 3 * self.p_2 * (abs(self.push) / (2 * abs(self.rate * self.p_2))) ** (2 / 3)
 
-    def offset(self, uneven: float) -> float:
-        """Offset at the limit pressure, to leading order."""
-        return float(np.cbrt(-uneven * self.push / (2 * self.rate * self.p_2)))
+    @property
+    def volume_constant(self) -> float:
+        """(V - V_c)/eps^(2/3) at the extremum of the volume as eps vanishes."""
+        force = abs(self.volume_rate * self.push / (2 * self.rate * self.volume_2))
+        return 3 * self.volume_2 * force ** (2 / 3)
+
+    def offset(self, uneven: float, of_volume: bool = False) -> float:
+        """Offset at the limit pressure, or at the extremum of the volume, to leading order."""
+        second = self.volume_2 / self.volume_rate if of_volume else self.p_2
+        return float(np.cbrt(-uneven * self.push / (2 * self.rate * second)))
 
 
 def straight(of: Galerkin | Collocation, radius: float, guess: State | None = None) -> State:
@@ -137,32 +151,51 @@ def _bordered(state: State, transposed: bool = False) -> tuple[Array, float]:
     return out[:-1], -float(out[-1])
 
 
-def law(of: Galerkin | Collocation, low: float, high: float) -> Law:
-    """Where the even tube bows, between two radii in its middle, and the constants there."""
-    first = straight(of, low)
+def law(first: State, low: float, high: float, offsets: Sequence[float] = OFFSETS) -> Law:
+    """Where the even tube bows, between two radii in its middle, and the constants there.
+
+    Args:
+        first: An axisymmetric state near the smaller radius.
+        low: The smaller radius.
+        high: The larger one.
+        offsets: Offsets of bent states, through which a polynomial is fitted.
+    """
+    of = first.of
     at = brentq(lambda r: _bordered(straight(of, r, first))[1], low, high, xtol=1e-13)
     start = straight(of, at, first)
     mode, left = _bordered(start)[0], _bordered(start, transposed=True)[0]
-    slope = (straight(of, at + NEAR, start).p - straight(of, at - NEAR, start).p) / (2 * NEAR)
     beside = [straight(of, at + side * NEAR, start) for side in (-1, 1)]
+    slope, swelling = (
+        (getattr(beside[1], name) - getattr(beside[0], name)) / (2 * NEAR) for name in ("p", "volume")
+    )
     values = [left @ of.evaluate(s.x, s.p, 0.0)[1] @ mode for s in beside]
     push = float(left @ of.evaluate(start.x, start.p, 0.0)[3])
     states = []
-    for offset in OFFSETS:
+    for offset in offsets:
         guess = states[-1] if states else start
         x = guess.x.copy()
         x[of.free] += (offset - guess.offset) * mode
         states.append(solve(replace(guess, x=x), of.offset, offset))
-    squares = np.square(OFFSETS)
-    found = np.polyfit(np.append(0, squares), [start.p, *(s.p for s in states)], len(OFFSETS))
-    return Law(start, mode, float(found[-2]), (values[1] - values[0]) / (2 * NEAR) / slope, push)
+    squares = np.append(0, np.square(offsets))
+    second, volume_2 = (
+        float(np.polyfit(squares, [getattr(s, name) for s in (start, *states)], len(offsets))[-2])
+        for name in ("p", "volume")
+    )
+    rate_of = (values[1] - values[0]) / (2 * NEAR) / slope
+    return Law(start, mode, second, rate_of, push, volume_2, swelling / slope)
 
 
-def limits(about: Law, uneven: Sequence[float]) -> list[State]:
-    """The limits of the pressure of uneven tubes on their branches from rest, with growing unevenness."""
+def limits(about: Law, uneven: Sequence[float], of_volume: bool = False) -> list[State]:
+    """The limits of uneven tubes on their branches from rest, with growing unevenness.
+
+    Args:
+        about: Where the even tube bends.
+        uneven: The unevennesses.
+        of_volume: Whether extrema of the volume are wanted, instead of those of the pressure.
+    """
     of, found = about.start.of, []
     for value in uneven:
-        size = about.offset(value)
+        size = about.offset(value, of_volume)
         near = found[-1] if found else about.start
         x = near.x.copy()
         if not found:
@@ -172,6 +205,10 @@ def limits(about: Law, uneven: Sequence[float]) -> list[State]:
 
         def slope(factor: float, states: list[State] = states, size: float = size) -> float:
             near = min(states, key=lambda s: abs(s.offset - factor * size))
+            if of_volume:
+                ends = [solve(near, of.offset, (factor + d) * size) for d in (-BESIDE, BESIDE)]
+                states.extend(ends)
+                return ends[1].volume - ends[0].volume
             states.append(solve(near, of.offset, factor * size))
             return rate(states[-1])
 

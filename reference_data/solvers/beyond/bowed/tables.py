@@ -9,7 +9,7 @@ import numpy as np
 
 from reference_data.solvers.beyond.bowed.collocation import Collocation
 from reference_data.solvers.beyond.bowed.galerkin import Galerkin
-from reference_data.solvers.beyond.bowed.limits import Law, State, law, limits
+from reference_data.solvers.beyond.bowed.limits import Law, State, law, limits, straight
 from reference_data.solvers.core.tables import Column, Levels, Series, Table, agreed, rule
 from reference_data.solvers.registry import Builder
 
@@ -47,7 +47,10 @@ GIVEN = {"mesh": "tube", "lf": LENGTH, "alpha": 0.0, "delta": 1.0}
 @cache
 def laws() -> dict[type, list[Law]]:
     """The even tube on all grids."""
-    return {kind: [law(kind(LENGTH, *sizes), *BETWEEN) for sizes in pair] for kind, pair in GRIDS.items()}
+    return {
+        kind: [law(straight(kind(LENGTH, *sizes), BETWEEN[0]), *BETWEEN) for sizes in pair]
+        for kind, pair in GRIDS.items()
+    }
 
 
 @cache

@@ -9,6 +9,7 @@ Koiter's two-thirds law (:mod:`weakforms.solvers.continuation.expansion`).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,6 +38,10 @@ SMALL = 0.05
 
 CHANGES = {"tilt": 0.25, "uneven": 0.01}
 """Largest changes of an imperfection, in degrees and parts of the thickness, from state to state."""
+
+APART, SHRINKS = {"tilt": 0.1, "uneven": 3e-3}, 1 / 3
+"""Imperfections below which steps are shorter, and the power with which they and the distance of both
+branches shrink: a longer step could change over to the other branch."""
 
 
 class Counts:
@@ -77,6 +82,11 @@ class Window:
     step: float
     """Largest step, as a root mean square displacement."""
 
+    def beside(self, given: Mapping[str, float]) -> Window:
+        """The same with steps that are as short as imperfections ask for."""
+        shares = [min(1.0, (abs(e) / APART[name]) ** SHRINKS) for name, e in given.items() if e]
+        return replace(self, step=self.step * min(shares, default=1.0))
+
 
 @dataclass(frozen=True)
 class Axisymmetric:
@@ -116,10 +126,12 @@ class LiquidBranch(FilledBranch):
             with model.system.at(state):
                 return model.top() > state.loads["zw"]
 
+        seen = [start.monitors["V"]]
+
         def stop(point: CurvePoint) -> bool:
-            columns = point.monitors
-            far = abs(columns[AMPLITUDE]) > window.amplitude and point.arclength > 0
-            return far or columns["V"] > window.last or dry(point.state)
+            far = abs(point.monitors[AMPLITUDE]) > window.amplitude and point.arclength > 0
+            seen.append(point.monitors["V"])  # detached states may come down from a larger volume
+            return far or (seen[-1] > window.last and seen[-1] > seen[-2]) or dry(point.state)
 
         super().__init__(follow, "zw", start, stop, Counts(model))
         self.end_before(dry, "the liquid does not wet all of the tube any more")
@@ -146,7 +158,7 @@ def natural(
     Raises:
         ConvergenceError: If there is no first state.
     """
-    follow, at = follower(model, window), about.begin
+    follow, at = follower(model, window.beside(given)), about.begin
     r, z = (make_interp_spline(at.Z, values, SPLINE) for values in (at.r, at.z))
     loads = {"zw": at.values["zw"], **dict.fromkeys(given, 0.0)}
     guess = model.state_of(lambda s, _: np.vstack([r(s), 0 * s, z(s)]), loads)
@@ -215,9 +227,9 @@ def detached(even: LiquidBranch, name: str, given: dict[str, float], window: Win
     """
     side = -natural_side(expanded(even, name), given[name])
     whole = bent(even, side, window)
-    reached = side * whole.points[-1].monitors[AMPLITUDE]
+    reached = max(side * point.monitors[AMPLITUDE] for point in whole.points)
     held = Held(AMPLITUDE, side * min(window.amplitude, reached))
     begin = whole.at(AMPLITUDE, held.target).state
-    follow = follower(even.model, window)
+    follow = follower(even.model, window.beside(given))
     first = imperfect(follow.solver, begin, held, given)
     return LiquidBranch(even.model, follow.start(first, held, towards={AMPLITUDE: -side}), follow, window)
