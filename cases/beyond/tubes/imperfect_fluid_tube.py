@@ -45,7 +45,7 @@ class Kind:
     def at(self, size: float) -> Spec:
         """The imperfect tube, with its detached states only where they are judged or shown."""
         detached = self.volume_branch == "secondary" or size < 0
-        return self.even.at(**{self.key: size}, secondary=detached)
+        return self.even.at(**{self.key: size}, secondary=detached).on(**MESHES)
 
     @property
     def solved(self) -> tuple[tuple[Spec, None], ...]:
@@ -53,7 +53,9 @@ class Kind:
         return ((self.even, None), *((self.at(size), None) for size in self.sizes))
 
 
-BOTH = fluid_tube_imperfect(L=8, delta=5, u_end=0.6, secondary=True).on(cells=12, around=6, levels=2)
+BOTH = fluid_tube_imperfect(L=8, delta=5, u_end=0.6, secondary=True)
+"""On the default meshes, because curvatures of branches need them."""
+MESHES = {"cells": 12, "around": 6, "levels": 2}
 TILTED = Kind("tilted", "tilt", BOTH, (0.004, 0.012, 0.036, 0.108), "primary")
 LOBED = Kind(
     "lobed", "uneven", BOTH.at(delta=7, n=2, v_end=1.2), (4e-4, 1.2e-3, 3.6e-3, 1.08e-2), "secondary"

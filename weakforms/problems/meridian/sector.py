@@ -67,7 +67,7 @@ class Sector:
         self.unknown = fem.Function(self.space, name="sector")
 
     def surface(self, x: Expr | None = None) -> Surface:
-        """A position, the unknown one if none is given, with its derivatives; the frame turns with ``Theta``."""
+        """A position (default: the unknown one) with its derivatives; the frame turns with ``Theta``."""
         x = self.unknown if x is None else x
         a, b = x.dx(0), x.dx(1)
         return Surface(ufl.as_vector([*x]), a, ufl.as_vector([b[0] - x[1], b[1] + x[0], b[2]]))
