@@ -72,6 +72,10 @@ POWER = 2 / 3
 KOITER = 1e-2
 """Asked of the power and of the constants, which are limits for vanishing imperfections."""
 
+RATES = 1e-5
+"""Asked of the constants of the even tube: the other methods know them to a few 1e-6, because they take rates
+from central differences."""
+
 
 def distances(solutions: Solutions, kind: Kind, name: str) -> decide.Number:
     """Distances of the extrema from the bifurcation of the even tube."""
@@ -94,7 +98,7 @@ def koiter(solutions: Solutions, kind: Kind) -> Finding:
         full = decide.vanishing(distances(solutions, kind, name) * (1 / sizes), sizes)
         found += [
             decide.agree(f"{constant} of full solves", full, expected, KOITER),
-            decide.agree(f"{constant} of the even tube", own, expected, 1e-6),
+            decide.agree(f"{constant} of the even tube", own, expected, RATES),
         ]
     return decide.all_of(*found)
 
