@@ -24,8 +24,10 @@ from reference_data.solvers.core.newton import newton
 
 COARSE = 20, 2
 """Degree and waves of the first axisymmetric state."""
-NEAR = 1e-3
-"""Difference of pressures over which the eigenvalue's rate is a central difference."""
+NEAR = 2e-3
+"""Difference of radii over which rates along the axisymmetric states are central differences."""
+STENCIL = {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12}
+"""Weights of the states beside one, of fourth order."""
 OFFSETS = 0.1, 0.2, 0.3, 0.4
 """Offsets of bowed states of the even tube, through which a polynomial of A^2 is fitted."""
 
@@ -164,11 +166,10 @@ def law(first: State, low: float, high: float, offsets: Sequence[float] = OFFSET
     at = brentq(lambda r: _bordered(straight(of, r, first))[1], low, high, xtol=1e-13)
     start = straight(of, at, first)
     mode, left = _bordered(start)[0], _bordered(start, transposed=True)[0]
-    beside = [straight(of, at + side * NEAR, start) for side in (-1, 1)]
-    slope, swelling = (
-        (getattr(beside[1], name) - getattr(beside[0], name)) / (2 * NEAR) for name in ("p", "volume")
-    )
-    values = [left @ of.evaluate(s.x, s.p, 0.0)[1] @ mode for s in beside]
+    beside = [straight(of, at + side * NEAR, start) for side in STENCIL]
+    weights = np.array(list(STENCIL.values())) / NEAR
+    slope, swelling = (float(weights @ [getattr(s, name) for s in beside]) for name in ("p", "volume"))
+    rate_of = float(weights @ [left @ of.evaluate(s.x, s.p, 0.0)[1] @ mode for s in beside]) / slope
     push = float(left @ of.evaluate(start.x, start.p, 0.0)[3])
     states = []
     for offset in offsets:
@@ -181,7 +182,6 @@ def law(first: State, low: float, high: float, offsets: Sequence[float] = OFFSET
         float(np.polyfit(squares, [getattr(s, name) for s in (start, *states)], len(offsets))[-2])
         for name in ("p", "volume")
     )
-    rate_of = (values[1] - values[0]) / (2 * NEAR) / slope
     return Law(start, mode, second, rate_of, push, volume_2, swelling / slope)
 
 

@@ -29,8 +29,8 @@ OFFSETS = 0.04, 0.08, 0.12, 0.16, 0.2
 """Offsets of bent states of the even tube."""
 ROUNDING = 1e-9
 """Newton's last step; the place of a limit, which is a root of a slope, in other columns."""
-FITTED = 1e-7
-"""Curvatures from a polynomial in the square of the offset, and rates from central differences."""
+FITTED = 2e-8
+"""Curvatures from a polynomial in the square of the offset, and rates from differences of fourth order."""
 
 COLUMNS = {
     "tilt": ("1", "angle from the axis to the vertical, degrees"),
