@@ -98,9 +98,10 @@ def read(table: str, name: str, of: Callable[[type, int], list[float]], rounding
 def largest(name: str, of: Imperfect, key: str, of_volume: bool) -> Table:
     """Limit levels, or extreme volumes, by the imperfection."""
     found = extrema(of, of_volume)
-    columns = [read(name, "V", lambda kind, k: [s.volume for s in found[kind][k]], ROUNDING)]
+    columns = [read(name, "V", lambda kind, k: [s.volume for s in found[kind][k]], rounding=ROUNDING)]
     if not of_volume:
-        columns.insert(0, read(name, "zw", lambda kind, k: [s.p for s in found[kind][k]], ROUNDING))
+        levels = read(name, "zw", lambda kind, k: [s.p for s in found[kind][k]], rounding=ROUNDING)
+        columns.insert(0, levels)
     what = "Extreme volume" if of_volume else "Limit level"
     keys = SERIES[of].keys(**{key: np.array(SIZES[of])})
     title = f"{what} of an over-filled tube, by {key}"
@@ -109,19 +110,23 @@ def largest(name: str, of: Imperfect, key: str, of_volume: bool) -> Table:
 
 def begins(name: str, of: Imperfect, key: str) -> Table:
     """Where the even, upright tube bifurcates, and the constants of the laws."""
-    values: dict[str, tuple[Callable[[Law], float], float]] = {
-        "zw": (lambda one: one.start.p, ROUNDING),
-        "V": (lambda one: one.start.volume, ROUNDING),
-        "zw_2": (lambda one: one.p_2, FITTED),
-        "V_2": (lambda one: one.volume_2, FITTED),
-        f"zw_{key}": (lambda one: one.constant, FITTED),
-        f"V_{key}": (lambda one: one.volume_constant, FITTED),
+    values: dict[str, Callable[[Law], float]] = {
+        "zw": lambda one: one.start.p,
+        "V": lambda one: one.start.volume,
+        "zw_2": lambda one: one.p_2,
+        "V_2": lambda one: one.volume_2,
+        f"zw_{key}": lambda one: one.constant,
+        f"V_{key}": lambda one: one.volume_constant,
     }
+    roundings = [ROUNDING] * 2 + [FITTED] * 4
 
     def rows(of_law: Callable[[Law], float], kind: type, k: int) -> list[float]:
         return [of_law(laws(of)[kind][k])]
 
-    columns = [read(name, column, partial(rows, f), least) for column, (f, least) in values.items()]
+    columns = [
+        read(name, column, partial(rows, f), rounding)
+        for (column, f), rounding in zip(values.items(), roundings, strict=True)
+    ]
     title = f"Where an over-filled tube bifurcates, and Koiter's laws for {key}"
     return SERIES[of].table(name, title, "", given(of), columns)
 
