@@ -211,12 +211,19 @@ def bent(even: LiquidBranch, side: float, window: Window) -> LiquidBranch:
     return LiquidBranch(even.model, start, follow, window)
 
 
-def natural_side(about: Expansion, imperfection: float) -> float:
-    """Sign of the amplitude before the bifurcation, where the level rises with the volume."""
-    return float(np.sign(imperfection * about.push / about.linear * np.sign(about.conjugate_rate)))
+def natural_side(even: LiquidBranch, given: Mapping[str, float]) -> float:
+    """Sign of the amplitude before the bifurcation, where the level rises with the volume.
+
+    Raises:
+        AbsentError: If there is no bifurcation.
+    """
+    abouts = {name: expanded(even, name) for name, value in given.items() if value}
+    push = sum(given[name] * about.push for name, about in abouts.items())
+    about = next(iter(abouts.values()))
+    return float(np.sign(push / about.linear * np.sign(about.conjugate_rate)))
 
 
-def detached(even: LiquidBranch, name: str, given: dict[str, float], window: Window) -> LiquidBranch:
+def detached(even: LiquidBranch, given: dict[str, float], window: Window) -> LiquidBranch:
     """The branch of bent states to the other side, from the largest amplitude on.
 
     A bent state of the even tube with this amplitude is made imperfect.
@@ -225,7 +232,7 @@ def detached(even: LiquidBranch, name: str, given: dict[str, float], window: Win
         AbsentError: If there is no bifurcation.
         ConvergenceError: If the state is lost on the way.
     """
-    side = -natural_side(expanded(even, name), given[name])
+    side = -natural_side(even, given)
     whole = bent(even, side, window)
     reached = max(side * point.monitors[AMPLITUDE] for point in whole.points)
     held = Held(AMPLITUDE, side * min(window.amplitude, reached))

@@ -97,11 +97,6 @@ class ImperfectParameters(Parameters):
         """The imperfections by their loads."""
         return {name: getattr(self, name) for name in IMPERFECTIONS}
 
-    @property
-    def name(self) -> str:
-        """The imperfection that is not zero; empty of an even, upright tube."""
-        return next((name for name, value in self.imperfections.items() if value), "")
-
 
 class FluidTubeImperfect(BranchProblem):
     """An over-filled tube that has no symmetry of revolution to lose."""
@@ -112,7 +107,7 @@ class FluidTubeImperfect(BranchProblem):
     surfaces = True
 
     def check(self, parameters: ImperfectParameters, requests: Requests) -> None:
-        """Refuse a tilt that does not repeat around the axis, two imperfections, and one that is too small.
+        """Refuse a tilt that does not repeat around the axis, and an imperfection that is too small.
 
         Raises:
             InputError: With the value and the allowed ones.
@@ -122,11 +117,6 @@ class FluidTubeImperfect(BranchProblem):
             raise InputError(
                 f"{self.name}: tilt = {parameters.tilt:g} with n = {parameters.n}: tilt has one wave around "
                 "the axis; allowed: n = 1, or tilt = 0"
-            )
-        if all(parameters.imperfections.values()):
-            raise InputError(
-                f"{self.name}: tilt = {parameters.tilt:g} and uneven = {parameters.uneven:g}: allowed: one "
-                "of them, the other 0"
             )
         for name, value in parameters.imperfections.items():
             if 0 < abs(value) < LEAST[name]:
@@ -171,9 +161,9 @@ class FluidTubeImperfect(BranchProblem):
         def other(level: int) -> LiquidBranch:
             task.progress("secondary branch", level, numerics.levels)
             even = natural(model(level), about, dict.fromkeys(IMPERFECTIONS, 0.0), window)
-            if not given.name:
+            if not any(given.imperfections.values()):
                 return bent(even, 1.0, window)
-            return detached(even, given.name, given.imperfections, window)
+            return detached(even, given.imperfections, window)
 
         made = {"primary": first} | ({"secondary": other} if given.secondary else {})
         order = 2.0 * numerics.degree
