@@ -4,7 +4,8 @@ Paper 2 inflates axisymmetric states. A neo-Hookean tube of ten radii without pr
 bending (n = 1) before its limit point, and a short one of pre-stretch 2 to an oval section (n = 2). The
 branches are compared over the volume with two codes for the surface in space, and their curvatures at the
 beginning with fits of states of small amplitude and with the solved branch itself. Where a branch begins, its
-negative eigenvalues outside of its symmetry, and its smallest resultant, are those of free inflation.
+negative eigenvalues outside of its symmetry, and its smallest resultant, are those of free inflation. If the
+gas has a given mass, a large reservoir makes bent states unstable where this mass has a maximum.
 """
 
 import numpy as np
@@ -39,6 +40,8 @@ OVAL = BASE.at(secondary_n=2, alpha=0.0, delta1=2.0, lf=3.0, u_end=1.5)
 SECOND = OVAL.at(secondary_n=1, n=(0, 2))
 """The tube that becomes oval first; where it bends later, an oval section would lower its energy."""
 OVAL_TABLE = "bent_tube_oval"
+CONNECTED = tuple(NEO.at(gas_kappa=kappa, V_r=volume) for kappa, volume in ((1.0, 60.0), (1.4, 85.0)))
+"""The long tube with a reservoir, isothermal and adiabatic, in which the gas has a given mass."""
 BRANCH, KIND, OVAL_KIND = "secondary", "bifurcation_n1", "bifurcation_n2"
 OUTSIDE = tuple(f"n_negative_{name}" for name in ("even_odd", "odd_even", "odd_odd"))
 TAUT = (NEO, STIFFER, OVAL)
@@ -139,6 +142,17 @@ def held(solutions: Solutions) -> Finding:
     return decide.all_of(*found)
 
 
+def mass(solutions: Solutions) -> Finding:
+    """At a given mass bent states lose their stability at its maximum; without a reservoir they do not."""
+    found = []
+    for spec, wanted in ((NEO, [0]), *((spec, [0, 1]) for spec in CONNECTED)):
+        columns = solutions.branch(spec, BRANCH).columns
+        found.append(decide.same(f"counts, {spec}", decide.runs(columns["n_negative_all_mass"]), wanted))
+        falls, unstable = np.gradient(columns["m"]) < 0, columns["n_negative_all_mass"] > 0
+        found.append(decide.every(f"counts by the sign of dm/dV, {spec}", (falls == unstable)[1:-1]))
+    return decide.all_of(*found)
+
+
 def oval(solutions: Solutions) -> Finding:
     """Oval states lose their stability at fixed volume to a displacement that alternates."""
     columns = solutions.branch(OVAL, BRANCH).columns
@@ -214,6 +228,15 @@ CASE = Case(
                 Curve(OVAL, "oval", reference=OVAL_TABLE, branch=BRANCH),
             ),
         ),
+        Panel(
+            "e",
+            x=Axis("V", 5.9, 6.7),
+            y=Axis("m", 175.3, 176),
+            title=r"$\alpha = 0,\ l_f = 10$: mass of the gas in bent states, reservoir $V_r = 60$",
+            markers=("mass_fold", KIND),
+            counted=("n_negative_all_mass",),
+            curves=(Curve(CONNECTED[0], "bent", branch=BRANCH),),
+        ),
     ),
     checks=(
         Points(
@@ -268,6 +291,20 @@ CASE = Case(
             "a held volume removes one negative eigenvalue where the pressure falls with the volume",
             tuple((s, None) for s in (*TABLES, OVAL, SECOND)),
             held,
+        ),
+        Points(
+            "mass_fold",
+            "bent_tube_mass_folds",
+            NEO,
+            ("gas_kappa", "V_r"),
+            {"p": 1e-6, "m": 1e-6, "V": 1e-5, "u_wave": 5e-5},
+            branch=BRANCH,
+        ),
+        Claim(
+            "mass",
+            "with a large reservoir bent states lose their stability where the mass of the gas has a maximum",
+            tuple((s, None) for s in (NEO, *CONNECTED)),
+            mass,
         ),
         Claim("oval", "oval states lose their stability to alternating displacements", ((OVAL, None),), oval),
         Claim(

@@ -6,11 +6,13 @@ import ufl
 from dolfinx import fem
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
+from scipy.interpolate import PPoly, make_interp_spline
 
 from reference_data.solvers.beyond.bent_tube import energy, outside
 from reference_data.solvers.beyond.tube_waves.ritz import Basis
 from reference_data.solvers.core.mooney_rivlin import Tube as ReferenceTube
 from weakforms import ConvergenceError, InputError, solve
+from weakforms.problems.gas import Gas
 from weakforms.problems.meridian.families import EVEN as WAVE_EVEN
 from weakforms.problems.meridian.families import ODD as WAVE_ODD
 from weakforms.problems.meridian.families import Wave
@@ -268,11 +270,27 @@ def test_eigenvalues_of_all_classes_are_those_of_another_code():
             assert ours == pytest.approx(theirs, rel=1e-4, abs=1e-6)
 
 
+def test_with_a_reservoir_a_given_mass_of_gas_has_a_fold():
+    """Where ``(V + V_r) dp/dV + p + p_atm`` is zero along the branch without one, counts change there."""
+    found = solve("tube", **BENDING | {"V_r": 60.0}, numerics=COARSE)
+    (fold,) = found.points("mass_fold")
+    columns = found.branch("secondary").columns
+    v, p = columns["V"][1:], columns["p"][1:]
+    mass = make_interp_spline(v, (p + 1.0) * (v + 60.0), 5)
+    (at,) = PPoly.from_spline(mass.derivative()).roots(extrapolate=False)
+    assert fold.branch == "secondary"
+    assert fold.values["V"] == pytest.approx(at, rel=1e-4)
+    assert fold.values["m"] == pytest.approx(float(mass(at)), rel=1e-8)
+    unstable = columns["V"] > fold.values["V"]
+    for name in ("n_negative_mass", "n_negative_all_mass"):
+        assert np.array_equal(columns[name], np.where(unstable, 1, 0))
+
+
 def test_waves_for_which_the_classes_are_not_all_displacements_have_no_total():
     model = BentTube(MPI.COMM_SELF, TubeParameters(**BENDING).material, 1.0, 3.0, 3, SectorMesh(4, 2, 2, 0.0))
-    modes = BentModes(model)
+    modes = BentModes(model, Gas(1.0, 1.0, 0.0))
     with model.system.at(State(model.system.initial.u, {"p": 0.5})):
-        assert sorted(modes.counts()) == sorted(["n_negative_volume", *CLASSES])
+        assert sorted(modes.counts()) == sorted(["n_negative_volume", "n_negative_mass", *CLASSES])
 
 
 def test_a_rotation_that_is_no_zero_mode_is_refused(branch, monkeypatch):

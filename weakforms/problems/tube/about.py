@@ -60,6 +60,7 @@ BENT = (
         "of secondary_n = n; u_max is then the mean around the axis",
         "u_{wave}",
     ),
+    Column("m", "(p + p_atm) (V + V_r)^gas_kappa of a state with waves, conserved with the gas"),
     Column(
         "Lambda_rotation",
         "eigenvalue of the rotation of the pattern about the axis: exactly 0, its size shows the error",
@@ -76,6 +77,8 @@ BENT = (
             n_negative_all="of secondary_n = 1 and 2, number of negative eigenvalues at fixed p, all "
             "displacements: n_negative and those of all other classes",
             n_negative_all_volume="the same at fixed V: n_negative_volume and those of all other classes",
+            n_negative_mass="as n_negative_volume, of a state with waves, the mass of the gas held",
+            n_negative_all_mass="the same of all displacements, with those of all other classes",
         )
     ),
 )
@@ -167,10 +170,10 @@ TUBE = About(
         "forms.revolution:gas_energy",
     ),
     columns=(*FREE, *LOPSIDED, *BENT, *STABILITY, *CONTACT, *RELAXED, *column.DIAGNOSTICS),
-    numbers=(*NUMBERS, *WAVES, *CURVATURES),
+    numbers=(*NUMBERS, *WAVES, *CURVATURES, column.OUTSIDE, column.RESERVOIR),
     special_points=(
         *("limit_point", "bifurcation_point", "contact_onset", "wrinkling_onset"),
-        *(*BIFURCATIONS, "volume_fold"),
+        *(*BIFURCATIONS, "volume_fold", "mass_fold"),
     ),
     branches=("primary", "secondary"),
     example=Example("p", "u_max", {"alpha": 0.1, "delta1": 1.1}, numerics={"cells": 32, "levels": 2}),

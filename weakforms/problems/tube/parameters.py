@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal, Self, TypeVar
 from pydantic import Field, model_validator
 
 from weakforms.problems.branch_problem import MeshNumerics
+from weakforms.problems.gas import Gas, GasAround
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.sector import SectorMesh
 from weakforms.problems.problem import Needs
@@ -77,7 +78,7 @@ def resolving(lf: float, numerics: Meshes) -> Meshes:
     return numerics.model_copy(update={"cells": numerics.cells * 2 ** ceil(log2(lf / LONG))})
 
 
-class TubeParameters(MaterialChoice):
+class TubeParameters(GasAround):
     """The tube and its substrate."""
 
     ratio: ClassVar[str] = "alpha"
@@ -88,6 +89,7 @@ class TubeParameters(MaterialChoice):
         "n": [{"contact": ("none",)}],
         "secondary_n": [{"secondary": (True,)}],
         "secondary_from": [{"secondary": (True,)}],
+        **dict.fromkeys(("gas_kappa", "p_atm", "V_r"), ({"secondary_n": tuple(range(1, MOST_WAVES + 1))},)),
         "uneven": [{"extent": ("full",), "contact": ("none",)}],
     }
     movable: ClassVar = {"u_end": "le", "p_end": "le"}
@@ -139,6 +141,15 @@ class TubeParameters(MaterialChoice):
         description="uneven thickness, 1 + uneven Z/(lf/2) over its mean h_o; free inflation of the whole "
         "tube (extent = full). Lopsided states are then those whose bulge is at the other end",
     )
+
+    gas_kappa: float = Field(
+        1.0, ge=1, le=2, description="1: isothermal gas; ratio of specific heats: adiabatic"
+    )
+
+    @property
+    def gas(self) -> Gas:
+        """The gas with a given mass."""
+        return Gas(self.gas_kappa, self.p_atm, self.V_r)
 
     @property
     def stability(self) -> tuple[int, ...]:

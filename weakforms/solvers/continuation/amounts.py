@@ -18,17 +18,26 @@ Rate = Callable[[float, float, float, float], float]
 class AmountCurve(SolutionCurve):
     """A curve along which an amount has extrema."""
 
-    def folds(self, load: str, amount: str, kinds: Mapping[str, Rate]) -> list[tuple[int, Solved]]:
-        """Points where a rate is zero, by their kind, each with the index of the point before it."""
+    def folds(
+        self, load: str, amount: str, kinds: Mapping[str, Rate], within: tuple[int, int | None] = (0, None)
+    ) -> list[tuple[int, Solved]]:
+        """Points where a rate is zero, by their kind, each with the index of the point before it.
+
+        Args:
+            load: The load.
+            amount: The functional.
+            kinds: Rates by the kind of a point where they vanish.
+            within: First point that is looked at, and the one after the last.
+        """
 
         def value(at: Solved, rate: Rate, like: CurvePoint) -> float:
             tangent = self.continuation.direction(at.state, like.tangent)
             return rate(*self._rates(at.state, tangent, load, amount))
 
-        found = []
+        found, points = [], self.points[slice(*within)]
         for kind, rate in kinds.items():
-            rates = np.array([rate(*self._rates(p.state, p.tangent, load, amount)) for p in self.points])
-            for i in np.flatnonzero(rates[:-1] * rates[1:] < 0).tolist():
+            rates = np.array([rate(*self._rates(p.state, p.tangent, load, amount)) for p in points])
+            for i in (np.flatnonzero(rates[:-1] * rates[1:] < 0) + within[0]).tolist():
                 found.append((i, self.zero(i, partial(value, rate=rate, like=self.points[i]), kind)))
         return found
 

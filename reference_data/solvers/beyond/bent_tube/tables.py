@@ -6,6 +6,8 @@ from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial import Chebyshev
+from scipy.optimize import brentq
 
 from reference_data.solvers.beyond.bent_tube import energy, strong
 from reference_data.solvers.beyond.tube_waves.ritz import Basis
@@ -34,6 +36,14 @@ ASKED = {
     "short": Asked(Tube(0.0, 1.0, 6.0), (4.85, 5.1), 1.3, (), 0.15),
     "oval": Asked(Tube(0.0, 2.0, 3.0), (2.5, 2.7), 1.5, (2.63, 2.7, 2.8), 0.1, n=2),
 }
+MASS = "neo_hookean"
+"""Branch on which a gas of given mass is looked at."""
+GASES = ((1.0, 60.0), (1.4, 85.0))
+"""Exponents of the gas, and volumes of a reservoir, with the pressure one outside."""
+AROUND = 6.05, 6.45
+"""Volumes between which the extrema of the mass are."""
+ORDERS = 7, 9
+"""Numbers of Chebyshev nodes between them, of the coarse and the fine levels of both methods."""
 CALLED = {1: "bent", 2: "oval"}
 """Names of states by their wave number."""
 CROSSINGS = {"bent_tube_crossings": 1, "bent_tube_oval_crossings": 2}
@@ -77,6 +87,9 @@ COLUMNS = {
     "p": ("P R_f/(C1 h_o)", "pressure"),
     "u_max": ("(R_mid - R_f)/R_f", "radial displacement of the mid-plane, its mean around the axis"),
     "u_wave": ("u/R_f", "amplitude of cos(n theta) in the same, positive"),
+    "gas_kappa": ("1", "exponent of the gas; 1: isothermal"),
+    "V_r": ("2 pi R_f^3", "volume of a rigid reservoir"),
+    "m": ("as (p + p_atm) (V + V_r)^gas_kappa", "mass of the gas, p_atm = 1"),
     "p_2": ("as p", "curvature of p over u_wave at the crossing: p = p_c + p_2 u_wave^2 + ..."),
     "V_2": ("as V", "the same of the volume"),
 }
@@ -167,7 +180,44 @@ def crossings(table: str, n: int) -> Table:
     return SERIES.table(table, title, "", {"n": n}, [*keys, *columns], extra=extra)
 
 
+def folds(table: str = "bent_tube_mass_folds") -> Table:
+    """Bent states at which the mass of the gas inside has an extremum.
+
+    Pressure and amplitude are polynomials of the volume through states at Chebyshev nodes.
+    """
+    found = []
+    for count in ORDERS:
+        volumes = Chebyshev.basis(count, AROUND).roots()
+        found.append((volumes, states(MASS, np.sort(volumes), "V", FAR)))
+    rows: list[list[list[Array]]] = [[], []]
+    for method, out in enumerate(rows):
+        for level, (volumes, both) in enumerate(found):
+            out.append([_extremum(np.sort(volumes), both[method][level], *gas) for gas in GASES])
+    names = "V", "p", "u_wave", "m"
+    columns = [
+        column(table, name, *([np.array(level)[:, i] for level in rows_of] for rows_of in rows), floor=0.0)
+        for i, name in enumerate(names)
+    ]
+    tube = ASKED[MASS].tube
+    given = {"alpha": tube.alpha, "delta1": tube.delta1, "lf": tube.lf, "n": 1, "p_atm": 1.0}
+    keys = SERIES.keys(gas_kappa=[kappa for kappa, _ in GASES], V_r=[v for _, v in GASES])
+    title = "Bent states at which the mass of the gas inside has an extremum"
+    return SERIES.table(table, title, "", given, [*keys, *columns], extra={"keys": [k.name for k in keys]})
+
+
+def _extremum(volumes: Array, of: list[Any], kappa: float, reservoir: float) -> tuple[float, ...]:
+    """Volume, pressure, amplitude and mass at an extremum of the mass."""
+    degree = len(volumes) - 1
+    p, u = (
+        Chebyshev.fit(volumes, [getattr(s, name) for s in of], degree, AROUND) for name in ("p", "amplitude")
+    )
+    slope = p.deriv()
+    at = float(brentq(lambda v: (v + reservoir) * slope(v) + kappa * (p(v) + 1), *AROUND, xtol=1e-14))
+    return at, float(p(at)), float(u(at)), float((p(at) + 1) * (at + reservoir) ** kappa)
+
+
 TABLES = {
     **{f"bent_tube_{name}": partial(branch, name) for name, asked in ASKED.items() if asked.volumes},
     **{name: partial(crossings, name, n) for name, n in CROSSINGS.items()},
+    "bent_tube_mass_folds": folds,
 }

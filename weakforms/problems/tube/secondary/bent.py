@@ -17,6 +17,7 @@ import numpy as np
 from mpi4py import MPI
 from scipy.interpolate import make_interp_spline
 
+from weakforms.problems.gas import Gas, folds_of
 from weakforms.problems.meridian.families import EVEN, Wave
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
@@ -25,6 +26,7 @@ from weakforms.problems.tube.secondary.outside import BentModes
 from weakforms.problems.tube.secondary.surface import AMPLITUDE, BentTube
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.results import Field, Quantity
+from weakforms.solvers.continuation.amounts import AmountCurve
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Plane
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
@@ -43,7 +45,7 @@ READINGS, SPLINE = 400, 5
 """Number of positions at which free inflation is read for a first guess, and degree of the spline."""
 
 
-class BentBranch(FlaggedBranch):
+class BentBranch(AmountCurve, FlaggedBranch):
     """The branch on one mesh of the surface.
 
     Args:
@@ -52,17 +54,31 @@ class BentBranch(FlaggedBranch):
         begin: Index of the one at which the branch begins.
         step: Largest step.
         model: The surface.
+        gas: The gas inside.
     """
 
     along, amplitude = "V", AMPLITUDE
 
     def __init__(
-        self, primary: TubeBranch, crossings: Sequence[Solved], begin: int, step: float, model: BentTube
+        self,
+        primary: TubeBranch,
+        crossings: Sequence[Solved],
+        begin: int,
+        step: float,
+        model: BentTube,
+        gas: Gas,
     ) -> None:
         self.kind, self.called = Wave(model.n, EVEN).kind, f"n = {model.n}"
         self.family = {"n": float(model.n), "parity": float(EVEN)}
         located = [on_surface(primary, solved, model) for solved in crossings]
-        super().__init__(primary, located, begin, step, own=(model.system, BentModes(model)))
+        self._gas = gas
+        super().__init__(primary, located, begin, step, own=(model.system, BentModes(model, gas)))
+
+    def _placed(self) -> list[tuple[float, Solved]]:
+        """Besides, extrema of the volume and of the gas's mass, except crossings, where all rates vanish."""
+        found = super()._placed()
+        folds = self.folds("p", "V", folds_of(self._gas), (1, -1 if self.joins else None))
+        return found + [(self._arclength(i, solved), solved) for i, solved in folds]
 
     def _onsets(self) -> list[int]:
         """None: the coarsest mesh of a surface does not resolve the smallest resultant, beside the disk."""
@@ -165,7 +181,7 @@ def bent_family(
         progress(f"branch of n = {n}", level, len(meshes))
         tube = parameters.material, parameters.delta1, parameters.lf / 2
         model = BentTube(comm, *tube, n, meshes[level])
-        return BentBranch(primary.fine, crossings, number - 1, numerics.step, model)
+        return BentBranch(primary.fine, crossings, number - 1, numerics.step, model, parameters.gas)
 
     # Twice the degree is reached only on meshes that resolve the layer at the disk.
     return BentFamily(make, len(meshes), numerics.secondary_degree, ACROSS, "secondary")

@@ -16,6 +16,9 @@ mode dominates.
 With ``n = 1`` these classes are all displacements. With ``n = 2`` those that change sign from one wave to the
 next, odd about one of the meridians and even about the other, complete them. With more waves others are left
 out, and no total is given.
+
+The gas inside may have a given mass instead, :mod:`weakforms.problems.gas`. As with a given volume, this
+holds back displacements of the states' own class only.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from weakforms.errors import ConvergenceError
+from weakforms.problems.gas import Gas
 from weakforms.problems.meridian.families import Wave
 from weakforms.problems.tube.secondary.surface import EVEN, ODD, TURN, TURNING, BentTube, Parities
 from weakforms.solvers.stability.modes import SecondVariation, across, judged, rated
@@ -63,23 +67,29 @@ class BentModes:
 
     Args:
         model: The surface.
+        gas: The gas inside, if its mass is to be held.
     """
 
     wave_numbers: Sequence[Wave] = ()
-    columns: Sequence[str] = ("t_min", "Lambda_rotation")
+    columns: Sequence[str] = ("t_min", "Lambda_rotation", "m")
     full = False
 
-    def __init__(self, model: BentTube) -> None:
-        self.model, self._own = model, Stability(model.system)
+    def __init__(self, model: BentTube, gas: Gas) -> None:
+        self.model, self.gas, self._own = model, gas, Stability(model.system)
         self._classes = WHOLE.get(model.n, CLASSES)
         self._variations: dict[Parities, SecondVariation] = {}
         self._least = Least(model.unknown, model.principal_resultants())
 
     def observe(self) -> dict[str, float]:
-        """The lowest eigenvalue of the states' own class, the smallest resultant, and the rotation's."""
+        """The states' lowest eigenvalue, the smallest resultant, the rotation's eigenvalue, the mass."""
         own = judged(self._own, self.model.system.state(), 1).eigenvalues[0]
         least, (_, rotation) = self.least_resultant()[0], self.turned()
-        return {"eigenvalue_1": own, "t_min": least, "Lambda_rotation": rotation}
+        mass = self.gas.mass(*self._inside())
+        return {"eigenvalue_1": own, "t_min": least, "Lambda_rotation": rotation, "m": mass}
+
+    def _inside(self) -> tuple[float, float]:
+        """Pressure and volume."""
+        return self.model.system.load("p"), self.model.system.monitor("V")
 
     def least_resultant(self) -> tuple[float]:
         """Smallest of both principal resultants anywhere."""
@@ -92,7 +102,7 @@ class BentModes:
         return self._variations[parities]
 
     def counts(self, own: int | None = None) -> dict[str, int]:
-        """Negative eigenvalues at fixed volume, of the other classes, and of all of them, by inertia.
+        """Negative eigenvalues at fixed volume and mass, of the other classes, and of all, by inertia.
 
         Args:
             own: Number in the states' own class at fixed pressure, if it is known.
@@ -101,12 +111,16 @@ class BentModes:
             ConvergenceError: If the rotation of the pattern is no zero mode.
         """
         here = rated(self.model.system, self._own.factor, "p")
-        out = {"n_negative_volume": here.count_at_fixed}
+        held = {
+            "volume": here.count_at_fixed,
+            "mass": self.gas.count(here.count, *self._inside(), here.rate),
+        }
+        out = {f"n_negative_{what}": count for what, count in held.items()}
         out |= {name: sum(map(self._count, parts)) for name, parts in self._classes.items()}
         if self.model.n in WHOLE:
             rest = sum(out[name] for name in self._classes)
             out["n_negative_all"] = rest + (here.count if own is None else own)
-            out["n_negative_all_volume"] = rest + here.count_at_fixed
+            out |= {f"n_negative_all_{what}": rest + count for what, count in held.items()}
         return out
 
     def _count(self, parities: Parities) -> int:
