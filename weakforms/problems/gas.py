@@ -65,19 +65,19 @@ def folds_of(gas: Gas | None) -> dict[str, Rate]:
     return {"volume_fold": _volume} | ({} if gas is None else {"mass_fold": gas.balance})
 
 
-class GasAround(MaterialChoice):
-    """A membrane of any law, the pressure around it, and a reservoir."""
-
-    p_atm: float = Field(1.0, ge=0, le=1e4, description="absolute pressure outside; 0 is a vacuum")
-    V_r: float = Field(
-        0.0, ge=0, le=1e6, description="volume of a rigid reservoir, for the part whose volume is V; 0: none"
-    )
+EXPONENT = Field(1.0, ge=1, le=2, description="1: isothermal gas; ratio of specific heats: adiabatic")
+OUTSIDE = Field(1.0, ge=0, le=1e4, description="absolute pressure outside; 0 is a vacuum")
+RESERVOIR = Field(
+    0.0, ge=0, le=1e6, description="volume of a rigid reservoir, for the part whose volume is V; 0: none"
+)
 
 
-class GasChoice(GasAround):
-    """The gas inside such a membrane too."""
+class GasChoice(MaterialChoice):
+    """The gas inside a membrane of any law."""
 
-    kappa: float = Field(1.0, ge=1, le=2, description="1: isothermal gas; ratio of specific heats: adiabatic")
+    kappa: float = EXPONENT
+    p_atm: float = OUTSIDE
+    V_r: float = RESERVOIR
 
     @property
     def gas(self) -> Gas:

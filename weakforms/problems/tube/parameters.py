@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal, Self, TypeVar
 from pydantic import Field, model_validator
 
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.problems.gas import Gas, GasAround
+from weakforms.problems.gas import EXPONENT, OUTSIDE, RESERVOIR, Gas
 from weakforms.problems.material_choice import MaterialChoice
 from weakforms.problems.meridian.sector import SectorMesh
 from weakforms.problems.problem import Needs
@@ -78,7 +78,7 @@ def resolving(lf: float, numerics: Meshes) -> Meshes:
     return numerics.model_copy(update={"cells": numerics.cells * 2 ** ceil(log2(lf / LONG))})
 
 
-class TubeParameters(GasAround):
+class TubeParameters(MaterialChoice):
     """The tube and its substrate."""
 
     ratio: ClassVar[str] = "alpha"
@@ -142,9 +142,9 @@ class TubeParameters(GasAround):
         "tube (extent = full). Lopsided states are then those whose bulge is at the other end",
     )
 
-    gas_kappa: float = Field(
-        1.0, ge=1, le=2, description="1: isothermal gas; ratio of specific heats: adiabatic"
-    )
+    gas_kappa: float = EXPONENT
+    p_atm: float = OUTSIDE
+    V_r: float = RESERVOIR
 
     @property
     def gas(self) -> Gas:
