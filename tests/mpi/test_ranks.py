@@ -59,6 +59,15 @@ def test_lines_of_wrinkled_tubes(same_on_ranks):
     assert [branch.name for branch in found.branches] == ["fold", "end"]
 
 
+@pytest.mark.paper5
+@pytest.mark.slow
+def test_lines_of_wrinkled_tubes_filled_in_part(same_on_ranks):
+    tube = {"problem": "diagram", "body": "wrinkled_tube", "alpha": 0.01, "kind": "fold", "y": "zw"}
+    plane = {"x": "delta", "delta": 2.0, "Af": 0.5, "gamma": 0.3, "low": 1.98, "high": 2.0, "V_end": 30.0}
+    (found,) = same_on_ranks([tube | plane | {"numerics": MESH | {"cells": 32}}])
+    assert "fold" in {branch.name for branch in found.branches}
+
+
 @pytest.mark.paper2
 def test_controls_of_inflation(same_on_ranks):
     inflated = {"problem": "controls", "alpha": 0.0, "V_r": 20.0, "numerics": MESH | {"cells": 24}}
