@@ -16,6 +16,7 @@ MODULES = sorted(p.relative_to(DATA / "solvers") for f in FOLDERS for p in f.glo
 TEXTS = ("title", "source", "method", "grid", "tolerance", "notes", "abscissa")
 
 UNFINISHED = {
+    "beyond.bent_tube.tables.folds",
     "beyond.filled_disk.tables.extremum",
     "beyond.lopsided.tables.limits",
     "beyond.lopsided.tables_uneven.extrema",
