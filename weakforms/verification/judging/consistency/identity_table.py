@@ -256,6 +256,7 @@ IDENTITIES: dict[str, tuple[Identity, ...]] = {
         _over(field("H", "H = w - lam1 w_1", lambda r, s, c: formulas.hamiltonian(r, s, c) / 2), _of_paper),
         zero("Lambda_rotation"),
     ),
+    "fluid_tube_imperfect": (work("zw", lambda result, c: -result.parameters["gamma"] * c["V"]),),
     "sphere": (
         _over(work("P", lambda _, c: -(c["lam"] ** 3) / 3), lambda given: not given.get("vary")),
         equal("lam1", "both stretches are one", lambda c: c["lam"]),
