@@ -335,4 +335,5 @@ CASE = Case(
             small_strains,
         ),
     ),
+    slow=True,
 )

@@ -87,4 +87,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 5e-10, "lam_pole": 5e-10, "V": 5e-10, "lam1_rim": 1e-6},
+    slow=True,
 )

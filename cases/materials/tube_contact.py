@@ -56,4 +56,5 @@ CASE = Case(
         **dict.fromkeys(("line_force", "line_force_membrane"), 5e-5),
         **dict.fromkeys(("traction_front", "traction_max"), 1e-3),
     },
+    slow=True,
 )

@@ -144,4 +144,5 @@ CASE = Case(
         ),
     ),
     asked=dict.fromkeys(("p", "alpha", "angle", "t0", "lam_pole", *EIGENVALUES), 1e-7),
+    slow=True,
 )

@@ -84,4 +84,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 1e-7, "alpha": 1e-7, "delta1": 1e-7},
+    slow=True,
 )
