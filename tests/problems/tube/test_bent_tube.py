@@ -187,6 +187,7 @@ def test_of_a_compressed_tube_counts_that_depend_on_the_mesh_are_left_out(famili
                 family.state("V", 6.1)
 
 
+@pytest.mark.slow  # as the claim on resultants of beyond.bent_tube
 def test_where_the_branch_begins_the_smallest_resultant_is_that_of_the_meridian():
     fine = COARSE | {"secondary_cells": 32, "secondary_degree": 6}
     found = solve("tube", **BENDING, numerics=fine)
