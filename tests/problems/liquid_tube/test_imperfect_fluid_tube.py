@@ -5,6 +5,7 @@ import pytest
 import ufl
 from dolfinx import fem
 from mpi4py import MPI
+from scipy.interpolate import make_interp_spline
 
 from weakforms import InputError, solve
 from weakforms.forms.fluid import Surface, membrane_work, normal
@@ -73,11 +74,11 @@ def test_the_bifurcation_is_that_of_the_axisymmetric_problem(about, even):
 def test_the_force_of_a_tilt_is_that_of_the_meridian(about, even):
     """``B = gamma pi int r (r z' u - r r' w) dZ`` by state and mode of the axisymmetric problem."""
     at, (u, _, w) = about.bifurcation, about.bifurcation.mode
-    r_z, z_z = (np.gradient(values, at.Z, edge_order=2) for values in (at.r, at.z))
-    density = at.r * (at.r * z_z * u - at.r * r_z * w)
-    middle = np.interp(TUBE.length / 2, at.Z, u)
-    force = TUBE.gamma * np.pi * np.trapezoid(density, at.Z) / middle * np.pi / 180
-    assert expanded(even, "tilt").push == pytest.approx(force, rel=1e-3)
+    r, z, u, w = (make_interp_spline(at.Z, values, 5) for values in (at.r, at.z, u, w))
+    density = at.r**2 * (z.derivative()(at.Z) * u(at.Z) - r.derivative()(at.Z) * w(at.Z))
+    whole = make_interp_spline(at.Z, density, 5).integrate(0, TUBE.length)
+    force = TUBE.gamma * np.pi * float(whole / u(TUBE.length / 2)) * np.pi / 180
+    assert expanded(even, "tilt").push == pytest.approx(force, rel=1e-5)
 
 
 def test_an_opposite_tilt_bends_to_the_opposite_side():
@@ -88,7 +89,8 @@ def test_an_opposite_tilt_bends_to_the_opposite_side():
         assert a.values["u_wave"] == pytest.approx(-b.values["u_wave"], rel=1e-6)
         assert a.values["zw"] == pytest.approx(b.values["zw"], rel=1e-10)
     # by two other methods: beyond.imperfect_fluid_tube
-    assert one.points("limit_point")[0].values["zw"] == pytest.approx(8.916744, abs=2e-5)
+    limit = one.points("limit_point")[0]
+    assert abs(limit.values["zw"] - 8.916744) < min(limit.uncertainty["zw"], 2e-5)
 
 
 def test_detached_states_of_an_uneven_tube_have_a_smallest_volume():

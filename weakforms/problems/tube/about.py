@@ -157,7 +157,11 @@ DEFLATION = {"contact": "adhesive", "phase": "deflation", "delta1": 1.2, "p_end"
 TUBE = About(
     name="tube",
     title="Inflation of a pre-stretched cylindrical membrane",
-    **SHARED | {"energy": SHARED["energy"] + "; uneven: w (1 + uneven Z/(lf/2)), from -lf/2 to lf/2"},
+    **SHARED
+    | {
+        "energy": f"{SHARED['energy']};  if the thickness is uneven, w is multiplied by "
+        "1 + uneven Z/(lf/2), and the integral is over the whole tube"
+    },
     control="p (past a limit point compare over u_max, which increases along the whole branch)",
     unknown="(rho, eta) over half the tube, held at the disk and symmetric at mid-length, or over all of it",
     forms=(

@@ -137,7 +137,7 @@ class BentModes:
         variation = self.variation(TURNED)
         dual, _ = variation.monitor_gradient(TURNING, ())
         square, found = variation.monitor(TURN), across(variation, variation.factor, dual)
-        if np.sqrt(square / self.model.half) < SMALLEST_TURN:
+        if np.sqrt(square / self.model.length) < SMALLEST_TURN:
             return found.count_at_fixed, 0.0
         answer = variation.factor.solve(dual)
         largest = np.sqrt(square * variation.dot(answer, variation.mass_times(answer)))

@@ -88,7 +88,7 @@ class BentTube(Sector):
         self, comm: MPI.Intracomm, material: Chosen, delta1: float, half: float, n: int, at: SectorMesh
     ) -> None:
         super().__init__(comm, half, n, at, one_end(at.grading))
-        self.half, self.delta1 = half, delta1
+        self.delta1 = delta1
         self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), 0 * x[0], x[0]]))
         self._law = material.surface_law(self.mesh)
         pressure = fem.Constant(self.mesh, 0.0)
@@ -120,7 +120,7 @@ class BentTube(Sector):
             unknown=self.unknown,
             residual=ufl.derivative(energy, self.unknown, test),
             loads=self.loads,
-            bcs=self.conditions(OWN, np.array([1.0, self.half])),
+            bcs=self.conditions(OWN, np.array([1.0, self.length])),
             mass=share * ufl.inner(trial, test) * self.dx,
             monitors={
                 "u_max": share * (at.x[0] - 1) * self.middle,
@@ -174,7 +174,7 @@ class BentTube(Sector):
         edges = {"middle": (0, 0.0), "first": (1, 0.0), "last": (1, self.width)}
         places = {name: partial(_on, axis=axis, value=value) for name, (axis, value) in edges.items()}
         disk = self.held(
-            partial(_on, axis=0, value=self.half),
+            partial(_on, axis=0, value=self.length),
             lambda s, _: np.vstack([0 * s + ring[0], 0 * s, 0 * s + ring[1]]),
         )
         zero = [(part, places[mirror]) for parts, mirror in parities.vanishing for part in parts]
