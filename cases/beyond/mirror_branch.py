@@ -155,4 +155,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 1e-7, "u_max": 1e-7, "w_mid": 1e-7, "rho": 1e-6, "eta": 1e-6},
+    slow=True,
 )

@@ -74,4 +74,5 @@ CASE = Case(
         ),
     ),
     asked=ASKED,
+    slow=True,
 )

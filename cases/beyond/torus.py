@@ -211,4 +211,5 @@ CASE = Case(
     asked=dict.fromkeys(("p", "r_out", "r_in", "U", "virial", "r", "z"), ASKED)
     | {"z_top": ASKED, "lam1": 1e-6, "lam2": 1e-6}
     | {f"Lambda_n{n}_1": ASKED for n in range(4)},
+    slow=True,
 )

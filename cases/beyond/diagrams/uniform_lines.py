@@ -113,4 +113,5 @@ CASE = Case(
         ),
     ),
     asked=dict.fromkeys(("p", "alpha", "mu2", "lam1", "lam2", "jm", "force"), 1e-7),
+    slow=True,
 )

@@ -65,4 +65,5 @@ CASE = Case(
         ),
     ),
     asked={},
+    slow=True,
 )

@@ -40,4 +40,5 @@ CASE = Case(
         ),
     ),
     asked={"p": 1e-9, "lam1_mid": 1e-6, "t1_mid": 1e-6, "V": 1e-9},
+    slow=True,
 )

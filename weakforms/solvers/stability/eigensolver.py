@@ -15,6 +15,13 @@ from weakforms.solvers.support.compat import PETSC_ERRORS
 
 Inverse = Callable[[np.ndarray], np.ndarray]
 
+BASIS = 7
+"""Vectors in the basis beyond the eigenvalues wanted. SLEPc takes 15, each of them a solve; restarts of the
+smaller basis cost less than these, because few eigenvalues lie near a target."""
+
+RESIDUAL = 1e-10
+"""Relative residual of an eigenvector at which SLEPc stops. The error of an eigenvalue is of its square."""
+
 
 def shift_and_invert(comm: MPI.Intracomm, prefix: str) -> SLEPc.EPS:
     r"""A solver of :math:`K x = \mu M x` for the eigenvalues nearest to its target.
@@ -33,6 +40,21 @@ def shift_and_invert(comm: MPI.Intracomm, prefix: str) -> SLEPc.EPS:
     st.setType("sinvert")
     st.getKSP().setType("preonly")
     return eps
+
+
+def seek(eps: SLEPc.EPS, wanted: int, rows: int, wider: int = 1) -> None:
+    """Ask for a number of eigenvalues.
+
+    Args:
+        eps: The solver.
+        wanted: Their number.
+        rows: Size of the matrix.
+        wider: Factor of the basis, for eigenvalues that lie close together.
+    """
+    basis = min(wider * max(2 * wanted, wanted + BASIS), rows)
+    eps.setDimensions(nev=wanted, ncv=basis, mpd=basis)
+    eps.setTolerances(tol=RESIDUAL, max_it=200)
+    eps.setFromOptions()
 
 
 def by_cholesky(eps: SLEPc.EPS) -> None:

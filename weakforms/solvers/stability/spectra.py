@@ -22,6 +22,7 @@ from weakforms.solvers.stability.eigensolver import (
     by_cholesky,
     by_inverse,
     give_back,
+    seek,
     shift_and_invert,
 )
 from weakforms.solvers.support.compat import PETSC_ERRORS
@@ -32,7 +33,7 @@ LOWEST = -1e12
 BACKWARD_ERROR = 1e-12
 """Relative residual of a solve above which a factorisation is repeated with pivoting."""
 
-CROWDED = 4
+CROWDED = 8
 """Factor of the basis if no eigenvalue converges: then many lie close together, as those of short waves."""
 
 BESIDE = 1e-4
@@ -104,11 +105,7 @@ class Stability:
             eps, self._inverse.solve = self._kept, inverse
         eps.setOperators(self.system.matrix, self.system.mass)
         eps.setTarget(target)
-        usual = max(2 * wanted, wanted + 15)  # SLEPc's rule
-        basis = min(wider * usual, self.system.matrix.getSize()[0])
-        eps.setDimensions(nev=wanted, ncv=basis, mpd=basis)
-        eps.setTolerances(tol=1e-12, max_it=200)
-        eps.setFromOptions()
+        seek(eps, wanted, self.system.matrix.getSize()[0], wider)
         return eps
 
     def spectrum(self, state: State, count: int = 2, shift: float = 0.0) -> Spectrum:
