@@ -89,3 +89,20 @@ def test_a_process_that_does_not_finish_is_not_waited_for_for_ever(tmp_path, mon
         TimeoutError, match=r"has not finished libffcx_forms_\w+ in 1 s; if none runs, delete .*\.c"
     ):
         compiled(tmp_path, timeout=1)
+
+
+@pytest.mark.parametrize(("degree", "level"), [(2, "-O1"), (3, "-O2")])
+def test_element_matrices_of_surfaces_are_optimised_further(tmp_path, monkeypatch, degree, level):
+    commands, run = [], libraries.subprocess.run
+
+    def noted(command, **how):
+        commands.append(command)
+        return run(command, **how)
+
+    monkeypatch.setattr(libraries.subprocess, "run", noted)
+    square = mesh.create_unit_square(MPI.COMM_SELF, 1, 1, mesh.CellType.quadrilateral)
+    space = fem.functionspace(square, ("Lagrange", degree))
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    fem.form(ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx, jit_options={"cache_dir": tmp_path})
+    (command,) = commands
+    assert [argument for argument in command if argument.startswith("-O")][-1] == level  # the last one counts

@@ -65,8 +65,9 @@ def install() -> None:
         return
     kernels.install()
     defaults = dolfinx_jit.DOLFINX_DEFAULT_JIT_OPTIONS
-    usual, about = defaults["cffi_extra_compile_args"]
-    defaults["cffi_extra_compile_args"] = ([*usual, kernels.MARK, libraries.MARK], about)
+    _, about = defaults["cffi_extra_compile_args"]
+    arguments = [*libraries.ARGUMENTS, kernels.MARK, libraries.MARK]
+    defaults["cffi_extra_compile_args"] = (arguments, about)
     _, about = defaults["timeout"]
     defaults["timeout"] = (PATIENCE, about)
     # Files in the current folder, written by anybody, must not change how forms are compiled: neither the
