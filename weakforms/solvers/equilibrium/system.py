@@ -11,6 +11,8 @@ import ufl
 from dolfinx import cpp, fem, la
 from mpi4py import MPI
 from petsc4py import PETSc
+from ufl.classes import Variable
+from ufl.corealg.traversal import traverse_unique_terminals
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.solvers.equilibrium.formulation import Formulation
@@ -22,6 +24,9 @@ from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
 SMALL_DISPLACEMENT = 1e-3
 """Smaller displacements count as this value in :meth:`System.force_size`: lengths are of order one, and
 strains, which are their differences, contain their round-off."""
+
+_zero: dict[str, bool] = {}
+"""Whether a form is zero, by its signature, which does not depend on the mesh."""
 
 
 class System(Lendable):
@@ -230,8 +235,7 @@ class System(Lendable):
         """Name of ``∂/∂λ`` of a scalar form; it aims at that load."""
         name = f"{key}_d_{self._aim(load)}"
         if name not in self._ufl:
-            variable = self.formulation.loads[load][1]
-            self._ufl[name] = ufl.algorithms.expand_derivatives(ufl.diff(form, variable))
+            self._ufl[name] = _rate(form, self.formulation.loads[load][1])
         return name
 
     def _scalar_derivatives(self, key: str, form: ufl.Form, loads: Iterable[str]) -> dict[str, float]:
@@ -319,3 +323,20 @@ class System(Lendable):
         if name not in self.formulation.monitors:
             known = ", ".join(self.formulation.monitors)
             raise InputError(f"cannot control {name!r}: the functionals of this problem are {known}")
+
+
+def _rate(form: ufl.Form, variable: Variable) -> ufl.Form:
+    """``∂/∂λ`` of a form, without integrals if it is zero."""
+    rate = ufl.diff(form, variable)
+    parts = (integral.integrand() for integral in form.integrals())
+    if not any(variable.label() in traverse_unique_terminals(part) for part in parts):
+        return ufl.Form([])
+    return ufl.Form([]) if _is_zero(rate) else rate
+
+
+def _is_zero(form: ufl.Form) -> bool:
+    """Whether derivatives in a form cancel; they are expanded once for the same form on all meshes."""
+    name = form.signature()
+    if name not in _zero:
+        _zero[name] = not ufl.algorithms.expand_derivatives(form).integrals()
+    return _zero[name]
