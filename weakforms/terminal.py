@@ -283,7 +283,8 @@ def guarded(run: Callable[[], Any], debug: bool = False) -> int:
         status, text = _verdict_on(error)
         if text:
             complain(text)
-        end_ranks_that_wait(status, text)
+        if status:  # a completed word ends a process without an error, and should not wait for MPI
+            end_ranks_that_wait(status, text)
         return status
     return outcome if isinstance(outcome, int) else 0
 

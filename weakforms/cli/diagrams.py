@@ -14,9 +14,9 @@ from weakforms.terminal import complain, console, plain, rank, request
 
 
 def _bodies() -> list[str]:
-    from weakforms.problems.diagram.parameters import DiagramParameters
+    from weakforms.problems.diagram.about import Body
 
-    return list(get_args(DiagramParameters.model_fields["body"].annotation))
+    return list(get_args(Body))
 
 
 @app.command(

@@ -13,12 +13,13 @@ from functools import cache
 from importlib import resources
 from itertools import islice
 from pathlib import Path
-from typing import Any
-
-import jsonschema
+from typing import TYPE_CHECKING, Any
 
 from weakforms.errors import InputError
 from weakforms.results.result import Result
+
+if TYPE_CHECKING:
+    import jsonschema
 
 MAX_JSON_BYTES = 32 * 2**20
 """Largest size of a JSON file, which needs up to thirty times as much memory."""
@@ -43,6 +44,8 @@ def validate(data: dict[str, Any]) -> None:
     Raises:
         InputError: If it does not fit; the message names the first place.
     """
+    import jsonschema
+
     validator = jsonschema.Draft202012Validator(schema())
     try:
         error = first_error(validator, data)

@@ -202,26 +202,56 @@ def test_help_shows_no_default_where_there_is_none(weakforms):
     assert "default: 1" in weakforms("solve", "--help").out
 
 
-def test_a_shell_completes_verbs_problems_and_cases():
-    def completed(words: str) -> str:
-        given = {
-            "_WEAKFORMS_COMPLETE": "complete_bash",
-            "COMP_WORDS": words,
-            "COMP_CWORD": str(words.count(" ")),
-        }
-        code = "import sys; sys.argv[0] = 'weakforms'; from weakforms.cli import main; main()"
-        done = subprocess.run(
-            [sys.executable, "-c", code], env=os.environ | given, capture_output=True, text=True, check=True
-        )
-        assert done.stderr == ""
-        return done.stdout
+COMPLETE = """
+import io, json, os, sys
+from contextlib import redirect_stdout
+sys.argv[0] = "weakforms"
+from weakforms.cli import main
+said = []
+for words in json.loads(sys.argv.pop()):
+    os.environ |= {"COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+    with redirect_stdout(io.TextIOWrapper(io.BytesIO())) as out:
+        try:
+            main()
+        except SystemExit as end:
+            assert not end.code
+    out.flush()
+    said.append(out.buffer.getvalue().decode().split())
+print(json.dumps([said, list(sys.modules)]))
+"""
+"""Completes words as bash asks for it, one after the other: a start of Python takes longer than they do."""
 
-    assert completed("weakforms sol").split() == ["solve"]
-    assert set(completed("weakforms solve tube").split()) == {"tube", "tube_fold", "tube_scheme"}
-    assert "paper2.fig03" in completed("weakforms check paper2.fig0").split()
-    assert completed("weakforms compare paper2.fig03").split() == ["paper2.fig03"]
-    assert {"tube", "tube_fold"} < set(completed("weakforms show t").split())
-    assert completed("weakforms deck t").split() == completed("weakforms diagram t").split() == ["tube"]
+
+@pytest.fixture(scope="module")
+def completed():
+    """The completions of some words, and the modules that they need."""
+    ends = ("sol", "solve tube", "check paper2.fig0", "compare paper2.fig03", "show t", "deck t", "diagram t")
+    done = subprocess.run(
+        [sys.executable, "-c", COMPLETE, json.dumps([f"weakforms {words}" for words in ends])],
+        env=os.environ | {"_WEAKFORMS_COMPLETE": "complete_bash"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    said, modules = json.loads(done.stdout)
+    return dict(zip(ends, said, strict=True)), modules
+
+
+def test_a_shell_completes_verbs_problems_and_cases(completed):
+    said, _ = completed
+    assert said["sol"] == ["solve"]
+    assert set(said["solve tube"]) == {"tube", "tube_fold", "tube_scheme"}
+    assert "paper2.fig03" in said["check paper2.fig0"]
+    assert said["compare paper2.fig03"] == ["paper2.fig03"]
+    assert {"tube", "tube_fold"} < set(said["show t"])
+    assert said["deck t"] == said["diagram t"] == ["tube"]
+
+
+def test_a_shell_that_completes_a_word_waits_for_no_large_library(completed):
+    _, modules = completed
+    assert {"weakforms", "numpy"} <= set(modules)
+    assert not {"dolfinx", "petsc4py", "gmsh", "scipy", "matplotlib", "jsonschema"} & set(modules)
 
 
 def test_the_reader_of_a_pipe_may_leave_without_a_word():

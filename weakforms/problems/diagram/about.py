@@ -1,11 +1,15 @@
 """What is said of the problem ``diagram``."""
 
 import math
+from typing import Literal
 
 from weakforms.problems import column
 from weakforms.problems.about import LINE, MORE, About, Example, Family
 from weakforms.problems.column import Column, Units, derived, numbers
 from weakforms.results import OF_LONG_WAVES, WITH_WAVES
+
+Body = Literal["tube", "circular", "hemisphere", "sphere", "infinite_tube", "fluid_tube", "wrinkled_tube"]
+"""Membranes whose critical points are followed."""
 
 WAVES = ("n1", "n2", "n3")
 """Kinds of lines at which one, two or three waves around the axis are neutral."""

@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from weakforms.problems.branch_problem import MeshNumerics
-from weakforms.problems.diagram.about import BREAKING, LINES, PLAIN, WAVES
+from weakforms.problems.diagram.about import BREAKING, LINES, PLAIN, WAVES, Body
 from weakforms.problems.diagram.subjects import SUBJECTS, Subject
 from weakforms.problems.diagram.window import Window
 from weakforms.problems.material_choice import MaterialChoice
@@ -59,9 +59,7 @@ class DiagramParameters(MaterialChoice):
         **dict.fromkeys(("p_low", "p_high"), INFLATED),
     }
 
-    body: Literal[
-        "tube", "circular", "hemisphere", "sphere", "infinite_tube", "fluid_tube", "wrinkled_tube"
-    ] = Field("tube", description="membrane")
+    body: Body = Field("tube", description="membrane")
     x: str = Field("", description="first axis; default: the first parameter of the membrane, or of its law")
     y: str = Field(
         "p",

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import basix.ufl
-import gmsh
 import numpy as np
 import ufl
 from dolfinx import mesh as dmesh
@@ -143,6 +142,8 @@ def hemisphere(size: float) -> Triangulation:
     Args:
         size: Length of the edges.
     """
+    import gmsh  # its library is large, and few meshes need it
+
     mine = not gmsh.isInitialized()
     if mine:
         gmsh.initialize(interruptible=False)

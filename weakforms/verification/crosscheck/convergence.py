@@ -20,7 +20,6 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from weakforms.errors import InputError
 from weakforms.verification.crosscheck.rows import FAILED, NOT_JUDGED, PASSED, JudgedColumn
@@ -139,6 +138,8 @@ def _at(judged: JudgedColumn, x: np.ndarray) -> np.ndarray:
     rows, error = judged.x[order], judged.error[order]
     if np.isin(x, rows).all():
         return error[np.searchsorted(rows, x)]
+    from scipy.interpolate import make_interp_spline  # above, it would slow the start of every command
+
     return make_interp_spline(rows, error, k=min(3, len(rows) - 1))(x)
 
 

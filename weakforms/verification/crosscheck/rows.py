@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from weakforms.errors import InputError
 from weakforms.verification.cases.references import Reference
@@ -116,6 +115,8 @@ def interpolated(rows: np.ndarray, values: np.ndarray, x: np.ndarray) -> tuple[n
     blur = tolerance(rows)
     if len(rows) < 6 or np.isin(x, rows).all():
         return _exact(rows, values, x, blur)
+    from scipy.interpolate import make_interp_spline  # above, it would slow the start of every command
+
     quintic, cubic = (make_interp_spline(rows, values, k=k) for k in (5, 3))
     widths = np.diff(rows)
     inside = rows[:-1, None] + widths[:, None] * np.arange(1, 8) / 8

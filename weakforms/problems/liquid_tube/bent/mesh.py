@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import ModuleType
 
-import gmsh
 import numpy as np
 from dolfinx import mesh as dmesh
 from mpi4py import MPI
@@ -158,6 +157,8 @@ def _extrude(model: ModuleType, lines: list[int], nodes: np.ndarray, axis: tuple
 @contextmanager
 def _gmsh(comm: MPI.Intracomm) -> Iterator[ModuleType | None]:
     """A gmsh model on the first rank, ``None`` on the others."""
+    import gmsh  # its library is large, and few problems need it
+
     if comm.rank:
         yield None
         return
