@@ -7,6 +7,7 @@ import html
 import inspect
 import re
 from collections.abc import Iterable, Mapping
+from functools import cache
 from pathlib import Path
 
 from markdown_it import MarkdownIt
@@ -14,10 +15,9 @@ from markupsafe import Markup
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
-from matplotlib.mathtext import MathTextParser
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from weakforms.verification.report.figures.canvas import drawing, svg
+from weakforms.verification.report.figures.canvas import LETTERS, drawing, svg
 from weakforms.verification.report.figures.svg import inline_svg
 from weakforms.verification.report.look import LOOK
 from weakforms.verification.report.wording import html_tex
@@ -187,7 +187,9 @@ def _braced(fraction: re.Match[str]) -> str:
     return f"{size}{{{above}}}{{{below}}}"
 
 
+@cache
 def _drawn(tex: str) -> str:
+    """A line of a formula as a picture, which has the same name wherever it is shown."""
     plain = tex
     for _ in range(3):  # fractions within fractions
         plain = FRACTION.sub(_braced, plain)
@@ -199,10 +201,11 @@ def _drawn(tex: str) -> str:
     ident = "m" + hashlib.sha256(tex.encode()).hexdigest()[:12]
     with drawing(ident):
         font = FontProperties(family="serif", size=SIZE)
-        width, height, depth, *_ = MathTextParser("path").parse(f"${plain}$", dpi=72, prop=font)
-        width, height = float(width) + 4, float(height) + 4
+        # Measured as it will be drawn: at another size it would be set a second time.
+        width, height, depth = LETTERS.get_text_width_height_descent(f"${plain}$", font, ismath=True)
+        width, height = width + 4, height + 4
         figure = FigureCanvasAgg(Figure(figsize=(width / 72, height / 72))).figure
-        figure.text(2 / width, (2 + float(depth)) / height, f"${plain}$", fontproperties=font, va="baseline")
+        figure.text(2 / width, (2 + depth) / height, f"${plain}$", fontproperties=font, va="baseline")
         picture = svg(figure, ident, "formula", tex)
     size = f"width:{width / SIZE:.2f}em;height:{height / SIZE:.2f}em"
     return picture.replace('class="figure"', f'class="formula-line" style="{size}"')
