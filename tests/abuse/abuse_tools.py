@@ -12,11 +12,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, settings
 
 from weakforms.cli import app
 from weakforms.results import Branch, Field, Result, State
 from weakforms.terminal import guarded
+from weakforms.verification.cases import catalogue, discovery
+from weakforms.verification.run import solving
 
 ROOT = Path(__file__).resolve().parents[2]
 CASE, CURVE = "paper2.fig03", "fig03a_delta1_1.1"
@@ -176,11 +179,21 @@ CASE = Case(
     checks=(Claim("wider", "bulges", tuple((spec, At("p", 0.5)) for spec in TUBES), wider),),
 )
 '''
-COUNT = 12
+COUNT = 6
+
+
+def verified(tree: Path, out: Path, *words: object) -> Called:
+    """Run ``verify`` of the cases of that tree in this process, which has loaded what it needs."""
+    find = discovery.find_cases
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (discovery, catalogue):
+            patch.setattr(module, "find_cases", lambda: find(tree))
+        patch.setattr(solving, "source_digest", lambda: "as it was")
+        return call("verify", "--out", out, *words)
 
 
 def verify(tree: Path, out: Path, *words: object, before: str = "", **more: object) -> Program:
-    """Start ``verify`` of the cases of that tree."""
+    """Start ``verify`` of the cases of that tree in a separate process."""
     only = (
         "from pathlib import Path; from weakforms.verification.cases import discovery\n"
         f"find = discovery.find_cases; discovery.find_cases = lambda: find(Path({str(tree)!r}))\n"

@@ -13,7 +13,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from abuse_tools import COUNT, orderly, start, verify
+from abuse_tools import COUNT, orderly, start, verified, verify
 
 from weakforms.results import load_result
 
@@ -22,7 +22,7 @@ from weakforms.results import load_result
 def undisturbed(tree, tmp_path_factory) -> dict:
     """The report of an undisturbed run."""
     out = tmp_path_factory.mktemp("undisturbed")
-    called = verify(tree, out).wait()
+    called = verified(tree, out)
     assert called.status == 0, called.err
     assert len(stored(out)) == COUNT
     return report(out)
@@ -61,7 +61,7 @@ def whole(out: Path) -> None:
 
 def resumed(tree: Path, out: Path, undisturbed: dict) -> None:
     """Assert that the run can be continued to the same report and that no partly written file remains."""
-    called = verify(tree, out, "--resume").wait()
+    called = verified(tree, out, "--resume")
     assert called.status == 0, called.err
     whole(out)
     assert report(out) == undisturbed
