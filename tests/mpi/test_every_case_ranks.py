@@ -9,8 +9,9 @@ from weakforms.verification.audit.same import Run, runs
 from weakforms.verification.cases.discovery import find_cases
 
 pytestmark = [pytest.mark.mpi, pytest.mark.usefixtures("launcher")]
-CHEAP = ("closed_form.infinite_tube",)
-"""Bodies that deform homogeneously. The slow tests solve every case on two and on four ranks."""
+CHEAP = ("paper5.fig02",)
+"""A patch, which every rank solves for itself, with a figure: how a run is divided and stored. The slow
+tests solve every case on two and on four ranks."""
 
 
 @pytest.fixture(scope="module")

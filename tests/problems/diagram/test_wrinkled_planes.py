@@ -6,6 +6,7 @@ from mpi4py import MPI
 
 from weakforms import solve
 from weakforms.errors import InputError
+from weakforms.problems.diagram import problem
 from weakforms.problems.diagram.bodies.wrinkled import VariedWrinkledTube
 from weakforms.problems.diagram.parameters import DiagramParameters
 from weakforms.solvers.equilibrium.state import State
@@ -14,8 +15,16 @@ TUBE = {"body": "wrinkled_tube", "alpha": 0.01, "delta": 2.0}
 MESH = {"cells": 48, "levels": 2, "step": 0.3}
 
 
+@pytest.fixture(scope="module", autouse=True)
+def searched_at_both_ends():
+    """Lines are looked for at the ends of these short ranges, not between them too: most of their time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(problem, "SCANNED", 2)
+        yield
+
+
 @pytest.fixture(scope="module")
-def radii():
+def radii(searched_at_both_ends):
     """Limit points about the radius of the disks at which they are about to wrinkle."""
     plane = TUBE | {"x": "Af", "Af": 0.82, "low": 0.81, "high": 0.85, "kind": "fold", "V_end": 18.5}
     return solve("diagram", **plane, numerics=MESH, at={"Af": 0.81}, branch="fold")
