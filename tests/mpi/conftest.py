@@ -3,11 +3,10 @@
 import shutil
 
 import pytest
-from on_ranks import Ranks, allowed
+from on_ranks import Ranks, beyond
 
 from weakforms import solve
 from weakforms.results import Result
-from weakforms.verification.audit.same import differences
 
 
 @pytest.fixture(scope="session")
@@ -25,15 +24,6 @@ def on_two_ranks(launcher):
     yield solved
     for ranks in started:
         ranks.end()
-
-
-def beyond(first: Result, second: Result) -> list[str]:
-    """The numbers of two results that differ by more than allowed, the largest difference first."""
-    said = {name: first.parameters.get(name) for name in ("contact", "spring")}
-    spec = f"contact={said['contact']}, spring={said['spring']}, degree={first.numerics.get('degree')}"
-    return [
-        str(item) for item in differences(first, second) if not item.relative <= allowed(item.place, spec)
-    ]
 
 
 @pytest.fixture(scope="session")

@@ -1,17 +1,25 @@
-"""Every kind of solution of the cases, serially and on two ranks: all numbers agree.
+"""Every kind of solution of the cases, serially and on several ranks: all numbers agree.
 
 A kind is a problem with a set of parameters, of which words and switches have one value. The cases have some
 1300 solutions of a few hundred kinds; of each kind the one that takes least is solved.
 """
 
-import pytest
+from pathlib import Path
 
+import pytest
+from on_ranks import Ranks, allowed, beyond, start
+
+from weakforms import solve
+from weakforms.results import Result
+from weakforms.verification.audit.same import Run, runs
 from weakforms.verification.cases.discovery import find_cases
 from weakforms.verification.cases.specs import At, Spec
 from weakforms.verification.run.plan import Plan
 from weakforms.verification.run.usual import usual_times
 
-pytestmark = [pytest.mark.mpi, pytest.mark.slow]
+pytestmark = pytest.mark.mpi
+CHEAP = ("paper5.fig02",)
+"""A patch, which every rank solves for itself, with a figure: how a run is divided and stored."""
 UNKNOWN = 10.0
 """Seconds of a solution that no full run has measured yet."""
 STATES = 3
@@ -33,7 +41,7 @@ def request_for(spec: Spec, states: list[At]) -> dict:
 
 
 def kinds() -> dict[str, dict]:
-    """A request of every kind, by the solution's name."""
+    """A request of every kind, by the solution's name; what takes least comes first."""
     seconds, plan = usual_times(), Plan.of(find_cases())
     least: dict[tuple, Spec] = {}
     for spec in sorted(plan.states, key=lambda spec: (seconds.get(str(spec), UNKNOWN), str(spec))):
@@ -42,8 +50,41 @@ def kinds() -> dict[str, dict]:
 
 
 KINDS = kinds()
+PROBLEMS = {request["problem"]: request for request in reversed(KINDS.values())}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
 def test_kind(same_on_ranks, name):
     same_on_ranks([KINDS[name]])
+
+
+@pytest.fixture(scope="module")
+def four(launcher):
+    """Four ranks."""
+    ranks = Ranks(4)
+    yield ranks
+    ranks.end()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_problem_on_four_ranks(four, problem):
+    found, size = four.solve([PROBLEMS[problem]])
+    assert size == 4
+    assert beyond(solve(**PROBLEMS[problem]), Result.from_json(found)) == []
+
+
+def check(cases: tuple[str, ...], out: Path, ranks: int) -> None:
+    start(["-m", "weakforms", "check", *cases, "--out", str(out)], ranks, timeout=900)
+
+
+def test_a_cheap_case_on_four_ranks(launcher, tmp_path):
+    check(CHEAP, tmp_path / "serial", 1)
+    check(CHEAP, tmp_path / "ranks", 4)
+    both = Run(tmp_path / "serial"), Run(tmp_path / "ranks")
+    assert both[0].verdicts == both[1].verdicts
+    numbers = [(item.spec, number) for item in runs(*both) for number in item.found]
+    assert numbers
+    far = [f"{spec}: {x}" for spec, x in numbers if not x.relative <= allowed(x.place, spec)]
+    assert far == []

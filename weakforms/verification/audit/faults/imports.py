@@ -30,7 +30,7 @@ ASKED = "tests/references/test_tables_asked.py"
 RANKS = "tests/mpi"
 """Folder of the tests that start several ranks."""
 
-LONG = "test_every_case_ranks.py"
+LONG = "test_every_kind_ranks.py"
 """The file among them that takes minutes."""
 
 SPEAKS_OF_RANKS = re.compile(r"comm\b|\branks?\b|bcast|gather|reduce\b|scatter|ghost|owne[rd]|size_local")
