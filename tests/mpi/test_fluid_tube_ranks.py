@@ -13,6 +13,7 @@ def test_where_a_law_of_bounded_force_gives_way(same_on_ranks):
     assert "hardly resists meridional stretch" in found.absent[0].reason
 
 
+@pytest.mark.slow
 def test_a_tube_of_liquid_that_wrinkles(same_on_ranks):
     """Its fronts and its free surface are unknowns that every rank knows."""
     tube = {"problem": "fluid_tube", "energy": "relaxed", "delta": 1.05, "gamma": 0.5, "n_max": 1}

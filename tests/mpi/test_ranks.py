@@ -40,6 +40,7 @@ def test_lines_of_balloons_parts_of_them_and_long_tubes(same_on_ranks):
 
 
 @pytest.mark.paper3
+@pytest.mark.slow
 def test_lines_of_full_and_partially_filled_tubes(same_on_ranks):
     tube = {"problem": "diagram", "body": "fluid_tube", "alpha": 0.0, "numerics": MESH | {"cells": 24}}
     given = (
@@ -52,6 +53,7 @@ def test_lines_of_full_and_partially_filled_tubes(same_on_ranks):
 
 
 @pytest.mark.paper5
+@pytest.mark.slow
 def test_lines_of_wrinkled_tubes(same_on_ranks):
     tube = {"problem": "diagram", "body": "wrinkled_tube", "alpha": 0.01, "kind": "fold", "V_end": 17.0}
     plane = {"x": "delta", "delta": 2.0, "Af": 0.7, "low": 1.98, "high": 2.0}

@@ -59,4 +59,5 @@ CASE = Case(
         ),
     ),
     asked={"V": 2e-2, "r_mid": 2e-2, "r_mid_pi": 5e-2},  # on a coarse mesh, to a line's width in figure 2b
+    slow=True,
 )

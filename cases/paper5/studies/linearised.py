@@ -117,4 +117,5 @@ CASE = Case(
             short_waves,
         ),
     ),
+    slow=True,
 )
