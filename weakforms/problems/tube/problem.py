@@ -37,6 +37,7 @@ from weakforms.problems.tube.secondary.bent import bent_family
 from weakforms.problems.tube.secondary.crossed import require_secondary_possible
 from weakforms.problems.tube.secondary.imperfect import LEAST, detached_family, largest_step
 from weakforms.problems.tube.secondary.lopsided import WholeTube, lopsided_family
+from weakforms.problems.tube.secondary.wrinkled import wrinkled_family
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
 from weakforms.problems.wave_numbers import eigenvalue_names, require_waves
@@ -148,15 +149,21 @@ class Tube(BranchProblem):
         return {"primary": _with_stability(make, numerics)}
 
     def _with_secondary(self, task: Task) -> dict[str, Family]:
-        """Free inflation with its stability, and the secondary branch if there is one."""
+        """Free inflation, of the law's energy with its stability, and a secondary branch if there is one."""
         parameters, numerics, progress = task.parameters, task.numerics, task.progress
-        primary = _with_stability(branch_maker(parameters, numerics, task.comm, progress), numerics)
-        number, step = parameters.secondary_from, numerics.step
+        given = parameters, numerics, task.comm, progress
+        primary = crossed = _with_stability(branch_maker(*given), numerics)
+        told, number, step = primary, parameters.secondary_from, numerics.step
+        if parameters.energy == "relaxed":
+            primary = relaxed_family(*given, dict.fromkeys(MIDDLE, order_at_middle(numerics.degree)))
+            told = primary.pieces[-1].family
         try:
             if parameters.uneven:
                 even = parameters.model_copy(update={"uneven": 0.0})
                 crossed = _with_stability(branch_maker(even, numerics, task.comm, progress), numerics)
                 secondary = detached_family(crossed, parameters.uneven, number, step, progress)
+            elif parameters.energy == "relaxed":
+                secondary = wrinkled_family(parameters, numerics, crossed, primary, task.comm, progress)
             elif parameters.secondary_n:
                 secondary = bent_family(parameters, numerics, primary, task.comm, progress)
             else:
@@ -164,12 +171,12 @@ class Tube(BranchProblem):
         except AbsentError as error:
             if any(wanted.branch == "secondary" for wanted in task.requests.states):
                 raise
-            primary.absent.append(Absence(error.what, str(error)))
+            told.absent.append(Absence(error.what, str(error)))
             return {"primary": primary}
         except ConvergenceError as error:
             if any(wanted.branch == "secondary" for wanted in task.requests.states):
                 raise
-            primary.failures.append(Failure("secondary branch", str(error)))
+            told.failures.append(Failure("secondary branch", str(error)))
             return {"primary": primary}
         return {"primary": primary, "secondary": secondary}
 

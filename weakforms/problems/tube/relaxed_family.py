@@ -177,11 +177,17 @@ def require_relaxed_possible(parameters: TubeParameters) -> None:
             "tube: energy = 'relaxed' with contact = 'adhesive': the history of a patch that sticks is known "
             "of a taut tube only; set contact = 'frictionless' or 'none', or energy = 'standard'"
         )
-    others = {"n": (), "secondary": False, "uneven": 0.0}
+    others = {"n": (), "uneven": 0.0}
     for name, without in others.items():
         if getattr(parameters, name) != without:
             raise InputError(
-                f"tube: energy = 'relaxed' is for axisymmetric inflation of an even tube; set {name} = "
-                f"{without!r}, or energy = 'standard'"
+                "tube: energy = 'relaxed' is for axisymmetric inflation of an even tube and for bent states; "
+                f"set {name} = {without!r}, or energy = 'standard'"
             )
-    require_foldable("tube: energy = 'relaxed'", parameters, invariants=False)
+    if parameters.secondary and not parameters.secondary_n:
+        raise InputError(
+            "tube: energy = 'relaxed' with secondary = true, secondary_n = 0: lopsided states are those of a "
+            "tube that bears compression; set secondary_n = 1 (up to 6; extent = 'half'), secondary = false, "
+            "or energy = 'standard'"
+        )
+    require_foldable("tube: energy = 'relaxed'", parameters, invariants=parameters.secondary)

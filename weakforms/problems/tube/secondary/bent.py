@@ -12,6 +12,7 @@ of the surface: the axisymmetric state at which its own second variation is sing
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 from mpi4py import MPI
@@ -19,6 +20,7 @@ from scipy.interpolate import make_interp_spline
 
 from weakforms.problems.gas import Gas, folds_of
 from weakforms.problems.meridian.families import EVEN, Wave
+from weakforms.problems.meridian.sector import SectorMesh
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
 from weakforms.problems.tube.secondary.crossed import CrossedFamily, FlaggedBranch, require_crossings
@@ -58,6 +60,7 @@ class BentBranch(AmountCurve, FlaggedBranch):
     """
 
     along, amplitude = "V", AMPLITUDE
+    modes_of: ClassVar[type[BentModes]] = BentModes
 
     def __init__(
         self,
@@ -72,7 +75,7 @@ class BentBranch(AmountCurve, FlaggedBranch):
         self.family = {"n": float(model.n), "parity": float(EVEN)}
         located = [on_surface(primary, solved, model) for solved in crossings]
         self._gas = gas
-        super().__init__(primary, located, begin, step, own=(model.system, BentModes(model, gas)))
+        super().__init__(primary, located, begin, step, own=(model.system, self.modes_of(model, gas)))
 
     def _placed(self) -> list[tuple[float, Solved]]:
         """Besides, extrema of the volume and of the gas's mass, except crossings, where all rates vanish."""
@@ -172,16 +175,32 @@ def bent_family(
         AbsentError: If there are not as many crossings.
     """
     n, meshes, number = parameters.secondary_n, numerics.surfaces, parameters.secondary_from
-    every = [same[-1] for same in primary.located(Wave(n, EVEN).kind)]
-    crossings = [solved for solved in every if solved.values["parity"] == EVEN]
-    where = f"even waves of n = {n} are neutral", "delta1 or lf, or another secondary_n"
-    require_crossings(len(crossings), number, primary.fine, *where)
+    crossings = even_crossings(parameters, primary)
 
     def make(level: int) -> BentBranch:
         progress(f"branch of n = {n}", level, len(meshes))
-        tube = parameters.material, parameters.delta1, parameters.lf / 2
-        model = BentTube(comm, *tube, n, meshes[level])
+        model = bent_tube(parameters, meshes[level], comm)
         return BentBranch(primary.fine, crossings, number - 1, numerics.step, model, parameters.gas)
 
     # Twice the degree is reached only on meshes that resolve the layer at the disk.
     return BentFamily(make, len(meshes), numerics.secondary_degree, ACROSS, "secondary")
+
+
+def even_crossings(parameters: TubeParameters, primary: TubeFamily) -> list[Solved]:
+    """The points of free inflation, on its finest mesh, at which even waves are neutral.
+
+    Raises:
+        AbsentError: If there are not as many as the number of the one that is asked for.
+    """
+    n = parameters.secondary_n
+    every = [same[-1] for same in primary.located(Wave(n, EVEN).kind)]
+    crossings = [solved for solved in every if solved.values["parity"] == EVEN]
+    where = f"even waves of n = {n} are neutral", "delta1 or lf, or another secondary_n"
+    require_crossings(len(crossings), parameters.secondary_from, primary.fine, *where)
+    return crossings
+
+
+def bent_tube(parameters: TubeParameters, at: SectorMesh, comm: MPI.Intracomm) -> BentTube:
+    """The surface on a mesh."""
+    tube = parameters.material, parameters.delta1, parameters.lf / 2
+    return BentTube(comm, *tube, parameters.secondary_n, at, parameters.energy)

@@ -89,8 +89,8 @@ class CrossedBranch(WaveBranch):
         self.expansion = self.expanded(solver, crossings[begin])
         steps = StepControl(first=step / 4, largest=step, usual_load=USUAL_LOAD)
         continuation = Continuation(solver, control=steps)
-        start, stop = self._first_beside(continuation), self.ending(primary, side)
-        super().__init__(continuation, primary.control, start, stop, modes)
+        start = self._first_beside(continuation)
+        super().__init__(continuation, primary.control, start, self.until(primary, start), modes)
 
     @classmethod
     def expanded(cls, solver: ExtendedNewton, crossing: Solved) -> Expansion:
@@ -101,15 +101,22 @@ class CrossedBranch(WaveBranch):
         """
         return Expansion.at(solver, crossing.state, "p", cls.amplitude, cls.imperfection)
 
+    def until(self, primary: TubeBranch, _start: CurvePoint) -> Callable[[CurvePoint], bool]:
+        """Whether the branch ends at a point, from its first state on."""
+        return self.ending(primary, self.side)
+
     @classmethod
-    def ending(cls, primary: TubeBranch, side: float) -> Callable[[CurvePoint], bool]:
+    def ending(
+        cls, primary: TubeBranch, side: float, most: float | None = None
+    ) -> Callable[[CurvePoint], bool]:
         """Whether a branch beside free inflation ends: at its last volume, symmetric again, or by the law.
 
         Args:
             primary: Free inflation.
             side: Sign of the branch's amplitude.
+            most: The volume at which free inflation ends, if that is not the last one of ``primary``.
         """
-        most = primary.points[-1].monitors["V"]
+        most = primary.points[-1].monitors["V"] if most is None else most
 
         def stop(point: CurvePoint) -> bool:
             columns, steep = point.monitors, point.tangent.loads[primary.control] > STEEPEST

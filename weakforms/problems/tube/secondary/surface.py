@@ -11,6 +11,9 @@ volume are those of the half tube over :math:`2\pi`, as of :mod:`weakforms.probl
 
 The gas acts on the actual surface. The integral of :math:`(X N_r + Y N_\theta)/2` is its volume, because the
 mirrors contain the axis or are normal to it. An axisymmetric state is the same in both models.
+
+With the relaxed energy ``w`` is that of a tension field, by the principal stretches of ``C``: the tube
+wrinkles in any direction. Fronts lie inside of elements.
 """
 
 from __future__ import annotations
@@ -28,7 +31,13 @@ from ufl.core.expr import Expr
 from weakforms.forms import revolution
 from weakforms.forms.fluid import Surface
 from weakforms.forms.materials import stress_resultants
-from weakforms.forms.wrinkling import principal_stretches
+from weakforms.forms.wrinkling import (
+    Law,
+    modified_gradient,
+    natural_width,
+    principal_stretches,
+    surface_tension_field,
+)
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import one_end
 from weakforms.problems.meridian.sector import Sector, SectorMesh
@@ -41,6 +50,9 @@ AMPLITUDE = "u_wave"
 
 MIDDLE = 1
 """Tag of the edge at mid-length."""
+
+INDICATED = 4
+"""Quadrature degree, over that of the unknowns, by which the wrinkled part is measured."""
 
 EVEN, ODD = "even", "odd"
 """Parity about a mirror: it maps a displacement to itself, or to the reverse."""
@@ -82,13 +94,21 @@ class BentTube(Sector):
         half: Half the length.
         n: Number of waves around the axis, at least 1.
         at: The mesh.
+        energy: ``standard`` (no wrinkling) or ``relaxed``.
     """
 
     def __init__(
-        self, comm: MPI.Intracomm, material: Chosen, delta1: float, half: float, n: int, at: SectorMesh
+        self,
+        comm: MPI.Intracomm,
+        material: Chosen,
+        delta1: float,
+        half: float,
+        n: int,
+        at: SectorMesh,
+        energy: str = "standard",
     ) -> None:
         super().__init__(comm, half, n, at, one_end(at.grading))
-        self.delta1 = delta1
+        self.delta1, self.energy = delta1, energy
         self.unknown.interpolate(lambda x: np.vstack([np.ones_like(x[0]), 0 * x[0], x[0]]))
         self._law = material.surface_law(self.mesh)
         pressure = fem.Constant(self.mesh, 0.0)
@@ -106,9 +126,20 @@ class BentTube(Sector):
 
     def potential(self, at: Surface) -> Expr:
         """The potential per ``dTheta dZ``."""
-        c = self.metric(at)
-        strain = self._law.invariants(ufl.tr(c), ufl.det(c)) / self.delta1**0.5
+        strain = self.strain(self.metric(at)) / self.delta1**0.5
         return strain + revolution.gas_energy(at, self.loads["p"][1])
+
+    def strain(self, c: Expr) -> Expr:
+        """Strain energy per reference volume."""
+        if self.energy == "relaxed":
+            return surface_tension_field(c, self._law)
+        return self._law.invariants(ufl.tr(c), ufl.det(c))
+
+    def along_principal(self) -> Law:
+        """The same of given principal stretches."""
+        if self.energy == "relaxed":
+            return modified_gradient(self._law.stretches, self._law.width or natural_width)
+        return self._law.stretches
 
     def formulation(self) -> Formulation:
         """The weak form with its columns; ``u_max`` is the mean around the axis."""
@@ -135,15 +166,27 @@ class BentTube(Sector):
         """Position and, on the mirrors, stretches along meridian and circumference with their resultants."""
         c = self.metric(at)
         lam1, lam2 = ufl.sqrt(c[0, 0]), ufl.sqrt(c[1, 1])
-        t1, t2 = stress_resultants(self._law.stretches, lam1, lam2)
+        t1, t2 = stress_resultants(self.along_principal(), lam1, lam2)
         return {"rho": at.x[0], "eta": at.x[2], "lam1": lam1, "lam2": lam2, "t1": t1, "t2": t2}
 
-    def principal_resultants(self) -> dict[str, Expr]:
-        """Principal Cauchy resultants, that of the larger stretch first."""
-        resultants = stress_resultants(
-            self._law.stretches, *principal_stretches(self.metric(self.surface(self.unknown)))
-        )
+    def principal_resultants(self, relaxed: bool = False) -> dict[str, Expr]:
+        """Principal Cauchy resultants, that of the larger stretch first.
+
+        Args:
+            relaxed: Those of the energy of the model, none of which is negative if that is the relaxed one,
+                in place of those of a tube that bears compression.
+        """
+        law = self.along_principal() if relaxed else self._law.stretches
+        resultants = stress_resultants(law, *principal_stretches(self.metric(self.surface(self.unknown))))
         return dict(zip(("first", "second"), resultants, strict=True))
+
+    def wrinkled_part(self) -> ufl.Form:
+        """Part of the stress-free surface on which a resultant of the law is negative."""
+        first, second = self.principal_resultants().values()
+        taut = ufl.And(ufl.gt(first, 0), ufl.gt(second, 0))
+        share = self.n / np.pi / self.length
+        degree = INDICATED * self.space.ufl_element().embedded_superdegree
+        return ufl.conditional(taut, 0.0, share) * self.dx(metadata={"quadrature_degree": degree})
 
     def variation(self, parities: Parities) -> SecondVariation:
         r"""The second variation in a class of displacements ``q``.
