@@ -43,7 +43,12 @@ STABILITY = (
     Column("t_min", "smallest principal Cauchy resultant anywhere over {resultant}"),
     Column("Z_t_min", "distance of that place from the mid-plane on the pre-stretched tube over {length}"),
     *eigenvalue_columns(MOST_WAVES, "int |dx|^2 dZ", "whole tube"),
-    *derived(*numbers(wrinkled="1 if the membrane is compressed somewhere (t_min < 0), else 0")),
+    *derived(
+        *numbers(
+            wrinkled="1 if the membrane is compressed somewhere (t_min < 0; of the relaxed energy, if an "
+            "ordinary membrane would be), else 0"
+        )
+    ),
     *count_columns(MOST_WAVES, "whole tube"),
 )
 """Columns of free inflation for which wave numbers are asked."""
@@ -86,7 +91,10 @@ BENT = (
 
 PRE_STRETCH = Column("delta1", "axial pre-stretch, 1", r"\delta_1")
 RELAXED = (
-    Column("wrinkled_fraction", "fraction of the length that is wrinkled, of one zone or of both"),
+    Column(
+        "wrinkled_fraction",
+        "fraction of the length that is wrinkled, of one zone or of both; with waves, of the surface",
+    ),
     Column(
         "Z_front_1",
         "Z of the end of the wrinkled zone that is nearer to the mid-plane, over {length}",
@@ -172,6 +180,7 @@ TUBE = About(
         "forms.revolution:around",
         "forms.revolution:strain_energy",
         "forms.revolution:gas_energy",
+        "forms.wrinkling:surface_tension_field",
     ),
     columns=(*FREE, *LOPSIDED, *BENT, *STABILITY, *CONTACT, *RELAXED, *column.DIAGNOSTICS),
     numbers=(*NUMBERS, *WAVES, *CURVATURES, column.OUTSIDE, column.RESERVOIR),

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -100,6 +100,9 @@ class State:
     x: Array
     p: float
 
+    gradient: ClassVar = staticmethod(ritz.gradient)
+    """Of the integrand by the nine numbers."""
+
     def fields(self) -> Array:
         """The nine numbers at the Gauss points and angles, shape (9, points, angles)."""
         _, _, phi, dphi = self.series.basis.rule
@@ -146,10 +149,8 @@ def linear(state: State) -> tuple[Array, Array, Array]:
     """Residual, its matrix, and its derivative by p, for all nodal values."""
     by_value, by_slope = state.series.directions
     at = np.split(state.fields(), 3)
-    first = np.concatenate(ritz.gradient(state.tube, state.p, *at))
-    pull = np.concatenate(ritz.gradient(state.tube, 1.0, *at)) - np.concatenate(
-        ritz.gradient(state.tube, 0.0, *at)
-    )
+    first, one, none = (np.concatenate(state.gradient(state.tube, p, *at)) for p in (state.p, 1.0, 0.0))
+    pull = one - none
     _, _, phi, dphi = state.series.basis.rule
     rows = phi, dphi / state.tube.length
 
@@ -166,7 +167,7 @@ def linear(state: State) -> tuple[Array, Array, Array]:
 def stiffness(state: State, directions: tuple[Array, Array]) -> Array:
     """Second derivatives of the potential for nodal values of functions of theta, by their directions."""
     series, w, (by_value, *_) = state.series, state.weights, directions
-    second = ritz.hessian(state.tube, state.p, *np.split(state.fields(), 3))
+    second = ritz.hessian(state.tube, state.p, *np.split(state.fields(), 3), state.gradient)
     blocks = {
         (i, j): np.einsum("amp,pqga,anq->gmn", own, second, other, optimize=True)
         for i, own in enumerate(directions)
@@ -231,7 +232,7 @@ def on(state: State, series: Series) -> State:
     for mine, theirs in zip(series.parts, own.parts, strict=True):
         shared = min(mine.stop - mine.start, theirs.stop - theirs.start)
         found[mine.start : mine.start + shared] = values[theirs.start : theirs.start + shared]
-    return State(state.tube, series, found, state.p)
+    return replace(state, series=series, x=found)
 
 
 def beside(tube: Tube, series: Series, between: tuple[float, float], order: int, amplitude: float) -> State:

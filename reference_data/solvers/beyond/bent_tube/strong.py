@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -124,6 +124,9 @@ class State:
     x: Array
     p: float
 
+    forces: ClassVar = staticmethod(forces)
+    """On both cuts from the tangents."""
+
     def element(self, e: int) -> tuple[slice, Array, Array]:
         """Nodes of an element, the matrix of the slope in z, and both tangents (x_z, x_theta) there."""
         mesh = self.net.mesh
@@ -186,7 +189,7 @@ def linear(state: State) -> tuple[Array, Array, Array]:
 
     def local(v: Array) -> Array:
         a, b = v[..., :3], v[..., 3:]
-        by_a, by_b = forces(tube, a, b / r0)
+        by_a, by_b = state.forces(tube, a, b / r0)
         return np.concatenate([r0 * by_a, by_b, wedge(b, a)], axis=-1)
 
     for e in range(mesh.elements):
@@ -247,8 +250,8 @@ def solve(state: State, held: str, target: float) -> State:
     return newton(state, correct, f"balance of forces of {state.tube}", longest=0.3)
 
 
-def on(state: Known, net: Net) -> State:
+def on(state: Known, net: Net, kind: type[State] = State) -> State:
     """A state of any code as a first guess."""
     mesh = net.mesh
     share = np.append((mesh.edges[:-1, None] + mesh.widths[:, None] * lobatto(mesh.degree)[:-1]).ravel(), 1.0)
-    return State(state.tube, net, state.position(share, net.theta), state.p)
+    return kind(state.tube, net, state.position(share, net.theta), state.p)

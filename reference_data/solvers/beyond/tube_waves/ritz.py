@@ -51,8 +51,10 @@ def cross(v: Array, w: Array) -> Array:
     return np.array([v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]])
 
 
-def hessian(tube: Tube, p: float, x: Array, a: Array, b: Array) -> Array:
-    """Second derivatives, shape (9, 9, ...)."""
+def hessian(
+    tube: Tube, p: float, x: Array, a: Array, b: Array, gradient: Callable[..., Any] = gradient
+) -> Array:
+    """Second derivatives, shape (9, 9, ...), of an integrand with this gradient."""
     whole = np.concatenate([x, a, b]).astype(complex)
     out = np.empty((9, *whole.shape))
     for i in range(9):

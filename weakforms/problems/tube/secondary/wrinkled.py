@@ -113,8 +113,9 @@ class WrinkledBranch(BentBranch):
             del self.points[-1]
             last = self.points[-1]
             self.ended = (
-                f"tube: bent states were followed up to V = {last.monitors['V']:.6g}: beyond, short waves of "
-                "the wrinkled part, of which a finer mesh has more, change their stability; lower u_end"
+                f"tube: relaxed states with waves were followed up to V = {last.monitors['V']:.6g}: beyond, "
+                "their stability changes without a limit point, as by short waves of the wrinkled part, of "
+                "which a finer mesh has more; lower u_end"
             )
         super()._insert_limits()
 
