@@ -120,6 +120,16 @@ def test_wrinkled_tubes(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_a_bent_tube_that_wrinkles(same_on_ranks):
+    surface = {"secondary_cells": 8, "secondary_around": 4, "secondary_degree": 3}
+    bent = {"problem": "tube", "alpha": 0, "lf": 10, "u_end": 1.1, "secondary": True, "secondary_n": 1}
+    relaxed = bent | {"energy": "relaxed", "numerics": MESH | surface, "branch": "secondary"}
+    (found,) = same_on_ranks([relaxed | {"at": [("V", 7.3)]}], traces=False)
+    assert found.states[0].quantities["wrinkled_fraction"].value > 5e-4
+    assert found.states[0].quantities["t_min"].value == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.paper2
 def test_states_of_an_uneven_tube(same_on_ranks):
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.6, "extent": "full", "secondary": True}
     (found,) = same_on_ranks([whole | {"uneven": 0.01, "numerics": MESH}])

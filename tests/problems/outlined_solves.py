@@ -51,6 +51,18 @@ SOLVES: dict[str, dict[str, Any]] = {
             "secondary_degree": 3,
         },
     },
+    "tube, bent and wrinkled": {
+        **{"alpha": 0.0, "lf": 10.0, "u_end": 1.1, "secondary": True, "secondary_n": 1, "energy": "relaxed"},
+        "at": {"V": 7.2},
+        "branch": "secondary",
+        "numerics": {
+            "cells": 32,
+            "levels": 2,
+            "secondary_cells": 8,
+            "secondary_around": 4,
+            "secondary_degree": 3,
+        },
+    },
     "tube, relaxed": {
         "alpha": 0.0,
         "energy": "relaxed",

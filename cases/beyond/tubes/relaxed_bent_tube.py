@@ -30,7 +30,7 @@ BEYOND = tuple(At("V", v, branch=BRANCH) for v in (7.0, 7.4))
 COLUMNS = ("p", "u_max", "u_wave", "Pi")
 COUNTS = ("n_negative_volume", "n_negative_all_volume")
 ROUND_OFF = decide.Stated(1e-8, "the same", "Newton's last steps; errors of the mesh are the same in both")
-COMPRESSED = -0.1
+COMPRESSED = -0.03
 """A smallest resultant that is clearly compressive."""
 
 
@@ -150,6 +150,6 @@ CASE = Case(
             stable,
         ),
     ),
-    asked={"p": 1e-5, "u_max": 2e-5, "u_wave": 3e-5},
+    asked={"p": 1e-5, "u_max": 2e-5, "u_wave": 5e-5},
     slow=True,
 )

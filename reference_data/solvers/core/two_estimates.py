@@ -1,4 +1,4 @@
-"""Numbers that are exact up to rounding, by two ways that must agree: material laws and closed forms."""
+"""Estimates of two kinds: numbers that are exact up to rounding by two ways, and numbers on two grids."""
 
 from __future__ import annotations
 
@@ -6,11 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reference_data.solvers.core.tables import Column, Estimate, agreed
+from reference_data.solvers.core.tables import TWO_GRIDS, Array, Column, Estimate, agreed
 
 HAND, CONTOUR = 2e-13, 2e-11
 """Uncertainties, relative to one plus the value, of numbers from derivatives by hand and by contours: about
 ten times the rounding that changes of nodes and radius show."""
+
+
+def on_two_grids(coarse: Array, fine: Array, left: float) -> Estimate:
+    """Finer values; one uncertainty: TWO_GRIDS times the column's largest difference, and what is left."""
+    coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
+    own = TWO_GRIDS * np.abs(fine - coarse).max() + left * max(1.0, np.abs(fine).max())
+    return Estimate(fine, np.full(fine.shape, own))
 
 
 def rounded(values: Sequence[float], level: float) -> Estimate:

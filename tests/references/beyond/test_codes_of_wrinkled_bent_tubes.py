@@ -23,8 +23,8 @@ def test_forces_of_both_codes_are_the_same(tangents):
     _, by_a, by_b = wrinkled.gradient(TUBE, 0.0, 0 * a, a, b)
     f_a, f_b = wrinkled.forces(TUBE, a.T, b.T / TUBE.r0)
     size = np.abs(f_a).max()
-    assert by_a.T / TUBE.r0 == pytest.approx(f_a, abs=1e-13 * size)
-    assert by_b.T == pytest.approx(f_b, abs=1e-13 * size)
+    assert np.abs(by_a.T / TUBE.r0 - f_a).max() < 1e-13 * size
+    assert np.abs(by_b.T - f_b).max() < 1e-13 * size
 
 
 def test_no_cut_is_pushed_and_some_bear_nothing(tangents):
@@ -54,7 +54,7 @@ def test_uniaxial_tension_has_the_force_of_mooney():
     assert np.abs(slack).max() == 0
 
 
-def test_both_codes_find_the_same_wrinkled_state():
+def test_wrinkles_bend_the_tube_further_by_both_codes():
     tube = Tube(0.0, 1.0, 6.0)
     at = energy.beside(tube, energy.Series(1, 4, Basis(6, 7)), (4.85, 5.1), 0, 0.3)
     for volume in (5.4, 5.8):
@@ -64,5 +64,8 @@ def test_both_codes_find_the_same_wrinkled_state():
         at, relaxed = energy.solve(at, "V", volume), energy.solve(relaxed, "V", volume)
     net = strong.Net(1, 7, Mesh.graded(7, 8, 2.0))
     balanced = strong.solve(strong.on(relaxed, net, wrinkled.ByForces), "V", 6.1)
-    assert relaxed.amplitude > at.amplitude + 5e-5
-    assert balanced.amplitude == pytest.approx(relaxed.amplitude, abs=5e-3)
+    ordinary = strong.solve(strong.on(at, net), "V", 6.1)
+    assert balanced.amplitude == pytest.approx(relaxed.amplitude, abs=2e-3)  # coarse functions and points
+    further = relaxed.amplitude - at.amplitude
+    assert further > 5e-5
+    assert 0.4 < (balanced.amplitude - ordinary.amplitude) / further < 1.6

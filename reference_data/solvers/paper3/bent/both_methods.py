@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference_data.solvers.core.tables import TWO_GRIDS, Column, Estimate, agreed, round_up
+from reference_data.solvers.core.tables import Column, Estimate, agreed, round_up
+from reference_data.solvers.core.two_estimates import on_two_grids
 from reference_data.solvers.paper3 import text
 from reference_data.solvers.paper3.bent.equations import Surface
 from reference_data.solvers.paper3.data import FluidTube
@@ -48,10 +49,8 @@ def balanced(
 
 
 def refined(coarse: Array, fine: Array, left: float = LEFT) -> Estimate:
-    """Finer values; one uncertainty: TWO_GRIDS times the column's largest difference, and what is left."""
-    coarse, fine = np.asarray(coarse, dtype=float), np.asarray(fine, dtype=float)
-    own = TWO_GRIDS * np.abs(fine - coarse).max() + left * max(1.0, np.abs(fine).max())
-    return Estimate(fine, np.full(fine.shape, own))
+    """Finer values with the error of two grids, and what is left."""
+    return on_two_grids(coarse, fine, left)
 
 
 def paired(table: str, name: str, galerkin: tuple[Array, Array], balance: tuple[Array, Array]) -> Column:
