@@ -41,7 +41,8 @@ change from mesh to mesh."""
 
 EDGE, SEEN = 1.0, 0.1
 """The same of the wrinkled part, and its relative error that no difference of meshes shows: it is about as
-wide as a cell of the finest mesh at the disk."""
+wide as a cell at the disk. For the neo-Hookean tube of length 10 at seven volumes from 6.5 to 9, the part on
+meshes of 24 cells differs from that on 40 by 0.3 to 10 %."""
 
 
 class WrinkledModes(BentModes):
