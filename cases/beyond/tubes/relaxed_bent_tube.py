@@ -98,7 +98,7 @@ CASE = Case(
                 x=Axis("V", 5.8, 7.6),
                 y=Axis(column, *over),
                 title=title,
-                markers=(KIND,),
+                markers=(KIND,) if column == "u_wave" else (),
                 curves=(
                     Curve(RELAXED, BOTH[RELAXED], reference=TABLE, branch=BRANCH),
                     Curve(ORDINARY, BOTH[ORDINARY], branch=BRANCH),
@@ -112,7 +112,7 @@ CASE = Case(
         Panel(
             "c",
             x=Axis("V", 5.8, 7.6),
-            y=Axis("t_min", -0.5, 0.25),
+            y=Axis("t_min", -0.2, 0.25),
             title="Smallest principal resultant of bent states",
             curves=tuple(Curve(spec, label, branch=BRANCH) for spec, label in BOTH.items()),
         ),

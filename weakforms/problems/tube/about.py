@@ -94,6 +94,7 @@ RELAXED = (
     Column(
         "wrinkled_fraction",
         "fraction of the length that is wrinkled, of one zone or of both; with waves, of the surface",
+        r"\phi_{\mathrm{w}}",
     ),
     Column(
         "Z_front_1",
