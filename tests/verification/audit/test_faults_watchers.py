@@ -179,7 +179,7 @@ def test_a_line_that_speaks_of_ranks_is_tried_on_ranks(file, said, on_ranks, tmp
     found = [text for text, _ in Watchers(tmp_path).of(file, line)]
     after = [text for text in found if not any(name in text for name in before)]
     assert after[0].startswith("tests/mpi/") == on_ranks
-    assert not any(text.startswith("tests/mpi/test_every_case") for text in found)
+    assert not any(text.startswith("tests/mpi/test_every_kind") for text in found)
     assert len(found) == len(set(found))
 
 

@@ -113,9 +113,9 @@ class Imports:
         if not (file.startswith("weakforms/") and SPEAKS_OF_RANKS.search(text)):
             return found
         names = [file, *(name for name in self._used_by[file] if name.startswith(NAMING))]
-        words = set(re.findall("[a-z]+", " ".join(names)))
+        words = set(re.findall("[a-z]{4,}", " ".join(names)))
         said = {
-            name: words & set(re.findall("[a-z]+", text))
+            name: words & set(re.findall("[a-z]{4,}", text))
             for path in sorted((self._root / RANKS).glob("test_*.py"))
             if path.name != LONG
             for name, text in _bodies(path, f"{RANKS}/{path.name}").items()
