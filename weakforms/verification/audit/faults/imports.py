@@ -97,9 +97,9 @@ class Imports:
     def first(self, file: str, line: int) -> list[str]:
         """Test functions to run before others: of contract or tables, of the file itself, on several ranks.
 
-        Tests of the file itself import it and are named as it is. Tests on ranks are chosen by the words that
-        their functions share with the name of the file, or of what uses it; a word that few of them
-        use counts more.
+        Tests of the file itself import it and are named as it is. Tests on ranks are chosen by the words, of
+        four letters or more, that their functions share with the name of the file, or of what uses it; a word
+        that few of them use counts more.
         """
         path = self._root / file
         found = []
