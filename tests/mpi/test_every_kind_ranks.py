@@ -25,6 +25,25 @@ UNKNOWN = 10.0
 STATES = 3
 """Number of states that are compared besides branches and special points."""
 
+OPENED = "energy=standard, load=gas, load_end=0.05"
+NO_FRICTION = "contact=frictionless, delta1=1, degree=6"
+ROUND_OFF = (
+    ("wrinkled_tube_threshold", " Z", 1e-8),
+    *((OPENED, name, 1e-8) for name in (" Z", " Z_front_1", " wrinkled_fraction")),
+    ("contact=frictionless, delta1=1.2, energy=relaxed", " wrinkled_fraction", 1e-8),
+    ("contact=frictionless, delta1=1.0, energy=relaxed", " wrinkled_fraction", 1e-8),
+    ("contact=frictionless, extent=half, s=2.2", " t2_min, uncertainty", 1e-7),
+    *((NO_FRICTION, f" traction_{at}, uncertainty", 2e-6) for at in ("front", "max")),
+    ("phase=deflation, spring=unilateral", " kappa", 1e-6),
+)
+"""Numbers of some solutions that multiply round-off, and by how much they may differ.
+
+A resultant is flat where it is least: the place of its smallest value, and fronts beside that place, are not
+sharp. The curve is flat at a limit point. Without friction a traction is zero. Curvatures beside a spring
+that lets go are second derivatives. These limits were set after one run had shown such differences, and are
+larger.
+"""
+
 
 def kind_of(spec: Spec) -> tuple:
     words = [(name, value) for name, value in spec.parameters if isinstance(value, str | bool)]
@@ -50,13 +69,21 @@ def kinds() -> dict[str, dict]:
 
 
 KINDS = kinds()
-PROBLEMS = {request["problem"]: request for request in reversed(KINDS.values())}
+PROBLEMS = {request["problem"]: name for name, request in reversed(KINDS.items())}
+"""Of each problem the solution that takes least."""
+
+
+def apart(name: str, found: Result) -> list[str]:
+    """The numbers of a solution on ranks that are not those of a serial one."""
+    serial = Result.from_json(solve(**KINDS[name]).to_json())
+    assert serial.failures == found.failures == []
+    return beyond(serial, found, [(place, most) for part, place, most in ROUND_OFF if part in name])
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", KINDS)
-def test_kind(same_on_ranks, name):
-    same_on_ranks([KINDS[name]])
+def test_kind(on_two_ranks, name):
+    assert apart(name, *on_two_ranks([KINDS[name]])) == []
 
 
 @pytest.fixture(scope="module")
@@ -70,9 +97,9 @@ def four(launcher):
 @pytest.mark.slow
 @pytest.mark.parametrize("problem", PROBLEMS)
 def test_problem_on_four_ranks(four, problem):
-    found, size = four.solve([PROBLEMS[problem]])
+    found, size = four.solve([KINDS[PROBLEMS[problem]]])
     assert size == 4
-    assert beyond(solve(**PROBLEMS[problem]), Result.from_json(found)) == []
+    assert apart(PROBLEMS[problem], Result.from_json(found)) == []
 
 
 def check(cases: tuple[str, ...], out: Path, ranks: int) -> None:

@@ -327,15 +327,16 @@ class System(Lendable):
 
 def _rate(form: ufl.Form, variable: Variable) -> ufl.Form:
     """``∂/∂λ`` of a form, without integrals if it is zero."""
-    rate = ufl.diff(form, variable)
     parts = (integral.integrand() for integral in form.integrals())
-    if not any(variable.label() in traverse_unique_terminals(part) for part in parts):
-        return ufl.Form([])
-    return ufl.Form([]) if _is_zero(rate) else rate
+    if any(variable.label() in traverse_unique_terminals(part) for part in parts):
+        rate = ufl.diff(form, variable)
+        if not _is_zero(rate):
+            return rate
+    return ufl.Form([])
 
 
 def _is_zero(form: ufl.Form) -> bool:
-    """Whether derivatives in a form cancel; they are expanded once for the same form on all meshes."""
+    """Whether a form is zero when its derivatives are expanded: once for the same form on all meshes."""
     name = form.signature()
     if name not in _zero:
         _zero[name] = not ufl.algorithms.expand_derivatives(form).integrals()
