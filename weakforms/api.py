@@ -167,15 +167,9 @@ def prepared(
         require_accuracy(accuracy, problem, meshes)
 
     def run(progress: Any) -> Result:
-        def solve(given: Any, numerics: Any = meshes) -> Result:
-            return chosen.solve(given, numerics, requests, world(), progress or silent)
-
-        def resolved(given: Any) -> Result:
-            return at_accuracy(accuracy, chosen.resolving(given, meshes), partial(solve, given))
-
-        def usual(given: Any) -> Result:
-            return on_finer_meshes(partial(solve, given), chosen.finer(given, meshes))
-
+        once = partial(chosen.solve, requests=requests, comm=world(), progress=progress or silent)
+        usual = partial(on_finer_meshes, chosen, meshes, once)
+        resolved = partial(at_accuracy, accuracy, chosen, meshes, once)
         result = reached(chosen, values, requests, usual if accuracy is None else resolved)
         result.warnings.extend(values.without_effect())
         return result

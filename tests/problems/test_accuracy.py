@@ -1,5 +1,7 @@
 """`solve` at an accuracy: meshes as coarse as the bounds allow, and an answer that says which they were."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,8 @@ from weakforms.problems.branch_problem import MeshNumerics
 from weakforms.problems.problem import validated
 from weakforms.results import Absence, Branch, Failure, Quantity, Result, SpecialPoint
 
+PROBLEM = SimpleNamespace(resolving=lambda _, numerics: numerics)
+
 
 def result_with(spread, **more):
     found = Result("tube", {}, {}, {}, {}, **more)
@@ -20,48 +24,52 @@ def result_with(spread, **more):
 
 def solving(order=4.0, at_default=1e-6, **more):
     """A problem with 96 cells by default, whose uncertainty falls with an order."""
-    return lambda numerics: result_with(at_default * (96 / numerics.cells) ** order, **more)
+    return lambda _, numerics: result_with(at_default * (96 / numerics.cells) ** order, **more)
+
+
+def coarsest(accuracy, solve):
+    return at_accuracy(accuracy, PROBLEM, MeshNumerics(), solve, None)
 
 
 def test_the_meshes_are_as_coarse_as_the_bound_allows():
-    found = at_accuracy(1e-2, MeshNumerics(), solving())
+    found = coarsest(1e-2, solving())
     assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24]]
     assert found.numerics["accuracy"]["bound"] == pytest.approx(2.56e-4)
     assert not found.failures
 
 
 def test_a_bound_above_a_tenth_of_the_accuracy_is_refined():
-    found = at_accuracy(2e-3, MeshNumerics(), solving())
+    found = coarsest(2e-3, solving())
     assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [12, 24, 48]]
 
 
 def test_meshes_that_the_order_rules_out_are_skipped():
-    found = at_accuracy(1e-6, MeshNumerics(), solving())
+    found = coarsest(1e-6, solving())
     assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [48, 96, 192]]
     assert not found.failures
 
 
 def test_an_accuracy_that_is_not_reached_is_a_failure():
-    found = at_accuracy(1e-9, MeshNumerics(), solving())
+    found = coarsest(1e-9, solving())
     assert found.numerics["accuracy"]["meshes"][-1] == [96, 192, 384]
     assert [item.what for item in found.failures] == ["accuracy"]
 
 
 def test_what_fails_or_is_absent_on_coarse_meshes_is_tried_on_finer_ones():
-    def solve(numerics):
+    def solve(_, numerics):
         if numerics.cells == 24:
             raise ConvergenceError("too coarse")
         absent = [Absence("branch", "none")] if numerics.cells == 48 else []
         return result_with(0.0, absent=absent)
 
-    found = at_accuracy(1e-3, MeshNumerics(), solve)
+    found = coarsest(1e-3, solve)
     assert found.numerics["accuracy"]["meshes"] == [[6, 12, 24], [12, 24, 48], [24, 48, 96]]
 
 
 def answers(*given):
     """A solve that gives one answer for the default meshes and another for finer ones; errors are raised."""
 
-    def solve(numerics=None):
+    def solve(_, numerics):
         found = given[numerics is not None]
         if isinstance(found, ConvergenceError):
             raise found
@@ -70,23 +78,27 @@ def answers(*given):
     return solve
 
 
+def once_more(solve, finer):
+    return on_finer_meshes(SimpleNamespace(finer=lambda *_: finer), None, solve, None)
+
+
 def test_what_does_not_converge_by_default_is_tried_on_finer_meshes_once():
     good, bad, worse = result_with(0.0), result_with(0.0), result_with(0.0)
     bad.failures = [Failure("special points", "differ")]
     worse.failures = [*bad.failures, Failure("branch", "stalled")]
     stalled, finer = ConvergenceError("stalled"), MeshNumerics(cells=192)
-    assert on_finer_meshes(answers(good, bad), finer) is good
-    assert on_finer_meshes(answers(bad, good), None) is bad
-    assert on_finer_meshes(answers(bad, worse), finer) is bad
-    assert on_finer_meshes(answers(bad, stalled), finer) is bad
+    assert once_more(answers(good, bad), finer) is good
+    assert once_more(answers(bad, good), None) is bad
+    assert once_more(answers(bad, worse), finer) is bad
+    assert once_more(answers(bad, stalled), finer) is bad
     assert bad.warnings == worse.warnings == []
-    assert on_finer_meshes(answers(bad, good), finer) is good
-    assert on_finer_meshes(answers(stalled, worse), finer) is worse
+    assert once_more(answers(bad, good), finer) is good
+    assert once_more(answers(stalled, worse), finer) is worse
     assert good.warnings == ["solved with cells = 192; on the default meshes: differ"]
     assert worse.warnings == ["solved with cells = 192; on the default meshes: stalled"]
     for second, finest in ((bad, None), (ConvergenceError("worse"), finer)):
         with pytest.raises(ConvergenceError, match=r"^stalled$"):
-            on_finer_meshes(answers(stalled, second), finest)
+            once_more(answers(stalled, second), finest)
 
 
 @pytest.mark.parametrize(
@@ -109,12 +121,12 @@ def test_finer_meshes_are_those_along_a_line_that_nobody_chose(name, given, chos
 
 
 def test_what_is_absent_on_the_default_meshes_is_absent():
-    found = at_accuracy(1e-3, MeshNumerics(), lambda _: result_with(0.0, absent=[Absence("branch", "none")]))
+    found = coarsest(1e-3, lambda *_: result_with(0.0, absent=[Absence("branch", "none")]))
     assert found.numerics["accuracy"]["meshes"][-1] == [24, 48, 96]
 
 
 def test_a_bound_that_is_no_number_is_never_small_enough():
-    found = at_accuracy(1e-3, MeshNumerics(), lambda _: result_with(float("nan")))
+    found = coarsest(1e-3, lambda *_: result_with(float("nan")))
     assert [item.what for item in found.failures] == ["accuracy"]
 
 

@@ -17,7 +17,11 @@ from pydantic import ValidationError
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.branch_problem import MeshNumerics
+from weakforms.problems.problem import Problem
 from weakforms.results import Failure, Result
+
+Solve = Callable[[Any, Any], Result]
+"""A function of parameters and numerics."""
 
 FACTORS = (0.25, 0.5, 1, 2, 4)
 """Numbers of cells that are tried, relative to the default meshes."""
@@ -50,15 +54,19 @@ def require_accuracy(accuracy: float, problem: str, numerics: Any) -> None:
         raise InputError(f"{problem}: cells and an accuracy exclude each other; give one of them")
 
 
-def at_accuracy(accuracy: float, default: MeshNumerics, solve: Callable[[Any], Result]) -> Result:
+def at_accuracy(
+    accuracy: float, problem: Problem, numerics: MeshNumerics, solve: Solve, parameters: Any
+) -> Result:
     """Solve on one family of meshes after the other, until the bounds are small enough.
 
     What does not converge or is not there on meshes coarser than the default ones is tried on finer ones.
 
     Args:
         accuracy: What is asked of every number, relative to the largest magnitude of its column.
-        default: Meshes that are used if no accuracy is asked.
-        solve: Solves on meshes.
+        problem: The problem.
+        numerics: Meshes that are used if no accuracy is asked, except where the problem needs finer ones.
+        solve: Solves at parameters on meshes.
+        parameters: The parameters.
 
     Returns:
         The first result whose bounds are small enough, or the last one, with a failure that says which number
@@ -69,13 +77,14 @@ def at_accuracy(accuracy: float, default: MeshNumerics, solve: Callable[[Any], R
         InputError: If a requested state is not there on the default meshes.
     """
     tried: list[list[int]] = []
+    default = problem.resolving(parameters, numerics)
     families = _families(default)
     while True:
         numerics = families.pop(0)
         tried.append(numerics.meshes)
         coarse = numerics.meshes[-1] < default.meshes[-1]
         try:
-            result = solve(numerics)
+            result = solve(parameters, numerics)
         except (ConvergenceError, InputError):
             if coarse:
                 continue
@@ -95,12 +104,14 @@ def at_accuracy(accuracy: float, default: MeshNumerics, solve: Callable[[Any], R
     return result
 
 
-def on_finer_meshes(solve: Callable[..., Result], finer: MeshNumerics | None) -> Result:
+def on_finer_meshes(problem: Problem, numerics: Any, solve: Solve, parameters: Any) -> Result:
     """Solve on the default meshes and, if something does not converge there, on finer ones.
 
     Args:
-        solve: Solves on meshes, or on the default ones.
-        finer: The finer ones; ``None`` if there are none.
+        problem: The problem, which says which meshes are finer, if there are any.
+        numerics: The default meshes.
+        solve: Solves at parameters on meshes.
+        parameters: The parameters.
 
     Returns:
         The result with fewer failures. If it is the one on finer meshes, a warning says so.
@@ -110,13 +121,14 @@ def on_finer_meshes(solve: Callable[..., Result], finer: MeshNumerics | None) ->
     """
     first = stalled = None
     try:
-        first = solve()
+        first = solve(parameters, numerics)
         reasons = [failure.reason for failure in first.failures]
     except ConvergenceError as error:
         stalled, reasons = error, [str(error)]
-    if finer is not None and reasons:
+    finer = problem.finer(parameters, numerics) if reasons else None
+    if finer is not None:
         with suppress(ConvergenceError):
-            again = solve(finer)
+            again = solve(parameters, finer)
             if first is None or len(again.failures) < len(reasons):
                 again.warnings.append(
                     f"solved with cells = {finer.cells}; on the default meshes: {reasons[0]}"
