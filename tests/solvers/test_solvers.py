@@ -144,6 +144,16 @@ def string(spring=0.0, cells=80, fixed=True):
     )
 
 
+def cells_with(stiffnesses):
+    """One degree of freedom in each cell, whose eigenvalue is the cell's stiffness."""
+    domain = mesh.create_unit_interval(COMM, len(stiffnesses))
+    space = fem.functionspace(domain, basix.ufl.element("DG", "interval", 0))
+    u, v, stiffness = fem.Function(space), ufl.TestFunction(space), fem.Function(space)
+    stiffness.x.array[:] = stiffnesses
+    mass = ufl.TrialFunction(space) * v * ufl.dx
+    return System(Formulation(u, stiffness * u * v * ufl.dx, {}, [], mass, {}))
+
+
 @pytest.mark.parametrize(("spring", "negative"), [(0.0, 0), (-20.0, 1), (-50.0, 2), (-100.0, 3)])
 def test_spectrum_has_no_spurious_eigenvalues_and_the_inertias_count(spring, negative):
     system = string(spring=spring)
@@ -151,6 +161,28 @@ def test_spectrum_has_no_spurious_eigenvalues_and_the_inertias_count(spring, neg
     exact = np.sort([(n * np.pi) ** 2 + spring for n in range(1, 5)])[: len(spectrum.eigenvalues)]
     assert spectrum.n_negative == negative
     assert spectrum.eigenvalues == pytest.approx(exact, rel=2e-5)
+
+
+@pytest.mark.parametrize("far", [(-500.0,), (-500.0, -300.0), (-500.0, -300.0, -60.0, -60.0)])
+def test_eigenvalues_far_below_zero_are_found_beside_a_crowd_near_zero(far):
+    near = np.array([-0.4, *np.linspace(0.1, 0.6, 60)])
+    exact = np.array([*far, *near])
+    system = cells_with(exact)
+    spectrum = Stability(system).spectrum(system.initial)
+    assert spectrum.n_negative == len(far) + 1
+    assert spectrum.eigenvalues[: spectrum.n_negative] == pytest.approx(exact[: spectrum.n_negative])
+
+
+def test_an_eigenvalue_that_is_missed_near_zero_is_not_replaced_by_another_one_twice(monkeypatch):
+    exact = np.array([-500.0, -3.0, -2.0, -0.4, *np.linspace(4, 6, 60)])
+    system, complete = cells_with(exact), Stability._eigenvalues
+
+    def without_one(self, wanted, inverse, target=0.0):
+        found = complete(self, wanted, inverse, target)
+        return found[np.abs(found + 2) > 1e-6] if target == 0 else found
+
+    monkeypatch.setattr(Stability, "_eigenvalues", without_one)
+    assert Stability(system).spectrum(system.initial).eigenvalues[:4] == pytest.approx(exact[:4])
 
 
 def test_linear_problem_converges_in_one_step():

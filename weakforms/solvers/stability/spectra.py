@@ -39,6 +39,9 @@ CROWDED = 8
 BESIDE = 1e-4
 """Relative distance between a known eigenvalue and the target for its mode."""
 
+SAME = 1e-6
+"""Relative distance below which an eigenvalue found from two targets is one."""
+
 Found = TypeVar("Found")
 
 
@@ -131,29 +134,31 @@ class Stability:
                     return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
             found = int(np.sum(values < 0))
             if found < negative:  # more than the inertia's count: a zero with round-off, nothing is missing
-                below = self._from_below(negative)
-                found = int(np.sum(below < 0))
-                if found == negative:
-                    values = np.concatenate([below[:negative], values[values >= 0]])
-                    return Spectrum(tuple((values[:wanted] - shift).tolist()), negative)
+                for missing in (negative - found, negative):
+                    below = self._from_below(state, shift, missing)[:missing]
+                    further = values - below.max(initial=-np.inf) > SAME * np.abs(values)
+                    joined = np.concatenate([below, values[further]])
+                    if int(np.sum(joined < 0)) == negative:
+                        return Spectrum(tuple((joined[:wanted] - shift).tolist()), negative)
             raise ConvergenceError(
                 f"stability: inertia counts {negative} negative eigenvalues, SLEPc finds {found} "
                 f"(nearest to zero: {values[np.argmin(np.abs(values))]:.1e})"
             )
 
-    def _from_below(self, count: int) -> np.ndarray:
-        """The lowest eigenvalues of the current matrix, with a target below all of them by inertia.
+    def _from_below(self, state: State, shift: float, count: int) -> np.ndarray:
+        """The lowest eigenvalues of ``K + shift M``, with a target below all of them by inertia.
 
         From zero, SLEPc would find a few low eigenvalues far from zero only after all the small ones.
         """
         target = 0.0
-        while target > LOWEST:
-            further = min(2 * target, -1.0)
-            self.system.shift(target - further)
-            target = further
-            self._factorise()
-            if not self.factor.negative_count():
-                return self._eigenvalues(count, self.factor.solve, target)
+        with self._tangent_at(state, shift):
+            while target > LOWEST:
+                further = min(2 * target, -1.0)
+                self.system.shift(target - further)
+                target = further
+                self._factorise()
+                if not self.factor.negative_count():
+                    return self._eigenvalues(count, self.factor.solve, target)
         raise ConvergenceError(f"stability: there are eigenvalues below {LOWEST:g}")
 
     def nearest_by_index(self, state: State, index: int) -> float:
