@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import Field, ValidationError, model_validator
 
 from weakforms.errors import AbsentError, ConvergenceError, InputError, not_among
-from weakforms.problems.problem import Numerics, Problem, StateRequest, Task, ended, sample_points
+from weakforms.problems.problem import Numerics, Problem, Progress, StateRequest, Task, ended, sample_points
 from weakforms.problems.reach import BeyondEndError, farthest, limit_points_beyond
 from weakforms.results import Absence, Branch, Failure, Result, SpecialPoint, State
 from weakforms.results.drawing import critical, draw, seed_of
@@ -62,6 +62,7 @@ class Family(Protocol):
     """A branch on a family of meshes: numbers with their uncertainties."""
 
     name: str
+    progress: Progress
 
     @property
     def quadrature_degree(self) -> int:
@@ -167,9 +168,8 @@ class BranchProblem(Problem):
         degrees = {name: family.quadrature_degree for name, family in families.items()}
         alike = len(set(degrees.values())) == 1
         result.numerics["quadrature_degree"] = next(iter(degrees.values())) if alike else degrees
-        for name, family in families.items():
-            if requests.branch_uncertainty:
-                progress(f"uncertainty of the {name} branch", 0, 1)
+        for family in families.values():
+            family.progress = progress
             result.branches.append(family.branch(requests.branch_uncertainty))
             try:
                 result.special_points.extend(family.special_points())

@@ -144,7 +144,11 @@ class WaveFamily(ModalFamily):
 
     def _trace(self) -> dict[str, np.ndarray]:
         """Columns of the finest mesh's trace, with the counts."""
-        rows = [self.fine.counted(point.state, point.n_negative) for point in self.fine.points]
+        rows, points = [], self.fine.points
+        for i, point in enumerate(points):
+            self.progress(f"stability of the {self.name} branch", i, len(points))
+            self.fine.observed(point)
+            rows.append(self.fine.counted(point.state, point.n_negative))
         return super()._trace() | {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:

@@ -39,7 +39,7 @@ class PiecewiseFamily:
         absent: Sequence[Absence] = (),
     ) -> None:
         self.pieces, self.joints, self._absent = list(pieces), joints, absent
-        self.name = self.pieces[0].family.name
+        self.name, self.progress = self.pieces[0].family.name, BranchFamily.progress
 
     @property
     def absent(self) -> list[Absence]:
@@ -65,6 +65,7 @@ class PiecewiseFamily:
         """All parts as one branch; a column that some part does not have is left out."""
         parts = []
         for piece in self.pieces:
+            piece.family.progress = self.progress
             part = piece.family.branch(with_uncertainty)
             columns, spread = dict(part.columns), dict(part.uncertainty)
             for name, value in piece.fixed.items():

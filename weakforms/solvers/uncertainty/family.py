@@ -42,8 +42,7 @@ SAMPLED = 1.5
 """Factor for columns of a profile, because differences depend on where points lie in their cells."""
 
 PLACES = 101
-"""Number of positions on a meridian at which the order of convergence of its fields is observed."""
-
+"""Number of places on a meridian at which the orders of its fields are observed."""
 
 Compared = tuple[Sequence[Mapping[str, float]], Mapping[str, float]]
 """A point of a branch: its columns on every mesh, coarse to fine, and on the finest one with diagnostics."""
@@ -79,6 +78,9 @@ class BranchFamily:
     least: ClassVar[Mapping[str, float]] = {}
     """Smallest orders of quantities; a lower observed order is accidental."""
 
+    progress: Callable[[str, int, int], None] = staticmethod(lambda _what, _done, _total: None)
+    """Called for each point of the trace by :meth:`branch`: what is done, the point's number, of how many."""
+
     def __init__(
         self,
         make: Callable[[int], SolutionCurve],
@@ -111,8 +113,6 @@ class BranchFamily:
         """Quadrature degree of the residual."""
         return quadrature_degree(self.fine.system.formulation.residual)
 
-    # -- the branch itself -------------------------------------------------------------------
-
     def branch(self, with_uncertainty: bool = True) -> Branch:
         """All columns, with uncertainties if requested.
 
@@ -125,7 +125,8 @@ class BranchFamily:
         if not with_uncertainty and self.traced_on_finest:
             return Branch(self.name, control, self._trace())
         kept, missed, places = [], [], []
-        for i, compared in enumerate(self._comparisons()):
+        for i, compared in enumerate(points := list(self._comparisons())):
+            self.progress(f"uncertainty of the {self.name} branch", i, len(points))
             try:
                 kept.append(compared())
                 places.append(i)
@@ -205,7 +206,6 @@ class BranchFamily:
         return list(zip(*found, strict=True))
 
     def _found(self) -> list[list[Solved]]:
-        """The special points of each mesh."""
         return [level.special() for level in self.levels]
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:
