@@ -2,8 +2,9 @@
 
 At high pressure the ordinary membrane of a tube against its substrate is in hoop compression where it turns
 in before the disk. With the relaxed energy it wrinkles there. Displacement, volume, the edge of the patch and
-both ends of the zone are compared with two other codes. Up to the first wrinkle the states are those of the
-ordinary membrane.
+both ends of the zone are compared with two other codes. While it is taut the states are those of the ordinary
+membrane. A third tube, far from its substrate, wrinkles in free inflation already. It touches with its zone
+open, becomes taut in contact, and wrinkles again at a higher pressure.
 """
 
 from weakforms.cases import (
@@ -17,6 +18,7 @@ from weakforms.cases import (
     Panel,
     Solutions,
     decide,
+    reference,
     tube,
 )
 
@@ -26,6 +28,8 @@ SOFT = tube(
 ).on(**MESH)
 STRETCHED = SOFT.at(alpha=0.0, delta1=1.2, lf=8.0, p_end=7.5)
 WHOLE = SOFT.at(extent="full", p_end=5.8)
+EARLY = SOFT.at(alpha=0.0, s=3.0, p_end=5.6).on(degree=6, cells=96)
+FREE = tube(alpha=0.0, delta1=1.0, lf=6.0, u_end=1.7, n=(0,)).on(degree=6, cells=48, step=0.15)
 TABLES = {SOFT: "relaxed_tube_contact", STRETCHED: "relaxed_tube_contact_stretched"}
 ORDINARY = {spec: spec.at(energy="standard") for spec in TABLES}
 LEGEND = {
@@ -33,7 +37,9 @@ LEGEND = {
     STRETCHED: r"$\alpha = 0,\ \delta_1 = 1.2,\ l_f = 8$",
 }
 BEYOND, BEFORE, FULL = At("p", 6.4), At("p", 5.0), At("p", 5.6)
-ONSET = "wrinkling_onset"
+ONSET, TOUCH = "wrinkling_onset", "contact_onset"
+OF_EARLY = reference("beyond", "relaxed_tube_early")
+TAUT = At("u_max", 2.1)
 
 
 def unchanged(solutions: Solutions) -> Finding:
@@ -92,6 +98,49 @@ def both_sides(solutions: Solutions) -> Finding:
     )
 
 
+def in_order(solutions: Solutions) -> Finding:
+    """A tube far from its substrate wrinkles, touches, becomes taut, and wrinkles again."""
+    first, closes, second = (solutions.point(EARLY, ONSET, "u_max", k) for k in range(3))
+    return decide.less("u_max of its points", first, solutions.point(EARLY, TOUCH, "u_max"), closes, second)
+
+
+def as_if_free(solutions: Solutions) -> Finding:
+    """Its first wrinkle is where the smallest resultant of the ordinary free tube is zero."""
+    return decide.all_of(
+        decide.agree(
+            f"first wrinkle, {name}",
+            solutions.point(EARLY, ONSET, name),
+            solutions.point(FREE, ONSET, name),
+            1e-6,
+        )
+        for name in ("p", "u_max", "V")
+    )
+
+
+def touches_wrinkled(solutions: Solutions) -> Finding:
+    """Pressure, volume and both ends of the zone at first contact are those of the table."""
+    row = OF_EARLY.columns["u_max"].tolist().index(2.0)
+    return decide.all_of(
+        decide.agree(
+            f"first contact, {name}", solutions.point(EARLY, TOUCH, name), OF_EARLY.number(name)[row], 1e-7
+        )
+        for name in ("p", "V", "Z_front_1", "Z_front_2")
+    )
+
+
+def taut_again(solutions: Solutions) -> Finding:
+    """Between both zones its states in contact are those of the ordinary membrane."""
+    return decide.all_of(
+        decide.agree(
+            f"u_max = {TAUT.value:g}, {name}",
+            solutions.number(EARLY, TAUT, name),
+            solutions.number(EARLY.at(energy="standard"), TAUT, name),
+            1e-9,
+        )
+        for name in ("p", "V", "Z_front", "Pi")
+    )
+
+
 CASE = Case(
     title="The tube in contact that wrinkles instead of being compressed",
     source="beyond Patil, Nordmark & Eriksson (2014), constrained inflation",
@@ -123,6 +172,24 @@ CASE = Case(
                 for spec, name in ((SOFT, "relaxed energy"), (ORDINARY[SOFT], "ordinary membrane"))
             ),
         ),
+        *(
+            Panel(
+                name,
+                x=Axis("u_max", 1.5, 2.3),
+                y=Axis(column, *axis),
+                title=f"{title}, a tube far from its substrate",
+                markers=(ONSET, TOUCH) if column == "p" else (),
+                curves=(
+                    Curve(EARLY, r"$\alpha = 0,\ s = 3$, relaxed energy", reference="relaxed_tube_early"),
+                ),
+            )
+            for name, column, axis, title in (
+                ("g", "p", (1.0, 6.0), "Pressure"),
+                ("h", "Z_front", (0.0, 1.6), "Edge of the patch"),
+                ("i", "Z_front_1", (2.0, 3.0), "End of the zone nearer to mid-length"),
+                ("j", "Z_front_2", (2.4, 3.0), "Its other end"),
+            )
+        ),
     ),
     checks=(
         Claim(
@@ -153,7 +220,31 @@ CASE = Case(
             ((WHOLE, FULL), (SOFT, FULL)),
             both_sides,
         ),
-        Count(ONSET, {SOFT: 1, STRETCHED: 1}, "zones that open"),
+        Claim(
+            "in_order",
+            "a tube far from its substrate wrinkles, touches, becomes taut, and wrinkles again",
+            ((EARLY, None),),
+            in_order,
+        ),
+        Claim(
+            "as_if_free",
+            "its first wrinkle is where the smallest resultant of the ordinary free tube is zero",
+            ((EARLY, None), (FREE, None)),
+            as_if_free,
+        ),
+        Claim(
+            "touches_wrinkled",
+            "it touches with the pressure, the volume and the zone of two other codes",
+            ((EARLY, None),),
+            touches_wrinkled,
+        ),
+        Claim(
+            "taut_again",
+            "between both zones its states in contact are those of the ordinary membrane",
+            ((EARLY, TAUT), (EARLY.at(energy="standard"), TAUT)),
+            taut_again,
+        ),
+        Count(ONSET, {SOFT: 1, STRETCHED: 1, EARLY: 3}, "zones that open or close"),
     ),
     asked=dict.fromkeys(("p", "u_max", "V", "Z_front", "Z_front_1", "Z_front_2"), 1e-7),
     slow=True,

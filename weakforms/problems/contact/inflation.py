@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import inf
 from typing import ClassVar
@@ -13,7 +13,7 @@ from weakforms.errors import AbsentError, ConvergenceError, InputError, Weakform
 from weakforms.problems.contact.model import PatchModel
 from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranch, MirroredBranch
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
-from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.continuation.walk import walk
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import Constraint, ExtendedNewton
@@ -114,7 +114,13 @@ class Inflation:
     def onset(self) -> Solved:
         """First touch."""
         last = self.free.points[-1]
-        return Solved({**last.monitors, "p": last.state.loads["p"]}, last.state, "contact_onset")
+        loads = {name: last.state.loads[name] for name in self.free.loads}
+        return Solved({**last.monitors, **loads}, last.state, "contact_onset")
+
+    @property
+    def highest(self) -> float:
+        """Largest pressure of free inflation, as far as it goes."""
+        return highest(self.inflated)
 
     @property
     def untouched(self) -> str:
@@ -127,7 +133,7 @@ class Inflation:
         try:
             first = self.onset.values["p"]
         except WeakformsError as error:
-            if max(point.state.loads["p"] for point in self.inflated.points) < self.p_end:
+            if self.highest < self.p_end:
                 raise
             reason = str(error).removeprefix(f"{self.name}: ")
             return f"{reason}; p_end = {self.p_end:g} is reached before"
@@ -144,7 +150,9 @@ class Inflation:
         Raises:
             InputError: If it is below the first state of a membrane that is slack without pressure, too.
         """
-        branch = self.inflate(self.data.touch)
+        return self._until_end(self.inflate(self.data.touch))
+
+    def _until_end(self, branch: EquilibriumBranch) -> EquilibriumBranch:
         pressures = np.array([point.state.loads["p"] for point in branch.points])
         if pressures[0] >= self.p_end:
             raise InputError(
@@ -169,27 +177,20 @@ class Inflation:
         """Frictionless contact, with the front as an unknown besides the pressure."""
         return self._follow(self.slip, self.small_patch())
 
-    def _follow(self, model: PatchModel, state: State) -> FittedBranch:
-        solver, length = ExtendedNewton(model.system, ["p", *model.edges]), self.data.length
-        signs = {name: sign for name, (_, sign) in model.edges.items()}
+    def _follow(
+        self,
+        model: PatchModel,
+        state: State,
+        start: Callable[[Continuation], CurvePoint] | None = None,
+    ) -> FittedBranch:
+        """Contact from a guess of the first state with the smallest patch, or from any other start."""
+        length, signs = self.data.length, {name: sign for name, (_, sign) in model.edges.items()}
         continuation = Continuation(
-            solver,
+            ExtendedNewton(model.system, ["p", *model.edges]),
             [Held(gap, 0.0) for gap, _ in model.edges.values()],
             self.steps(16),
             allowed=lambda state: all(0 < sign * state.loads[n] < length for n, sign in signs.items()),
         )
-        first = Held("front", self.first_front * length)
-        try:
-            start = continuation.start(state, first, towards={"front": 1.0})
-        except ConvergenceError:
-            state = self._stiffened(solver, state, [*continuation.fixed, first])
-            start = continuation.start(state, first, towards={"front": 1.0})
-        least = start.state.loads["p"]
-        if least >= self.p_end:
-            raise InputError(
-                f"{self.name}: p_end = {self.p_end:g} is too close above first contact at p = "
-                f"{self.onset.values['p']:.8g}; raise it to more than {least:.8g}"
-            )
 
         def ends(point: CurvePoint) -> str:
             if point.state.loads["front"] > self.last_front * length:
@@ -202,7 +203,8 @@ class Inflation:
             return point.state.loads["p"] > self.p_end or bool(ends(point))
 
         kind = FittedBranch if len(signs) == 1 else MirroredBranch
-        branch = kind(continuation, "p", start, stop)
+        first = start(continuation) if start else self._first_contact(continuation, state)
+        branch = kind(continuation, "p", first, stop)
         end = branch.points[-1]
         reached = end.state.loads["p"]
         if reached < self.p_end:
@@ -213,6 +215,26 @@ class Inflation:
                 branch.stalled = None
                 branch.ended = f"{self.name}: {followed}: {ends(end)}; lower p_end"
         return branch
+
+    def _first_contact(self, continuation: Continuation, state: State) -> CurvePoint:
+        """The state with the smallest patch, from a guess of it.
+
+        Raises:
+            InputError: If its pressure is ``p_end`` already.
+        """
+        first = Held("front", self.first_front * self.data.length)
+        try:
+            start = continuation.start(state, first, towards={"front": 1.0})
+        except ConvergenceError:
+            state = self._stiffened(continuation.solver, state, [*continuation.fixed, first])
+            start = continuation.start(state, first, towards={"front": 1.0})
+        least = start.state.loads["p"]
+        if least >= self.p_end:
+            raise InputError(
+                f"{self.name}: p_end = {self.p_end:g} is too close above first contact at p = "
+                f"{self.onset.values['p']:.8g}; raise it to more than {least:.8g}"
+            )
+        return start
 
     @staticmethod
     def _stiffened(solver: ExtendedNewton, state: State, constraints: Sequence[Constraint]) -> State:
@@ -251,3 +273,8 @@ class Inflation:
     def steps(self, fraction: int) -> StepControl:
         """Step control that starts with a fraction of the largest step."""
         return StepControl(self.step / fraction, self.step, usual_load=self.usual_load)
+
+
+def highest(branch: SolutionCurve) -> float:
+    """Largest pressure at the points of a trace."""
+    return max(point.state.loads["p"] for point in branch.points)

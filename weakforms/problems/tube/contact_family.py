@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 from mpi4py import MPI
 
-from weakforms.problems.contact.family import contact_branch
+from weakforms.problems.contact.family import MakeFamily, contact_branch
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.contact import ContactData
+from weakforms.problems.tube.folds import FRACTION, FRONTS
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.phases import TubePhases
 from weakforms.results import SpecialPoint
@@ -47,6 +48,9 @@ NO_PATCH = {
     )
 }
 """Values of columns on the free part, where there is no patch."""
+
+NO_CONTACT = NO_PATCH | {"kappa": float("nan")}
+"""The same with columns that have no value there."""
 
 
 class TubeContactFamily(BranchFamily):
@@ -105,9 +109,21 @@ def contact_family(
 
 
 def contact_parts(
-    runs: Sequence[TubePhases], parameters: TubeParameters, numerics: TubeNumerics, progress: Progress
+    runs: Sequence[TubePhases],
+    parameters: TubeParameters,
+    numerics: TubeNumerics,
+    progress: Progress,
+    zone: MakeFamily | None = None,
 ) -> PiecewiseFamily:
-    """The parts of the branch that the phases on all meshes have."""
+    """The parts of the branch that the phases on all meshes have.
+
+    Args:
+        runs: The phases on all meshes.
+        parameters: Tube and substrate.
+        numerics: Meshes.
+        progress: Called for every mesh.
+        zone: Makes the families of all parts, if the tube has a wrinkled zone on them.
+    """
     cap = 2 * numerics.degree
 
     def family(part: Callable[[TubePhases], SolutionCurve], frozen: bool) -> BranchFamily:
@@ -120,8 +136,8 @@ def contact_parts(
 
     def onset() -> SpecialPoint:
         shown = [n for n in runs[-1].free.shown if n not in NO_PATCH and n != "kappa"]
-        return special_point([run.onset for run in runs], shown, cap, "primary", "p", {"t2_min": 2.0})
+        lower = {"t2_min": 2.0} | dict.fromkeys((FRACTION, *FRONTS), float(numerics.degree))
+        return special_point([run.onset for run in runs], shown, cap, "primary", "p", lower)
 
-    none = NO_PATCH | {"kappa": float("nan")}
     sticks, deflates = parameters.contact == "adhesive", parameters.phase == "deflation"
-    return contact_branch(runs, family, sticks, deflates, none, onset)
+    return contact_branch(runs, zone or family, sticks, deflates, NO_CONTACT, onset)

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import ufl
 from ufl.core.expr import Expr
 
+from weakforms.errors import ConvergenceError
 from weakforms.forms.wrinkling import wrinkling_function
+from weakforms.problems.contact.guesses import transferred
 from weakforms.problems.meridian.blocks import BREAK
 from weakforms.problems.meridian.compression import ONSET
 from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.model import TAUT, WET, WRINKLED, Marks
 from weakforms.problems.tube.model import TubeModel
-from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.branch import MirroredBranch
+from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
+from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 
 SMALLEST, AT_DISK = 2e-3, 2e-5
@@ -132,6 +138,31 @@ class Verge:
         across = [self.least(point.state, "across")[0] for point in points]
         return np.flatnonzero(np.array(across) < -VERGE)
 
+    def first(self, branch: SolutionCurve) -> tuple[int, Solved] | None:
+        """The first wrinkle of a trace, and the point before it, if there is one."""
+        at = self.passed(branch)
+        return (at[0], self.touch(branch, at[0])) if at else None
+
+    def closing(self, branch: SolutionCurve, after: str) -> Solved:
+        """The state at which the zone closes, from which on a trace is kept.
+
+        Args:
+            branch: A trace of the taut tube that begins with a zone which is smaller than is followed.
+            after: The last wrinkled state, as text.
+
+        Raises:
+            ConvergenceError: If the tube does not become taut.
+        """
+        at = self.passed(branch)
+        if not at or self.least(branch.points[0].state)[0] > 0:
+            raise ConvergenceError(
+                f"tube: the wrinkled zone closes after {after}, but the tube does not become taut there; "
+                "raise cells"
+            )
+        found = self.touch(branch, at[0])
+        branch.points[: at[0] + 1] = [point_at(branch, at[0], found)]
+        return found
+
     def touch(self, branch: SolutionCurve, i: int) -> Solved:
         """The state between two points of a trace at which ``gw`` just reaches 1, with its place."""
         found = branch.zero(i, lambda solved: self.least(solved.state)[0], ONSET)
@@ -144,11 +175,11 @@ def at_disk(onset: Solved, half: float) -> bool:
     return onset.values[FRONTS[0]] > (1 - SMALLEST / 2) * half
 
 
-def unlike(point: CurvePoint) -> str:
+def unlike(point: CurvePoint, misfit: float = MISFIT) -> str:
     """Why the marks of the blocks do not fit a wrinkled state, as text; empty if they do."""
-    if point.monitors["misfit"] > MISFIT:
+    if point.monitors["misfit"] > misfit:
         return "another part of it wrinkles, or becomes taut, which is not followed"
-    if point.monitors["slack"] > MISFIT:
+    if point.monitors["slack"] > misfit:
         return "a part of it has no tension along the meridian, which is not followed"
     return ""
 
@@ -168,3 +199,86 @@ def point_at(branch: SolutionCurve, i: int, solved: Solved) -> CurvePoint:
     before, after = branch.points[i : i + 2]
     arclength = before.arclength + branch.continuation.distance(solved.state, before.state)
     return branch.continuation.point(solved.state, after.record, before.tangent, arclength)
+
+
+def cut(branch: SolutionCurve, i: int, solved: Solved) -> None:
+    """End a trace at a state that was solved for after one of its points."""
+    branch.points[i + 1 :] = [point_at(branch, i, solved)]
+    branch.stalled = branch.ended = None
+
+
+class Followed(NamedTuple):
+    """States with a wrinkled zone."""
+
+    branch: SolutionCurve
+    closes: bool
+    """Whether the zone closes at their end."""
+    ended: str
+    """Why they end before what was asked for, as text; empty if they do not."""
+
+
+def opening(taut: TubeModel, wrinkle: Solved, model: Folds) -> Callable[[Continuation], CurvePoint]:
+    """Finds the first state with a zone, the smallest one that is followed, from the first wrinkle.
+
+    Args:
+        taut: The model of the taut tube.
+        wrinkle: Its first wrinkle.
+        model: The model with a zone.
+
+    Raises:
+        ConvergenceError: When it is called, if there is no solution.
+    """
+    fronts = model.first_fronts(wrinkle.values[FRONTS[0]])
+    begin = replace(transferred(taut, wrinkle.state, model, fronts), marks=model.marks)
+
+    def start(continuation: Continuation) -> CurvePoint:
+        try:
+            return continuation.start(begin, Held(FRACTION, model.smallest), towards={FRACTION: 1.0})
+        except ConvergenceError as error:
+            where = f"u_max = {wrinkle.values['u_max']:.6g}"
+            raise ConvergenceError(
+                f"tube: the wrinkled zone that opens at {where} is not found: {error}; raise cells"
+            ) from error
+
+    return start
+
+
+def follow(
+    model: Folds,
+    edges: Mapping[str, str],
+    steps: StepControl,
+    start: Callable[[Continuation], CurvePoint],
+    enough: Callable[[CurvePoint], bool],
+    ends: Callable[[CurvePoint], str],
+    kind: type[SolutionCurve] = MirroredBranch,
+) -> Followed:
+    """States with a wrinkled zone, up to what was asked for or to where the zone closes.
+
+    Args:
+        model: The model with a zone.
+        edges: Further fronts that are unknowns, each with the functional that is zero there.
+        steps: Step control.
+        start: Finds the first state.
+        enough: Whether a point is beyond what was asked for.
+        ends: Why states are not followed beyond a point, as text; empty if they are.
+        kind: Class of the branch.
+    """
+    continuation = Continuation(
+        ExtendedNewton(model.system, ["p", *edges, *model.gaps]),
+        [Held(gap, 0.0) for gap in (*edges.values(), *model.gaps.values())],
+        steps,
+        allowed=lambda state: bool(np.all(np.diff(model.breaks_of(state.loads)) > 0)),
+    )
+
+    def closes(point: CurvePoint) -> bool:
+        return point.monitors[FRACTION] < CLOSED * model.smallest
+
+    def stop(point: CurvePoint) -> bool:
+        return enough(point) or closes(point) or bool(ends(point))
+
+    branch = kind(continuation, "p", start(continuation), stop)
+    last = branch.points[-1]
+    if closes(last):
+        branch.end_at(FRACTION, model.smallest)
+        return Followed(branch, True, "")
+    return Followed(branch, False, ends(last))

@@ -112,7 +112,7 @@ class TubeParameters(MaterialChoice):
     energy: Literal["standard", "relaxed"] = Field(
         "standard",
         description="that of the law, or relaxed: a tube that bears no compression, in free inflation, bent "
-        "from a taut state on (secondary_n), or in frictionless contact that begins while it is taut",
+        "from a taut state on (secondary_n), or in frictionless contact",
     )
     n: Annotated[tuple[int, ...], wave_numbers(MOST_WAVES)] = Field(
         (),

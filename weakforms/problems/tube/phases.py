@@ -83,10 +83,10 @@ class TubePhases(ContactPhases):
     ) -> None:
         super().__init__(ContactModel(comm, data), p_end, step, terms)
 
-    def inflate(self, depth: float) -> EquilibriumBranch:
-        """Free inflation up to a displacement of the mid-plane."""
+    def inflate(self, depth: float, begin: tuple[State, Held] | None = None) -> EquilibriumBranch:
+        """Free inflation up to a displacement of the mid-plane, from a guess and a condition of its start."""
         limit = limit_along(self.slip)
-        return free_branch(self.slip.system, self.data.delta1, depth, self.step, limit=limit)
+        return free_branch(self.slip.system, self.data.delta1, depth, self.step, limit=limit, begin=begin)
 
     def small_patch(self) -> State:
         """The tube at first touch, whose mesh has the smallest front already."""

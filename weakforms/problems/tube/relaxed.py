@@ -9,35 +9,32 @@ again, the tube is taut and the branch is that of the law once more.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 
-import numpy as np
 from mpi4py import MPI
 
-from weakforms.errors import AbsentError, ConvergenceError
+from weakforms.errors import AbsentError
 from weakforms.problems.contact.guesses import transferred
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import Blocks, both_ends, mirrored, one_end
 from weakforms.problems.meridian.limits import limit_along
 from weakforms.problems.tube.folds import (
-    CLOSED,
-    FRACTION,
     FRONTS,
     Folds,
     Verge,
     at_disk,
-    point_at,
+    cut,
+    follow,
+    opening,
     unlike,
     zone_breaks,
 )
 from weakforms.problems.tube.model import USUAL_LOAD, TubeMesh, TubeModel, free_branch, yielding, yields
 from weakforms.problems.tube.parameters import TubeParameters
 from weakforms.solvers.continuation.branch import EquilibriumBranch, MirroredBranch
-from weakforms.solvers.continuation.continuation import Continuation, CurvePoint, StepControl
+from weakforms.solvers.continuation.continuation import CurvePoint, StepControl
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
 
 
@@ -106,11 +103,10 @@ class RelaxedTube:
     def free(self) -> EquilibriumBranch:
         """The taut tube, up to the first wrinkle if there is one."""
         branch = self._inflated(None)
-        at = self.verge.passed(branch)
-        if at:
-            i, self.onset = at[0], self.verge.touch(branch, at[0])
-            branch.points[i + 1 :] = [point_at(branch, i, self.onset)]
-            branch.stalled = branch.ended = None
+        first = self.verge.first(branch)
+        if first:
+            self.onset = first[1]
+            cut(branch, *first)
         return branch
 
     onset: Solved | None = None
@@ -122,17 +118,11 @@ class RelaxedTube:
         last = self.wrinkled.points[-1]
         begin = transferred(self.folded, last.state, self.taut, {})
         branch = self._inflated((begin, Held("u_max", last.monitors["u_max"])))
-        at = self.verge.passed(branch)
-        if not at or at[0] > 0:
-            raise ConvergenceError(
-                f"tube: the wrinkled zone closes after u_max = {last.monitors['u_max']:.6g}, but the tube "
-                "does not become taut there; raise cells"
-            )
-        self.closing = self.verge.touch(branch, 0)
-        branch.points[0] = point_at(branch, 0, self.closing)
-        if len(at) > 1:
-            solved = self.verge.touch(branch, at[1])
-            branch.points[at[1] + 1 :] = [point_at(branch, at[1], solved)]
+        self.closing = self.verge.closing(branch, f"u_max = {last.monitors['u_max']:.6g}")
+        second = self.verge.first(branch)
+        if second:
+            solved = second[1]
+            cut(branch, *second)
             again = f"tube: at u_max = {solved.values['u_max']:.6g} it wrinkles for a second time"
             branch.stalled, branch.ended = None, f"{again}, which is not followed; lower u_end"
         return branch
@@ -171,37 +161,25 @@ class RelaxedTube:
     @cached_property
     def wrinkled(self) -> MirroredBranch:
         """The tube with a wrinkled zone, or with one at either disk."""
-        model = self.folded
-        fronts = model.first_fronts(self.onset.values[FRONTS[0]])
-        continuation = Continuation(
-            ExtendedNewton(model.system, ["p", *model.fronts]),
-            [Held(gap, 0.0) for gap in model.gaps.values()],
-            StepControl(self.step / 16, self.step, usual_load=USUAL_LOAD),
-            allowed=lambda state: bool(np.all(np.diff(model.breaks_of(state.loads)) > 0)),
-        )
-        begin = replace(transferred(self.taut, self.onset.state, model, fronts), marks=model.marks)
-        start = continuation.start(begin, Held(FRACTION, model.smallest), towards={FRACTION: 1.0})
-        end = self.parameters.u_end
-
-        def closes(point: CurvePoint) -> bool:
-            return point.monitors[FRACTION] < CLOSED * model.smallest
+        model, end = self.folded, self.parameters.u_end
 
         def ends(point: CurvePoint) -> str:
             if yields(point):
                 return yielding(point)
             return unlike(point) if self.finest else ""
 
-        def stop(point: CurvePoint) -> bool:
-            return point.monitors["u_max"] > end or closes(point) or bool(ends(point))
-
-        branch = MirroredBranch(continuation, "p", start, stop)
+        branch, self.closes, ended = follow(
+            model,
+            {},
+            StepControl(self.step / 16, self.step, usual_load=USUAL_LOAD),
+            opening(self.taut, self.onset, model),
+            lambda point: point.monitors["u_max"] > end,
+            ends,
+        )
         last = branch.points[-1]
-        self.closes = closes(last)
         followed = f"tube: wrinkled states were followed up to u_max = {last.monitors['u_max']:.6g}"
-        if self.closes:
-            branch.end_at(FRACTION, model.smallest)
-        elif ends(last):
-            branch.ended = f"{followed}: {ends(last)}; lower u_end, or raise cells"
+        if ended:
+            branch.ended = f"{followed}: {ended}; lower u_end, or raise cells"
         elif branch.stalled:
             branch.stalled = f"{followed}: {branch.stalled}; lower u_end, or raise cells"
         return branch

@@ -1,29 +1,32 @@
 """Frictionless contact of a tube that cannot bear compression: it wrinkles between its patch and the disks.
 
-The relaxed energy acts on the stretches and the substrate on the radius. Up to the first wrinkle the states
-are those of the law. From there on the mesh follows the edge of the patch and both ends of the wrinkled
-zone, at once: three scalar unknowns besides the pressure, or two where the zone ends at the disk.
+The relaxed energy acts on the stretches and the substrate on the radius. A tube that is taut has the states
+of the law. While it has a wrinkled zone, the mesh follows the edge of the patch and both ends of the zone, at
+once: three scalar unknowns besides the pressure, or two where the zone ends at the disk. Before first contact
+the same mesh serves, with the edge of the patch kept near mid-length and without springs. Zones open and
+close before and after it.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-from functools import cached_property
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
 
-import numpy as np
 from mpi4py import MPI
 
-from weakforms.errors import InputError
+from weakforms.errors import AbsentError, InputError
 from weakforms.problems.contact.guesses import transferred
+from weakforms.problems.contact.inflation import highest
 from weakforms.problems.tube.contact import ContactData, ContactModel
 from weakforms.problems.tube.folds import (
-    CLOSED,
-    FRACTION,
-    FRONTS,
+    MISFIT,
     Folds,
     Verge,
     at_disk,
-    point_at,
+    cut,
+    follow,
+    opening,
     unlike,
     zone_breaks,
 )
@@ -32,7 +35,6 @@ from weakforms.solvers.continuation.branch import EquilibriumBranch, FittedBranc
 from weakforms.solvers.continuation.continuation import Continuation, CurvePoint
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.equilibrium.constraints import Held
-from weakforms.solvers.equilibrium.newton import ExtendedNewton
 
 
 class FoldedContact(Folds, ContactModel):
@@ -52,6 +54,24 @@ class FoldedContact(Folds, ContactModel):
         self.fold(to_disk)
 
 
+COARSER = 10.0
+"""By which factor a larger misfit is allowed on a mesh with cells twice as long: on each of them the branch
+ends where another zone opens."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the branch on which the tube is taut throughout, or has a wrinkled zone."""
+
+    branch: SolutionCurve
+    disk: bool | None = None
+    """Whether the zone ends at the disk; ``None`` without a zone."""
+    begins: Solved | None = None
+    """Where the zone opens or closes with which it begins; ``None`` at the start and at first contact."""
+    closes: bool = False
+    """Whether it ends where its zone closes."""
+
+
 class RelaxedContact(TubePhases):
     """Frictionless inflation with the relaxed energy on one mesh; each part is solved when first needed.
 
@@ -60,106 +80,188 @@ class RelaxedContact(TubePhases):
         data: Tube, substrate and mesh.
         p_end: Pressure at which inflation ends.
         step: Largest arc-length step.
-        finest: Whether it is the finest mesh, on which the states of all parts are judged.
+        coarser: How many meshes are finer.
     """
 
     def __init__(
-        self, comm: MPI.Intracomm, data: ContactData, p_end: float, step: float, finest: bool
+        self, comm: MPI.Intracomm, data: ContactData, p_end: float, step: float, coarser: int
     ) -> None:
         super().__init__(comm, data, p_end, step)
-        self.verge, self.finest = Verge(self.slip), finest
+        self.verge, self.finest = Verge(self.slip), coarser == 0
+        self._misfit = MISFIT * COARSER**coarser
+        self.folded = cache(lambda to_disk: FoldedContact(comm, data, to_disk))
 
-    wrinkle: Solved | None = None
-    """The first wrinkle; known after :attr:`frictionless`."""
+    # -- free ----------------------------------------------------------------------------------
 
-    def inflate(self, depth: float) -> EquilibriumBranch:
-        """Free inflation of the taut tube.
+    @cached_property
+    def parts(self) -> list[Part]:
+        """Free inflation up to first contact, as far as it goes; see :meth:`settle`.
 
         Raises:
-            InputError: If it wrinkles, or loses its tension along the meridian, before it touches.
+            AbsentError: If its meridian is compressed from the first states on.
+            ConvergenceError: If it does not become taut where its zone closes.
+            InputError: If it touches with a zone that is smaller than is followed.
         """
-        branch = super().inflate(depth)
-        at = [*self.verge.passed(branch), *self._slack(branch)]
-        if at:
-            u_max = branch.points[min(at)].monitors["u_max"]
-            raise InputError(
-                f"tube: energy = 'relaxed' with contact = 'frictionless' is for a tube that is taut until it "
-                f"touches; this one is compressed from about u_max = {u_max:.4g} on, before s = "
-                f"{self.data.s:g}; lower s below {1 + u_max:.4g}, or set contact = 'none', or energy = "
-                "'standard'"
-            )
-        return branch
+        return self._continued(Part(self.inflate(self.data.touch)), free=True)
+
+    @cached_property
+    def inflated(self) -> EquilibriumBranch:
+        """The last part of free inflation."""
+        return self.parts[-1].branch
+
+    @property
+    def highest(self) -> float:
+        """Largest pressure of free inflation, as far as it goes."""
+        return max(highest(part.branch) for part in self.parts)
+
+    @cached_property
+    def until_end(self) -> EquilibriumBranch:
+        """The last part of free inflation up to ``p_end``, if that is below first contact.
+
+        Raises:
+            InputError: If ``p_end`` is reached with a zone that is smaller than is followed.
+        """
+        last = next(n for n, part in enumerate(self.parts) if highest(part.branch) >= self.p_end)
+        if last:
+            before, after = self.parts[last - 1].branch.points[-1], self.parts[last].branch.points[0]
+            _require_followed("p_end", self.p_end, before.state.loads["p"], after.state.loads["p"])
+        del self.parts[last + 1 :]
+        return self._until_end(self.parts[last].branch)
+
+    def settle(self) -> None:
+        """Leave out the parts of free inflation beyond ``p_end``, if that is below first contact."""
+        try:
+            if self.untouched:
+                _ = self.until_end
+        except AbsentError:
+            return
+
+    # -- in contact ----------------------------------------------------------------------------
 
     @cached_property
     def frictionless(self) -> FittedBranch:
-        """Contact of the taut tube, up to the first wrinkle if there is one."""
-        branch = super().frictionless
-        at, slack = self.verge.passed(branch), self._slack(branch)
-        if slack and (not at or slack[0] <= at[0]):
-            branch.stalled, branch.ended = None, _without_tension(branch.points[slack[0]])
-            del branch.points[slack[0] :]
-        elif at:
-            i, self.wrinkle = at[0], self.verge.touch(branch, at[0])
-            branch.points[i + 1 :] = [point_at(branch, i, self.wrinkle)]
-            branch.stalled = branch.ended = None
-        return branch
-
-    def _slack(self, branch: SolutionCurve) -> list[int]:
-        return self.verge.slack(branch.points).tolist() if self.finest else []
-
-    @property
-    def to_disk(self) -> bool:
-        """Whether the first wrinkle is at the disk."""
-        return at_disk(self.wrinkle, self.data.length)
+        """The first part in contact."""
+        return self.touching[0].branch
 
     @cached_property
-    def folded(self) -> FoldedContact:
-        """The model of a tube in contact with a wrinkled zone."""
-        return FoldedContact(self.slip.mesh.comm, self.data, self.to_disk)
+    def touching(self) -> list[Part]:
+        """The parts in contact; the first one is taut if the tube is when it touches.
 
-    @cached_property
-    def wrinkled(self) -> FittedBranch:
-        """The tube in contact with a wrinkled zone, or with one at either disk."""
-        model, length = self.folded, self.data.length
-        fronts = model.first_fronts(self.wrinkle.values[FRONTS[0]])
-        gaps = [gap for gap, _ in model.edges.values()] + list(model.gaps.values())
-        continuation = Continuation(
-            ExtendedNewton(model.system, ["p", *model.edges, *model.gaps]),
-            [Held(gap, 0.0) for gap in gaps],
-            self.steps(16),
-            allowed=lambda state: bool(np.all(np.diff(model.breaks_of(state.loads)) > 0)),
-        )
-        begin = replace(transferred(self.slip, self.wrinkle.state, model, fronts), marks=model.marks)
-        start = continuation.start(begin, Held(FRACTION, model.smallest), towards={FRACTION: 1.0})
+        Raises:
+            AbsentError: If its meridian is compressed from the first states on.
+            ConvergenceError: If it does not become taut where its zone closes.
+        """
+        disk = self.parts[-1].disk
+        if disk is None:
+            first = Part(self._follow(self.slip, self.small_patch()))
+        else:
+            first = self._wrinkled(lambda along: self._first_contact(along, self.small_patch()), disk, False)
+        return self._continued(first, free=False)
 
-        def closes(point: CurvePoint) -> bool:
-            return point.monitors[FRACTION] < CLOSED * model.smallest
+    # -- from part to part ---------------------------------------------------------------------
+
+    def _continued(self, first: Part, free: bool) -> list[Part]:
+        parts, after = [], first
+        while after:
+            parts.append(after)
+            after = self._after(after, free)
+        return parts
+
+    def _after(self, part: Part, free: bool) -> Part | None:
+        """The part that begins where a zone opens or closes; the one before is cut there."""
+        if part.disk is not None:
+            return self._taut(part, free) if part.closes else None
+        branch, first = part.branch, self.verge.first(part.branch)
+        if free and first and first[1].values[self.depth] >= self.data.touch:
+            first = None
+        slack = self.verge.slack(branch.points).tolist() if self.finest else []
+        if slack and (not first or slack[0] <= first[0]):
+            self._end_slack(branch, slack[0], free)
+            return None
+        if not first:
+            return None
+        cut(branch, *first)
+        wrinkle, disk = first[1], at_disk(first[1], self.data.length)
+        return self._wrinkled(opening(self.slip, wrinkle, self.folded(disk)), disk, free, wrinkle)
+
+    @staticmethod
+    def _end_slack(branch: SolutionCurve, at: int, free: bool) -> None:
+        why = f"at p = {branch.points[at].state.loads['p']:.6g} its meridian is compressed"
+        if at < 2:
+            raise AbsentError("relaxed states", f"tube: {why}; raise delta1")
+        del branch.points[at:]
+        why += ", which is not followed"
+        branch.stalled, branch.ended = None, why if free else f"tube: {why}; lower p_end"
+
+    def _wrinkled(
+        self,
+        start: Callable[[Continuation], CurvePoint],
+        disk: bool,
+        free: bool,
+        wrinkle: Solved | None = None,
+    ) -> Part:
+        """The tube with a wrinkled zone, or with one at either disk.
+
+        Args:
+            start: Finds the first state.
+            disk: Whether the zone ends at the disk.
+            free: Whether the tube is inflated freely.
+            wrinkle: Where the zone opens; ``None`` if it is open already, at first contact.
+        """
+        model, length = self.folded(disk), self.data.length
+
+        def enough(point: CurvePoint) -> bool:
+            if free:
+                return point.monitors[self.depth] > self.data.touch
+            return point.state.loads["p"] > self.p_end
 
         def ends(point: CurvePoint) -> str:
-            if closes(point):
-                return "the wrinkled zone closes, beyond which it is not followed"
             if point.state.loads["front"] > self.last_front * length:
                 return f"there the patch holds {self.last_front:g} of the {self.whole}"
-            return self.gives_way(point) or (unlike(point) if self.finest else "")
+            return self.gives_way(point) or unlike(point, self._misfit)
 
-        def stop(point: CurvePoint) -> bool:
-            return point.state.loads["p"] > self.p_end or bool(ends(point))
-
-        kind = FittedBranch if len(model.edges) == 1 else MirroredBranch
-        branch = kind(continuation, "p", start, stop)
+        edges = {} if free else {name: gap for name, (gap, _) in model.edges.items()}
+        kind = FittedBranch if edges and len(edges) == 1 else MirroredBranch
+        branch, closes, ended = follow(model, edges, self.steps(16), start, enough, ends, kind)
+        if free:
+            self._require_above(wrinkle.values[self.depth], branch.points[0].monitors[self.depth])
         last = branch.points[-1]
-        followed = f"tube: wrinkled states in contact were followed up to p = {last.state.loads['p']:.6g}"
-        if closes(last):
-            branch.end_at(FRACTION, model.smallest)
-        if ends(last):
-            branch.stalled, branch.ended = None, f"{followed}: {ends(last)}; lower p_end"
+        reached = f"p = {last.state.loads['p']:.6g}"
+        if free:
+            reached = f"u_max = {last.monitors[self.depth]:.6g}"
+        followed = f"wrinkled states{'' if free else ' in contact'} were followed up to {reached}"
+        if ended:
+            branch.stalled, branch.ended = None, f"{followed}: {ended}"
+            if not free:
+                branch.ended = f"tube: {branch.ended}; lower p_end"
         elif branch.stalled:
-            branch.stalled = f"{followed}: {branch.stalled}; lower p_end, or raise cells"
-        return branch
+            branch.stalled = f"{followed}: {branch.stalled}"
+            if not free:
+                branch.stalled = f"tube: {branch.stalled}; lower p_end, or raise cells"
+        return Part(branch, disk, wrinkle, closes)
+
+    def _taut(self, part: Part, free: bool) -> Part:
+        """The tube that is taut again, from where the zone closes."""
+        last = part.branch.points[-1]
+        state, at = transferred(self.folded(part.disk), last.state, self.slip, {}), last.monitors[self.depth]
+        if free:
+            branch = self.inflate(self.data.touch, (state, Held(self.depth, at)))
+        else:
+            edge, onwards = Held("front", last.state.loads["front"]), {"front": last.tangent.loads["front"]}
+            branch = self._follow(self.slip, state, lambda along: along.start(state, edge, onwards))
+        closing = self.verge.closing(branch, f"u_max = {at:.6g}")
+        if free:
+            self._require_above(at, closing.values[self.depth])
+        return Part(branch, begins=closing)
+
+    def _require_above(self, before: float, after: float) -> None:
+        _require_followed("s", self.data.s, 1 + before, 1 + after)
 
 
-def _without_tension(point: CurvePoint) -> str:
-    return (
-        f"tube: at p = {point.state.loads['p']:.6g} its meridian is compressed, which is not followed; lower "
-        "p_end"
-    )
+def _require_followed(name: str, given: float, before: float, after: float) -> None:
+    """Refuse a parameter at which the branch ends while the zone is smaller than is followed."""
+    if before < given <= after:
+        raise InputError(
+            f"tube: energy = 'relaxed': {name} = {given:g} is reached while the wrinkled zone is too small "
+            f"to be followed; lower {name} below {before:.6g}, or raise it above {after:.6g}"
+        )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
+from itertools import pairwise
 from typing import TypeVar
 
 from mpi4py import MPI
@@ -12,12 +14,12 @@ from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.meridian.compression import SLOPES
 from weakforms.problems.problem import Progress
-from weakforms.problems.tube.contact_family import contact_caps, contact_data, contact_parts
+from weakforms.problems.tube.contact_family import NO_CONTACT, contact_caps, contact_data, contact_parts
 from weakforms.problems.tube.folds import FRACTION, FRONTS
 from weakforms.problems.tube.model import TubeMesh
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.relaxed import RelaxedTube
-from weakforms.problems.tube.relaxed_contact import RelaxedContact
+from weakforms.problems.tube.relaxed_contact import Part, RelaxedContact
 from weakforms.results import Quantity, SpecialPoint
 from weakforms.solvers.continuation.curve import SolutionCurve, Solved
 from weakforms.solvers.continuation.pieces import Piece, PiecewiseFamily
@@ -25,6 +27,10 @@ from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.points import special_point
 
 Family = TypeVar("Family", bound=BranchFamily)
+Answer = TypeVar("Answer")
+
+ORDER = "zones open and close, before and after first contact, in another order on another mesh"
+"""What it means that meshes disagree, as text."""
 
 EPSILON = 2.0**-53
 """Round-off of a number of order one."""
@@ -61,14 +67,18 @@ class WrinkledFamily(BranchFamily):
         }
 
 
-def alike(answers: Sequence[bool]) -> bool:
+def alike(answers: Sequence[Answer], otherwise: str = "a zone of wrinkles is on some meshes only") -> Answer:
     """What the runs on all meshes say.
+
+    Args:
+        answers: Of every mesh, coarse to fine.
+        otherwise: What it means that they differ, as text.
 
     Raises:
         ConvergenceError: If they disagree.
     """
-    if len(set(answers)) > 1:
-        raise ConvergenceError("tube: a zone of wrinkles is on some meshes only; raise cells")
+    if any(answer != answers[-1] for answer in answers):
+        raise ConvergenceError(f"tube: {otherwise}; raise cells")
     return answers[-1]
 
 
@@ -140,30 +150,66 @@ def relaxed_contact_family(
     finest = numerics.levels - 1
     runs = [
         RelaxedContact(
-            comm, contact_data(parameters, numerics, level), parameters.p_end, numerics.step, level == finest
+            comm, contact_data(parameters, numerics, level), parameters.p_end, numerics.step, finest - level
         )
         for level in range(numerics.levels)
     ]
-    whole = contact_parts(runs, parameters, numerics, progress)
-    whole.pieces = [replace(piece, fixed={**NO_ZONE, **piece.fixed}) for piece in whole.pieces]
-    if len(whole.pieces) < 2 or not alike([run.wrinkle is not None for run in runs]):
-        return whole
     caps = contact_caps(numerics, frozen=False) | dict.fromkeys((FRACTION, *FRONTS), float(numerics.degree))
 
-    def make(level: int) -> SolutionCurve:
-        progress("branch", level, numerics.levels)
-        return runs[level].wrinkled
+    def made(part: Callable[[RelaxedContact], SolutionCurve], kind: type[Family] = BranchFamily) -> Family:
+        def make(level: int) -> SolutionCurve:
+            progress("branch", level, numerics.levels)
+            return part(runs[level])
 
-    wrinkled = WrinkledFamily(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"), caps=caps)
-    cells = numerics.meshes[-1] // 2
-    wrinkled.noise = EPSILON * numerics.degree**2 * cells / (parameters.lf / 2) ** 2
-    fixed = {FRONTS[1]: parameters.lf / 2} if alike([run.to_disk for run in runs]) else {}
+        return kind(make, numerics.levels, 2 * numerics.degree, across=("p", "u_max"), caps=caps)
+
+    def wrinkled(part: Callable[[RelaxedContact], SolutionCurve], _frozen: bool = False) -> WrinkledFamily:
+        family, cells = made(part, WrinkledFamily), numerics.meshes[-1] // 2
+        family.noise = EPSILON * numerics.degree**2 * cells / (parameters.lf / 2) ** 2
+        return family
+
+    def zone(disk: bool | None) -> dict[str, float]:
+        """Columns that are constant on a part with such a zone, or without one."""
+        return NO_ZONE if disk is None else {FRONTS[1]: parameters.lf / 2} if disk else {}
+
+    def piece(part: Callable[[RelaxedContact], Part], none: Mapping[str, float]) -> Piece:
+        disk = part(runs[-1]).disk
+        family = (made if disk is None else wrinkled)(lambda run: part(run).branch)
+        return Piece(family, {**none, **zone(disk)})
+
+    def joint(part: Callable[[RelaxedContact], Part], beside: Sequence[Piece]) -> SpecialPoint:
+        taut = next(piece for piece in beside if FRACTION in piece.fixed)
+        shown = [name for name in taut.family.fine.shown if name not in taut.fixed]
+        return first_wrinkle([part(run).begins for run in runs], [*shown, *FRONTS], numerics.degree)
+
+    for run in runs:
+        run.settle()
+    free = alike([[part.disk for part in run.parts] for run in runs], ORDER)
+    whole = contact_parts(runs, parameters, numerics, progress, None if free[-1] is None else wrinkled)
+    touches, touch = len(whole.pieces) > 1, whole.joints
+    contact = alike([[part.disk for part in run.touching] for run in runs], ORDER) if touches else []
+    before, beyond = (
+        [partial(_part, name, n) for n in range(1, len(parts))]
+        for name, parts in (("parts", free), ("touching", contact))
+    )
+    whole.pieces = [
+        *(piece(partial(_part, "parts", n), NO_CONTACT) for n in range(len(before))),
+        *(replace(part, fixed={**part.fixed, **zone(free[-1])}) for part in whole.pieces),
+        *(piece(part, {}) for part in beyond),
+    ]
+    beside = list(pairwise(whole.pieces))
 
     def joints() -> list[SpecialPoint]:
-        shown = [*whole.pieces[1].family.fine.shown, *FRONTS]
-        return [*whole.joints(), first_wrinkle([run.wrinkle for run in runs], shown, numerics.degree)]
+        opened = [joint(*of) for of in zip(before, beside, strict=False)]
+        later = beside[len(before) + touches :]
+        return [*opened, *touch(), *(joint(*of) for of in zip(beyond, later, strict=True))]
 
-    return PiecewiseFamily([*whole.pieces, Piece(wrinkled, fixed)], joints)
+    whole.joints = joints
+    return whole
+
+
+def _part(name: str, n: int, run: RelaxedContact) -> Part:
+    return getattr(run, name)[n]
 
 
 def require_relaxed_possible(parameters: TubeParameters) -> None:

@@ -137,35 +137,44 @@ def shoot(
         fronts.append(z)
 
 
-def solve(tube: Tube, u_max: float, tension: float, p: float, rtol: float, spring: Spring = NONE) -> Shot:
-    """The state with a displacement of the mid-plane or, with a spring, the state at a pressure.
+def solve(
+    tube: Tube,
+    u_max: float,
+    tension: float,
+    p: float,
+    rtol: float,
+    spring: Spring = NONE,
+    held: str = "u_max",
+) -> Shot:
+    """The state with a displacement of the mid-plane, or with a pressure.
 
     Args:
         tube: The tube.
-        u_max: Displacement of the mid-plane; with a spring a guess.
+        u_max: Displacement of the mid-plane, or a guess.
         tension: A guess of N there.
-        p: The pressure with a spring; else a guess.
+        p: The pressure, or a guess.
         rtol: Relative tolerance.
         spring: The substrate.
+        held: Which of ``u_max`` and ``p`` is given.
 
     Raises:
         RuntimeError: If the disk is not met.
     """
 
     def both(x: Array) -> tuple[float, float, float]:
-        u, pressure = (float(x[1]), p) if spring.k else (u_max, float(x[1]))
+        u, pressure = (float(x[1]), p) if held == "p" else (u_max, float(x[1]))
         return u, float(x[0]), pressure
 
     def missed(x: Array) -> Array:
         end, _ = shoot(tube, *both(x), rtol, spring)
         return np.array([end[0] - 1, end[1] - tube.lf / 2])
 
-    guess = [tension, u_max if spring.k else p]
+    guess = [tension, u_max if held == "p" else p]
     x = Secants(offset=1e-6).solve(missed, guess, f"shooting of {tube} at u_max = {u_max}, p = {p}")
     u, n, found = both(x)
     end, fronts = shoot(tube, u, n, found, rtol, spring)
     seen = np.array([end[3], *(tube.delta1 * z for z in fronts)])
-    if spring.k:
+    if 1 + u > spring.s:
         seen += _rest(lambda x: shoot(tube, *both(x), rtol, spring), x, tube)
     return Shot(found, float(seen[0]), tuple(map(float, seen[1:])), n, u)
 

@@ -32,6 +32,8 @@ MESHES = Mesh.graded(8, 10, 2.0), Mesh.graded(12, 12, 2.0)
 SURELY_RISES, LOAD_STEP = 0.3, 0.05
 """Edge of the patch, over the length, up to which it is given: at high pressure it returns. From there on the
 pressure is given, in steps of at most this."""
+TO_TOUCH, SMALL = 10, 0.03
+"""Steps to first contact of a wrinkled tube, and its first edge of the patch, over the length."""
 PLACES = 2001
 """Places at which the first fronts are looked for."""
 
@@ -81,7 +83,7 @@ def wrinkled(tube: Tube, y: list[Any], p: Any) -> list[Any]:
 
 
 def problem(state: State, held: str, value: float) -> Problem:
-    """The equations with the pressure ``p`` or the displacement of the mid-plane ``u_max`` given."""
+    """The equations with ``p``, the displacement of the mid-plane ``u_max`` or the first front given."""
     tube, substrate, mesh = state.tube, state.substrate, state.mesh
     patch = 0 if substrate is None else 1
     base = taut.State(tube, (), (), np.zeros(1))
@@ -103,14 +105,14 @@ def problem(state: State, held: str, value: float) -> Problem:
         ends = [first[1], first[3], first[4], disk[0] - 1, disk[1] - tube.lf / 2]
         at_edge = [y[0] - substrate.s for y in left[1 : 1 + patch]]
         at_fronts = [y[2] * (y[0] / tube.r0) ** 2 - 1 for y in left[1 + patch :]]
-        given = {"u_max": first[0] - 1, "p": c[0]}[held]
+        given = {"u_max": first[0] - 1, "p": c[0], "front": c[1]}[held]
         return [*ends, *joined(left, right), *at_edge, *at_fronts, given - value]
 
     return Problem(tuple(Part(mesh, partial(rates, d)) for d in range(len(state.c))), conditions)
 
 
 def solve(guess: State, value: float, held: str = "u_max") -> State:
-    """The state with a displacement of the mid-plane, or with a pressure.
+    """The state with a displacement of the mid-plane, with a pressure, or with the first front.
 
     Raises:
         RuntimeError: If Newton's method does not converge.
@@ -141,6 +143,17 @@ def first_in_contact(tube: Tube, substrate: Substrate, mesh: Mesh, p: float) -> 
     return solve(State(tube, mesh, tuple(guess), np.array([p, *fronts]), substrate), p, "p")
 
 
+def touched(free: State, substrate: Substrate) -> State:
+    """A state in contact with a small patch, from a free one that is wrinkled when it touches."""
+    for u in np.linspace(free.u_max, substrate.s - 1, TO_TOUCH + 1)[1:]:
+        free = solve(free, float(u))
+    mesh, at = free.mesh, SMALL * free.tube.length
+    share = at / float(free.c[1])
+    middle = [mesh.evaluate(free.y[0], low + (high - low) * mesh.x) for low, high in ((0, share), (share, 1))]
+    guess = State(free.tube, mesh, (*middle, *free.y[1:]), np.array([free.p, at, *free.c[1:]]), substrate)
+    return solve(guess, at, "front")
+
+
 def first(tube: Tube, mesh: Mesh, u_max: float) -> State:
     """A state not far beyond the first wrinkle, from the one that bears compression."""
     ordinary = start(tube, taut.Mesh.graded(12, 12, 2.0), "u_max", u_max)
@@ -157,8 +170,7 @@ def first(tube: Tube, mesh: Mesh, u_max: float) -> State:
     return solve(State(tube, mesh, tuple(guess), c), u_max)
 
 
-def again(state: State, mesh: Mesh) -> State:
-    """The same state on another mesh."""
+def again(state: State, mesh: Mesh, held: str) -> State:
+    """The same state on another mesh, with the displacement ``u_max`` or the pressure ``p`` given."""
     y = tuple(state.mesh.evaluate(part, mesh.x) for part in state.y)
-    value, held = (state.u_max, "u_max") if state.substrate is None else (state.p, "p")
-    return solve(replace(state, mesh=mesh, y=y), value, held)
+    return solve(replace(state, mesh=mesh, y=y), {"u_max": state.u_max, "p": state.p}[held], held)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -26,6 +27,10 @@ class Asked(NamedTuple):
     """Displacements, or pressures, of the rows."""
     fronts: int
     spring: Spring = NONE
+    early: bool = False
+    """Whether it wrinkles before it touches; ``begin`` is then a displacement of the free tube."""
+    over: str = ""
+    """What is given, if not the displacement of a free tube, or the pressure in contact."""
 
     @property
     def touches(self) -> bool:
@@ -35,7 +40,7 @@ class Asked(NamedTuple):
     @property
     def key(self) -> str:
         """What is given."""
-        return "p" if self.touches else "u_max"
+        return self.over or ("p" if self.touches else "u_max")
 
 
 ASKED = {
@@ -54,6 +59,14 @@ IN_CONTACT = {
     ),
 }
 """Tubes that touch a substrate first, and then wrinkle; the edge of the patch counts among the fronts."""
+
+SOFT, OVER = Spring(20.0, 3.0), "u_max"
+EARLY = (
+    Asked(Tube(0.0, 1.0, 6.0), 1.6, (1.54, 1.6, 1.7, 1.8, 1.9, 2.0), 2),
+    Asked(Tube(0.0, 1.0, 6.0), 1.6, (2.002, 2.005, 2.01, 2.015, 2.02, 2.025, 2.03), 3, SOFT, True, OVER),
+    Asked(Tube(0.0, 1.0, 6.0), 3.8, (2.15, 2.16, 2.18, 2.2, 2.22, 2.25), 3, SOFT, over=OVER),
+)
+"""A tube that wrinkles, touches, becomes taut in contact and wrinkles again, with its wrinkled parts."""
 
 STEP = 0.05
 """Largest step of the displacement, or of the pressure in contact, between two guesses."""
@@ -96,13 +109,18 @@ def followed(asked: Asked) -> list[strong.State]:
     """The states of the rows on the coarse mesh."""
     tube, mesh, at, found = asked.tube, strong.MESHES[0], asked.begin, {}
     if asked.touches:
-        begin = strong.first_in_contact(tube, Substrate(*asked.spring), mesh, at)
+        substrate = Substrate(*asked.spring)
+        if asked.early:
+            begin = strong.touched(strong.first(tube, mesh, at), substrate)
+        else:
+            begin = strong.first_in_contact(tube, substrate, mesh, at)
     else:
         begin = strong.first(tube, mesh, at)
+    first = getattr(begin, asked.key)
     for side in (-1, 1):
-        state, last = begin, asked.begin
+        state, last = begin, first
         for place in sorted(asked.places, key=lambda u: side * u):
-            if side * (place - asked.begin) < 0:
+            if side * (place - first) < 0:
                 continue
             for u in np.linspace(last, place, 2 + int(abs(place - last) / STEP))[1:]:
                 state = strong.solve(state, float(u), asked.key)
@@ -116,49 +134,63 @@ def shot(fine: list[strong.State], asked: Asked, rtol: float) -> list[shooting.S
     for state in fine:
         rho, _, l1, _, _ = state.y[0][0, 0]
         tension = tube.r0 * slope(l1, rho / tube.r0, tube.alpha)
-        found.append(shooting.solve(tube, state.u_max, float(tension), state.p, rtol, asked.spring))
+        found.append(
+            shooting.solve(tube, state.u_max, float(tension), state.p, rtol, asked.spring, asked.key)
+        )
     return found
 
 
 def branch(name: str) -> Table:
     """One branch over the displacement of the mid-plane, or over the pressure in contact."""
-    asked, table = (ASKED | IN_CONTACT)[name], f"relaxed_tube_{name}"
-    coarse = followed(asked)
-    fine = [strong.again(state, strong.MESHES[1]) for state in coarse]
-    shots = [shot(fine, asked, rtol) for rtol in shooting.TOLERANCES]
-    if any(len(s.fronts) != asked.fronts for level in shots for s in level):
-        raise RuntimeError(f"{table}: shooting meets other fronts than {asked.fronts}")
+    parts, table = (
+        {**{n: (of,) for n, of in (ASKED | IN_CONTACT).items()}, "early": EARLY}[name],
+        f"relaxed_tube_{name}",
+    )
+    states: list[list[strong.State]] = [[], []]
+    shots: list[list[shooting.Shot]] = [[], []]
+    for asked in parts:
+        coarse = followed(asked)
+        states[0] += coarse
+        states[1] += (fine := [strong.again(state, strong.MESHES[1], asked.key) for state in coarse])
+        for level, rtol in zip(shots, shooting.TOLERANCES, strict=True):
+            level.extend(shot(fine, asked, rtol))
+            if any(len(s.fronts) != asked.fronts for s in level[-len(fine) :]):
+                raise RuntimeError(f"{table}: shooting meets other fronts than {asked.fronts}")
 
     def column(name: str, a: list[Array], b: list[Array]) -> Column:
         own, other = (Levels(*of, rounding=r) for of, r in zip((a, b), ROUNDING, strict=True))
         return agreed(table, name, other, own, COLUMNS[name], "shooting", "collocation")
 
-    found = {"u_max": "u_max", "p": "p", "V": "volume"}
+    asked, found = parts[-1], {"u_max": "u_max", "p": "p", "V": "volume"}
     columns = [
-        column(
-            key,
-            *(
-                [np.array([getattr(s, k) for s in level]) for level in levels]
-                for levels in ((coarse, fine), shots)
-            ),
-        )
+        column(key, *([np.array([getattr(s, k) for s in level]) for level in of] for of in (states, shots)))
         for key, k in found.items()
         if key != asked.key
     ]
-    names = ["Z_front"] * asked.touches + ["Z_front_1", "Z_front_2"]
-    for k, front in enumerate(names[: asked.fronts]):
-        of_a = [np.array([s.front(k + 1) for s in level]) for level in (coarse, fine)]
-        of_b = [np.array([s.fronts[k] for s in level]) for level in shots]
+    names = (["Z_front"] * asked.touches + ["Z_front_1", "Z_front_2"])[: asked.fronts]
+    for k, front in enumerate(names):
+        # Without contact the fronts are those of the zone, and the patch has no edge.
+        ends = k - len(names)
+        of_a = [np.array([_at([s.front(i) for i in range(1, len(s.c))], ends) for s in of]) for of in states]
+        of_b = [np.array([_at(s.fronts, ends) for s in of]) for of in shots]
         columns.append(column(front, of_a, of_b))
     tube = asked.tube
     given = {"alpha": tube.alpha, "delta1": tube.delta1, "lf": tube.lf}
     what, more = "Free inflation", {}
     if asked.touches:
         what, more = "Frictionless contact", {"k": asked.spring.k, "s": asked.spring.s}
+    if len(parts) > 1:
+        what = "Free inflation and frictionless contact"
     title = f"{what} of a tube that bears no compression, beyond its first wrinkle"
     series = CONTACT if asked.touches else SERIES
-    keys = series.keys(**{asked.key: np.array(asked.places)})
+    places = [place for part in parts for place in part.places]
+    keys = series.keys(**{asked.key: np.array(places)})
     return series.table(table, title, "", given | more, [*keys, *columns])
 
 
-TABLES = {f"relaxed_tube_{name}": partial(branch, name) for name in ASKED | IN_CONTACT}
+def _at(fronts: Sequence[float], end: int) -> float:
+    """A front, counted from the disk; zero if there are not so many."""
+    return fronts[end] if -end <= len(fronts) else 0.0
+
+
+TABLES = {f"relaxed_tube_{name}": partial(branch, name) for name in (*ASKED, *IN_CONTACT, "early")}
