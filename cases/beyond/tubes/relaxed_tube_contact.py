@@ -4,7 +4,8 @@ At high pressure the ordinary membrane of a tube against its substrate is in hoo
 in before the disk. With the relaxed energy it wrinkles there. Displacement, volume, the edge of the patch and
 both ends of the zone are compared with two other codes. While it is taut the states are those of the ordinary
 membrane. A third tube, far from its substrate, wrinkles in free inflation already. It touches with its zone
-open, becomes taut in contact, and wrinkles again at a higher pressure.
+open, becomes taut in contact, and wrinkles again at a higher pressure. A fourth one touches with a zone that
+ends at the disk and leaves it in contact.
 """
 
 from weakforms.cases import (
@@ -29,6 +30,7 @@ SOFT = tube(
 STRETCHED = SOFT.at(alpha=0.0, delta1=1.2, lf=8.0, p_end=7.5)
 WHOLE = SOFT.at(extent="full", p_end=5.8)
 EARLY = SOFT.at(alpha=0.0, s=3.0, p_end=5.6).on(degree=6, cells=96)
+LEAVING = EARLY.at(alpha=0.037, delta1=1.09, lf=8.7, s=2.84, p_end=1.83)
 FREE = tube(alpha=0.0, delta1=1.0, lf=6.0, u_end=1.7, n=(0,)).on(degree=6, cells=48, step=0.15)
 TABLES = {SOFT: "relaxed_tube_contact", STRETCHED: "relaxed_tube_contact_stretched"}
 ORDINARY = {spec: spec.at(energy="standard") for spec in TABLES}
@@ -190,6 +192,19 @@ CASE = Case(
                 ("j", "Z_front_2", (2.4, 3.0), "Its other end"),
             )
         ),
+        Panel(
+            "k",
+            x=Axis("u_max", 1.84, 1.88),
+            y=Axis("Z_front_2", 4.15, 4.4),
+            title="Other end of a zone that leaves the disk in contact",
+            curves=(
+                Curve(
+                    LEAVING,
+                    r"$\alpha = 0.037,\ \delta_1 = 1.09,\ l_f = 8.7,\ s = 2.84$",
+                    reference="relaxed_tube_leaving",
+                ),
+            ),
+        ),
     ),
     checks=(
         Claim(
@@ -244,7 +259,7 @@ CASE = Case(
             ((EARLY, TAUT), (EARLY.at(energy="standard"), TAUT)),
             taut_again,
         ),
-        Count(ONSET, {SOFT: 1, STRETCHED: 1, EARLY: 3}, "zones that open or close"),
+        Count(ONSET, {SOFT: 1, STRETCHED: 1, EARLY: 3, LEAVING: 1}, "zones that open or close"),
     ),
     asked=dict.fromkeys(("p", "u_max", "V", "Z_front", "Z_front_1", "Z_front_2"), 1e-7),
     slow=True,

@@ -69,8 +69,8 @@ FINER = {"degree": 5, "cells": 32, "levels": 2}
 
 
 @cache
-def far(energy, p_end=3.5, **given):
-    return solve("tube", energy=energy, numerics=FINER, p_end=p_end, **FAR | given)
+def far(energy, p_end=3.5, cells=32, **given):
+    return solve("tube", energy=energy, numerics=FINER | {"cells": cells}, p_end=p_end, **FAR | given)
 
 
 def test_far_from_its_substrate_it_wrinkles_touches_becomes_taut_and_wrinkles_again():
@@ -107,6 +107,19 @@ def test_while_it_is_taut_in_contact_it_is_the_ordinary_one():
     for name in ("p", "V", "Z_front", "Pi"):
         ours, theirs = (state.quantities[name].value for state in (taut, ordinary))
         assert ours == pytest.approx(theirs, rel=1e-11)
+
+
+def test_a_zone_leaves_the_disk_in_contact():
+    given = {"alpha": 0.037, "delta1": 1.09, "lf": 8.7, "s": 2.84}
+    with pytest.raises(ConvergenceError, match="on another mesh; raise cells"):
+        far("relaxed", 1.75, **given)
+    found = far("relaxed", 1.75, cells=48, **given)
+    assert [p.kind for p in found.special_points].count("wrinkling_onset") == 1
+    assert not found.absent
+    primary = found.branch("primary")
+    u, end, wrinkled = (primary[name] for name in ("u_max", "Z_front_2", "wrinkled_fraction"))
+    assert set(end[(wrinkled > 0) & (u < 1.865)]) == {4.35}
+    assert np.all(np.diff(end[u > 1.8651]) < 0)
 
 
 def test_a_pressure_that_ends_before_contact_is_said():

@@ -15,7 +15,7 @@ from ufl.core.expr import Expr
 from weakforms.errors import ConvergenceError
 from weakforms.forms.wrinkling import wrinkling_function
 from weakforms.problems.contact.guesses import transferred
-from weakforms.problems.meridian.blocks import BREAK
+from weakforms.problems.meridian.blocks import BREAK, UPPER
 from weakforms.problems.meridian.compression import ONSET
 from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.meridian.model import TAUT, WET, WRINKLED, Marks
@@ -32,6 +32,9 @@ SMALLEST, AT_DISK = 2e-3, 2e-5
 """Fraction of the length of the smallest wrinkled zone that is followed, inside and at the disk. Inside a
 zone opens with the root of what ``u_max`` has grown by, at the disk in proportion to it."""
 
+LEFT = 2e-4
+"""Fraction of the length by which a zone that leaves the disk has left it when it is followed again."""
+
 VERGE = 1e-9
 """Deviation of ``gw`` from 1 that counts as zero: without pressure a pre-stretched tube has ``gw = 1``."""
 
@@ -44,6 +47,8 @@ CLOSED = 0.999
 
 FRONTS = ("Z_front_1", "Z_front_2")
 FRACTION = "wrinkled_fraction"
+DISK = "gap_disk"
+"""``gw - 1`` at the disk: where it grows above zero, a zone that ends at the disk leaves it."""
 
 
 def zone_breaks(half: float, to_disk: bool) -> list[float]:
@@ -84,6 +89,7 @@ class Folds(TubeModel):
             monitors={
                 **given.monitors,
                 FRACTION: share * self.expressions["width"] * self.dx,
+                DISK: (self.gw - 1) * self.ends(UPPER),
                 **{self.gaps[name]: ufl.avg(self.gw - 1) * at for name, at in places.items()},
             },
             maxima={
@@ -96,6 +102,7 @@ class Folds(TubeModel):
                 *given.internal,
                 *(name for name in self.gaps if name not in FRONTS),
                 *self.gaps.values(),
+                DISK,
                 "misfit",
                 "slack",
             ),
@@ -104,9 +111,12 @@ class Folds(TubeModel):
     def first_fronts(self, place: float) -> dict[str, float]:
         """Guesses of the ends of the smallest zone about the place of the first wrinkle."""
         apart = self.smallest * self.half / (1 if self.smallest == AT_DISK else 2)
-        near = dict(zip(FRONTS, (place - apart, place + apart), strict=True))
-        near |= {f"{name}_lower": -z for name, z in near.items()}
-        return {name: near[name] for name in self.gaps}
+        return self.both_sides(dict(zip(FRONTS, (place - apart, place + apart), strict=True)))
+
+    def both_sides(self, ends: Mapping[str, float]) -> dict[str, float]:
+        """Positions of those ends that the mesh follows, with mirror images if the tube is whole."""
+        near = {**ends, **{f"{name}_lower": -z for name, z in ends.items()}}
+        return {name: near[name] for name in self.gaps if name in near}
 
 
 class Verge:
@@ -213,6 +223,8 @@ class Followed(NamedTuple):
     branch: SolutionCurve
     closes: bool
     """Whether the zone closes at their end."""
+    leaves: bool
+    """Whether the zone leaves the disk there."""
     ended: str
     """Why they end before what was asked for, as text; empty if they do not."""
 
@@ -230,14 +242,37 @@ def opening(taut: TubeModel, wrinkle: Solved, model: Folds) -> Callable[[Continu
     """
     fronts = model.first_fronts(wrinkle.values[FRONTS[0]])
     begin = replace(transferred(taut, wrinkle.state, model, fronts), marks=model.marks)
+    opens = f"opens at u_max = {wrinkle.values['u_max']:.6g}"
+    return _start(begin, Held(FRACTION, model.smallest), {FRACTION: 1.0}, opens)
 
+
+def leaving(before: Folds, last: State, model: Folds) -> Callable[[Continuation], CurvePoint]:
+    """Finds the first state with a zone that has left the disk, from the last one at the disk.
+
+    Args:
+        before: The model with a zone that ends at the disk.
+        last: Its last state.
+        model: The model with a zone that ends before.
+
+    Raises:
+        ConvergenceError: When it is called, if there is no solution.
+    """
+    at = (1 - LEFT) * model.half
+    fronts = model.both_sides({FRONTS[0]: last.loads[FRONTS[0]], FRONTS[1]: at})
+    begin = replace(transferred(before, last, model, fronts), marks=model.marks)
+    leaves = f"leaves the disk at p = {last.loads['p']:.6g}"
+    return _start(begin, Held(FRONTS[1], at), {FRONTS[1]: -1.0}, leaves)
+
+
+def _start(
+    begin: State, held: Held, towards: dict[str, float], what: str
+) -> Callable[[Continuation], CurvePoint]:
     def start(continuation: Continuation) -> CurvePoint:
         try:
-            return continuation.start(begin, Held(FRACTION, model.smallest), towards={FRACTION: 1.0})
+            return continuation.start(begin, held, towards)
         except ConvergenceError as error:
-            where = f"u_max = {wrinkle.values['u_max']:.6g}"
             raise ConvergenceError(
-                f"tube: the wrinkled zone that opens at {where} is not found: {error}; raise cells"
+                f"tube: the wrinkled zone that {what} is not found: {error}; raise cells"
             ) from error
 
     return start
@@ -251,8 +286,9 @@ def follow(
     enough: Callable[[CurvePoint], bool],
     ends: Callable[[CurvePoint], str],
     kind: type[SolutionCurve] = MirroredBranch,
+    to_disk: bool = False,
 ) -> Followed:
-    """States with a wrinkled zone, up to what was asked for or to where the zone closes.
+    """States with a wrinkled zone, up to what was asked for or to where the zone closes, or leaves the disk.
 
     Args:
         model: The model with a zone.
@@ -262,6 +298,7 @@ def follow(
         enough: Whether a point is beyond what was asked for.
         ends: Why states are not followed beyond a point, as text; empty if they are.
         kind: Class of the branch.
+        to_disk: Whether the zone ends at the disk, and its states are asked for until it leaves it.
     """
     continuation = Continuation(
         ExtendedNewton(model.system, ["p", *edges, *model.gaps]),
@@ -273,12 +310,17 @@ def follow(
     def closes(point: CurvePoint) -> bool:
         return point.monitors[FRACTION] < CLOSED * model.smallest
 
+    def leaves(point: CurvePoint) -> bool:
+        return to_disk and point.monitors[DISK] > 0
+
     def stop(point: CurvePoint) -> bool:
-        return enough(point) or closes(point) or bool(ends(point))
+        return enough(point) or closes(point) or leaves(point) or bool(ends(point))
 
     branch = kind(continuation, "p", start(continuation), stop)
-    last = branch.points[-1]
-    if closes(last):
+    closed, left = closes(branch.points[-1]), leaves(branch.points[-1])
+    if closed:
         branch.end_at(FRACTION, model.smallest)
-        return Followed(branch, True, "")
-    return Followed(branch, False, ends(last))
+    elif left:
+        branch.end_at(DISK, 0.0)
+    why = "" if closed else ends(branch.points[-1])
+    return Followed(branch, closed, left and not why, why)

@@ -168,7 +168,7 @@ class RelaxedTube:
                 return yielding(point)
             return unlike(point) if self.finest else ""
 
-        branch, self.closes, ended = follow(
+        branch, self.closes, _, ended = follow(
             model,
             {},
             StepControl(self.step / 16, self.step, usual_load=USUAL_LOAD),

@@ -26,6 +26,7 @@ from weakforms.problems.tube.folds import (
     at_disk,
     cut,
     follow,
+    leaving,
     opening,
     unlike,
     zone_breaks,
@@ -59,6 +60,10 @@ COARSER = 10.0
 ends where another zone opens."""
 
 
+JUST = 1e-6
+"""Fraction of the way to the substrate that is rounding."""
+
+
 @dataclass(frozen=True)
 class Part:
     """A part of the branch on which the tube is taut throughout, or has a wrinkled zone."""
@@ -67,9 +72,11 @@ class Part:
     disk: bool | None = None
     """Whether the zone ends at the disk; ``None`` without a zone."""
     begins: Solved | None = None
-    """Where the zone opens or closes with which it begins; ``None`` at the start and at first contact."""
+    """Where the zone opens or closes with which it begins; ``None`` if it begins in another way."""
     closes: bool = False
     """Whether it ends where its zone closes."""
+    leaves: bool = False
+    """Whether it ends where its zone leaves the disk."""
 
 
 class RelaxedContact(TubePhases):
@@ -108,6 +115,12 @@ class RelaxedContact(TubePhases):
     def inflated(self) -> EquilibriumBranch:
         """The last part of free inflation."""
         return self.parts[-1].branch
+
+    @property
+    def order(self) -> tuple[bool, list[bool | None]]:
+        """Whether free inflation reaches first contact, and :attr:`Part.disk` of its parts."""
+        deepest = self.inflated.points[-1].monitors[self.depth]
+        return deepest > (1 - JUST) * self.data.touch, [part.disk for part in self.parts]
 
     @property
     def highest(self) -> float:
@@ -169,6 +182,9 @@ class RelaxedContact(TubePhases):
 
     def _after(self, part: Part, free: bool) -> Part | None:
         """The part that begins where a zone opens or closes; the one before is cut there."""
+        if part.leaves:
+            last, inside = part.branch.points[-1].state, self.folded(False)
+            return self._wrinkled(leaving(self.folded(True), last, inside), False, free)
         if part.disk is not None:
             return self._taut(part, free) if part.closes else None
         branch, first = part.branch, self.verge.first(part.branch)
@@ -206,7 +222,7 @@ class RelaxedContact(TubePhases):
             start: Finds the first state.
             disk: Whether the zone ends at the disk.
             free: Whether the tube is inflated freely.
-            wrinkle: Where the zone opens; ``None`` if it is open already, at first contact.
+            wrinkle: Where the zone opens; ``None`` if it is open already.
         """
         model, length = self.folded(disk), self.data.length
 
@@ -222,23 +238,24 @@ class RelaxedContact(TubePhases):
 
         edges = {} if free else {name: gap for name, (gap, _) in model.edges.items()}
         kind = FittedBranch if edges and len(edges) == 1 else MirroredBranch
-        branch, closes, ended = follow(model, edges, self.steps(16), start, enough, ends, kind)
-        if free:
+        followed = follow(model, edges, self.steps(16), start, enough, ends, kind, disk)
+        branch, ended = followed.branch, followed.ended
+        if free and wrinkle:
             self._require_above(wrinkle.values[self.depth], branch.points[0].monitors[self.depth])
         last = branch.points[-1]
         reached = f"p = {last.state.loads['p']:.6g}"
         if free:
             reached = f"u_max = {last.monitors[self.depth]:.6g}"
-        followed = f"wrinkled states{'' if free else ' in contact'} were followed up to {reached}"
+        until = f"wrinkled states{'' if free else ' in contact'} were followed up to {reached}"
         if ended:
-            branch.stalled, branch.ended = None, f"{followed}: {ended}"
+            branch.stalled, branch.ended = None, f"{until}: {ended}"
             if not free:
                 branch.ended = f"tube: {branch.ended}; lower p_end"
         elif branch.stalled:
-            branch.stalled = f"{followed}: {branch.stalled}"
+            branch.stalled = f"{until}: {branch.stalled}"
             if not free:
                 branch.stalled = f"tube: {branch.stalled}; lower p_end, or raise cells"
-        return Part(branch, disk, wrinkle, closes)
+        return Part(branch, disk, wrinkle, followed.closes, followed.leaves)
 
     def _taut(self, part: Part, free: bool) -> Part:
         """The tube that is taut again, from where the zone closes."""

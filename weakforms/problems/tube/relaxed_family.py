@@ -177,14 +177,16 @@ def relaxed_contact_family(
         family = (made if disk is None else wrinkled)(lambda run: part(run).branch)
         return Piece(family, {**none, **zone(disk)})
 
-    def joint(part: Callable[[RelaxedContact], Part], beside: Sequence[Piece]) -> SpecialPoint:
+    def joint(part: Callable[[RelaxedContact], Part], beside: Sequence[Piece]) -> SpecialPoint | None:
+        if part(runs[-1]).begins is None:  # a zone leaves the disk
+            return None
         taut = next(piece for piece in beside if FRACTION in piece.fixed)
         shown = [name for name in taut.family.fine.shown if name not in taut.fixed]
         return first_wrinkle([part(run).begins for run in runs], [*shown, *FRONTS], numerics.degree)
 
     for run in runs:
         run.settle()
-    free = alike([[part.disk for part in run.parts] for run in runs], ORDER)
+    _, free = alike([run.order for run in runs], ORDER)
     whole = contact_parts(runs, parameters, numerics, progress, None if free[-1] is None else wrinkled)
     touches, touch = len(whole.pieces) > 1, whole.joints
     contact = alike([[part.disk for part in run.touching] for run in runs], ORDER) if touches else []
@@ -199,7 +201,7 @@ def relaxed_contact_family(
     ]
     beside = list(pairwise(whole.pieces))
 
-    def joints() -> list[SpecialPoint]:
+    def joints() -> list[SpecialPoint | None]:
         opened = [joint(*of) for of in zip(before, beside, strict=False)]
         later = beside[len(before) + touches :]
         return [*opened, *touch(), *(joint(*of) for of in zip(beyond, later, strict=True))]

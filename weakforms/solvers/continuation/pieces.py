@@ -28,14 +28,15 @@ class PiecewiseFamily:
 
     Args:
         pieces: In the order in which the branch runs through them.
-        joints: Special points at which a piece ends and the next begins, one a joint.
+        joints: Special points at which a piece ends and the next begins, one a joint; ``None`` for a joint
+            at which a branch is smooth enough not to be marked.
         absent: What was asked for and is not there, such as contact.
     """
 
     def __init__(
         self,
         pieces: Sequence[Piece],
-        joints: Callable[[], Sequence[SpecialPoint]] = tuple,
+        joints: Callable[[], Sequence[SpecialPoint | None]] = tuple,
         absent: Sequence[Absence] = (),
     ) -> None:
         self.pieces, self.joints, self._absent = list(pieces), joints, absent
@@ -88,7 +89,7 @@ class PiecewiseFamily:
         points: list[SpecialPoint] = []
         for i, piece in enumerate(self.pieces):
             points.extend(_point_with_fixed(p, piece.fixed) for p in piece.family.special_points())
-            points.extend(joints[i : i + 1])
+            points.extend(joint for joint in joints[i : i + 1] if joint is not None)
         return points
 
     def state(self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None) -> State:

@@ -63,9 +63,10 @@ class State:
         """Radial displacement of the mid-plane."""
         return float(self.y[0][0, 0, 0]) - 1
 
-    def front(self, k: int) -> float:
-        """Z of a front, counted from 1 at mid-length, on the pre-stretched tube."""
-        return float(self.c[k]) * self.tube.delta1
+    @property
+    def fronts(self) -> tuple[float, ...]:
+        """Z of the fronts on the pre-stretched tube, from the mid-plane."""
+        return tuple(float(z) * self.tube.delta1 for z in self.c[1:])
 
 
 def wrinkled(tube: Tube, y: list[Any], p: Any) -> list[Any]:

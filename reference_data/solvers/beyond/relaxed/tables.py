@@ -68,6 +68,16 @@ EARLY = (
 )
 """A tube that wrinkles, touches, becomes taut in contact and wrinkles again, with its wrinkled parts."""
 
+SHORT, NEARER = Tube(0.037, 1.09, 8.7), Spring(20.0, 2.84)
+LEAVING = (
+    Asked(SHORT, 1.5, (1.845, 1.85, 1.855, 1.86, 1.864), 2, NEARER, True, OVER),
+    Asked(SHORT, 1.7, (1.866, 1.868, 1.87, 1.873, 1.876, 1.878), 3, NEARER, over=OVER),
+)
+"""A tube that touches with a zone at either disk, which leaves it in contact."""
+
+TOGETHER = {"early": EARLY, "leaving": LEAVING}
+"""Tables of several parts."""
+
 STEP = 0.05
 """Largest step of the displacement, or of the pressure in contact, between two guesses."""
 ROUNDING = 3e-12, 1e-10
@@ -116,7 +126,7 @@ def followed(asked: Asked) -> list[strong.State]:
             begin = strong.first_in_contact(tube, substrate, mesh, at)
     else:
         begin = strong.first(tube, mesh, at)
-    first = getattr(begin, asked.key)
+    first = getattr(begin, asked.key) if asked.over else at
     for side in (-1, 1):
         state, last = begin, first
         for place in sorted(asked.places, key=lambda u: side * u):
@@ -142,10 +152,8 @@ def shot(fine: list[strong.State], asked: Asked, rtol: float) -> list[shooting.S
 
 def branch(name: str) -> Table:
     """One branch over the displacement of the mid-plane, or over the pressure in contact."""
-    parts, table = (
-        {**{n: (of,) for n, of in (ASKED | IN_CONTACT).items()}, "early": EARLY}[name],
-        f"relaxed_tube_{name}",
-    )
+    parts = TOGETHER.get(name) or ((ASKED | IN_CONTACT)[name],)
+    table = f"relaxed_tube_{name}"
     states: list[list[strong.State]] = [[], []]
     shots: list[list[shooting.Shot]] = [[], []]
     for asked in parts:
@@ -167,13 +175,17 @@ def branch(name: str) -> Table:
         for key, k in found.items()
         if key != asked.key
     ]
-    names = (["Z_front"] * asked.touches + ["Z_front_1", "Z_front_2"])[: asked.fronts]
-    for k, front in enumerate(names):
-        # Without contact the fronts are those of the zone, and the patch has no edge.
-        ends = k - len(names)
-        of_a = [np.array([_at([s.front(i) for i in range(1, len(s.c))], ends) for s in of]) for of in states]
-        of_b = [np.array([_at(s.fronts, ends) for s in of]) for of in shots]
-        columns.append(column(front, of_a, of_b))
+    names = ["Z_front"] * asked.touches + ["Z_front_1", "Z_front_2"]
+    rows = [part for part in parts for _ in part.places]
+    for k, front in enumerate(names[: asked.fronts]):
+        both = [
+            [
+                np.array([_ends(s.fronts, part, asked)[k] for s, part in zip(level, rows, strict=True)])
+                for level in levels
+            ]
+            for levels in (states, shots)
+        ]
+        columns.append(column(front, *both))
     tube = asked.tube
     given = {"alpha": tube.alpha, "delta1": tube.delta1, "lf": tube.lf}
     what, more = "Free inflation", {}
@@ -188,9 +200,11 @@ def branch(name: str) -> Table:
     return series.table(table, title, "", given | more, [*keys, *columns])
 
 
-def _at(fronts: Sequence[float], end: int) -> float:
-    """A front, counted from the disk; zero if there are not so many."""
-    return fronts[end] if -end <= len(fronts) else 0.0
+def _ends(fronts: Sequence[float], of: Asked, last: Asked) -> list[float]:
+    """The fronts of a row as those of the last part: without contact there is no patch."""
+    no_patch = [0.0] if last.touches and not of.touches else []
+    at_disk = [of.tube.lf / 2] if of.fronts == of.touches + 1 else []
+    return [*no_patch, *fronts, *at_disk]
 
 
-TABLES = {f"relaxed_tube_{name}": partial(branch, name) for name in (*ASKED, *IN_CONTACT, "early")}
+TABLES = {f"relaxed_tube_{name}": partial(branch, name) for name in (*ASKED, *IN_CONTACT, *TOGETHER)}
