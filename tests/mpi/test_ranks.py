@@ -120,6 +120,22 @@ def test_wrinkled_tubes(same_on_ranks):
 
 
 @pytest.mark.paper2
+def test_a_tube_that_wrinkles_before_it_touches(same_on_ranks):
+    numerics = MESH | {"cells": 48, "degree": 6, "step": 0.2}
+    far = {"problem": "tube", "energy": "relaxed", "contact": "frictionless", "numerics": numerics}
+    given = (
+        {"alpha": 0.0, "s": 3.0, "p_end": 1.4, "at": [("u_max", 1.8), ("u_max", 2.01)]},
+        {"alpha": 0.0, "s": 3.0, "p_end": 1.3, "extent": "full", "at": [("u_max", 1.8), ("u_max", 2.01)]},
+    )
+    half, whole = same_on_ranks([far | one for one in given], traces=False)
+    for found in (half, whole):
+        assert "contact_onset" in [point.kind for point in found.special_points]
+    for ours, theirs in zip(half.states, whole.states, strict=True):
+        for name in ("p", "Z_front", "Z_front_1", "Z_front_2"):
+            assert ours.quantities[name].value == pytest.approx(theirs.quantities[name].value, abs=1e-6)
+
+
+@pytest.mark.paper2
 def test_a_bent_tube_that_wrinkles(same_on_ranks):
     surface = {"secondary_cells": 8, "secondary_around": 4, "secondary_degree": 3}
     bent = {"problem": "tube", "alpha": 0, "lf": 10, "u_end": 1.1, "secondary": True, "secondary_n": 1}
