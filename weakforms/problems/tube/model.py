@@ -123,6 +123,7 @@ class TubeModel(MeridianModel):
         lf: float,
         at: TubeMesh,
         uneven: float | None = None,
+        energy: str = "standard",
     ) -> TubeModel:
         """The tube without a substrate: half of it, or the whole, which may be thicker at one disk."""
         half, disk = lf / 2, one_end(at.grading)
@@ -131,7 +132,7 @@ class TubeModel(MeridianModel):
             grading, breaks = [mirrored(disk), disk], [-half, 0.0, half]
         values = {"p": 0.0, "delta1": delta1} | ({} if uneven is None else {UNEVEN: uneven})
         mesh = Blocks(breaks, at.cells, at.degree, 2 * at.degree + 2, grading=grading)
-        return cls(comm, material, values, half, mesh)
+        return cls(comm, material, values, half, mesh, energy)
 
     def thickness(self, s: Expr, q: Mapping[str, Expr]) -> Expr | float:
         """Thickness of the stress-free tube over its mean ``h_o``, ``1 + uneven Z/(lf/2)``."""

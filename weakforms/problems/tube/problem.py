@@ -37,6 +37,7 @@ from weakforms.problems.tube.secondary.bent import bent_family
 from weakforms.problems.tube.secondary.crossed import require_secondary_possible
 from weakforms.problems.tube.secondary.imperfect import LEAST, detached_family, largest_step
 from weakforms.problems.tube.secondary.lopsided import WholeTube, lopsided_family
+from weakforms.problems.tube.secondary.lopsided_relaxed import relaxed_lopsided_family
 from weakforms.problems.tube.secondary.wrinkled import wrinkled_family
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
@@ -163,7 +164,8 @@ class Tube(BranchProblem):
                 crossed = _with_stability(branch_maker(even, numerics, task.comm, progress), numerics)
                 secondary = detached_family(crossed, parameters.uneven, number, step, progress)
             elif parameters.energy == "relaxed":
-                secondary = wrinkled_family(parameters, numerics, crossed, primary, task.comm, progress)
+                made = wrinkled_family if parameters.secondary_n else relaxed_lopsided_family
+                secondary = made(parameters, numerics, crossed, primary, task.comm, progress)
             elif parameters.secondary_n:
                 secondary = bent_family(parameters, numerics, primary, task.comm, progress)
             else:

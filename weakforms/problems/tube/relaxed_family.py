@@ -232,10 +232,4 @@ def require_relaxed_possible(parameters: TubeParameters) -> None:
                 "tube: energy = 'relaxed' is for axisymmetric inflation of an even tube and for bent states; "
                 f"set {name} = {without!r}, or energy = 'standard'"
             )
-    if parameters.secondary and not parameters.secondary_n:
-        raise InputError(
-            "tube: energy = 'relaxed' with secondary = true, secondary_n = 0: lopsided states are those of a "
-            "tube that bears compression; set secondary_n = 1 (up to 6; extent = 'half'), secondary = false, "
-            "or energy = 'standard'"
-        )
     require_foldable("tube: energy = 'relaxed'", parameters, invariants=parameters.secondary)

@@ -58,10 +58,14 @@ class TubeBranch(WaveBranch):
 
     def _onsets(self) -> list[int]:
         """Points of the trace after which the smallest principal resultant changes its sign."""
-        least = self.over_points("t_min")
+        least = self._leasts()
         sign = np.where(np.abs(least) > SLACK, np.sign(least), 0.0)
         known = np.flatnonzero(sign)
         return [int(i) for i, j in pairwise(known) if sign[i] * sign[j] < 0]
+
+    def _leasts(self) -> np.ndarray:
+        """The smallest principal resultant at each point of the trace."""
+        return self.over_points("t_min")
 
     def _least(self, solved: Solved) -> float:
         with self.system.at(solved.state):
@@ -69,9 +73,7 @@ class TubeBranch(WaveBranch):
 
     def _flagged(self, solved: Solved) -> Solved:
         """The point with ``wrinkled``: 1 if its membrane is compressed somewhere."""
-        return replace(
-            solved, values=solved.values | {"wrinkled": float(is_wrinkled(solved.values["t_min"]))}
-        )
+        return replace(solved, values=solved.values | {"wrinkled": float(is_wrinkled(self._least(solved)))})
 
     def counted(self, state: State, own: int | None = None) -> dict[str, int]:
         """Numbers of negative eigenvalues of a state, and whether it is wrinkled.

@@ -299,6 +299,29 @@ def require_crossings(count: int, number: int, primary: TubeBranch, where: str, 
     )
 
 
+def begun_taut(crossings: Sequence[Solved], number: int, where: str) -> tuple[list[int], int]:
+    """Which crossings a tube that bears no compression has, and where among them its branch begins.
+
+    Args:
+        crossings: Those of free inflation by the law's energy, with the mark ``wrinkled``.
+        number: The one that is asked for, from 1.
+        where: What happens at such a point, as text.
+
+    Raises:
+        AbsentError: If the tube would be compressed at the one that is asked for.
+    """
+    begin = crossings[number - 1].values
+    if begin["wrinkled"]:
+        raise AbsentError(
+            "secondary branch",
+            f"tube: energy = 'relaxed', secondary_from = {number}: at u_max = {begin['u_max']:.6g}, "
+            f"where {where}, the tube would be compressed; relaxed states begin "
+            "where it is taut; change delta1 or lf, lower secondary_from, or set energy = 'standard'",
+        )
+    taut = [i for i, solved in enumerate(crossings) if not solved.values["wrinkled"]]
+    return taut, taut.index(number - 1)
+
+
 def require_secondary_possible(parameters: TubeParameters, requests: Requests) -> None:
     """Refuse a secondary branch where there is none, and states of one that is not solved for."""
     if not parameters.secondary:

@@ -14,13 +14,16 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
+from weakforms.problems.meridian.limits import limit_along
 from weakforms.problems.tube.model import UNEVEN, TubeModel, yielding, yields
 from weakforms.problems.tube.secondary.crossed import CrossedFamily, FlaggedBranch, require_crossings
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily
+from weakforms.problems.tube.waves import TubeModes
 from weakforms.results import Quantity
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.system import System
 
 AMPLITUDE = "w_mid"
 """Column of the amplitude."""
@@ -59,16 +62,19 @@ class LopsidedBranch(FlaggedBranch):
         begin: int,
         step: float,
         side: float = 1.0,
+        own: tuple[System, TubeModes] | None = None,
     ) -> None:
-        super().__init__(primary, crossings, begin, step, side)
-        self.end_at_limit(primary.limit)
+        super().__init__(primary, crossings, begin, step, side, own)
+        self.end_at_limit(primary.limit if own is None else limit_along(own[1].model))
         if yields(self.points[-1]):
             self.ended = f"the lopsided branch ends: {yielding(self.points[-1])}"
 
     @classmethod
-    def ending(cls, primary: TubeBranch, side: float) -> Callable[[CurvePoint], bool]:
+    def ending(
+        cls, primary: TubeBranch, side: float, most: float | None = None
+    ) -> Callable[[CurvePoint], bool]:
         """As for any branch beside free inflation, or where the law gives way."""
-        stop = super().ending(primary, side)
+        stop = super().ending(primary, side, most)
         return lambda point: stop(point) or yields(point)
 
 

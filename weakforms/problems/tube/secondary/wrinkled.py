@@ -20,12 +20,12 @@ import numpy as np
 from dolfinx import fem
 from mpi4py import MPI
 
-from weakforms.errors import AbsentError
 from weakforms.problems.gas import Gas
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.folds import FRACTION
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
 from weakforms.problems.tube.secondary.bent import ACROSS, BentBranch, BentFamily, bent_tube, even_crossings
+from weakforms.problems.tube.secondary.crossed import begun_taut
 from weakforms.problems.tube.secondary.outside import BentModes
 from weakforms.problems.tube.secondary.surface import BentTube
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily, is_wrinkled
@@ -120,11 +120,6 @@ class WrinkledBranch(BentBranch):
             )
         super()._insert_limits()
 
-    def _flagged(self, solved: Solved) -> Solved:
-        """The point with ``wrinkled``: 1 if a tube that bears compression would be compressed there."""
-        flag = float(is_wrinkled(self._least(solved)))
-        return replace(solved, values=solved.values | {"wrinkled": flag})
-
 
 class WrinkledFamily(BentFamily):
     """The branch on all meshes of the surface."""
@@ -173,20 +168,13 @@ def wrinkled_family(
     """
     meshes, number, n = numerics.surfaces, parameters.secondary_from, parameters.secondary_n
     crossings = even_crossings(parameters, primary)
-    begin, taut = crossings[number - 1], [s for s in crossings if not s.values["wrinkled"]]
-    if begin.values["wrinkled"]:
-        raise AbsentError(
-            "secondary branch",
-            f"tube: energy = 'relaxed', secondary_from = {number}: at u_max = {begin.values['u_max']:.6g}, "
-            f"where even waves of n = {n} are neutral, the tube would be compressed; relaxed states begin "
-            "where it is taut; change delta1 or lf, lower secondary_from, or set energy = 'standard'",
-        )
+    kept, start = begun_taut(crossings, number, f"even waves of n = {n} are neutral")
+    taut = [crossings[i] for i in kept]
     most = float(relaxed.pieces[-1].family.fine.points[-1].monitors["V"])
 
     def make(level: int) -> WrinkledBranch:
         progress(f"branch of n = {n}", level, len(meshes))
         model = bent_tube(parameters, meshes[level], comm)
-        start = taut.index(begin)
         return WrinkledBranch(primary.fine, taut, start, numerics.step, model, parameters.gas, most)
 
     caps = {FRACTION: EDGE}

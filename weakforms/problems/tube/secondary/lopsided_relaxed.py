@@ -1,0 +1,165 @@
+r"""Lopsided states of a tube that cannot bear compression: taut at first, wrinkled beside a disk further on.
+
+The relaxed energy is that of the law where :math:`g_w = \lambda_2\sqrt{\lambda_1} > 1`, and
+:math:`w(\lambda_1, \lambda_1^{-1/2})` elsewhere. Where the branch begins the tube must be taut, so that the
+crossing, and what leaves it, are those of the law. The mesh does not follow the fronts of the wrinkled
+part: they lie inside of elements, where resultants have kinks, and all numbers converge at a low order.
+
+Wrinkles run along the meridian, whose tension resists every short axisymmetric wave: unlike that of bent
+states, the stability of these does not depend on the mesh.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+from mpi4py import MPI
+
+from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.problem import Progress
+from weakforms.problems.tube.folds import FRACTION, gw_of
+from weakforms.problems.tube.model import TubeMesh
+from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
+from weakforms.problems.tube.secondary.crossed import begun_taut, require_crossings
+from weakforms.problems.tube.secondary.lopsided import (
+    ACROSS,
+    CROSSED,
+    LOST,
+    LopsidedBranch,
+    LopsidedFamily,
+    WholeTube,
+)
+from weakforms.problems.tube.stability import TubeBranch, TubeFamily, is_wrinkled
+from weakforms.problems.tube.waves import EXTREMES, TubeModes
+from weakforms.solvers.continuation.continuation import CurvePoint
+from weakforms.solvers.continuation.curve import Solved
+from weakforms.solvers.continuation.pieces import PiecewiseFamily
+from weakforms.solvers.equilibrium.state import State
+
+KINK = 2.0
+"""Highest assumed order of a wrinkled state: resultants have kinks inside of elements."""
+
+EDGE = 1.0
+"""The same of the wrinkled part."""
+
+
+class RelaxedModes(TubeModes):
+    """As of any lopsided state, with the resultants of the relaxed energy and how much is wrinkled.
+
+    Args:
+        model: The whole tube with the relaxed energy.
+        numbers: Wave numbers; 0 stands for axisymmetric waves.
+    """
+
+    def __init__(self, model: WholeTube, numbers: tuple[int, ...]) -> None:
+        super().__init__(model, numbers, full=True)
+        self.columns = ("t_min", FRACTION, *(name for name in self.columns if name not in EXTREMES))
+        self._verge = Meridian(model, {"gw": gw_of(model)})
+
+    def least_resultant(self) -> tuple[float, float]:
+        """Smallest ``gw - 1``, with the sign of a hoop resultant that may be negative, and its ``|Z|``."""
+        value, x = self._verge.extreme_at("gw", -1)
+        return value - 1, self.model.tension.place(x, {})
+
+    def observe(self) -> dict[str, float]:
+        """The eigenvalues, the smallest resultant of the relaxed energy, and how much is wrinkled."""
+        found = {name: value for name, value in super().observe().items() if name not in EXTREMES}
+        if is_wrinkled(self.least_resultant()[0]):
+            part = self._verge.length_below("gw", 1.0) / self.model.blocks
+            return found | {"t_min": self.at_nodes(), FRACTION: part}
+        return found | {"t_min": self.model.tension.least()[0], FRACTION: 0.0}
+
+    def at_nodes(self) -> float:
+        """The smallest resultant of the relaxed energy at nodes, because polynomials overshoot at a kink."""
+        return self.model.tension.at_nodes()[0]
+
+
+class RelaxedLopsidedBranch(LopsidedBranch):
+    """The branch on one mesh.
+
+    Args:
+        primary: Free inflation of the whole tube by the energy of the law.
+        crossings: Its points at which the mirror symmetry breaks and the tube is taut.
+        begin: Index of the one at which the branch begins.
+        step: Largest step.
+        model: The whole tube with the relaxed energy, on the same mesh.
+        most: Volume at which free inflation ends.
+    """
+
+    modes: RelaxedModes
+
+    def __init__(
+        self,
+        primary: TubeBranch,
+        crossings: Sequence[Solved],
+        begin: int,
+        step: float,
+        model: WholeTube,
+        most: float,
+    ) -> None:
+        self._most = most
+        own = model.system, RelaxedModes(model, primary.modes.numbers)
+        super().__init__(primary, crossings, begin, step, own=own)
+        self.end_before(self._slack, "tube: the meridian of lopsided states is compressed; lower u_end")
+
+    def until(self, primary: TubeBranch, _start: CurvePoint) -> Callable[[CurvePoint], bool]:
+        """Whether the branch ends at a point: as any, or because the meridian is compressed."""
+        stop = self.ending(primary, self.side, self._most)
+        return lambda point: stop(point) or self._slack(point.state)
+
+    def _slack(self, state: State) -> bool:
+        with self.system.at(state):
+            return is_wrinkled(self.modes.at_nodes())
+
+    def _leasts(self) -> np.ndarray:
+        """Smallest ``gw - 1`` at each point of the trace, because no resultant is negative."""
+        return np.array([self._least(Solved({}, point.state)) for point in self.points])
+
+
+class RelaxedLopsidedFamily(LopsidedFamily):
+    """The branch on all meshes."""
+
+    fine: RelaxedLopsidedBranch
+
+    def smooth_order(self, values: Mapping[str, float]) -> float:
+        """Lower than that of the elements if there is a front."""
+        return KINK if values[FRACTION] > 0 else np.inf
+
+
+def relaxed_lopsided_family(
+    parameters: TubeParameters,
+    numerics: TubeNumerics,
+    primary: TubeFamily,
+    relaxed: PiecewiseFamily,
+    comm: MPI.Intracomm,
+    progress: Progress,
+) -> RelaxedLopsidedFamily:
+    """The branch from one taut crossing of free inflation, on all meshes of the whole tube.
+
+    Args:
+        parameters: The tube.
+        numerics: Meshes.
+        primary: Free inflation by the energy of the law, with its stability.
+        relaxed: Free inflation by the relaxed energy.
+        comm: Ranks.
+        progress: Called for every mesh.
+
+    Raises:
+        AbsentError: If there are not as many crossings, or if the tube is wrinkled there.
+    """
+    crossings, number = primary.located(CROSSED), parameters.secondary_from
+    require_crossings(len(crossings), number, primary.fine, *LOST)
+    kept, begin = begun_taut([same[-1] for same in crossings], number, LOST[0])
+    most = float(relaxed.pieces[-1].family.fine.points[-1].monitors["V"])
+
+    def make(level: int) -> RelaxedLopsidedBranch:
+        progress("lopsided branch", level, len(primary.levels))
+        at = TubeMesh(numerics.meshes[level], numerics.degree, numerics.grading, full=True)
+        tube = comm, parameters.material, parameters.delta1, parameters.lf, at
+        model = WholeTube.free(*tube, uneven=0.0, energy="relaxed")
+        on_mesh = [crossings[i][level] for i in kept]
+        return RelaxedLopsidedBranch(primary.levels[level], on_mesh, begin, numerics.step, model, most)
+
+    caps = {**primary.caps, FRACTION: EDGE}
+    return RelaxedLopsidedFamily(make, len(primary.levels), primary.cap, ACROSS, "secondary", caps)
