@@ -98,9 +98,18 @@ class Law(NamedTuple):
 
 
 def shoot(
-    tube: Tube, u_max: float, tension: float, p: float, rtol: float, spring: Spring = NONE
+    tube: Tube,
+    u_max: float,
+    tension: float,
+    p: float,
+    rtol: float,
+    spring: Spring = NONE,
+    offset: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[Array, list[float]]:
-    """Values (rho, eta, m, v) at the disk, and the z of the edge of contact and of the fronts."""
+    """Values (rho, eta, m, v) at the disk, and the z of the edge of contact and of the fronts.
+
+    Without symmetry about the mid-plane ``offset`` has eta and m there, and ``tension`` is the axial one.
+    """
     law, r0, rho0 = Law(tube.alpha), tube.r0, 1 + u_max
     taut, acts = True, rho0 > spring.s
     axial = tension - spring.load(rho0, p, acts)[0]
@@ -124,7 +133,7 @@ def shoot(
 
     excess.terminal = leaves.terminal = True
     leaves.direction = -1
-    z, y, fronts = 0.0, np.array([rho0, 0.0, 0.0, 0.0]), []
+    z, y, fronts = 0.0, np.array([rho0, *offset, 0.0]), []
     while True:
         excess.direction = -1 if taut else 1
         events = [leaves] if acts else [excess]

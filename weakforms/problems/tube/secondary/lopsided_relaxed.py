@@ -11,11 +11,13 @@ states, the stability of these does not depend on the mesh.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from mpi4py import MPI
 
+from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.folds import FRACTION, gw_of
@@ -32,16 +34,22 @@ from weakforms.problems.tube.secondary.lopsided import (
 )
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily, is_wrinkled
 from weakforms.problems.tube.waves import EXTREMES, TubeModes
+from weakforms.results import Branch, Quantity
+from weakforms.results import State as BranchState
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.pieces import PiecewiseFamily
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.uncertainty.family import LOCATED
 
-KINK = 2.0
-"""Highest assumed order of a wrinkled state: resultants have kinks inside of elements."""
+KINK = 1.0
+"""Highest assumed order of a wrinkled state. Resultants have kinks inside of cells: errors fall with the
+second order in the mean, those of the wrinkled part with the first, and depend on where in its cell a front
+is."""
 
-EDGE = 1.0
-"""The same of the wrinkled part."""
+NEIGHBOURS = 2
+"""Points of the trace on either side whose uncertainties count for a wrinkled state, because fronts are
+elsewhere in their cells there. Its own may be too small by accident."""
 
 
 class RelaxedModes(TubeModes):
@@ -126,6 +134,41 @@ class RelaxedLopsidedFamily(LopsidedFamily):
         """Lower than that of the elements if there is a front."""
         return KINK if values[FRACTION] > 0 else np.inf
 
+    def branch(self, with_uncertainty: bool = True) -> Branch:
+        """All columns; a wrinkled state has the largest uncertainties of its neighbours."""
+        found = super().branch(with_uncertainty)
+        wrinkled = found.columns[FRACTION] > 0
+        for name, own in found.uncertainty.items():
+            around = np.lib.stride_tricks.sliding_window_view(
+                np.pad(own, NEIGHBOURS, mode="edge"), 2 * NEIGHBOURS + 1
+            )
+            found.uncertainty[name] = np.where(wrinkled, around.max(axis=1), own)
+        return found
+
+    def state(
+        self, name: str, value: float, crossing: int = 1, profile: np.ndarray | None = None
+    ) -> BranchState:
+        """As for any branch; a wrinkled state has the largest uncertainties of its neighbours."""
+        found = super().state(name, value, crossing, profile)
+        if name in LOCATED or not found.quantities[FRACTION].value > 0:
+            return found
+        for other in self._beside(name, value, crossing):
+            for column in self.fine.shown:
+                here, there = found.quantities[column], other[column].uncertainty
+                found.quantities[column] = replace(here, uncertainty=max(here.uncertainty, there))
+        return found
+
+    def _beside(self, name: str, value: float, crossing: int) -> Iterator[Mapping[str, Quantity]]:
+        """Columns of the states with the values that points of the trace next to a state have."""
+        values = self.fine.over_points(name)
+        i = self.fine.crossings(name, value)[crossing - 1]
+        for near in values[max(0, i + 1 - NEIGHBOURS) : i + 1 + NEIGHBOURS]:
+            try:
+                solved = self._at(name, float(near), crossing)
+            except (InputError, ConvergenceError):  # past an extremum of the column there is no such state
+                continue
+            yield self._columns(solved, name, {})
+
 
 def relaxed_lopsided_family(
     parameters: TubeParameters,
@@ -161,5 +204,5 @@ def relaxed_lopsided_family(
         on_mesh = [crossings[i][level] for i in kept]
         return RelaxedLopsidedBranch(primary.levels[level], on_mesh, begin, numerics.step, model, most)
 
-    caps = {**primary.caps, FRACTION: EDGE}
+    caps = {**primary.caps, "eigenvalue_1": KINK}
     return RelaxedLopsidedFamily(make, len(primary.levels), primary.cap, ACROSS, "secondary", caps)
