@@ -107,22 +107,15 @@ class Meridian:
         value, x = max(self._comm.allgather(best))
         return sign * value, x
 
-    def length_below(self, name: str, level: float) -> float:
-        """Length in mesh coordinates on which a column is below a level, linear between samples of a cell."""
-        nodes = self._nodes()
-        length = 0.0
+    def on_cells(self) -> dict[str, np.ndarray]:
+        """Columns at :data:`FINE` + 1 places of every cell: one row a cell, in order along the meridian."""
+        nodes, sampled = self._nodes(), np.zeros((0, FINE + 1, len(self.names)))
         if self._local:
-            lengths = nodes[:, -1, 0] - nodes[:, 0, 0]
-            places = (nodes[0, :, 0] - nodes[0, 0, 0]) / lengths[0]
-            samples = (
-                nodes[:, :, self.names.index(name)] @ _lagrange(places, np.linspace(0.0, 1.0, FINE + 1)).T
-            )
-            low = np.minimum(samples[:, 1:], samples[:, :-1])
-            high = np.maximum(samples[:, 1:], samples[:, :-1])
-            spread = np.where(high > low, high - low, 1.0)
-            share = np.where(high > low, np.clip((level - low) / spread, 0.0, 1.0), low < level)
-            length = float(np.sum(lengths * share.mean(axis=1)))
-        return self._comm.allreduce(length, op=MPI.SUM)
+            places = (nodes[0, :, 0] - nodes[0, 0, 0]) / (nodes[0, -1, 0] - nodes[0, 0, 0])
+            sampled = np.einsum("pn,rnc->rpc", _lagrange(places, np.linspace(0.0, 1.0, FINE + 1)), nodes)
+        everywhere = np.concatenate(self._comm.allgather(sampled))
+        ordered = everywhere[np.argsort(everywhere[:, 0, 0])]
+        return {name: ordered[:, :, k] for k, name in enumerate(self.names)}
 
 
 def carried(

@@ -58,8 +58,8 @@ USUAL_LOAD = 20.0
 """Pressure above which steps grow with it: it dominates the arc length of laws that stiffen."""
 
 KINKED = 6
-"""Degree of the quadrature over that of the elements, if resultants have kinks inside of cells. Errors are then
-mainly the quadrature's: twice the degree of the elements, as elsewhere, would make them five times as large."""
+"""Degree of the quadrature over that of the elements, if resultants have kinks inside of cells. Errors are
+then mainly the quadrature's: with twice the degree, as elsewhere, they are five times as large."""
 
 STEEPEST = 1 - 1e-6
 """If the pressure's share in the direction of the branch exceeds this, the membrane is nearly inextensible: a

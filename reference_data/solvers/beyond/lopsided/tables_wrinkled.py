@@ -34,11 +34,11 @@ COLUMNS = {
     "Z_front_2": ("delta1 z/R_f", "its other end"),
 }
 METHOD = (
-    "Two codes on the whole tube with the relaxed energy and without a condition of symmetry, which share the "
-    "data of the tube: (a) collocation of the strong equations in zones that meet at the middle and at the "
-    "fronts, which are unknown, where l1 l2^2 = 1; (b) Hamilton's equations by an explicit method from the "
-    "middle to both disks, which switches between both states where it meets a front, from the states of (a) "
-    "as guesses. " + rule("a")
+    "Two codes on the whole tube with the relaxed energy and without a condition of symmetry, which share "
+    "the data of the tube: (a) collocation of the strong equations in zones that meet at the middle and at "
+    "the fronts, which are unknown, where l1 l2^2 = 1; (b) Hamilton's equations by an explicit method from "
+    "the middle to both disks, which switches between both states where it meets a front, from the states of "
+    "(a) as guesses. " + rule("a")
 )
 GRID = (
     f"(a) {wrinkled.MESHES[0].elements} and {wrinkled.MESHES[1].elements} elements of degree "

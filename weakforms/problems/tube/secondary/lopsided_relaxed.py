@@ -33,7 +33,7 @@ from weakforms.problems.tube.secondary.lopsided import (
     WholeTube,
 )
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily, is_wrinkled
-from weakforms.problems.tube.waves import EXTREMES, TubeModes
+from weakforms.problems.tube.waves import TubeModes
 from weakforms.results import Branch, Quantity
 from weakforms.results import State as BranchState
 from weakforms.solvers.continuation.continuation import CurvePoint
@@ -53,7 +53,10 @@ elsewhere in their cells there. Its own may be too small by accident."""
 
 
 class RelaxedModes(TubeModes):
-    """As of any lopsided state, with the resultants of the relaxed energy and how much is wrinkled.
+    """Stability of lopsided states, with the resultants of the relaxed energy and how much is wrinkled.
+
+    Stiffness jumps at a front, inside of a cell: eigenvalues converge at first order, and only their signs
+    are told along the branch.
 
     Args:
         model: The whole tube with the relaxed energy.
@@ -62,8 +65,9 @@ class RelaxedModes(TubeModes):
 
     def __init__(self, model: WholeTube, numbers: tuple[int, ...]) -> None:
         super().__init__(model, numbers, full=True)
-        self.columns = ("t_min", FRACTION, *(name for name in self.columns if name not in EXTREMES))
-        self._verge = Meridian(model, {"gw": gw_of(model)})
+        self.columns = ("t_min", FRACTION)
+        lam1, lam2 = (model.expressions[name] for name in ("lam1", "lam2"))
+        self._verge = Meridian(model, {"gw": gw_of(model), "lam1": lam1, "lam2": lam2})
 
     def least_resultant(self) -> tuple[float, float]:
         """Smallest ``gw - 1``, with the sign of a hoop resultant that may be negative, and its ``|Z|``."""
@@ -72,15 +76,37 @@ class RelaxedModes(TubeModes):
 
     def observe(self) -> dict[str, float]:
         """The eigenvalues, the smallest resultant of the relaxed energy, and how much is wrinkled."""
-        found = {name: value for name, value in super().observe().items() if name not in EXTREMES}
+        found = {"eigenvalue_1": super().observe()["eigenvalue_1"]}
         if is_wrinkled(self.least_resultant()[0]):
-            part = self._verge.length_below("gw", 1.0) / self.model.blocks
-            return found | {"t_min": self.at_nodes(), FRACTION: part}
+            return found | {"t_min": self.at_nodes(), FRACTION: self.part()}
         return found | {"t_min": self.model.tension.least()[0], FRACTION: 0.0}
+
+    def part(self) -> float:
+        """Fraction of the length that is wrinkled.
+
+        Along a zone ``lam1`` is constant, and its ends are where ``lam2`` has the natural width of it. The
+        latter has no kink there, and ``gw``, which is 1, has one.
+        """
+        at = self._verge.on_cells()
+        folded, length = at["gw"].min(axis=1) < 1, 0.0
+        for zone in np.split(np.arange(len(folded)), 1 + np.flatnonzero(np.diff(folded))):
+            if folded[zone[0]]:
+                deepest = at["gw"][zone].argmin()
+                width = at["lam1"][zone].flat[deepest] ** -0.5
+                steps, low = np.diff(at["x"][zone], axis=1), at["lam2"][zone]
+                length += float(np.sum(steps * share_below(low[:, :-1], low[:, 1:], width)))
+        return length / self.model.blocks
 
     def at_nodes(self) -> float:
         """The smallest resultant of the relaxed energy at nodes, because polynomials overshoot at a kink."""
         return self.model.tension.at_nodes()[0]
+
+
+def share_below(one: np.ndarray, other: np.ndarray, level: float) -> np.ndarray:
+    """Share of intervals on which what is linear between two values is below a level."""
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(high > low, np.clip((level - low) / (high - low), 0.0, 1.0), low < level)
 
 
 class RelaxedLopsidedBranch(LopsidedBranch):
@@ -153,7 +179,7 @@ class RelaxedLopsidedFamily(LopsidedFamily):
         if name in LOCATED or not found.quantities[FRACTION].value > 0:
             return found
         for other in self._beside(name, value, crossing):
-            for column in self.fine.shown:
+            for column in other.keys() & found.quantities.keys():
                 here, there = found.quantities[column], other[column].uncertainty
                 found.quantities[column] = replace(here, uncertainty=max(here.uncertainty, there))
         return found
@@ -167,7 +193,8 @@ class RelaxedLopsidedFamily(LopsidedFamily):
                 solved = self._at(name, float(near), crossing)
             except (InputError, ConvergenceError):  # past an extremum of the column there is no such state
                 continue
-            yield self._columns(solved, name, {})
+            lowest = [s.values["eigenvalue_1"] for s in solved]
+            yield {**self._columns(solved, name, {}), "eigenvalue_1": self._quantity(lowest, "eigenvalue_1")}
 
 
 def relaxed_lopsided_family(
