@@ -164,7 +164,7 @@ def test_where_the_tube_would_be_compressed_no_branch_begins():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"secondary_n": 0, "extent": "full"}, r"set secondary_n = 1 \(up to 6; extent = 'half'\)"),
+        ({"secondary_n": 0}, "set extent = 'full', or secondary_n = 1 for bent states"),
         ({"n": (0, 1)}, r"set n = \(\), or energy = 'standard'"),
         ({"model": "saint_venant_kirchhoff"}, "allowed: "),
     ],

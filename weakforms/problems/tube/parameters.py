@@ -111,8 +111,8 @@ class TubeParameters(MaterialChoice):
     extent: Literal["half", "full"] = Field("half", description="symmetric half, or the whole tube")
     energy: Literal["standard", "relaxed"] = Field(
         "standard",
-        description="that of the law, or relaxed: a tube that bears no compression, in free inflation, bent "
-        "from a taut state on (secondary_n), or in frictionless contact",
+        description="that of the law, or relaxed: a tube that bears no compression, in free inflation, "
+        "lopsided or bent from a taut state on (secondary), or in frictionless contact",
     )
     n: Annotated[tuple[int, ...], wave_numbers(MOST_WAVES)] = Field(
         (),

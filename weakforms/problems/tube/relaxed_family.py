@@ -229,7 +229,7 @@ def require_relaxed_possible(parameters: TubeParameters) -> None:
     for name, without in others.items():
         if getattr(parameters, name) != without:
             raise InputError(
-                "tube: energy = 'relaxed' is for axisymmetric inflation of an even tube and for bent states; "
+                "tube: energy = 'relaxed' is for axisymmetric, lopsided and bent states of an even tube; "
                 f"set {name} = {without!r}, or energy = 'standard'"
             )
     require_foldable("tube: energy = 'relaxed'", parameters, invariants=parameters.secondary)
