@@ -60,9 +60,8 @@ def test_a_taut_state_and_the_crossing_are_those_of_the_law(relaxed, ordinary):
 
 def test_the_first_wrinkle_is_where_the_ordinary_tube_begins_to_be_compressed(relaxed, ordinary):
     (ours,), (theirs,) = (family["secondary"].located("wrinkling_onset") for family in (relaxed, ordinary))
-    for here, there in zip(ours, theirs, strict=True):
-        for name in ("p", "V", AMPLITUDE):
-            assert here.values[name] == pytest.approx(there.values[name], rel=1e-6)
+    for name in ("p", "V", AMPLITUDE):  # the ends of two interpolants, of gw and of a resultant
+        assert ours[-1].values[name] == pytest.approx(theirs[-1].values[name], rel=1e-6)
 
 
 def test_a_wrinkled_state_is_that_of_another_code_within_its_uncertainty(relaxed):
@@ -134,7 +133,7 @@ def test_a_wrinkled_state_has_the_largest_uncertainty_of_its_neighbours(relaxed)
         every = [own[name].uncertainty, *(other[name].uncertainty for other in beside)]
         assert found[name].uncertainty == pytest.approx(max(every), rel=1e-6)
         assert found[name].value == own[name].value
-    assert found["V"].uncertainty == own["V"].uncertainty
+    assert found["V"].uncertainty < 1e-9
     taut = super(type(family), family).state("V", TAUT).quantities
     assert family.state("V", TAUT).quantities == taut
 

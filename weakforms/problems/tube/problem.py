@@ -170,15 +170,13 @@ class Tube(BranchProblem):
                 secondary = bent_family(parameters, numerics, primary, task.comm, progress)
             else:
                 secondary = lopsided_family(primary, number, step, progress)
-        except AbsentError as error:
+        except (AbsentError, ConvergenceError) as error:
             if any(wanted.branch == "secondary" for wanted in task.requests.states):
                 raise
-            told.absent.append(Absence(error.what, str(error)))
-            return {"primary": primary}
-        except ConvergenceError as error:
-            if any(wanted.branch == "secondary" for wanted in task.requests.states):
-                raise
-            told.failures.append(Failure("secondary branch", str(error)))
+            if isinstance(error, AbsentError):
+                told.absent.append(Absence(error.what, str(error)))
+            else:
+                told.failures.append(Failure("secondary branch", str(error)))
             return {"primary": primary}
         return {"primary": primary, "secondary": secondary}
 
