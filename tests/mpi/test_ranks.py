@@ -90,9 +90,11 @@ def test_whole_tube_and_eigenvalues(same_on_ranks):
 @pytest.mark.paper2
 def test_lopsided_states_of_a_tube(same_on_ranks):
     whole = {"problem": "tube", "alpha": 0, "u_end": 1.4, "extent": "full", "secondary": True}
-    (found,) = same_on_ranks([whole | {"numerics": MESH}])
+    relaxed = whole | {"energy": "relaxed"}
+    found, wrinkled = same_on_ranks([item | {"numerics": MESH} for item in (whole, relaxed)])
     assert found.special_points[0].kind == "limit_point"
     assert found.branch("secondary")["w_mid"].max() > 0.3
+    assert wrinkled.branch("secondary")["wrinkled_fraction"].max() > 0.02
 
 
 @pytest.mark.paper2

@@ -89,7 +89,6 @@ def test_a_taut_tube_has_no_wrinkle():
     [
         ({"contact": "adhesive"}, "contact"),
         ({"n": (0, 1)}, "n"),
-        ({"extent": "full", "secondary": True}, "secondary"),
         ({"extent": "full", "uneven": 0.1}, "uneven"),
         ({"model": "harmonic"}, "model"),
     ],

@@ -135,8 +135,9 @@ class TubeModel(MeridianModel):
         if at.full:
             grading, breaks = [mirrored(disk), disk], [-half, 0.0, half]
         values = {"p": 0.0, "delta1": delta1} | ({} if uneven is None else {UNEVEN: uneven})
-        quadrature = (2 if energy == "standard" else KINKED) * at.degree + 2
-        mesh = Blocks(breaks, at.cells, at.degree, quadrature, grading=grading)
+        mesh = Blocks(breaks, at.cells, at.degree, 2 * at.degree + 2, grading=grading)
+        if energy == "relaxed":
+            mesh = replace(mesh, quadrature=KINKED * at.degree + 2)
         return cls(comm, material, values, half, mesh, energy)
 
     def thickness(self, s: Expr, q: Mapping[str, Expr]) -> Expr | float:
