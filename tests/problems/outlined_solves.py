@@ -41,6 +41,12 @@ SOLVES: dict[str, dict[str, Any]] = {
         "u_end": 1.5,
         "numerics": {"cells": 16, "levels": 2, "step": 0.2},
     },
+    "tube, lopsided and wrinkled": {
+        **{"alpha": 0.0, "extent": "full", "secondary": True, "u_end": 1.5, "energy": "relaxed"},
+        "at": {"V": 13.0},
+        "branch": "secondary",
+        "numerics": {"cells": 16, "levels": 2, "step": 0.2},
+    },
     "tube, bent": {
         **{"alpha": 0.0, "lf": 10.0, "u_end": 0.7, "secondary": True, "secondary_n": 1, "V_r": 60.0},
         "numerics": {

@@ -20,7 +20,7 @@ from mpi4py import MPI
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.meridian.fields import Meridian
 from weakforms.problems.problem import Progress
-from weakforms.problems.tube.folds import FRACTION, gw_of
+from weakforms.problems.tube.folds import FRACTION, MISFIT, gw_of
 from weakforms.problems.tube.model import TubeMesh
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.secondary.crossed import begun_taut, require_crossings
@@ -44,8 +44,7 @@ from weakforms.solvers.uncertainty.family import LOCATED
 
 KINK = 1.0
 """Highest assumed order of a wrinkled state. Resultants have kinks inside of cells: errors fall with the
-second order in the mean, those of the wrinkled part with the first, and depend on where in its cell a front
-is."""
+second order in the mean, those of eigenvalues with the first, and depend on where in its cell a front is."""
 
 NEIGHBOURS = 2
 """Points of the trace on either side whose uncertainties count for a wrinkled state, because fronts are
@@ -75,7 +74,7 @@ class RelaxedModes(TubeModes):
         return value - 1, self.model.tension.place(x, {})
 
     def observe(self) -> dict[str, float]:
-        """The eigenvalues, the smallest resultant of the relaxed energy, and how much is wrinkled."""
+        """The lowest eigenvalue, the smallest resultant of the relaxed energy, and how much is wrinkled."""
         found = {"eigenvalue_1": super().observe()["eigenvalue_1"]}
         if is_wrinkled(self.least_resultant()[0]):
             return found | {"t_min": self.at_nodes(), FRACTION: self.part()}
@@ -135,7 +134,11 @@ class RelaxedLopsidedBranch(LopsidedBranch):
         self._most = most
         own = model.system, RelaxedModes(model, primary.modes.numbers)
         super().__init__(primary, crossings, begin, step, own=own)
-        self.end_before(self._slack, "tube: the meridian of lopsided states is compressed; lower u_end")
+        volume = self.points[-1].monitors["V"]
+        self.end_before(
+            self._slack,
+            f"tube: at V = {volume:.6g} the meridian of lopsided states is compressed; lower u_end",
+        )
 
     def until(self, primary: TubeBranch, _start: CurvePoint) -> Callable[[CurvePoint], bool]:
         """Whether the branch ends at a point: as any, or because the meridian is compressed."""
@@ -144,7 +147,7 @@ class RelaxedLopsidedBranch(LopsidedBranch):
 
     def _slack(self, state: State) -> bool:
         with self.system.at(state):
-            return is_wrinkled(self.modes.at_nodes())
+            return self.modes.at_nodes() < -MISFIT
 
     def _leasts(self) -> np.ndarray:
         """Smallest ``gw - 1`` at each point of the trace, because no resultant is negative."""
