@@ -59,7 +59,7 @@ def solves(monkeypatch):
     """Count every solve and return a prepared result for it."""
     seen = []
     for problem in registry.problems().values():
-        monkeypatch.setattr(type(problem), "solve", lambda self, *_: seen.append(self.name) or canned())
+        monkeypatch.setattr(type(problem), "solve", lambda self, *_, **__: seen.append(self.name) or canned())
     return seen
 
 
@@ -68,7 +68,7 @@ def canned_solves() -> Iterator[None]:
     """Like ``solves``, for a whole module."""
     with pytest.MonkeyPatch.context() as patch:
         for problem in registry.problems().values():
-            patch.setattr(type(problem), "solve", lambda *_: canned())
+            patch.setattr(type(problem), "solve", lambda *_, **__: canned())
         yield
 
 

@@ -128,7 +128,7 @@ def test_a_state_that_some_combinations_lack_keeps_their_special_points(weakform
 def test_every_combination_is_checked_before_anything_is_solved(
     weakforms, tmp_path, monkeypatch, words, said
 ):
-    monkeypatch.setattr(type(registry.get("tube")), "solve", lambda *_: pytest.fail("it was solved"))
+    monkeypatch.setattr(type(registry.get("tube")), "solve", lambda *_, **__: pytest.fail("it was solved"))
     called = weakforms("sweep", *words.split(), "--out", tmp_path / "o")
     assert (called.status, called.out) == (2, "")
     assert len(called.complaints) == 1

@@ -122,7 +122,7 @@ def test_wrinkled_tubes(same_on_ranks):
 
 
 @pytest.mark.paper2
-def test_a_tube_that_wrinkles_before_it_touches(same_on_ranks):
+def test_early_wrinkles(same_on_ranks):
     numerics = MESH | {"cells": 48, "degree": 6, "step": 0.2}
     far = {"problem": "tube", "energy": "relaxed", "contact": "frictionless", "numerics": numerics}
     given = (

@@ -85,7 +85,7 @@ def test_what_is_not_there_and_what_failed_is_seen(monkeypatch):
     versions = dict.fromkeys(("dolfinx", "ufl", "ffcx", "basix", "petsc", "slepc", "git"), "0")
     made = Result("tube", {}, {}, {}, versions | {"ranks": 1, "wall_s": 0.0})
     made.failures, made.absent = [Failure("special points", "stuck")], [Absence("contact", "too far")]
-    monkeypatch.setattr(type(registry.get("tube")), "solve", lambda *_: made)
+    monkeypatch.setattr(type(registry.get("tube")), "solve", lambda *_, **__: made)
     status, text, err = seen("solve", "tube")
     assert (status, err) == (3, "")
     assert "not there: contact: too far\n" in text

@@ -36,6 +36,12 @@ LONG = "test_every_kind_ranks.py"
 SPEAKS_OF_RANKS = re.compile(r"comm\b|\branks?\b|bcast|gather|reduce\b|scatter|ghost|owne[rd]|size_local")
 """What a line contains if its change may show on several ranks only."""
 
+EVERYWHERE = {
+    *("branch", "model", "parameters", "problem", "problems", "registry"),
+    *("test", "tests", "weakforms"),
+}
+"""Words of names that say nothing about what a file or a test is about."""
+
 FEW = 8
 """Number of tests on ranks run for such a line: each takes half a minute, and problems share files."""
 
@@ -99,7 +105,7 @@ class Imports:
 
         Tests of the file itself import it and are named as it is. Tests on ranks are chosen by the words, of
         four letters or more, that their functions share with the name of the file, or of what uses it; a word
-        that few of them use counts more.
+        that few of them use counts more, and those of :data:`EVERYWHERE` do not count.
         """
         path = self._root / file
         found = []
@@ -113,7 +119,7 @@ class Imports:
         if not (file.startswith("weakforms/") and SPEAKS_OF_RANKS.search(text)):
             return found
         names = [file, *(name for name in self._used_by[file] if name.startswith(NAMING))]
-        words = set(re.findall("[a-z]{4,}", " ".join(names)))
+        words = set(re.findall("[a-z]{4,}", " ".join(names))) - EVERYWHERE
         said = {
             name: words & set(re.findall("[a-z]{4,}", text))
             for path in sorted((self._root / RANKS).glob("test_*.py"))
