@@ -5,13 +5,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from mpi4py import MPI
+from tube_data import families, require_alike
 
 from weakforms import solve
 from weakforms.errors import InputError
 from weakforms.problems.meridian.sector import SectorMesh
-from weakforms.problems.problem import Requests, Task
-from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
-from weakforms.problems.tube.problem import Tube
+from weakforms.problems.tube.parameters import TubeParameters
 from weakforms.problems.tube.secondary.bent import bent_tube
 from weakforms.problems.tube.secondary.surface import AMPLITUDE
 from weakforms.problems.tube.secondary.wrinkled import EDGE, KINK, SEEN, WrinkledBranch
@@ -34,28 +33,18 @@ TAUT, WRINKLED = 6.2, 7.2
 """Volumes at which the tube is taut, and wrinkled at the disk."""
 
 
-def families(energy):
-    given, numerics = TubeParameters(**BENDING, energy=energy), SecondaryNumerics(**COARSE)
-    return Tube().families(Task(given, numerics, Requests(), MPI.COMM_SELF, lambda *_: None))
-
-
 @pytest.fixture(scope="module")
 def relaxed():
-    return families("relaxed")
+    return families(BENDING, COARSE, "relaxed")
 
 
 @pytest.fixture(scope="module")
 def ordinary():
-    return families("standard")
+    return families(BENDING, COARSE, "standard")
 
 
 def test_a_taut_state_and_the_crossing_are_those_of_the_law(relaxed, ordinary):
-    ours, theirs = (family["secondary"].fine for family in (relaxed, ordinary))
-    for at in (lambda branch: branch.at_crossing(0), lambda branch: branch.at("V", TAUT)):
-        here, there = at(ours).values, at(theirs).values
-        for name in ("p", "u_max", "V", "Pi", "t_min"):
-            assert here[name] == pytest.approx(there[name], abs=1e-9)
-        assert here["wrinkled_fraction"] == 0
+    require_alike(relaxed, ordinary, TAUT)
 
 
 def test_a_wrinkled_state_has_no_negative_resultant_and_less_energy(relaxed, ordinary):

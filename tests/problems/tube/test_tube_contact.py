@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_data import LONG_STEPS, MESH, data
 from mpi4py import MPI
+from tube_data import LONG_STEPS, MESH, data
 
 import weakforms.problems.tube.model as tube_module
 from weakforms import ConvergenceError, InputError, reference, solve

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_data import LONG_STEPS, data
 from mpi4py import MPI
+from tube_data import LONG_STEPS, data
 
 from weakforms import reference, solve
 from weakforms.problems.tube.phases import TubePhases

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from contact_data import LONG_STEPS, data
 from mpi4py import MPI
+from tube_data import LONG_STEPS, data
 
 from weakforms import solve
 from weakforms.problems.tube.phases import TubePhases

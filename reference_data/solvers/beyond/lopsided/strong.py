@@ -34,16 +34,11 @@ SHORTEST = 1e-4
 """Shortest step that is tried."""
 
 
-@dataclass(frozen=True)
-class State:
-    """One state; nodal values of the upper and the lower half, and the pressure."""
+class Middle:
+    """A state whose first zone begins at the middle, and whose first unknown constant is the pressure."""
 
-    tube: Tube
-    mesh: Mesh
-    y: tuple[Array, Array]
+    y: tuple[Array, ...]
     c: Array
-    uneven: float = 0.0
-    """``e`` of the thickness."""
 
     @property
     def p(self) -> float:
@@ -59,6 +54,18 @@ class State:
     def w_mid(self) -> float:
         """Axial displacement of the middle."""
         return float(self.y[0][0, 0, 1])
+
+
+@dataclass(frozen=True)
+class State(Middle):
+    """One state; nodal values of the upper and the lower half, and the pressure."""
+
+    tube: Tube
+    mesh: Mesh
+    y: tuple[Array, Array]
+    c: Array
+    uneven: float = 0.0
+    """``e`` of the thickness."""
 
     @property
     def volume(self) -> float:

@@ -28,7 +28,7 @@ STEP = 0.1
 
 
 @dataclass(frozen=True)
-class State:
+class State(strong.Middle):
     """One state: nodal values of the zones with the fronts, outwards, and of the other side; p, z_1, z_2."""
 
     tube: Tube
@@ -37,21 +37,6 @@ class State:
     mesh: Mesh
     y: tuple[Array, ...]
     c: Array
-
-    @property
-    def p(self) -> float:
-        """Pressure."""
-        return float(self.c[0])
-
-    @property
-    def u_max(self) -> float:
-        """Radial displacement of the middle."""
-        return float(self.y[0][0, 0, 0]) - 1
-
-    @property
-    def w_mid(self) -> float:
-        """Axial displacement of the middle."""
-        return float(self.y[0][0, 0, 1])
 
     @property
     def volume(self) -> float:
