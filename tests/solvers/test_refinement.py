@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from weakforms.results import Quantity
 from weakforms.solvers.uncertainty.family import BranchFamily
 from weakforms.solvers.uncertainty.refinement import (
     ALGEBRAIC,
@@ -145,6 +146,13 @@ def test_the_order_of_a_field_counts_where_that_of_a_point_is_accidental():
     assert quantity("x", in_mean=0.5).uncertainty == pytest.approx(alone)
     assert quantity("other").uncertainty == pytest.approx(estimate(values, 4.0, least=4.0).uncertainty)
     assert quantity("x", most=2.0).uncertainty == pytest.approx(estimate(values, 2.0).uncertainty)
+
+
+def test_a_count_that_is_the_same_on_all_meshes_has_no_uncertainty():
+    family = SimpleNamespace(_cap=lambda *_names: 4.0, least={}, slow=None)
+    assert BranchFamily._quantity(family, [1.0, 1.0], "n_held") == Quantity(1.0)
+    assert BranchFamily._quantity(family, [0.0, 1.0], "n_held").uncertainty >= 1.0
+    assert BranchFamily._quantity(family, [1.0, 1.0], "V").uncertainty > 0.0
 
 
 def test_doubt_at_its_ends():

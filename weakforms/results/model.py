@@ -67,6 +67,9 @@ KINDS = (
 )
 """Kinds of special points, as in the schema."""
 
+COUNTS = ("n_negative", "n_all", "n_held", "n_fixed_", "n_mirror", "n_localisation", "n_odd_", "n_even_odd")
+"""Beginnings of the names of counts of eigenvalues."""
+
 
 @dataclass(frozen=True)
 class Quantity:

@@ -72,11 +72,15 @@ def test_what_is_said_is_about_the_worst_of_many_numbers():
     assert (verdict.where, verdict.error, verdict.passed) == ("b, u = 1", 3e-7, True)
 
 
-def test_a_count_is_a_whole_number_and_not_negative():
+@pytest.mark.parametrize("name", ["n_negative", "n_held", "n_fixed_m", "n_odd_even"])
+def test_a_count_is_a_whole_number_and_not_negative(name):
     counts = stored().branch(SPEC).columns["n_negative"]
     assert counts.max() == 1
-    for factor in (1.01, -1):
-        assert not verdicts(stored(n_negative=factor * counts))["trace"]
+    for factor, passes in ((1, True), (1.01, False), (-1, False)):
+        found = stored(**{name: factor * counts})
+        for state in found.result(SPEC).states:
+            state.quantities[name] = state.quantities["n_negative"]
+        assert verdicts(found)["trace"] == passes
 
 
 def test_a_point_drawn_without_a_state_fails():

@@ -12,7 +12,7 @@ import numpy as np
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.results import Absence, Branch, Failure, Field, Quantity, SpecialPoint, State
-from weakforms.results.model import KINDS
+from weakforms.results.model import COUNTS, KINDS
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import DIAGNOSTICS, SolutionCurve, Solved
 from weakforms.solvers.stability.agreement import same_count
@@ -332,18 +332,18 @@ class BranchFamily:
     def _quantity(
         self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0, most: float = np.inf
     ) -> Quantity:
-        """A number with its uncertainty.
+        """A number with its uncertainty; a count that is the same on all meshes has none.
 
-        The differences at a point depend on its position in the cell, so that their order is accidental. The
-        order of the field, ``in_mean``, is used if it is higher.
+        At a point of a cell the observed order is accidental; the field's, ``in_mean``, is used if higher.
         """
+        if name.startswith(COUNTS) and len(set(values)) == 1:
+            return Quantity(values[-1])
         cap = min(self._cap(name, held), most)
-        found = estimate(values, cap, least=self.least.get(name, 0.0), slow=self.slow)
-        spread = float(found.uncertainty)
-        if in_mean:
-            spread = min(spread, SAMPLED * float(estimate(values, cap, None, in_mean, self.slow).uncertainty))
-        order = float(found.order)
-        return Quantity(float(found.value), spread, order if order > 0 else None)
+        found = estimate(values, cap, least=self.least.get(name, 0.0), slow=self.slow).quantity()
+        if not in_mean:
+            return found
+        by_field = SAMPLED * float(estimate(values, cap, None, in_mean, self.slow).uncertainty)
+        return replace(found, uncertainty=min(found.uncertainty, by_field))
 
 
 def _spectrum(level: SolutionCurve, solved: Solved, critical: float) -> Spectrum:

@@ -16,8 +16,9 @@ import numpy as np
 
 from weakforms.errors import InputError
 from weakforms.results import Result
+from weakforms.results.model import COUNTS
 from weakforms.results.uncertain import uncertain
-from weakforms.verification.audit.same import COUNTS, ZERO, Number, numbers, scales
+from weakforms.verification.audit.same import ZERO, Number, numbers, scales
 
 SCHEMA = "weakforms.diff/1"
 

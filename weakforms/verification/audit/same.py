@@ -21,6 +21,7 @@ import numpy as np
 from weakforms.errors import InputError
 from weakforms.results import Quantity, Result, load_result
 from weakforms.results.io import MAX_REPORT_BYTES, load_json
+from weakforms.results.model import COUNTS
 
 EFFORT = ("residual", "iterations")
 """Columns that describe how a state was found, which depend on round-off."""
@@ -45,9 +46,6 @@ DIGITS = 1e-3
 NOISE = 1e-7
 """Uncertainties below this, relative to the number's scale, are not compared, because they are differences of
 numbers that agree to seven digits and contain round-off."""
-
-COUNTS = ("n_negative",)
-"""Beginning of the names of counts of eigenvalues, which must be equal."""
 
 
 @dataclass(frozen=True)

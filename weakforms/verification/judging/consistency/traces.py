@@ -17,6 +17,7 @@ import numpy as np
 from weakforms.problems.registry import abouts
 from weakforms.results import Branch, Result, State
 from weakforms.results.drawing import DESCRIBE, nearest
+from weakforms.results.model import COUNTS
 from weakforms.verification.cases.specs import Spec
 from weakforms.verification.judging.bounds import Comparison, compare
 from weakforms.verification.judging.checks.check import Check, Wanted
@@ -193,7 +194,7 @@ def _counts(result: Result) -> Iterator[Found]:
     """Numbers of negative eigenvalues are whole, and not negative, at every point."""
     for branch in result.branches:
         for name, counts in _columns(branch).items():
-            if name.startswith("n_negative"):
+            if name.startswith(COUNTS):
                 off = np.max(np.abs(counts - np.round(counts)) + np.maximum(-counts, 0.0), initial=0.0)
                 yield f"{name} ({branch.name})", "a count", compare(float(off), 0.0, 0.0, 0.0, 1.0)
 
