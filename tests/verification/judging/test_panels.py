@@ -131,6 +131,24 @@ def test_special_points_of_the_drawn_branch_are_marked(kinds):
     assert found.get("bifurcation_n1", ("n = 1", 1.1, 1.4)) == ("n = 1", 1.1, 1.4)
 
 
+def test_a_branch_in_long_steps_passes_through_its_marked_points():
+    """The peak of a parabola of three points; a count is that before it, and ends are not passed.
+
+    A point without a value, as of contact before there is any, is next to nothing.
+    """
+    columns = {"u_max": [np.nan, 0.0, 1.0, 2.0], "p": [0.0, 0.0, 1.5, 0.0], "n_negative": [0, 0, 0, 1]}
+    points = [
+        SpecialPoint("limit_point", "primary", "p", {"u_max": u, "p": p}, {})
+        for u, p in ((1.25, 1.6), (2.2, -1))
+    ]
+    given = solutions(points=points, columns={name: np.array(v) for name, v in columns.items()})
+    (drawn,) = draw_panel(2, panel(Curve(TUBE, ""), markers="limit_point"), given).curves
+    assert (drawn.x[1:], drawn.y[1:]) == ([0.0, 1.0, 1.25, 2.0], [0.0, 1.5, 1.6, 0.0])
+    assert drawn.unstable == [False, False, False, False, True]
+    (bare,) = draw_panel(2, panel(Curve(TUBE, "")), given).curves
+    assert bare.x[1:] == [0.0, 1.0, 2.0], "no points are marked in this panel"
+
+
 # -- profiles ----------------------------------------------------------------------------------------
 
 PROFILE = Field(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 
 import numpy as np
@@ -89,6 +90,9 @@ def _draw(paper: int | str, panel: Panel, curve: Curve, solutions: Solutions) ->
     else:
         counted = panel.counted or ("n_negative",)
         columns = _with_states(curve, table, solutions, (x, own), counted)
+        sizes = {x: panel.x.high - panel.x.low, own: panel.y.high - panel.y.low}
+        for point in _special(panel, curve, solutions):
+            columns = through(point.values, columns, sizes)
         total = sum(columns[name] for name in counted)
         unstable = [int(n) for n in total] if panel.counted else [bool(n) for n in total]
     xs, ys = columns[x], columns[own]
@@ -151,6 +155,30 @@ def _with_states(
     return {name: np.insert(v, places, [values[k][name] for k in order]) for name, v in columns.items()}
 
 
+def through(
+    point: Mapping[str, float], columns: dict[str, np.ndarray], sizes: Mapping[str, float]
+) -> dict[str, np.ndarray]:
+    """The columns of a branch with a special point between the neighbours from which it is the least detour.
+
+    Args:
+        point: Values of the special point.
+        columns: Those that are drawn, and counts.
+        sizes: Ranges of the axes by the two columns that are drawn.
+    """
+    if not all(np.isfinite(point.get(name, np.nan)) for name in sizes):
+        return columns
+    track = np.column_stack([columns[name] / size for name, size in sizes.items()])
+    place, chord = np.array([point[name] / size for name, size in sizes.items()]), np.diff(track, axis=0)
+    before, after = (np.linalg.norm(place - ends, axis=1) for ends in (track[:-1], track[1:]))
+    length = np.linalg.norm(chord, axis=1)
+    detour = before + after - length
+    detour[~(detour <= length / 2)] = np.inf  # beyond an end of what is drawn, or where a column has no value
+    if not np.isfinite(detour.min(initial=np.inf)):
+        return columns
+    i = int(np.argmin(detour))
+    return {name: np.insert(v, i + 1, point[name] if name in sizes else v[i]) for name, v in columns.items()}
+
+
 def _passed(along: np.ndarray, value: float) -> int | None:
     """The point of a branch after which a column first crosses a value; ``None`` if it never does."""
     distance = np.asarray(along, float) - value
@@ -171,13 +199,17 @@ def mirror(panel: Panel, name: str, values: np.ndarray) -> np.ndarray:
 
 
 def _markers(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
-    kinds = (panel.markers,) if isinstance(panel.markers, str) else panel.markers
-    points = [p for kind in filter(None, kinds) for p in solutions.points(curve.of, kind)]
     return _edge(panel, curve, solutions) + [
         Marker(point.kind, _marker_label(point), point.values[panel.x.name], point.values[panel.y.name])
-        for point in points
-        if point.branch == curve.branch
+        for point in _special(panel, curve, solutions)
     ]
+
+
+def _special(panel: Panel, curve: Curve, solutions: Solutions) -> list[SpecialPoint]:
+    """The special points of a curve's branch that a panel marks."""
+    kinds = (panel.markers,) if isinstance(panel.markers, str) else panel.markers
+    points = [p for kind in filter(None, kinds) for p in solutions.points(curve.of, kind)]
+    return [point for point in points if point.branch == curve.branch]
 
 
 def _edge(panel: Panel, curve: Curve, solutions: Solutions) -> list[Marker]:
