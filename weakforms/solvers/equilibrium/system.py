@@ -19,6 +19,7 @@ from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.matrix import FormMatrix, pattern_of
 from weakforms.solvers.equilibrium.state import Lendable
 from weakforms.solvers.support.jit_cache import compile_together
+from weakforms.solvers.support.memory import remember
 from weakforms.solvers.support.sampling import FirstLevels, Interpolant, Peak
 
 SMALL_DISPLACEMENT = 1e-3
@@ -39,6 +40,7 @@ class System(Lendable):
     def __init__(self, formulation: Formulation) -> None:
         super().__init__(formulation)
         space = self.unknown.function_space
+        remember(space.mesh)
         self.comm: MPI.Intracomm = space.mesh.comm
         self._alone = self.comm.size == 1
         self.test, self.trial = ufl.TestFunction(space), ufl.TrialFunction(space)

@@ -3,6 +3,9 @@
 Models, systems and solvers refer to each other, so that only Python's garbage collector frees them. It counts
 objects, not the matrices and compiled forms that they own, and would run too seldom. The C library keeps
 memory that was freed between pieces in use, 2.6 GB of a large solve, until it is asked to give it back.
+
+On several ranks PETSc keeps an object that Python drops until all ranks of its communicator free it together.
+Every mesh has a communicator of its own, and nobody could name it once the mesh is gone.
 """
 
 from __future__ import annotations
@@ -11,15 +14,27 @@ import ctypes
 import gc
 from contextlib import suppress
 
+from dolfinx.mesh import Mesh
 from mpi4py import MPI
 from petsc4py import PETSc
 
+_meshes: list[Mesh] = []
+"""Meshes on several ranks, whose objects the next :func:`release` frees; the same order on every rank."""
+
+
+def remember(mesh: Mesh) -> None:
+    """Keep a mesh of several ranks until :func:`release`, because objects of PETSc belong to it."""
+    if mesh.comm.size > 1 and not any(known is mesh for known in _meshes):
+        _meshes.append(mesh)
+
 
 def release(comm: MPI.Intracomm) -> None:
-    """Free what no longer has an owner; collective, because on several ranks PETSc frees objects together."""
+    """Free what no longer has an owner; collective on several ranks."""
     gc.collect()
     if comm.size > 1:
-        PETSc.garbage_cleanup(comm)
+        for own in (*(mesh.comm for mesh in _meshes), comm):
+            PETSc.garbage_cleanup(own)
+        _meshes.clear()
     with suppress(AttributeError):  # the GNU C library has it
         ctypes.CDLL(None).malloc_trim(0)
 
