@@ -105,7 +105,7 @@ class RectangleModes:
         return C4V[min(nearest, key=nearest.__getitem__)]
 
     def _count(self, n: int) -> int:
-        return self.model.variation(1 if self.square and n == 2 else n).negative_count()
+        return self.model.variation(1 if self.square and n == 2 else n).negative_count(ZERO)
 
 
 class RectangleBranch(FilledBranch):
