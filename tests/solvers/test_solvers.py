@@ -15,6 +15,7 @@ from weakforms.solvers.continuation.continuation import Continuation, StepContro
 from weakforms.solvers.continuation.line import fold_line
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.formulation import Formulation
+from weakforms.solvers.equilibrium.linear import Factorization
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.system import System
 from weakforms.solvers.stability.spectra import Stability
@@ -275,3 +276,15 @@ def test_it_is_the_same_to_the_last_bit_every_time():
     points = (1 - np.cos(np.pi * (np.arange(12) + 0.5) / 12)) / 2
     first, second = (polynomial_through(points, values)(0.3141) for _ in range(2))
     assert np.array_equal(first, second)
+
+
+def test_factors_that_were_freed_are_made_again():
+    system = one_dof(lambda u, load, _: u**3 + 2 * u - load)
+    factor = Factorization(system)
+    with system.at(system.initial):
+        factor.update()
+        before, made = factor.solve(np.array([3.0])), factor.count
+        factor.release()
+        assert factor.count > made, "whoever kept what was made with them sees that they are gone"
+        factor.update()
+        assert factor.solve(np.array([3.0])) == before == [1.5]

@@ -70,8 +70,11 @@ def test_symmetric_states_that_are_stable_on_some_meshes_only():
 
 
 def bent(**counts):
-    stability = SimpleNamespace(spectra=lambda *_: {name: float(value) for name, value in counts.items()})
-    return SimpleNamespace(stability=stability)
+    stability = SimpleNamespace(
+        spectra=lambda *_: {name: float(value) for name, value in counts.items()}, lowest=lambda *_: -2.0
+    )
+    solver = SimpleNamespace(factor=SimpleNamespace(release=lambda: None))
+    return SimpleNamespace(stability=stability, solver=solver)
 
 
 @pytest.mark.parametrize("name", ["n_negative", "n_negative_odd"])
@@ -81,6 +84,19 @@ def test_bent_states_whose_two_finest_meshes_count_differently(name):
     refused(f"stability depends on the mesh: {name}", told._diagnostics, [ANY] * 3, 0.0)
     told.levels = [bent(**{name: k}) for k in (1, 2, 2)]  # the coarsest one is there for the order only
     assert told._diagnostics([ANY] * 3, 0.0)[name].value == 2
+
+
+@pytest.mark.parametrize(("least", "spread"), [(-1e-4, 2e-3), (1e-4, 2e-3), (-1e-2, 1e-3)])
+def test_bent_states_that_may_be_compressed_have_their_lowest_eigenvalue_only(least, spread):
+    """Wrinkles as fine as the mesh: their number depends on it, as it must not of a taut tube."""
+    told = bare(SecondaryFamily, levels=[bent(n_negative=k) for k in (1, 2, 9)], caps={}, cap=4.0, slow=None)
+    told._lowest = lambda _: {"T_min": Quantity(least, spread)}
+    state = SimpleNamespace(state=ANY)
+    found = told._diagnostics([state] * 3, 0.0)
+    assert found["Lambda_1"].value == -2.0
+    assert "n_negative" not in found
+    told._lowest = lambda _: {"T_min": Quantity(abs(least), abs(least) / 2)}
+    refused("stability depends on the mesh", told._diagnostics, [state] * 3, 0.0)
 
 
 def test_wrinkled_states_that_are_stable_on_some_meshes_only(monkeypatch):

@@ -11,6 +11,7 @@ from petsc4py import PETSc
 
 from weakforms.errors import ConvergenceError
 from weakforms.solvers.equilibrium.system import System
+from weakforms.solvers.support.memory import give_back
 
 NATIVE_LIMIT = 20_000
 """Unknowns up to which PETSc's own Cholesky beats MUMPS (0.04 ms against 0.3 ms at 1200)."""
@@ -92,6 +93,14 @@ class Factorization:
         self._factors = self._pc.getFactorMatrix()
         self.failed = self._pc.getFailedReason() != PETSc.PC.FailedReason.NOERROR
         self.count += 1
+
+    def release(self) -> None:
+        """Free the factors: of a large surface they take more memory than all matrices."""
+        self._factors = None
+        self._pc.destroy()
+        self._pc = self._make(self.package)
+        self.count += 1  # whoever kept what was made with them must factorise again
+        give_back()
 
     def stiffen(self) -> None:
         """Make a singular ``K`` regular by one diagonal entry, where its null vector is largest."""

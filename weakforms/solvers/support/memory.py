@@ -35,6 +35,11 @@ def release(comm: MPI.Intracomm) -> None:
         for own in (*(mesh.comm for mesh in _meshes), comm):
             PETSc.garbage_cleanup(own)
         _meshes.clear()
+    give_back()
+
+
+def give_back() -> None:
+    """Give the memory that was freed back to the system."""
     with suppress(AttributeError):  # the GNU C library has it
         ctypes.CDLL(None).malloc_trim(0)
 

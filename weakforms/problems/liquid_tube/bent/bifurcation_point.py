@@ -200,6 +200,8 @@ def _neighbouring_states(
         eigenvalues.append(modes[k].eigenvalue)
         vectors.append(np.sign(overlaps[k]) * modes[k].vector)
         counts.append(negative - int(modes[k].eigenvalue < 0))
+    for factor in (stability.factor, *(each.solver.factor for each in (fitting, usual))):
+        factor.release()
     return states, eigenvalues, vectors, counts
 
 

@@ -28,6 +28,7 @@ from weakforms.solvers.equilibrium.linear import BorderedMatrix, Factorization
 from weakforms.solvers.equilibrium.newton import Constraint
 from weakforms.solvers.equilibrium.snes import SolveRecord
 from weakforms.solvers.equilibrium.state import State
+from weakforms.solvers.support.memory import give_back
 
 AMPLITUDES = (0.02, 0.04, 0.06, 0.08, 0.1)
 """Root mean square displacements along the mode, from which initial slopes are extrapolated."""
@@ -72,9 +73,11 @@ def secondary_branch(
     """
     model = SurfaceModel(comm, data)
     begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
+    give_back()
     *found, trend = bifurcation_on(model, primary, begin, below)
     branch = SecondaryBranch(model, *found, step, end, followed)
     branch.trend = trend
+    branch.solver.factor.release()
     return branch
 
 

@@ -199,21 +199,38 @@ class SecondaryFamily(BranchFamily):
         return beginning if self.compressed else super()._locate()
 
     def _diagnostics(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
-        """Eigenvalues with uncertainties; the two finest meshes must have the same number of negative ones.
+        """Lowest point, smallest resultant, and eigenvalues with uncertainties.
 
-        The coarsest mesh serves only for the order of convergence, because on a long tube it is too coarse
-        for the dry part. A compressed membrane wrinkles as finely as the mesh allows. Only the lowest
-        eigenvalue at fixed level, far below the eigenvalues of the wrinkles, then converges, and no other is
-        given.
+        A compressed membrane wrinkles as finely as the mesh allows. Only the lowest eigenvalue at fixed
+        level, far below the eigenvalues of the wrinkles, then converges, and no other is given. So it is
+        where a resultant may be negative, within its uncertainty, and spectra fail or depend on the mesh.
         """
         out = self._lowest(solved)
         least = out["T_min"]
         if least.value + least.uncertainty < 0:
-            lowest = [level.stability.lowest(s.state) for level, s in zip(self.levels, solved, strict=True)]
-            return out | {"Lambda_1": self._quantity(lowest)}
+            return out | self._lowest_eigenvalue(solved)
+        try:
+            return out | self._spectra(solved, critical)
+        except ConvergenceError:
+            if least.value - least.uncertainty >= 0:
+                raise
+            return out | self._lowest_eigenvalue(solved)
+
+    def _lowest_eigenvalue(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
+        lowest = [level.stability.lowest(s.state) for level, s in zip(self.levels, solved, strict=True)]
+        return {"Lambda_1": self._quantity(lowest)}
+
+    def _spectra(self, solved: Sequence[Solved], critical: float) -> dict[str, Quantity]:
+        """Eigenvalues; the two finest meshes must have the same number of negative ones.
+
+        The coarsest mesh serves only for the order of convergence, because on a long tube it is too coarse
+        for the dry part.
+        """
         spectra: list[dict[str, float]] = []
         for level, s in zip(self.levels, solved, strict=True):
+            level.solver.factor.release()  # one factorisation of a large surface at a time
             spectra.append(level.stability.spectra(s.state, critical, spectra[-1] if spectra else None))
+        out = {}
         for name in spectra[-1]:
             values = [spectrum[name] for spectrum in spectra]
             if not name.startswith("n_negative"):

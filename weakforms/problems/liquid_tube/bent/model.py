@@ -26,6 +26,7 @@ UFL computes its derivative in the position completely; its derivative in ``zw``
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 import ufl
@@ -71,8 +72,6 @@ class SurfaceModel(MaterialSurface):
 
     Attributes:
         system: Residual, tangent and columns in the space of the states (C1v on the half circumference).
-        breaking: On half the circumference, the same second variation for displacements that break the mirror
-            symmetry (``u`` odd, ``v`` even, ``w`` odd about ``Theta = 0`` and ``pi``); ``None`` on the whole.
     """
 
     def __init__(self, comm: MPI.Intracomm, data: SurfaceData) -> None:
@@ -102,10 +101,15 @@ class SurfaceModel(MaterialSurface):
         mirrored = [] if data.full else self._mirror_conditions((1,))
         self.formulation = self._formulation(conditions + mirrored)
         self.system = self._assembled(self.formulation)
-        self.breaking = None
-        if not data.full:
-            odd = conditions + self._mirror_conditions((0, 2))
-            self.breaking = self._assembled(self._second_variation_only(odd), beside=self.system)
+
+    @cached_property
+    def breaking(self) -> System:
+        """On half the circumference, the second variation for displacements that break the mirror symmetry.
+
+        ``u`` is odd, ``v`` even, ``w`` odd about ``Theta = 0`` and ``pi``. It is made when it is needed.
+        """
+        odd = self._ring_conditions() + self._mirror_conditions((0, 2))
+        return self._assembled(self._second_variation_only(odd), beside=self.system)
 
     def _rules(self) -> list[int]:
         if self.front is not None:

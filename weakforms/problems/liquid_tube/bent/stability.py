@@ -11,6 +11,7 @@ this count. The eigenvalue of the rotation, identified by its vector, is left ou
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import dolfinx.fem.petsc as fem_petsc
 import numpy as np
@@ -58,12 +59,17 @@ class BentStability:
 
     def __init__(self, model: SurfaceModel) -> None:
         self.model = model
-        self.keeps, self.breaks = Stability(model.system), Stability(model.breaking)
+        self.keeps = Stability(model.system)
         turn = model.turn()
         self._turning = fem.form(model.product(turn, ufl.TestFunction(model.space)))
         self._turning_squared = fem.form(model.product(turn, turn))
         self._lowest = -1.0
         """The last lowest eigenvalue, near which the next one is searched first."""
+
+    @cached_property
+    def breaks(self) -> Stability:
+        """Of displacements that break the symmetry; their matrix is made when it is needed."""
+        return Stability(self.model.breaking)
 
     def spectra(
         self, state: State, critical: float = 0.0, coarser: Mapping[str, float] | None = None
@@ -86,7 +92,10 @@ class BentStability:
         out["n_negative"] = negative
         if not critical:
             out["LambdaV_1"], out["n_negative_V"] = self._at_fixed_volume(state)
-        return out | self._breaking(state)
+        self.keeps.factor.release()
+        out |= self._breaking(state)
+        self.breaks.factor.release()
+        return out
 
     def lowest(self, state: State) -> float:
         """The lowest C1v eigenvalue at fixed level, for any number of negative ones.
