@@ -90,11 +90,13 @@ def test_bent_states_whose_two_finest_meshes_count_differently(name):
 def test_bent_states_that_may_be_compressed_have_their_lowest_eigenvalue_only(least, spread):
     """Wrinkles as fine as the mesh: their number depends on it, as it must not of a taut tube."""
     told = bare(SecondaryFamily, levels=[bent(n_negative=k) for k in (1, 2, 9)], caps={}, cap=4.0, slow=None)
+    told.warnings = []
     told._lowest = lambda _: {"T_min": Quantity(least, spread)}
-    state = SimpleNamespace(state=ANY)
+    state = SimpleNamespace(state=ANY, values={"zw": 7.9})
     found = told._diagnostics([state] * 3, 0.0)
     assert found["Lambda_1"].value == -2.0
     assert "n_negative" not in found
+    assert ["zw = 7.9" in warning for warning in told.warnings] == [True]
     told._lowest = lambda _: {"T_min": Quantity(abs(least), abs(least) / 2)}
     refused("stability depends on the mesh", told._diagnostics, [state] * 3, 0.0)
 

@@ -148,6 +148,8 @@ class FluidTube(BranchProblem):
                         result.failures.append(Failure(what, f"{name} branch: {error}"))
             if len(missing) == len(names):
                 raise self._not_reached(f"fluid_tube: {'; '.join(missing)}", result, wanted.branch)
+        for family in families.values():  # those of states
+            result.warnings.extend(text for text in family.warnings if text not in result.warnings)
 
 
 def primary_family(

@@ -217,6 +217,11 @@ class SecondaryFamily(BranchFamily):
             return out | self._lowest_eigenvalue(solved)
 
     def _lowest_eigenvalue(self, solved: Sequence[Solved]) -> dict[str, Quantity]:
+        at = f"secondary branch, zw = {solved[-1].values['zw']:.6g}"
+        self.warnings.append(
+            f"{at}: the tube is or may be compressed (T_min); the number of negative eigenvalues depends on "
+            "the mesh, and only the lowest one is given"
+        )
         lowest = [level.stability.lowest(s.state) for level, s in zip(self.levels, solved, strict=True)]
         return {"Lambda_1": self._quantity(lowest)}
 
