@@ -67,7 +67,10 @@ KINDS = (
 )
 """Kinds of special points, as in the schema."""
 
-COUNTS = ("n_negative", "n_all", "n_held", "n_fixed_", "n_mirror", "n_localisation", "n_odd_", "n_even_odd")
+COUNTS = (
+    *("n_negative", "n_all", "n_held", "n_fixed_", "n_mirror", "n_localisation"),
+    *("n_odd_", "n_even_odd", "n_A", "n_B"),
+)
 """Beginnings of the names of counts of eigenvalues."""
 
 

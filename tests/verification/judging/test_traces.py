@@ -72,7 +72,7 @@ def test_what_is_said_is_about_the_worst_of_many_numbers():
     assert (verdict.where, verdict.error, verdict.passed) == ("b, u = 1", 3e-7, True)
 
 
-@pytest.mark.parametrize("name", ["n_negative", "n_held", "n_fixed_m", "n_odd_even"])
+@pytest.mark.parametrize("name", ["n_negative", "n_held", "n_fixed_m", "n_odd_even", "n_B2"])
 def test_a_count_is_a_whole_number_and_not_negative(name):
     counts = stored().branch(SPEC).columns["n_negative"]
     assert counts.max() == 1
