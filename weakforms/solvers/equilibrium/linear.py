@@ -95,7 +95,7 @@ class Factorization:
         self.count += 1
 
     def release(self) -> None:
-        """Free the factors: of a large surface they take more memory than all matrices."""
+        """Free the factors, which take twice the memory of their matrix on a large surface."""
         self._factors = None
         self._pc.destroy()
         self._pc = self._make(self.package)

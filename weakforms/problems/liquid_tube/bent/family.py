@@ -202,8 +202,8 @@ class SecondaryFamily(BranchFamily):
         """Lowest point, smallest resultant, and eigenvalues with uncertainties.
 
         A compressed membrane wrinkles as finely as the mesh allows. Only the lowest eigenvalue at fixed
-        level, far below the eigenvalues of the wrinkles, then converges, and no other is given. So it is
-        where a resultant may be negative, within its uncertainty, and spectra fail or depend on the mesh.
+        level, far below the eigenvalues of the wrinkles, then converges, and no other is given. The same is
+        done if a resultant may be negative within its uncertainty, and spectra fail or depend on the mesh.
         """
         out = self._lowest(solved)
         least = out["T_min"]
