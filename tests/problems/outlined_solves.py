@@ -106,6 +106,11 @@ SOLVES: dict[str, dict[str, Any]] = {
         "numerics": LIQUID,
     },
     "fluid_tube, bent": {"secondary": True, "n_max": 1, "numerics": LIQUID | BENT},
+    "fluid_tube, bent and relaxed": {
+        **{"secondary": True, "energy": "relaxed", "L": 12.0, "delta": 1.4, "gamma": 0.03, "n_max": 1},
+        **{"at": {"zw": 17.2}, "branch": "secondary"},
+        "numerics": LIQUID | BENT | {"secondary_step": 0.4, "secondary_end": 0.8},
+    },
     "fluid_tube_coincidence": {"gamma": 0.12, "numerics": LIQUID},
     "fluid_tube_imperfect": {
         **{"tilt": 0.1, "v_start": 0.9, "u_end": 0.3, "at": {"zw": 8.9}},

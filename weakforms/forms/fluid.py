@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ufl import as_vector, cross, diff, dot, inner, max_value, sqrt, variable
+from ufl import as_matrix, as_vector, cross, diff, dot, inner, max_value, sqrt, variable
 from ufl.core.expr import Expr
 
 from weakforms.forms.materials import SurfaceLaw, stress_resultants
+from weakforms.forms.wrinkling import surface_tension_field
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,12 @@ def strain_energy(a: Expr, b: Expr, alpha: Expr | float | SurfaceLaw) -> Expr:
     if isinstance(alpha, SurfaceLaw):
         return alpha.invariants(trace, j) / 2
     return (trace + 1 / j - 3 + alpha * (trace / j + j - 3)) / 2
+
+
+def relaxed_strain_energy(a: Expr, b: Expr, law: SurfaceLaw) -> Expr:
+    r"""The same of a membrane that wrinkles in place of bearing compression, :math:`w_r(C)/2`."""
+    g11, g12, g22 = dot(a, a), dot(a, b), dot(b, b)
+    return surface_tension_field(as_matrix([[g11, g12], [g12, g22]]), law) / 2
 
 
 def membrane_work(at: Surface, v: Surface, alpha: Expr | float | SurfaceLaw) -> Expr:

@@ -81,7 +81,6 @@ def test_a_volume_that_it_does_not_have_is_refused_with_the_range():
 @pytest.mark.parametrize(
     ("given", "named"),
     [
-        ({"secondary": True}, "secondary"),
         ({"model": "harmonic", "delta": 1.1}, "model"),
         ({"model": "varga"}, "model"),
         ({"L": 40.0, "delta": 1.1}, "L/delta"),

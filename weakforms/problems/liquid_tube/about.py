@@ -123,6 +123,15 @@ FLUID_TUBE = About(
             branch="secondary",
         ),
         Family(
+            {"delta": (1.38, 1.44), "gamma": (0.029, 0.032)},
+            coarse=MORE["coarse"] | {"secondary_cells": 24, "secondary_degree": 4, "secondary_end": 0.8},
+            fine=MORE["fine"] | {"secondary_cells": 48, "secondary_levels": 2, "secondary_end": 0.8},
+            fixed={"L": 12.0, "n_max": 1, "secondary": True, "energy": "relaxed"},
+            at=(("zw", 17.4),),
+            label="secondary, relaxed",
+            branch="secondary",
+        ),
+        Family(
             {"delta": (1.03, 1.06), "gamma": (0.45, 0.6)},
             coarse={"cells": 64, "degree": 4},  # coarser meshes do not resolve the zone
             fine={"cells": 96, "degree": 6, "levels": 2},

@@ -12,10 +12,11 @@ from weakforms.errors import AbsentError, ConvergenceError, InputError
 from weakforms.forms.materials.surface import LAWS
 from weakforms.problems.branch_problem import BranchProblem, Family, asked_crossings
 from weakforms.problems.liquid_tube.about import FLUID_TUBE
-from weakforms.problems.liquid_tube.bent.family import secondary_family
+from weakforms.problems.liquid_tube.bent.family import SecondaryFamily, secondary_family
 from weakforms.problems.liquid_tube.branch import FluidPath
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
 from weakforms.problems.liquid_tube.relaxed import RelaxedBranch, require_relaxed_possible, tube_data
+from weakforms.problems.liquid_tube.relaxed_bent import RelaxedSecondaryFamily
 from weakforms.problems.material_choice import require_model
 from weakforms.problems.meridian.compression import compression
 from weakforms.problems.meridian.pre_stretch import has_bounded_force, require_bearable, require_width
@@ -97,17 +98,19 @@ class FluidTube(BranchProblem):
         parameters, numerics, comm, progress = task.parameters, task.numerics, task.comm, task.progress
         if parameters.energy == "relaxed":
             progress("primary branch", 0, 1)
-            return {"primary": RelaxedBranch(parameters, numerics, comm)}
-        primary = primary_family(parameters, numerics, comm, progress)
+            primary, bent = RelaxedBranch(parameters, numerics, comm), RelaxedSecondaryFamily
+        else:
+            primary, bent = primary_family(parameters, numerics, comm, progress), SecondaryFamily
         if not parameters.secondary:
             return {"primary": primary}
         try:
-            return {"primary": primary, "secondary": secondary_family(parameters, numerics, comm, progress)}
+            secondary = secondary_family(parameters, numerics, comm, progress, bent)
         except AbsentError as error:
             if any(wanted.branch == "secondary" for wanted in task.requests.states):
                 raise
-            absence = Absence("secondary branch", f"fluid_tube: {error}")
-            return {"primary": PiecewiseFamily(primary.pieces, absent=[absence])}
+            primary.missing.append(Absence("secondary branch", f"fluid_tube: {error}"))
+            return {"primary": primary}
+        return {"primary": primary, "secondary": secondary}
 
     def points(self, parameters: FluidTubeParameters) -> np.ndarray:
         """61 points from the lower ring to the upper one."""
@@ -121,7 +124,7 @@ class FluidTube(BranchProblem):
             return []
         where = compression(families["primary"], "Z", numerics.degree)
         try:
-            require_relaxed_possible(parameters.model_copy(update={"secondary": False}))
+            require_relaxed_possible(parameters)
             instead = "energy = relaxed lets it wrinkle"
         except InputError:
             instead = "a real one wrinkles there"

@@ -35,7 +35,7 @@ from weakforms.problems.wrinkled.readings import Readings
 from weakforms.problems.wrinkled.state import ZonedState
 from weakforms.problems.wrinkled.waves.modes import waves_at
 from weakforms.problems.wrinkled.waves.stability import Change
-from weakforms.results import Field, Quantity, SpecialPoint, State
+from weakforms.results import Absence, Field, Quantity, SpecialPoint, State
 from weakforms.results.wording import not_crossed
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import Solved
@@ -193,6 +193,13 @@ class RelaxedBranch(WrinkledBranch):
         widest = WIDEST**2 * data.delta  # over the volume of the dry tube, whose radius is delta^(-1/2)
         super().__init__(membrane, heaviest(data), widest, numerics.step, readings)
         self._lowest, self._stiffens = parameters.zw_end, data.material is not None
+        self.missing: list[Absence] = []
+        """What was asked for besides the branch and is not there."""
+
+    @property
+    def absent(self) -> list[Absence]:
+        """What is missing; the branch itself is there."""
+        return self.missing
 
     def _is_past_limit(self, point: CurvePoint, peak: float) -> bool:
         """Whether the level has fallen far enough or, for a law that stiffens, rises again."""
@@ -234,8 +241,6 @@ def require_relaxed_possible(parameters: FluidTubeParameters, requests: Requests
         InputError: With a message that names the parameter.
     """
     what = "fluid_tube: energy = 'relaxed'"
-    if parameters.secondary:
-        raise InputError(f"{what} is for the primary branch; set secondary = false, or energy = 'standard'")
     require_foldable(what, parameters, invariants=True)
     if has_bounded_force(parameters.material):
         raise InputError(
@@ -246,7 +251,7 @@ def require_relaxed_possible(parameters: FluidTubeParameters, requests: Requests
     if length > LONGEST:
         raise InputError(f"{what}: L/delta = {length:g} is too long to tell its zones; allowed: {LONGEST:g}")
     for wanted in requests.states if requests else ():
-        if wanted.name not in PRESCRIBED:
+        if wanted.name not in PRESCRIBED and wanted.branch == "primary":
             raise InputError(
                 f"{what}: no state is solved for by {wanted.name}; allowed: {', '.join(PRESCRIBED)}"
             )

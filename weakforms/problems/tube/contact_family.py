@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from mpi4py import MPI
 
 from weakforms.problems.contact.family import MakeFamily, contact_branch
+from weakforms.problems.meridian.kinks import FRACTION
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.contact import ContactData
-from weakforms.problems.tube.folds import FRACTION, FRONTS
+from weakforms.problems.tube.folds import FRONTS
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.phases import TubePhases
 from weakforms.results import SpecialPoint

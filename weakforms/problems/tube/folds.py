@@ -18,6 +18,7 @@ from weakforms.problems.contact.guesses import transferred
 from weakforms.problems.meridian.blocks import BREAK, UPPER
 from weakforms.problems.meridian.compression import ONSET
 from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.kinks import FRACTION
 from weakforms.problems.meridian.model import TAUT, WET, WRINKLED, Marks
 from weakforms.problems.tube.model import TubeModel
 from weakforms.solvers.continuation.branch import MirroredBranch
@@ -46,7 +47,6 @@ CLOSED = 0.999
 """Share of the smallest zone below which it closes."""
 
 FRONTS = ("Z_front_1", "Z_front_2")
-FRACTION = "wrinkled_fraction"
 DISK = "gap_disk"
 """``gw - 1`` at the disk: where it grows above zero, a zone that ends at the disk leaves it."""
 

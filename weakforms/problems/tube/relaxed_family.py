@@ -13,9 +13,10 @@ from mpi4py import MPI
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.material_choice import require_foldable
 from weakforms.problems.meridian.compression import SLOPES
+from weakforms.problems.meridian.kinks import FRACTION
 from weakforms.problems.problem import Progress
 from weakforms.problems.tube.contact_family import NO_CONTACT, contact_caps, contact_data, contact_parts
-from weakforms.problems.tube.folds import FRACTION, FRONTS
+from weakforms.problems.tube.folds import FRONTS
 from weakforms.problems.tube.model import TubeMesh
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.relaxed import RelaxedTube

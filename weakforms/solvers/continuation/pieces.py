@@ -39,13 +39,13 @@ class PiecewiseFamily:
         joints: Callable[[], Sequence[SpecialPoint | None]] = tuple,
         absent: Sequence[Absence] = (),
     ) -> None:
-        self.pieces, self.joints, self._absent = list(pieces), joints, absent
+        self.pieces, self.joints, self.missing = list(pieces), joints, list(absent)
         self.name, self.progress = self.pieces[0].family.name, BranchFamily.progress
 
     @property
     def absent(self) -> list[Absence]:
         """What was asked for and is not there, of the whole and of all pieces."""
-        return [*self._absent, *(item for piece in self.pieces for item in piece.family.absent)]
+        return [*self.missing, *(item for piece in self.pieces for item in piece.family.absent)]
 
     @property
     def failures(self) -> list[Failure]:

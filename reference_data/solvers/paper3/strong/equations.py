@@ -14,7 +14,7 @@ collocated at the inner nodes; the force f_a - Z_,Theta f_b is continuous betwee
 free surface, which is the curve s = 1. Unknowns are positions at Chebyshev-Lobatto nodes in s and at
 Theta_j = 2 pi j/(2 M + 1), 0 <= j <= M (the other half by mirror symmetry). Nothing is integrated, there
 are no test functions, and no formula of the metric is used. The forces of another law are those of
-:mod:`strong.principal`.
+:mod:`strong.principal`, those of a sheet that wrinkles its own.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from reference_data.solvers.core.collocation import lagrange
+from reference_data.solvers.core.laws import Law
 from reference_data.solvers.core.newton import newton as iterate
 from reference_data.solvers.paper3.bent.newton import Factor, Kept
 from reference_data.solvers.paper3.data import FluidTube
@@ -48,7 +49,7 @@ def spun(u: Array) -> Array:
 def forces(a: Array, b: Array, law: Any = None) -> tuple[Array, Array]:
     """Forces on cuts Z = const and Theta = const, per material length, shapes (..., 3)."""
     if law is not None:
-        return principal.forces(a, b, law)
+        return principal.forces(a, b, law) if isinstance(law, Law) else law.forces(a, b)
     c = np.cross(a, b)
     fourth = np.sum(c * c, axis=-1, keepdims=True) ** 2
     return a - np.cross(b, c) / fourth, b - np.cross(c, a) / fourth
@@ -57,7 +58,7 @@ def forces(a: Array, b: Array, law: Any = None) -> tuple[Array, Array]:
 def rates(a: Array, b: Array, law: Any = None) -> Array:
     """Derivative of the forces by (a, b), shape (..., 2, 3, 2, 3)."""
     if law is not None:
-        return principal.rates(a, b, law)
+        return principal.rates(a, b, law) if isinstance(law, Law) else law.rates(a, b)
     c, one = np.cross(a, b), np.eye(3)
     square = np.sum(c * c, axis=-1)[..., None, None]
     dc = -spun(b), spun(a)  # of c by a and by b

@@ -56,6 +56,7 @@ def secondary_branch(
     end: float,
     followed: bool = True,
     below: Trend | None = None,
+    kind: type[SecondaryBranch] | None = None,
 ) -> SecondaryBranch:
     """The secondary branch on one mesh.
 
@@ -67,6 +68,7 @@ def secondary_branch(
         end: The branch ends at this fraction of ``zw`` at the bifurcation.
         followed: False if another mesh's states give the guesses for its states.
         below: Trend near the bifurcation on the next coarser mesh.
+        kind: The class of the branch, if it is another one.
 
     Raises:
         ConvergenceError: If no bifurcation with that mode is found on the surface's mesh.
@@ -75,7 +77,7 @@ def secondary_branch(
     begin = primary.bifurcation(np.linspace(0, data.length, READINGS))
     give_back()
     *found, trend = bifurcation_on(model, primary, begin, below)
-    branch = SecondaryBranch(model, *found, step, end, followed)
+    branch = (kind or SecondaryBranch)(model, *found, step, end, followed)
     branch.trend = trend
     branch.solver.factor.release()
     return branch
@@ -137,16 +139,20 @@ class SecondaryBranch(EquilibriumBranch):
             self.continuation,
             "zw",
             self.points[0],
-            stop=lambda point: point.state.loads["zw"] < self._lowest or point.arclength > FAR * self.size,
+            stop=self.ends,
         )
         first, *more = self.points
         if more and more[0].n_negative == first.n_negative + 1:
             first.n_negative += 1
 
+    def ends(self, point: CurvePoint) -> bool:
+        """Whether the branch ends at a point of its trace: at its lowest level, or bent very far."""
+        return point.state.loads["zw"] < self._lowest or point.arclength > FAR * self.size
+
     def _say_end(self) -> None:
         """Why the branch ends, if its level has not fallen to where it was to end."""
         at = self.points[-1].state.loads["zw"]
-        if self.stalled is None and at >= self._lowest:
+        if self.ended is None and self.stalled is None and at >= self._lowest:
             self.ended = (
                 f"the level is at zw = {at:.6g} and not below {self._lowest:.6g} where the tube is bent very "
                 f"far, after a path of {FAR:g} in root mean square displacement"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, partial
 from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
 from mpi4py import MPI
@@ -22,6 +23,7 @@ from weakforms.problems.liquid_tube.bent.slopes import initial_slopes, slopes_be
 from weakforms.problems.liquid_tube.bent.surface import SurfaceData
 from weakforms.problems.liquid_tube.critical import AxisymmetricState, PrimaryBranch
 from weakforms.problems.liquid_tube.parameters import FluidTubeNumerics, FluidTubeParameters
+from weakforms.problems.meridian.kinks import EDGE, FRACTION
 from weakforms.problems.problem import Progress
 from weakforms.results import Field, Quantity, SpecialPoint
 from weakforms.solvers.continuation.continuation import CurvePoint
@@ -49,20 +51,33 @@ THETAS = np.linspace(0, np.pi, 25)
 
 
 def secondary_family(
-    parameters: FluidTubeParameters, numerics: FluidTubeNumerics, comm: MPI.Intracomm, progress: Progress
+    parameters: FluidTubeParameters,
+    numerics: FluidTubeNumerics,
+    comm: MPI.Intracomm,
+    progress: Progress,
+    kind: type[SecondaryFamily] | None = None,
 ) -> SecondaryFamily:
     """The secondary branch from its bifurcation point on all meshes.
 
     It uses the numerics whose names begin with ``secondary``.
 
+    Args:
+        parameters: The tube.
+        numerics: Meshes.
+        comm: Ranks.
+        progress: Called for every mesh.
+        kind: The class of the family, if it is another one.
+
     Raises:
-        AbsentError: If the primary branch has no ``n = 1`` bifurcation point.
+        AbsentError: If the primary branch has no ``n = 1`` bifurcation point, or none where this family can
+            begin.
         ConvergenceError: If no branch is found there.
     """
     given = parameters.L, parameters.delta, parameters.gamma, parameters.alpha
     primary = PrimaryBranch(comm, *given, parameters.other_law)
     begin = primary.bifurcation(np.linspace(0, parameters.L / parameters.delta, READINGS))
-
+    kind = kind or SecondaryFamily
+    kind.require_start(begin)
     made: list[SecondaryBranch] = []
 
     def make(level: int) -> SecondaryBranch:
@@ -75,16 +90,17 @@ def secondary_family(
             numerics.secondary_degree,
             front=free_surface(begin),
             material=parameters.other_law,
+            relaxed=parameters.energy == "relaxed",
         )
         step, end = numerics.secondary_step, numerics.secondary_end
         below = made[-1].trend if made else None
-        made.append(secondary_branch(comm, data, primary, step, end, level == 0, below))
+        made.append(secondary_branch(comm, data, primary, step, end, level == 0, below, kind.of))
         return made[-1]
 
     degree = numerics.secondary_degree
-    caps = {column.name: float(degree + READ) for column in RESULTANTS}
+    caps = {column.name: float(degree + READ) for column in RESULTANTS} | {FRACTION: EDGE}
     cap = float(degree + SUPERCONVERGENT)
-    return SecondaryFamily(make, numerics.secondary_levels, cap, ("zw", "r_mid"), "secondary", caps)
+    return kind(make, numerics.secondary_levels, cap, ("zw", "r_mid"), "secondary", caps)
 
 
 def around(numerics: FluidTubeNumerics) -> int:
@@ -109,6 +125,12 @@ class SecondaryFamily(BranchFamily):
     levels: list[SecondaryBranch]
     traced_on_finest = False
     judges_points = False
+    of: ClassVar[type[SecondaryBranch]] = SecondaryBranch
+    """The class of the branch on each mesh."""
+
+    @classmethod
+    def require_start(cls, begin: AxisymmetricState) -> None:
+        """Refuse a bifurcation at which the branch cannot begin; this one can at any."""
 
     def _comparisons(self) -> Iterator[Callable[[], Compared]]:
         """The points of the coarsest mesh's trace, each solved for on all meshes in a plane across it."""
@@ -212,7 +234,7 @@ class SecondaryFamily(BranchFamily):
         try:
             return out | self._spectra(solved, critical)
         except ConvergenceError:
-            if least.value - least.uncertainty >= 0:
+            if least.value - least.uncertainty > 0:
                 raise
             return out | self._lowest_eigenvalue(solved)
 

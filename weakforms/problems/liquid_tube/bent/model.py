@@ -37,14 +37,19 @@ from ufl.core.expr import Expr
 
 from weakforms.forms.fluid import (
     Surface,
+    principal_stretches,
+    relaxed_strain_energy,
     strain_energy,
     submerged_flux,
 )
+from weakforms.forms.wrinkling import wrinkling_function
 from weakforms.problems.homogeneous.material_point import first_derivatives
 from weakforms.problems.liquid_tube.bent.edge_points import EdgePoints
 from weakforms.problems.liquid_tube.bent.edge_tangents import EdgeTangents
 from weakforms.problems.liquid_tube.bent.front import HalfSystem
 from weakforms.problems.liquid_tube.bent.surface import MaterialSurface, Shape, SurfaceData
+from weakforms.problems.material_choice import mooney_rivlin_of
+from weakforms.problems.meridian.kinks import FRACTION, INDICATED
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.state import State
 from weakforms.solvers.equilibrium.system import System
@@ -83,7 +88,8 @@ class SurfaceModel(MaterialSurface):
         self._fixed = {
             name: fem.Constant(self.mesh, float(getattr(data, name))) for name in ("L", "gamma", "alpha")
         }
-        self._law = data.material.surface_law(self.mesh) if data.material else self._fixed["alpha"]
+        law = data.material or (mooney_rivlin_of(data.alpha) if data.relaxed else None)
+        self._law = law.surface_law(self.mesh) if law else self._fixed["alpha"]
         self.copies = 1 if data.full else 2
         self.unknown.interpolate(self._over(_cylinder(data.delta)))
         self._rings = fem.Function(self.space)
@@ -145,7 +151,8 @@ class SurfaceModel(MaterialSurface):
     def energy(self, position: Expr) -> ufl.Form:
         """The part of ``Pi`` that depends on the position; doubled on half the circumference."""
         at, fixed = self.surface(position), self._fixed
-        membrane = strain_energy(at.a, at.b, self._law) * self._stretch * self.dx
+        strain = relaxed_strain_energy if self.data.relaxed else strain_energy
+        membrane = strain(at.a, at.b, self._law) * self._stretch * self.dx
         liquid = fixed["gamma"] * submerged_flux(at, self.zw, 2) * self._stretch * self._wet
         return self.copies * membrane + self.copies * liquid
 
@@ -172,6 +179,7 @@ class SurfaceModel(MaterialSurface):
             monitors={
                 "V": (base - self.copies * submerged_flux(at, self.zw, 1)) * self._stretch * self._wet_once,
                 "Pi": energy + potential * self._stretch * self.dx,
+                **({FRACTION: self._wrinkled_part(at)} if self.data.relaxed else {}),
                 **({} if self.data.full else self._read_points(at)),
             },
             profile={
@@ -180,6 +188,13 @@ class SurfaceModel(MaterialSurface):
                 for i, name in enumerate("xyz")
             },
         )
+
+    def _wrinkled_part(self, at: Surface) -> ufl.Form:
+        """Part of the stress-free surface that is wrinkled."""
+        wrinkled = ufl.lt(wrinkling_function(*principal_stretches(at)), 1)
+        share = self.copies / (2 * np.pi * self.data.length)
+        rule = {"quadrature_degree": INDICATED * self.data.degree}
+        return ufl.conditional(wrinkled, share, 0.0) * self._stretch * self.dx(metadata=rule)
 
     def readings(self, sampled: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         """Columns of a profile from the sampled position and tangent vectors.
@@ -241,7 +256,14 @@ class SurfaceModel(MaterialSurface):
         return out
 
     def _resultants(self, lam1: np.ndarray | float, lam2: np.ndarray | float) -> dict[str, np.ndarray]:
-        """Principal Cauchy resultants ``T1`` and ``T2``."""
+        """Principal Cauchy resultants ``T1`` and ``T2``; of a wrinkled membrane the second is zero."""
+        if self.data.relaxed:
+            smooth = np.maximum(lam2, lam1**-0.5)
+            found = self._taut_resultants(lam1, smooth)
+            return {"T1": found["T1"] * smooth / lam2, "T2": np.where(smooth > lam2, 0.0, found["T2"])}
+        return self._taut_resultants(lam1, lam2)
+
+    def _taut_resultants(self, lam1: np.ndarray | float, lam2: np.ndarray | float) -> dict[str, np.ndarray]:
         if self.data.material:
             stresses = first_derivatives(self.data.material, lam1, lam2)
             return {"T1": stresses[0] / 2 / lam2, "T2": stresses[1] / 2 / lam1}

@@ -42,6 +42,8 @@ class SurfaceData:
     """On half the circumference: approximate position of the free surface, which the mesh follows."""
     material: Chosen | None = None
     """A law that replaces the Mooney-Rivlin law with ``alpha``."""
+    relaxed: bool = False
+    """Whether the membrane wrinkles in place of bearing compression."""
 
     @property
     def length(self) -> float:

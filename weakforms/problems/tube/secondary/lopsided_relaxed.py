@@ -19,8 +19,9 @@ from mpi4py import MPI
 
 from weakforms.errors import ConvergenceError, InputError
 from weakforms.problems.meridian.fields import Meridian
+from weakforms.problems.meridian.kinks import FRACTION
 from weakforms.problems.problem import Progress
-from weakforms.problems.tube.folds import FRACTION, MISFIT, gw_of
+from weakforms.problems.tube.folds import MISFIT, gw_of
 from weakforms.problems.tube.model import TubeMesh
 from weakforms.problems.tube.parameters import TubeNumerics, TubeParameters
 from weakforms.problems.tube.secondary.crossed import begun_taut, require_crossings

@@ -40,6 +40,7 @@ from weakforms.forms.wrinkling import (
 )
 from weakforms.problems.material_choice import Chosen
 from weakforms.problems.meridian.blocks import one_end
+from weakforms.problems.meridian.kinks import INDICATED
 from weakforms.problems.meridian.sector import Sector, SectorMesh
 from weakforms.solvers.equilibrium.formulation import Formulation
 from weakforms.solvers.equilibrium.system import System
@@ -50,9 +51,6 @@ AMPLITUDE = "u_wave"
 
 MIDDLE = 1
 """Tag of the edge at mid-length."""
-
-INDICATED = 4
-"""Quadrature degree, over that of the unknowns, by which the wrinkled part is measured."""
 
 EVEN, ODD = "even", "odd"
 """Parity about a mirror: it maps a displacement to itself, or to the reverse."""

@@ -12,8 +12,7 @@ coarse one. There the branch ends, because no mesh tells states apart that diffe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
@@ -21,28 +20,18 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from weakforms.problems.gas import Gas
+from weakforms.problems.meridian.kinks import EDGE, FRACTION, KinkedFamily
 from weakforms.problems.problem import Progress
-from weakforms.problems.tube.folds import FRACTION
 from weakforms.problems.tube.parameters import SecondaryNumerics, TubeParameters
 from weakforms.problems.tube.secondary.bent import ACROSS, BentBranch, BentFamily, bent_tube, even_crossings
 from weakforms.problems.tube.secondary.crossed import begun_taut
 from weakforms.problems.tube.secondary.outside import BentModes
 from weakforms.problems.tube.secondary.surface import BentTube
 from weakforms.problems.tube.stability import TubeBranch, TubeFamily, is_wrinkled
-from weakforms.results import Branch, Quantity
 from weakforms.solvers.continuation.continuation import CurvePoint
 from weakforms.solvers.continuation.curve import Solved
 from weakforms.solvers.continuation.pieces import PiecewiseFamily
 from weakforms.solvers.support.sampling import Interpolant
-
-KINK = 2.0
-"""Highest assumed order of a wrinkled state: stresses have kinks inside of elements, and signs of errors
-change from mesh to mesh."""
-
-EDGE, SEEN = 1.0, 0.1
-"""The same of the wrinkled part, and its relative error that no difference of meshes shows: it is about as
-wide as a cell at the disk. For the neo-Hookean tube of length 10 at seven volumes from 6.5 to 9, the part on
-meshes of 24 cells differs from that on 40 by 0.3 to 10 %."""
 
 
 class WrinkledModes(BentModes):
@@ -121,28 +110,10 @@ class WrinkledBranch(BentBranch):
         super()._insert_limits()
 
 
-class WrinkledFamily(BentFamily):
+class WrinkledFamily(KinkedFamily, BentFamily):
     """The branch on all meshes of the surface."""
 
     fine: WrinkledBranch
-
-    def smooth_order(self, values: Mapping[str, float]) -> float:
-        """Lower than that of the elements if there is a front."""
-        return KINK if values[FRACTION] > 0 else np.inf
-
-    def branch(self, with_uncertainty: bool = True) -> Branch:
-        """All columns; the wrinkled part also with what no mesh shows."""
-        found = super().branch(with_uncertainty)
-        if with_uncertainty:
-            found.uncertainty[FRACTION] += SEEN * found.columns[FRACTION]
-        return found
-
-    def _quantity(
-        self, values: list[float], name: str = "", held: str = "", in_mean: float = 0.0, most: float = np.inf
-    ) -> Quantity:
-        found = super()._quantity(values, name, held, in_mean, most)
-        unseen = SEEN * found.value if name == FRACTION else 0.0
-        return replace(found, uncertainty=found.uncertainty + unseen)
 
 
 def wrinkled_family(
