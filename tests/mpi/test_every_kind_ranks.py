@@ -4,6 +4,7 @@ A kind is a problem with a set of parameters, of which words and switches have o
 1300 solutions of a few hundred kinds; of each kind the one that takes least is solved.
 """
 
+from math import inf
 from pathlib import Path
 
 import pytest
@@ -30,12 +31,22 @@ EARLY = "contact=frictionless, delta1=1.0, energy=relaxed, k=20.0, lf=6.0, p_end
 ALONG = ("p", "u_max", "V", "lam1_mid", "lam2_mid", "t1_mid", "Z_front_1", "wrinkled_fraction")
 LETS_GO = "phase=deflation, s=1.2, spring=unilateral"
 NO_FRICTION = "contact=frictionless, delta1=1, degree=6"
+WRINKLES = "energy=relaxed, lf=6.0, u_end=3.6", "energy=relaxed, extent=full, lf=6.0, u_end=1.9"
+LOPSIDED = "energy=relaxed, extent=full, lf=6.0, secondary=True"
+UNEVEN = "extent=full, lf=6.0, secondary=True, u_end=2.1, uneven=-0.0001"
+BENDS = "fluid_tube(model=gent, secondary=True"
 WAVES = ("mode_n20 meridional", "mode_n50 meridional", "mode_n50 circumferential")
 ROUND_OFF = (
     ("wrinkled_tube_threshold", " Z", 1e-8),
     *((OPENED, name, 1e-8) for name in (" Z", " Z_front_1", " wrinkled_fraction")),
     ("contact=frictionless, delta1=1.2, energy=relaxed", " wrinkled_fraction", 1e-8),
     ("contact=frictionless, delta1=1.0, energy=relaxed", " wrinkled_fraction", 1e-8),
+    *((tube, f"branch primary, {name}", 1e-7) for tube in (*WRINKLES, LOPSIDED) for name in ALONG),
+    (LOPSIDED, " length", inf),
+    (UNEVEN, "branch primary, t_min", 1e-8),
+    (BENDS, " dzw_dr2", 1e-8),
+    ("beta=6.733333333333333e-05, delta=3, load_end=20.0, n=(6, 8, 10, 12)", " wrinkled_fraction", 1e-8),
+    ("sheet(s=1.05)", " eigenvalue_1, uncertainty", 0.2),
     ("contact=frictionless, extent=half, s=2.2", " t2_min, uncertainty", 1e-7),
     *((EARLY, f"branch primary, {name}", 1e-7) for name in ALONG),
     (EARLY, " profile H", 1e-8),

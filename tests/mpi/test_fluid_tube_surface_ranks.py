@@ -26,7 +26,7 @@ def test_secondary_branch(same_on_ranks):
         "numerics": coarse | surface | {"secondary_end": 0.97},
     }
     full = {"L": 12.0, "delta": 1.4, "gamma": 0.03, "zw_end": 0.9, "at": [("zw", 17.2)], "energy": "relaxed"}
-    end = coarse | surface | {"secondary_end": 0.8, "secondary_step": 0.4}
+    end = surface | {"cells": 32, "levels": 2, "secondary_end": 0.8, "secondary_step": 0.4}
     (wrinkled,) = same_on_ranks([bent | full | {"numerics": end}])
     assert wrinkled.states[0].quantities["wrinkled_fraction"].value > 0
     # Least certain are the slopes: differences of states that lie 0.02 apart.
