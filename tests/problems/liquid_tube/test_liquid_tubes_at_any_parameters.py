@@ -38,7 +38,7 @@ def no_bifurcation(*_):
 
 
 def test_a_liquid_tube_that_does_not_bend_keeps_its_primary_branch(monkeypatch):
-    primary = SimpleNamespace(pieces=[SimpleNamespace(family=SimpleNamespace(name="primary", absent=[]))])
+    primary = SimpleNamespace(missing=[])
     monkeypatch.setattr(liquid_tube, "primary_family", lambda *_: primary)
     monkeypatch.setattr(liquid_tube, "secondary_family", no_bifurcation)
     chosen = SimpleNamespace(secondary=True, energy="standard")
@@ -46,7 +46,7 @@ def test_a_liquid_tube_that_does_not_bend_keeps_its_primary_branch(monkeypatch):
     problem, states = registry.get("fluid_tube"), [SimpleNamespace(branch="secondary")]
     found = problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=[])))
     assert list(found) == ["primary"]
-    (absence,) = found["primary"].absent
+    (absence,) = found["primary"].missing
     assert (absence.what, "choose another delta" in absence.reason) == ("secondary branch", True)
     with pytest.raises(AbsentError):
         problem.families(SimpleNamespace(**given, requests=SimpleNamespace(states=states)))

@@ -9,11 +9,12 @@ from tube_data import families, require_alike
 
 from weakforms import solve
 from weakforms.errors import InputError
+from weakforms.problems.meridian.kinks import EDGE, KINK, SEEN
 from weakforms.problems.meridian.sector import SectorMesh
 from weakforms.problems.tube.parameters import TubeParameters
 from weakforms.problems.tube.secondary.bent import bent_tube
 from weakforms.problems.tube.secondary.surface import AMPLITUDE
-from weakforms.problems.tube.secondary.wrinkled import EDGE, KINK, SEEN, WrinkledBranch
+from weakforms.problems.tube.secondary.wrinkled import WrinkledBranch
 from weakforms.solvers.equilibrium.constraints import Held
 from weakforms.solvers.equilibrium.newton import ExtendedNewton
 from weakforms.solvers.equilibrium.state import State
