@@ -141,6 +141,6 @@ CASE = Case(
             same_stability,
         ),
     ),
-    asked={"V": 1e-5, "r_mid": 2e-5, "Pi": 1e-5, "x_quarter_pi": 2e-4, "z_quarter_pi": 2e-5},
+    asked={"V": 1e-5, "r_mid": 2e-5, "Pi": 1e-5, "x_quarter_pi": 1e-4, "z_quarter_pi": 2e-5},
     slow=True,
 )

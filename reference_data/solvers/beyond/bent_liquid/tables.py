@@ -29,7 +29,7 @@ LEVELS, STEP = (18.0, 17.7, 17.4, 17.1), 0.2
 """Levels of the rows, and largest step between two of them."""
 GRIDS = 2, 3
 """Grids of (a) among those of the ordinary tube's bent states."""
-NETS = (8, 0, 13, 21), (12, 0, 13, 29)
+NETS = (12, 0, 13, 29), (14, 0, 13, 35)
 """Elements, degree and highest wave number of the nets of (b)."""
 COLUMNS = "V", "r_mid", "Pi", "x_quarter_pi", "z_quarter_pi"
 FLOOR = 1e-10
