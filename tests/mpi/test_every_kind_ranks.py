@@ -36,7 +36,6 @@ WRINKLES = "energy=relaxed, lf=6.0, u_end=3.6", "energy=relaxed, extent=full, lf
 LOPSIDED = "energy=relaxed, extent=full, lf=6.0, secondary=True"
 UNEVEN = "extent=full, lf=6.0, secondary=True, u_end=2.1, uneven=-0.0001"
 JUMP = "eigenvalue_1", "f_w"
-BENDS = "fluid_tube(model=gent, secondary=True"
 WAVES = ("mode_n20 meridional", "mode_n50 meridional", "mode_n50 circumferential")
 ROUND_OFF = (
     ("wrinkled_tube_threshold", " Z", 1e-8),
@@ -47,7 +46,6 @@ ROUND_OFF = (
     (WRINKLES[1], " profile H", 1e-8),
     (LOPSIDED, " length", inf),
     (UNEVEN, "branch primary, t_min", 1e-8),
-    (BENDS, " dzw_dr2", 1e-8),
     ("beta=6.733333333333333e-05, delta=3, load_end=20.0, n=(6, 8, 10, 12)", " wrinkled_fraction", 1e-8),
     *(
         ("sheet(s=1.05)", f"state S_least = 0 (crossing 1, primary), {name}, uncertainty", 0.2)
